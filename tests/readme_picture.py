@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from comparisons.common.numbers import Scale, percent, plain, significant
-from comparisons.common.quantities import LABELS, MODELS
+from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.report.figures.fields import colour_bar, cross, fill, round_bands
 from comparisons.report.figures.pressures import draw_difference, draw_pressures
 from comparisons.report.figures.style import drawing, figure, stacked

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.assessment.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.effects.error_budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
-from comparisons.assessment.effects.selection import SHARE_OF_TOLERANCE
-from comparisons.assessment.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
+from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
+from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.schema.finite_element import HELD_BLOCK
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.error_budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
+from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE
 
 PROJECT = Path(__file__).resolve().parents[1]
 PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}

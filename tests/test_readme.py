@@ -17,14 +17,12 @@ import numpy as np
 import pytest
 import readme_picture as overview
 
-from comparisons.assessment.comparison import figures
-from comparisons.assessment.effects.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
 from comparisons.cli import main
 from comparisons.commands.arguments import RESULTS
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import LABELS, MODELS, QUANTITIES
+from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
@@ -35,6 +33,8 @@ from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.resolve import load_scene, resolve_tables
 from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.contact import figures
+from comparisons.studies.model_error.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
 
 PROJECT = Path(__file__).resolve().parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")

@@ -41,15 +41,15 @@ from comparisons.api.results import CostStudy, Figures, Map, Run, Sweep
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.quantities import MODELS, models_named
 from comparisons.common.units import describe
+from comparisons.figures.quantity import MODELS, models_named
 from comparisons.results.field_files import AUTOMATIC, FORMATS
 from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
 from comparisons.scenes.scene import ResolvedScene
 
 if TYPE_CHECKING:
-    from comparisons.studies.points import Workers
+    from comparisons.campaigns.points import Workers
 
 __all__ = ["compare", "cost", "load", "map", "read", "report", "run", "sweep", "tables"]
 
@@ -164,7 +164,7 @@ def cost(
 ) -> CostStudy:
     """Error against run time of every method that applies: what `crosscheck cost` does. It takes
     minutes. `out` keeps what was measured, and goes on from there."""
-    from comparisons.studies.cost.cost import cost as measured
+    from comparisons.campaigns.cost.cost import cost as measured
 
     if not isinstance(repeats, int):
         raise InputError(f"repeats: is {describe(repeats)}; allowed is a whole number from 1")
@@ -191,8 +191,8 @@ def map(
     x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
     workers  processes, one a core by default
     It takes minutes. `out` keeps each point, and goes on from there."""
-    from comparisons.studies.maps.make import make_map
-    from comparisons.studies.maps.request import request_of
+    from comparisons.campaigns.maps.make import make_map
+    from comparisons.campaigns.maps.request import request_of
 
     scene = os.fspath(scene) if isinstance(scene, os.PathLike) else scene
     given = {"scene": scene, "points": points, "x": x, "y": y, "quantity": quantity}
@@ -227,8 +227,8 @@ def sweep(
     >>> peaks = [row["half_plane"] for row in found.rows if row["quantity"] == "peak_pressure"]
     >>> round(peaks[1] / peaks[0], 4)
     2.0"""
-    from comparisons.studies.sweep.request import sweep_request
-    from comparisons.studies.sweep.study import make_sweep
+    from comparisons.campaigns.sweep.request import sweep_request
+    from comparisons.campaigns.sweep.study import make_sweep
 
     if isinstance(over, Mapping):
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.campaigns.cost.result import Cost
 from comparisons.common.errors import InputError
 from comparisons.report.plots import Plots
 from comparisons.results.flat_table import Row, rows_of
 from comparisons.results.outcome import Outcome
-from comparisons.studies.cost.result import Cost
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -144,8 +144,8 @@ class CostStudy(Printed):
 
     def plot(self, quantity: str = "peak_pressure") -> "list[Axes]":
         """The diagram of a quantity."""
+        from comparisons.campaigns.cost.picture import cost_picture
         from comparisons.report.figures.style import collected_figures
-        from comparisons.studies.cost.picture import cost_picture
 
         if quantity not in self.study.references:
             allowed = ", ".join(self.study.references)
@@ -155,7 +155,7 @@ class CostStudy(Printed):
         return drawn[0].axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.studies.cost.page import cost_table
+        from comparisons.campaigns.cost.page import cost_table
 
         return cost_table(self.study)
 
@@ -169,14 +169,14 @@ class Map(Printed):
 
     def plot(self) -> "list[Axes]":
         """The map."""
+        from comparisons.campaigns.maps.picture import map_figure
         from comparisons.report.figures.style import collected_figures
-        from comparisons.studies.maps.picture import map_figure
 
         with collected_figures():
             return map_figure(self.content).axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.studies.maps.content import map_table
+        from comparisons.campaigns.maps.content import map_table
 
         return map_table(self.content, self.folder)
 
@@ -200,13 +200,13 @@ class Sweep(Printed):
 
     def plot(self) -> "list[Axes]":
         """Each figure over the first swept field."""
+        from comparisons.campaigns.sweep.picture import sweep_figure
         from comparisons.report.figures.style import collected_figures
-        from comparisons.studies.sweep.picture import sweep_figure
 
         with collected_figures():
             return sweep_figure(self.content).axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.studies.sweep.study import sweep_table
+        from comparisons.campaigns.sweep.study import sweep_table
 
         return sweep_table(self.content, self.folder)

@@ -49,27 +49,27 @@ def complete_scenes(incomplete: str) -> list[str]:
 
 def complete_maps(incomplete: str) -> list[str]:
     """The same with the names of finished maps."""
-    from comparisons.studies.maps.request import FINISHED
+    from comparisons.campaigns.maps.request import FINISHED
 
     names = sorted(path.stem for path in FINISHED.glob("*.toml"))
     return [*_beginning(names, incomplete), *complete_scenes(incomplete)]
 
 
 def complete_groups(incomplete: str) -> list[str]:
-    from comparisons.studies.maps.groups import GROUPS
+    from comparisons.campaigns.maps.groups import GROUPS
 
     return _beginning(GROUPS, incomplete)
 
 
 def complete_quantities(incomplete: str) -> list[str]:
-    from comparisons.common.quantities import HEAT_QUANTITIES, QUANTITIES
+    from comparisons.figures.quantity import HEAT_QUANTITIES, QUANTITIES
 
     return _beginning((*QUANTITIES, *HEAT_QUANTITIES), incomplete)
 
 
 def complete_models(incomplete: str) -> list[str]:
     """Models, and both of them."""
-    from comparisons.common.quantities import HYPHENATED
+    from comparisons.figures.quantity import HYPHENATED
 
     names = HYPHENATED.values()
     return _beginning([*names, ",".join(names)], incomplete)

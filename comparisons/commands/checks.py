@@ -17,8 +17,8 @@ def stability(
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> int:
     """Solve the stiff and extreme cases; end with 0 only if every one holds."""
-    from comparisons.studies.checks import rows_table, verdict_lines
-    from comparisons.studies.robustness.run import run_robustness
+    from comparisons.campaigns.checks import rows_table, verdict_lines
+    from comparisons.campaigns.robustness.run import run_robustness
 
     directory = out or RESULTS / "stability"
     with progress() as callback:
@@ -44,18 +44,18 @@ def verify(
     if sum(given is not None for given in (export, answers, out or junit)) > 1:
         raise InputError("verify: allowed is one of --export, --answers, and --out with --junit")
     if export is not None:
-        from comparisons.studies.verify.form import export_form
+        from comparisons.campaigns.verify.form import export_form
 
         print(f"{export_form(export)} cases; {export / 'README.md'} says how to answer")
         return ExitStatus.DONE
     if answers is not None:
-        from comparisons.studies.verify.form import form_table, judged_form
+        from comparisons.campaigns.verify.form import form_table, judged_form
 
         judged = judged_form(answers)
         show_either(as_json, judged.as_dict(), lambda: form_table(judged))
         return judged.exit_status
-    from comparisons.studies.verify.pages import verify_summary
-    from comparisons.studies.verify.run import verify as verify_all
+    from comparisons.campaigns.verify.pages import verify_summary
+    from comparisons.campaigns.verify.run import verify as verify_all
 
     directory = out or RESULTS / "verify"
     with progress() as callback:

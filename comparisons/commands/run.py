@@ -20,7 +20,7 @@ from comparisons.commands.arguments import (
 from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import SceneError, tell
 from comparisons.common.mpi import from_first, is_first
-from comparisons.common.quantities import HYPHENATED, models_named
+from comparisons.figures.quantity import HYPHENATED, models_named
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import ResolvedScene
@@ -57,12 +57,12 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
+        from comparisons.campaigns.points import cluster
         from comparisons.report.junit import check_place, junit_xml, run_cases_of, write_junit
         from comparisons.report.terminal import summary
         from comparisons.results.plausibility import warnings_about, warnings_about_result
         from comparisons.runs.run import run as run_scene
         from comparisons.scenes.resolve import load_scene, with_tolerance
-        from comparisons.studies.points import cluster
 
     began = perf_counter()
     chosen = models_named(models, "--models")
@@ -106,8 +106,8 @@ def _say_first_answer(scene: "ResolvedScene") -> None:
     """What maps or estimates say of the model error; not of a surface that must be run in first."""
     if scene.running_in is not None or not is_first():
         return
+    from comparisons.campaigns.maps.place import first_answer
     from comparisons.models.problem import problem_of
-    from comparisons.studies.maps.place import first_answer
 
     for line in first_answer(problem_of(scene)):
         tell(line)

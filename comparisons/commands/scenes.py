@@ -66,7 +66,7 @@ def init(
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
     """Look at a measured profile and write a commented scene for it."""
-    from comparisons.studies.init.first_scene import given_sections, write_first_scene
+    from comparisons.campaigns.init.first_scene import given_sections, write_first_scene
 
     options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
     options |= {"channel": channel, "columns": columns, "radius": radius, "friction": friction}
@@ -76,10 +76,10 @@ def init(
     if as_json:
         show_json(made.as_dict())
         return ExitStatus.DONE
+    from comparisons.campaigns.init.profile_view import init_table
+    from comparisons.campaigns.maps.place import first_answer
     from comparisons.models.problem import problem_of
     from comparisons.report.terminal import PLAIN
-    from comparisons.studies.init.profile_view import init_table
-    from comparisons.studies.maps.place import first_answer
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(made))
@@ -99,8 +99,8 @@ def deck(
     as_json: Annotated[bool, json_option("folder, files and sizes as JSON")] = False,
 ) -> int:
     """Write a scene as a complete input of another code, and how to bring its answer back."""
+    from comparisons.campaigns.decks.write import write_deck
     from comparisons.scenes.resolve import load_scene
-    from comparisons.studies.decks.write import write_deck
 
     resolved = load_scene(scene)
     written = write_deck(resolved, code, out or RESULTS / f"{resolved.name}-{code}", level)

@@ -39,9 +39,9 @@ def cost(
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
     """Measure error against time of every method; name the cheapest for each tolerance."""
+    from comparisons.campaigns.cost.cost import cost as measured_cost
+    from comparisons.campaigns.cost.page import cost_table
     from comparisons.scenes.resolve import load_scene
-    from comparisons.studies.cost.cost import cost as measured_cost
-    from comparisons.studies.cost.page import cost_table
 
     resolved = load_scene(scene)
     directory = out or RESULTS / f"{resolved.name}-cost"
@@ -82,10 +82,10 @@ def map_of(
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""
-    from comparisons.studies.maps.content import map_table
-    from comparisons.studies.maps.make import exit_status, make_map_by, show_finished
-    from comparisons.studies.maps.place import finished_map, finished_names, problem_named
-    from comparisons.studies.maps.request import SIZE, request_of
+    from comparisons.campaigns.maps.content import map_table
+    from comparisons.campaigns.maps.make import exit_status, make_map_by, show_finished
+    from comparisons.campaigns.maps.place import finished_map, finished_names, problem_named
+    from comparisons.campaigns.maps.request import SIZE, request_of
 
     marked = mark and from_first(lambda: problem_named(mark))
     is_own = again or any(given is not None for given in (points, x, y, workers))
@@ -123,10 +123,10 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve a scene at many values of its fields: one placement is not a surface."""
-    from comparisons.common.quantities import models_named
+    from comparisons.campaigns.sweep.request import sweep_request
+    from comparisons.campaigns.sweep.study import make_sweep, sweep_table
+    from comparisons.figures.quantity import models_named
     from comparisons.scenes.files import find_scene, read_toml
-    from comparisons.studies.sweep.request import sweep_request
-    from comparisons.studies.sweep.study import make_sweep, sweep_table
 
     chosen = models_named(models, "--models")
     path = find_scene(scene)
@@ -149,8 +149,8 @@ def paper(
     as_json: Annotated[bool, json_option("paper.json")] = False,
 ) -> int:
     """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""
-    from comparisons.studies.paper.claim_table import paper_table
-    from comparisons.studies.paper.reproduce import paper as reproduced
+    from comparisons.campaigns.paper.claim_table import paper_table
+    from comparisons.campaigns.paper.reproduce import paper as reproduced
 
     with progress() as callback:
         found = reproduced(out or RESULTS / "paper", callback=callback, effects=effects)

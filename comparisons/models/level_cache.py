@@ -12,7 +12,7 @@ from comparisons.models.level import Level
 from comparisons.models.plan import Plan
 from comparisons.scenes.scene import ResolvedScene
 
-CODE = (*LEVEL_CODE, "comparisons/assessment/effects")  # whose variants of the body are cached too
+CODE = (*LEVEL_CODE, "comparisons/studies/model_error")  # whose variants of the body are cached too
 
 
 def level_cache(out: Path | None, scene: ResolvedScene, plan: Plan) -> Cache:

@@ -4,7 +4,7 @@ A skipped step never changes a figure that is asked for."""
 
 from dataclasses import dataclass
 
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.finite_element.compliance_check import no_check
 from comparisons.models.heat import check_heat

@@ -10,7 +10,7 @@ import json
 import numpy as np
 
 from comparisons.common.numbers import plain
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.report.figures.fields import COMPONENTS, Component
 from comparisons.results.outcome import Outcome
 

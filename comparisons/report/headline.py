@@ -4,15 +4,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.effects.selection import law_leaned_on
-from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
-from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.figures.verdict import ToleranceCheck
 from comparisons.report.tables.scatter import beside_inputs
 from comparisons.report.tables.text import error_text
 from comparisons.report.tables.yielding import flow_sentence
 from comparisons.results.outcome import Outcome
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.selection import law_leaned_on
+from comparisons.studies.model_error.validity import validity_verdict
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
 

@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Literal
 from xml.etree import ElementTree
 
-from comparisons.assessment.verdict import Validity, Verdict
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_first
 from comparisons.common.numbers import given_percent, percent
+from comparisons.figures.verdict import Validity, Verdict
 from comparisons.report.headline import headline
 from comparisons.report.tables.text import error_text
 from comparisons.results.outcome import Outcome

@@ -5,7 +5,7 @@ from functools import partial
 from importlib import import_module
 
 from comparisons.common.processes import side_by_side
-from comparisons.common.quantities import HYPHENATED
+from comparisons.figures.quantity import HYPHENATED
 from comparisons.report.field_values import field_explorer
 from comparisons.report.figures.answers import answer_pictures
 from comparisons.report.figures.convergence import convergence_picture

@@ -12,7 +12,7 @@ import numpy as np
 
 from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
-from comparisons.common.quantities import WHOLE
+from comparisons.figures.quantity import WHOLE
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.results.outcome import Outcome

@@ -7,7 +7,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from comparisons.common.numbers import given_percent, percent, significant, with_unit
-from comparisons.common.quantities import LABELS, MODELS, QUANTITIES, label
+from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, label
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
 from comparisons.report.tables.problem import GROUPS

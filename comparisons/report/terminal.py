@@ -5,11 +5,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.answers.answer import ComparedAnswer
-from comparisons.assessment.yielding import FlowAssessment
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import significant, with_unit
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
 from comparisons.report.tables.answers import answer_facts, answer_rows
@@ -23,6 +21,8 @@ from comparisons.report.tables.statistics import statistics_lines
 from comparisons.report.tables.text import wording
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo
+from comparisons.studies.answers.answer import ComparedAnswer
+from comparisons.studies.yielding import FlowAssessment
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -24,13 +24,13 @@ from collections.abc import Iterable, Mapping
 from importlib import import_module
 from pathlib import Path
 
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.heat.figures import UNITS
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import whole_file, write_whole
-from comparisons.common.quantities import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.results.recorded_run import check_schema, read_table
 from comparisons.results.result_json import SCHEMA
+from comparisons.studies.heat.figures import UNITS
+from comparisons.studies.model_error.catalogue import EFFECTS
 
 FILE = "result.json"
 GROUPS = (

@@ -4,22 +4,22 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from comparisons.answers.answer import ComparedAnswer
-from comparisons.assessment.comparison import PairHistory
-from comparisons.assessment.effects.error_budget import ErrorBudget
-from comparisons.assessment.heat.figures import HeatStudy
-from comparisons.assessment.normal_tangential_coupling import Coupling
-from comparisons.assessment.scatter.figures import InputScatter
-from comparisons.assessment.statistics.figures import RoughContactStatistics
-from comparisons.assessment.verdict import Comparison, ToleranceCheck
-from comparisons.assessment.yielding import FlowAssessment, flow_assessment
 from comparisons.common.errors import ExitStatus
-from comparisons.common.quantities import WHOLE
+from comparisons.figures.quantity import WHOLE
+from comparisons.figures.verdict import Comparison, ToleranceCheck
 from comparisons.models.forecast import Forecast, forecast
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+from comparisons.studies.answers.answer import ComparedAnswer
+from comparisons.studies.contact import PairHistory
+from comparisons.studies.coupling import Coupling
+from comparisons.studies.heat.figures import HeatStudy
+from comparisons.studies.model_error.error_budget import ErrorBudget
+from comparisons.studies.scatter.figures import InputScatter
+from comparisons.studies.statistics.figures import RoughContactStatistics
+from comparisons.studies.yielding import FlowAssessment, flow_assessment
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from analytic.surface.readers.files import MeasuredProfile
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import LARGEST_RECORD
 from comparisons.common.provenance import digest
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.results.changes import check_figures
 from comparisons.results.record import SCHEMA
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA

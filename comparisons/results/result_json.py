@@ -4,22 +4,23 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict
 
-from comparisons.assessment.comparison import uncertainties
-from comparisons.assessment.effects.catalogue import COUPLED, EFFECTS, KINEMATIC
-from comparisons.assessment.effects.error_budget import ErrorBudget
-from comparisons.assessment.effects.selection import law_leaned_on
-from comparisons.assessment.normal_tangential_coupling import Coupling
-from comparisons.assessment.scatter.figures import InputScatter
-from comparisons.assessment.sideways import sideways_shift
-from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
-from comparisons.assessment.verdict import Comparison, validity_verdict
-from comparisons.assessment.yielding import flow_assessment
-from comparisons.common.quantities import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.uncertainty import COVERAGE, Uncertainty
+from comparisons.figures.verdict import Comparison
 from comparisons.models.forecast import forecast
 from comparisons.models.level import Level, ModelRun, StressResult
 from comparisons.models.plan import Plan, no_coupling
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_account
+from comparisons.studies.contact import uncertainties
+from comparisons.studies.coupling import Coupling
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
+from comparisons.studies.model_error.error_budget import ErrorBudget
+from comparisons.studies.model_error.selection import law_leaned_on
+from comparisons.studies.model_error.sideways import sideways_shift
+from comparisons.studies.model_error.validity import validity_verdict
+from comparisons.studies.scatter.figures import InputScatter
+from comparisons.studies.yielding import flow_assessment
 
 SCHEMA = 2  # 1 had the half-plane's model error inside `budget`, and `assumptions`
 

@@ -7,21 +7,13 @@ from importlib import import_module
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
-from comparisons.answers.answer import Answer
-from comparisons.assessment.bulge import bulges
-from comparisons.assessment.comparison import compared, pair_histories
-from comparisons.assessment.effects.error_budget import ErrorBudget, announce_effects, error_budget
-from comparisons.assessment.normal_tangential_coupling import Coupling, couplings
-from comparisons.assessment.quiescent_zone import quiescent_zones
-from comparisons.assessment.refinement import refined
-from comparisons.assessment.scatter.figures import InputScatter
-from comparisons.assessment.verdict import Comparison
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError, address_space
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest, revision
 from comparisons.common.tasks import Preparation, Tasks, tasks_of_a_run
+from comparisons.figures.verdict import Comparison
 from comparisons.models.forecast import forecast
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.level_cache import level_cache
@@ -33,8 +25,16 @@ from comparisons.results.field_files import AUTOMATIC
 from comparisons.results.outcome import Outcome
 from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
+from comparisons.runs.refinement import refined
 from comparisons.runs.write import write_files
 from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.answers.answer import Answer
+from comparisons.studies.bulge import bulges
+from comparisons.studies.contact import compared, pair_histories
+from comparisons.studies.coupling import Coupling, couplings
+from comparisons.studies.model_error.error_budget import ErrorBudget, announce_effects, error_budget
+from comparisons.studies.quiescent_zone import quiescent_zones
+from comparisons.studies.scatter.figures import InputScatter
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -137,7 +137,7 @@ def solve(
     """Carry out a plan, as `run` does with the plan that suits the problem."""
     window = window_of(problem) if plan.stress else None
     if problem.scene.answers and answers is None:
-        from comparisons.answers.readers.files import read_answers
+        from comparisons.studies.answers.readers.files import read_answers
 
         answers = read_answers(problem, window)
     cache = level_cache(out, problem.scene, plan)
@@ -149,7 +149,7 @@ def solve(
             scattered = _announce_scatter(problem, plan, cache, tasks, executor)
             counted = None
             if problem.scene.statistics is not None and "half_plane" in plan.models:
-                from comparisons.assessment.statistics.study import announce_statistics
+                from comparisons.studies.statistics.study import announce_statistics
 
                 counted = announce_statistics(problem, tasks)
             runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
@@ -170,7 +170,7 @@ def solve(
         hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
     compared_answers = ()
     if answers:
-        from comparisons.answers.compare import compare_answers
+        from comparisons.studies.answers.compare import compare_answers
 
         given = problem, plan, runs, window, answers, scatter
         compared_answers = compare_answers(*given)
@@ -178,7 +178,7 @@ def solve(
         hashes |= {f"answer_{n}": [each.sha256 for each in a] for n, a in answers.items()}
     heat = None
     if problem.scene.heat is not None:
-        from comparisons.assessment.heat.study import heat_study
+        from comparisons.studies.heat.study import heat_study
 
         heat = heat_study(problem, runs, window, told)
         result["heat"] = heat.as_dict()
@@ -214,7 +214,7 @@ def _announce_scatter(
     """Begin with the samples of uncertain inputs; what is returned waits. None without any."""
     if problem.scene.scatter is None or "half_plane" not in plan.models:
         return None
-    from comparisons.assessment.scatter.study import announce_scatter
+    from comparisons.studies.scatter.study import announce_scatter
 
     return announce_scatter(problem, cache, tasks, executor)
 

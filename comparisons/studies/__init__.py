@@ -1,1 +1,1 @@
-"""Studies of many solutions: cost, maps, verification, robustness, the paper, a first look."""
+"""Questions to one solved scene, each with its figures."""

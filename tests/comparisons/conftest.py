@@ -26,12 +26,10 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress_state import Extremum, StressState
-from comparisons.assessment.comparison import compared, pair_histories
-from comparisons.assessment.effects.error_budget import error_budget
 from comparisons.common import tasks
 from comparisons.common.provenance import digest
-from comparisons.common.quantities import MODELS
 from comparisons.common.tasks import Tasks
+from comparisons.figures.quantity import MODELS
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
@@ -42,6 +40,8 @@ from comparisons.report.page import PICTURES
 from comparisons.results.outcome import Outcome
 from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
+from comparisons.studies.contact import compared, pair_histories
+from comparisons.studies.model_error.error_budget import error_budget
 from meshes.block import BlockMesh, BlockSpec
 
 # Tests count and replace what is done in their own process; those of several processes say so.
@@ -158,7 +158,9 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         comparisons = compared(problem, runs, window)
         kept = level_cache(None, scene, plan)
         rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
-        with patch("comparisons.assessment.effects.error_budget.sampling_changes", lambda *_: rows):
+        with patch(
+            "comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows
+        ):
             budget = error_budget(problem, plan, window, runs, comparisons, (), kept, Tasks())
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()

@@ -12,7 +12,7 @@ from scenes import PROJECT
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.scenes.files import scene_titles
 
 HEAVY = (

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.runs.run import run
 from comparisons.scenes.files import SCENES
 from comparisons.scenes.resolve import load_scene

@@ -12,6 +12,9 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
+from comparisons.campaigns.init.first_scene import write_first_scene
+from comparisons.campaigns.init.profile_view import init_table
+from comparisons.campaigns.maps.place import first_answer
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.progress import no_progress
 from comparisons.models.problem import problem_of
@@ -23,9 +26,6 @@ from comparisons.results.plausibility import warnings_about, warnings_about_resu
 from comparisons.results.recorded_run import read_record
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
-from comparisons.studies.init.first_scene import write_first_scene
-from comparisons.studies.init.profile_view import init_table
-from comparisons.studies.maps.place import first_answer
 
 PATIENCE = 20.0  # seconds of processor for one input
 LONGEST_LINE = 1500  # characters

@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.answers.answer import ComparedAnswer
 from comparisons.common.numbers import Scale, plain
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.report.figures import style
 from comparisons.report.figures.fields import (
     DIFFERENCE_COLOURS,
@@ -21,6 +20,7 @@ from comparisons.report.figures.fields import (
 )
 from comparisons.report.figures.pressures import draw_pressures
 from comparisons.results.outcome import Outcome
+from comparisons.studies.answers.answer import ComparedAnswer
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import plain
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.report.figures import style
 from comparisons.report.tables.convergence import DIFFERENCE, JudgedSequence, judged_sequences
 from comparisons.report.tables.text import grouped

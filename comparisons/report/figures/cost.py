@@ -3,7 +3,7 @@
 import numpy as np
 
 from comparisons.common.numbers import with_unit
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.report.figures import style
 from comparisons.results.outcome import Outcome
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.numbers import decimal, plain, significant
-from comparisons.common.quantities import LABELS, WHOLE
+from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure, hatch, stacked
 from comparisons.results.outcome import Outcome
 

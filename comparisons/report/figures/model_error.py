@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.report.figures import style
 from comparisons.report.tables.model_error import SHOWN
 from comparisons.report.tables.text import error_text, grouped, listed
 from comparisons.results.outcome import Outcome
+from comparisons.studies.model_error.catalogue import EFFECTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

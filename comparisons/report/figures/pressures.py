@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
-from comparisons.common.quantities import LABELS, WHOLE
+from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.models.level import Level
 from comparisons.report.figures import style
 from comparisons.report.figures.surfaces import draw_surfaces

@@ -7,7 +7,7 @@ import numpy as np
 
 from analytic.exact.hertz import hertz_stress
 from comparisons.common.numbers import decimal, plain, significant
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.report.figures import style
 from comparisons.report.figures.pressures import peak_position, reference_level
 from comparisons.report.tables.quiescent_zone import zone_entries

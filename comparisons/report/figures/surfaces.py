@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import Scale, scale_of, with_unit
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import Problem, mean_height
 from comparisons.report.figures import style

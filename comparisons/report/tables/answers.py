@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from comparisons.answers.answer import AnswerRow, ComparedAnswer
 from comparisons.common.numbers import (
     given_percent,
     percent,
@@ -11,9 +10,10 @@ from comparisons.common.numbers import (
     significant,
     with_unit,
 )
-from comparisons.common.quantities import LABELS, QUANTITIES, label
+from comparisons.figures.quantity import LABELS, QUANTITIES, label
 from comparisons.report.tables.text import TextTable, error_text, grouped, is_shown, listed
 from comparisons.results.outcome import Outcome
+from comparisons.studies.answers.answer import AnswerRow, ComparedAnswer
 
 NOT_STATED = "not stated"
 

@@ -2,12 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-from comparisons.assessment.comparison import figures, uncertainties
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.normal_tangential_coupling import SHIFT, Change
-from comparisons.assessment.verdict import Comparison
 from comparisons.common.numbers import Scale, given_percent, percent, plain, scale_of, with_unit
-from comparisons.common.quantities import HYPHENATED, QUANTITIES, label
+from comparisons.figures.quantity import HYPHENATED, QUANTITIES, label
+from comparisons.figures.verdict import Comparison
 from comparisons.models.problem import Problem
 from comparisons.report.tables.model_error import left_out
 from comparisons.report.tables.text import (
@@ -19,6 +16,9 @@ from comparisons.report.tables.text import (
     listed,
 )
 from comparisons.results.outcome import Outcome
+from comparisons.studies.contact import figures, uncertainties
+from comparisons.studies.coupling import SHIFT, Change
+from comparisons.studies.model_error.catalogue import EFFECTS
 
 SAME_PROBLEM = "the same problem"
 SHIFT_LABEL = "shift of the pressure's centroid"

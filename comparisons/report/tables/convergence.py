@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 
-from comparisons.assessment.comparison import figures, uncertainties
-from comparisons.assessment.convergence import IRREGULAR, LOWEST_ORDER, REGULAR
-from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
 from comparisons.common.numbers import given_percent, percent, plain, scale_of, significant
-from comparisons.common.quantities import LABELS, QUANTITIES, label
+from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR
+from comparisons.figures.quantity import LABELS, QUANTITIES, label
+from comparisons.figures.uncertainty import COVERAGE, Uncertainty
 from comparisons.report.tables.text import TextTable, error_text, wording
 from comparisons.results.outcome import Outcome
+from comparisons.studies.contact import figures, uncertainties
 
 DIFFERENCE = "difference"  # of both models, in place of one
 NO_DATA = "no data"

@@ -1,6 +1,5 @@
 """Flash temperatures as a table, and in a sentence."""
 
-from comparisons.assessment.heat.figures import UNITS, HeatFigure
 from comparisons.common.numbers import (
     given_percent,
     percent,
@@ -8,9 +7,10 @@ from comparisons.common.numbers import (
     significant,
     with_unit,
 )
-from comparisons.common.quantities import LABELS, MODELS
+from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.report.tables.text import TextTable
 from comparisons.results.outcome import Outcome
+from comparisons.studies.heat.figures import UNITS, HeatFigure
 
 WORDS = {
     "flash_temperature": "largest rise in the contact",

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.effects.model_error import ModelError
 from comparisons.common.numbers import given_percent, percent, with_unit
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.report.tables.text import TextTable, error_text, grouped, listed
 from comparisons.results.outcome import Outcome
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.model_error import ModelError
 
 WORTH_A_MOVE = 0.75  # of the pressures' difference that is left without it, at most
 SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed

@@ -1,10 +1,10 @@
 """The quiescent zone below a rough surface, as a table and in lines."""
 
-from comparisons.assessment.quiescent_zone import BRIDGED, QUIESCENT
 from comparisons.common.numbers import plain, significant
-from comparisons.common.quantities import LABELS, MODELS
+from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.report.tables.text import TextTable
 from comparisons.results.outcome import Outcome
+from comparisons.studies.quiescent_zone import BRIDGED, QUIESCENT
 
 
 def zone_entries(outcome: Outcome) -> list[tuple[str, dict]]:

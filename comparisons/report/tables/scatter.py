@@ -1,10 +1,10 @@
 """What uncertain inputs do to the half-plane's figures, as a table and in a sentence."""
 
-from comparisons.assessment.scatter.figures import ScatteredFigure
 from comparisons.common.numbers import percent, with_unit
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.report.tables.text import TextTable, error_text, grouped, listed
 from comparisons.results.outcome import Outcome
+from comparisons.studies.scatter.figures import ScatteredFigure
 
 LISTED = 2  # inputs of a figure in the table
 SMALL = 1.0 / 3.0  # a model error over what the inputs do, to be called small

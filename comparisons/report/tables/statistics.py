@@ -1,10 +1,10 @@
 """Theories of rough contact beside the solved one, and the asperities' penetration, as tables."""
 
-from comparisons.assessment.statistics.figures import LoadRow, SummitRow
 from comparisons.common.numbers import percent, significant, with_unit
-from comparisons.common.quantities import LABELS
+from comparisons.figures.quantity import LABELS
 from comparisons.report.tables.text import TextTable
 from comparisons.results.outcome import Outcome
+from comparisons.studies.statistics.figures import LoadRow, SummitRow
 
 KINDS = ("elastic", "plastic", "cutting")
 FLOWS = 1e-6  # equivalent plastic strain

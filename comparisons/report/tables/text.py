@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from comparisons.common.numbers import percent, plain
-from comparisons.common.quantities import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.results.outcome import Outcome
 
 REPEATED = "contact_ratio"

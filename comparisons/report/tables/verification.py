@@ -4,16 +4,16 @@ import re
 import shlex
 
 from analytic.contact.problem import KKT_TOLERANCE
-from comparisons.assessment.comparison import figures, uncertainties
-from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
-from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.report.tables.convergence import row_name
 from comparisons.report.tables.text import TextTable, is_shown, wording
 from comparisons.results.outcome import Outcome
+from comparisons.studies.contact import figures, uncertainties
 
 ALL_LEVELS = "all levels together: time"
 

@@ -1,9 +1,9 @@
 """Where the body begins to flow, in words and as a table."""
 
-from comparisons.assessment.yielding import FlowAssessment
 from comparisons.common.numbers import percent, plain, significant, with_unit
 from comparisons.report.tables.text import TextTable
 from comparisons.results.outcome import Outcome
+from comparisons.studies.yielding import FlowAssessment
 
 
 def flow_sentence(outcome: Outcome) -> str:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from comparisons.common.quantities import LABELS
 from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, describe, unit_in_si
+from comparisons.figures.quantity import LABELS
 from comparisons.scenes.scene import AnswerSource
 from comparisons.scenes.schema.fields import (
     FieldType,

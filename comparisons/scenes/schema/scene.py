@@ -10,8 +10,8 @@ from pydantic import ValidationError
 
 from analytic.material import LAWS
 from comparisons.common.errors import SceneError, nearest
-from comparisons.common.quantities import QUANTITIES
 from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME, describe
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.scenes.scene import Extent, Spread
 from comparisons.scenes.schema.answers import AnswerSection, wrong_name
 from comparisons.scenes.schema.fields import (

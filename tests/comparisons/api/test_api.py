@@ -11,9 +11,9 @@ from scenes import PROJECT, STEEL
 
 from comparisons import api
 from comparisons.api.results import CostStudy, Map, Run
+from comparisons.campaigns.maps.content import read_map
 from comparisons.cli import main
 from comparisons.common.errors import InputError
-from comparisons.studies.maps.content import read_map
 
 SMALL = {
     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5, "tau1_max": 0.5},
@@ -229,7 +229,7 @@ def test_report_is_written_where_it_is_asked_for(found, tmp_path, monkeypatch):
 
 
 def test_a_finished_map_prints_and_draws(pyplot):
-    content = read_map(PROJECT / "comparisons/studies/maps/finished/thickness-friction.json")
+    content = read_map(PROJECT / "comparisons/campaigns/maps/finished/thickness-friction.json")
     shown = Map(content, None)
     assert "points" in repr(shown) and "map.json" not in repr(shown)
     assert "Model error of the half-plane" in shown.plot()[0].get_title(loc="left")

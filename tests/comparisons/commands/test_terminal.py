@@ -179,8 +179,8 @@ def test_scenes_as_json(capsys):
 @pytest.mark.parametrize(
     ("name", "module", "function"),
     [
-        ("verify", "comparisons.studies.verify.run", "verify"),
-        ("cost", "comparisons.studies.cost.cost", "cost"),
+        ("verify", "comparisons.campaigns.verify.run", "verify"),
+        ("cost", "comparisons.campaigns.cost.cost", "cost"),
     ],
 )
 def test_a_study_as_json_is_its_file(tmp_path, monkeypatch, capsys, name, module, function):

@@ -5,12 +5,12 @@ from dataclasses import replace
 import pytest
 from scenes import STEEL, changed, problem
 
-from comparisons.assessment.refinement import refined
-from comparisons.common.quantities import MODELS
 from comparisons.common.tasks import Tasks
+from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
+from comparisons.runs.refinement import refined
 
 TABLES = {
     "roller": {"radius": 8e-3, **STEEL},

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scenes import SMOOTH, problem
 
+from comparisons.campaigns.cost import study as cost_study
+from comparisons.campaigns.maps import request as map_request
 from comparisons.common import provenance
 from comparisons.models.level_cache import CODE, level_cache
 from comparisons.models.plan import make_plan
-from comparisons.studies.cost import study as cost_study
-from comparisons.studies.maps import request as map_request
 
 
 def test_levels_are_inside_a_folder_that_exists(tmp_path, smooth_outcome):
@@ -68,10 +68,10 @@ def keys() -> tuple[str, str, str]:
         ("comparisons/cli.py", ""),
         ("comparisons/models/law.py", "levels cost map"),
         ("analytic/law.py", "levels cost map"),
-        ("comparisons/assessment/effects/law.py", "levels map"),
-        ("comparisons/assessment/law.py", "map"),
-        ("comparisons/studies/cost/measure.py", "cost"),
-        ("comparisons/studies/maps/point.py", "map"),
+        ("comparisons/studies/model_error/law.py", "levels map"),
+        ("comparisons/studies/law.py", "map"),
+        ("comparisons/campaigns/cost/measure.py", "cost"),
+        ("comparisons/campaigns/maps/point.py", "map"),
     ],
 )
 def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, place, loses):

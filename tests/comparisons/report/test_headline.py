@@ -3,10 +3,10 @@
 import math
 from dataclasses import replace
 
-from comparisons.assessment.effects.model_error import Estimate, ModelError
-from comparisons.assessment.effects.selection import EffectSelection
 from comparisons.report.headline import headline
 from comparisons.results.outcome import Outcome
+from comparisons.studies.model_error.model_error import Estimate, ModelError
+from comparisons.studies.model_error.selection import EffectSelection
 
 TOLERANCE = 0.02
 NONE = EffectSelection(frozenset(), frozenset(), {}, {}, {})

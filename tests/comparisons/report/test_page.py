@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import pytest
 
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.report.figures.model_error import waterfalls
 from comparisons.report.page import render
 from comparisons.report.tables.text import is_shown

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from comparisons.cli import app
-from comparisons.common.quantities import label
+from comparisons.figures.quantity import label
 from comparisons.report.headline import headline
 from comparisons.report.page import render
 from comparisons.report.tables.comparison import comparison_rows

@@ -10,7 +10,7 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from comparisons.common.quantities import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.report.terminal import SHORT, summary
 from comparisons.results.outcome import Outcome
 

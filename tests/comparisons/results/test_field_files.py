@@ -11,7 +11,7 @@ import pyvista
 
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from comparisons.common.provenance import versions
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import stresses_at
 from comparisons.results import field_files as fields
 from comparisons.results.field_files import (

@@ -6,7 +6,7 @@ from scenes import STEEL, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import ExitStatus
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.runs.run import run
 
 pytestmark = pytest.mark.usefixtures("undrawn")

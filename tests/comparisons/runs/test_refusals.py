@@ -4,7 +4,7 @@ import pytest
 from scenes import QUICK, changed, resolved
 
 from comparisons.common.errors import SceneError
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.runs.run import run
 
 pytestmark = pytest.mark.usefixtures("undrawn")

@@ -13,7 +13,7 @@ from scenes import SMOOTH, resolved
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
@@ -71,7 +71,7 @@ def figures(both):
 def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, figures, monkeypatch):
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
-    monkeypatch.setattr("comparisons.assessment.effects.error_budget._settled", lambda *_: False)
+    monkeypatch.setattr("comparisons.studies.model_error.error_budget._settled", lambda *_: False)
     assert figures["error_budget"]["levels"] == 2
     before = contents(both)
     repetition = rerun(both)

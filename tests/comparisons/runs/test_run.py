@@ -10,7 +10,7 @@ import pytest
 from scenes import QUICK, changed, resolved
 
 from comparisons.common.errors import ExitStatus
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan

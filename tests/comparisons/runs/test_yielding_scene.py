@@ -6,7 +6,7 @@ import pytest
 from scenes import STEEL, changed, problem, resolved
 
 from comparisons.common.errors import ExitStatus, SolverError
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.finite_element.nonlinear import _refuse_cut_off
 from comparisons.runs.run import run

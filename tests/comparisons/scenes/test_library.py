@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from analytic.grid import HatGrid
-from comparisons.assessment.comparison import figures
-from comparisons.assessment.convergence import grid_convergence
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import MODELS
+from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
@@ -22,6 +21,7 @@ from comparisons.runs.run import run
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.resolve import load_scene
 from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.contact import figures
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 

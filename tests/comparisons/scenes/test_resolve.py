@@ -13,7 +13,7 @@ from scenes import resolved
 
 from analytic.material import Material
 from comparisons.common.errors import SceneError
-from comparisons.common.quantities import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.scenes.scene import (
     Budget,
     Coated,

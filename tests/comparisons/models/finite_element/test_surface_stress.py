@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scenes import STEEL, problem
 
-from comparisons.assessment.refinement import refined
-from comparisons.common.quantities import MODELS
 from comparisons.common.tasks import Tasks
+from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.stress import stresses_of
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
+from comparisons.runs.refinement import refined
 
 FRICTION = 0.5
 TABLES = {

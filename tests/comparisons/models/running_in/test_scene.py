@@ -9,7 +9,7 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, SceneError
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.running_in import run_in_scene

@@ -9,7 +9,7 @@ import pytest
 
 import comparisons.models.running_in
 from comparisons.common.errors import ExitStatus
-from comparisons.common.quantities import MODELS
+from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.report.figures.running_in import running_in_in_words, running_in_picture

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from comparisons.assessment.comparison import uncertainties
 from comparisons.common.numbers import percent
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
 from comparisons.results.outcome import Outcome
+from comparisons.studies.contact import uncertainties
 
 
 def test_each_judged_figure_says_how_it_converged(wavy_outcome: Outcome):

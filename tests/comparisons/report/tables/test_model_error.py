@@ -10,10 +10,6 @@ import pytest
 from matplotlib import pyplot
 from rich.console import Console
 
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.effects.error_budget import ErrorBudget
-from comparisons.assessment.effects.model_error import Estimate, ModelError
-from comparisons.assessment.effects.selection import EffectSelection
 from comparisons.report.figures.model_error import (
     NUMERICAL,
     model_error_picture,
@@ -26,6 +22,10 @@ from comparisons.report.tables.model_error import effects_table, model_error_row
 from comparisons.report.terminal import summary
 from comparisons.results.outcome import Outcome
 from comparisons.results.result_json import error_budget_content, model_error_content
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.error_budget import ErrorBudget
+from comparisons.studies.model_error.model_error import Estimate, ModelError
+from comparisons.studies.model_error.selection import EffectSelection
 
 ESTIMATES = {
     "exact_circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},

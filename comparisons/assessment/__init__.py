@@ -1,1 +1,0 @@
-"""From levels to figures with uncertainties and verdicts."""

@@ -1,0 +1,1 @@
+"""Many scenes, one table each: maps, sweeps, costs, checks."""

@@ -1,0 +1,80 @@
+"""Error against time of every method and setting that applies to a scene, and what to take."""
+
+from pathlib import Path
+
+from analytic.contact.problem import ContactError
+from comparisons.campaigns.cost.methods import METHODS, SolutionMethod
+from comparisons.campaigns.cost.page import cost_page
+from comparisons.campaigns.cost.result import Cost, assess, content_of
+from comparisons.campaigns.cost.study import cost_cache, measured_study
+from comparisons.common.cache import Cache
+from comparisons.common.errors import InputError, SceneError, SolverError
+from comparisons.common.files import check_writable, publish
+from comparisons.common.mpi import is_several
+from comparisons.common.processes import ProcessEnded, fresh_process
+from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.provenance import as_json
+from comparisons.models.problem import Problem, problem_of
+from comparisons.scenes.scene import ResolvedScene
+from meshes.block import MeshError
+
+FILES = ("cost.json", "cost.html")
+LOAD = "load"  # of a prescribed approach, in the cache
+GOES_ON = "measured settings are kept, the same command goes on from there"
+
+
+def cost(
+    scene: ResolvedScene,
+    out: Path,
+    repeats: int,
+    callback: ProgressCallback = no_progress,
+    methods: tuple[SolutionMethod, ...] = METHODS,
+) -> Cost:
+    """Measure, assess, and write cost.json and cost.html in `out`, whole or not at all. What was
+    measured stays beside them (`comparisons.campaigns.cost.study`): the same study goes on from
+    there. Raises InputError for a scene that cannot be solved or a folder that cannot be written,
+    KeyboardInterrupt with how to go on."""
+    if is_several():
+        raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
+    if repeats < 1:
+        raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
+    check_writable(out, FILES)
+    cache = cost_cache(out, scene, repeats)
+    cache.remove_leftovers()
+    try:
+        problem = _problem(scene, cache, callback)
+        found = assess(problem, measured_study(problem, repeats, cache, callback, methods))
+        callback("drawing the diagrams")
+        publish(out, dict(zip(FILES, (as_json(content_of(found)), cost_page(found)), strict=True)))
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(GOES_ON) from None
+    return found
+
+
+def _problem(scene: ResolvedScene, cache: Cache, callback: ProgressCallback) -> Problem:
+    """The scene's problem, under the load of its approach where that is prescribed."""
+    callback("finding the extent of the contact")
+    try:
+        if scene.load.kind != "approach":
+            return problem_of(scene)
+        load = cache.load(LOAD)
+        if load is None:
+            callback("finite elements: load of the prescribed approach")
+            with fresh_process() as call:
+                load = call(_load_of_approach, scene)
+            cache.save(LOAD, load)
+        return problem_of(scene, load)
+    except ProcessEnded as error:
+        raise SolverError(
+            f"{scene.source}: load.approach: the process that sought its load ended; allowed "
+            "is a load (per_length) instead"
+        ) from error
+    except (ContactError, MeshError) as error:
+        raise SceneError(f"{scene.source}: {error}") from error
+
+
+def _load_of_approach(scene: ResolvedScene) -> float:
+    """[N/m]; in a process of its own, which an interrupt ends at once."""
+    from comparisons.models.finite_element.level import problem_of_approach
+
+    return problem_of_approach(scene, no_progress).hertz.load_per_length

@@ -1,0 +1,171 @@
+"""A cost study for its reader: what to take, every row, diagrams; as a table and as cost.html."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.campaigns.cost.picture import cost_picture
+from comparisons.campaigns.cost.recommend import AssessedRow, Recommendation, scene_sections
+from comparisons.campaigns.cost.result import Cost
+from comparisons.campaigns.cost.study import FAILED, OK
+from comparisons.common.numbers import integer, percent, with_unit
+from comparisons.figures.quantity import label
+from comparisons.report.figures.style import drawing
+from comparisons.report.html import STYLES as POLICY
+from comparisons.report.html import rendered
+from comparisons.report.terminal import PLAIN, SHORT, STYLES, plain_table
+
+if TYPE_CHECKING:
+    from rich.console import Console, ConsoleOptions, RenderableType
+
+SHOWN = ("peak_pressure", "contact_length", "pressure_l2", "tau1_max", "tau1_max_depth")
+REDUNDANT = ("contact_ratio",)  # the contact length over a constant
+MARK = " *"  # on the Pareto front
+ERRORS = 5  # columns of errors in a narrow terminal
+
+
+def cost_table(cost: Cost) -> "RenderableType":
+    from rich.console import Group
+    from rich.table import Table
+    from rich.text import Text
+
+    names = shown(cost)
+    heads = ("method", "setting", "unknowns", "contact", "with\nstresses", "memory")
+    heads += tuple(SHORT[name].replace(" ", "\n") for name in names)
+    styles = {OK: "", FAILED: STYLES["differ"]}
+
+    def table(*columns: int) -> Table:
+        first, *numbers = (heads[k] for k in columns)
+        made = plain_table(first, numbers=numbers)
+        for each in cost.assessed:
+            style = styles.get(each.row.status, STYLES["inconclusive"])
+            row = cells(cost, each, names)
+            made.add_row(*(Text(row[k].translate(PLAIN), style=style) for k in columns))
+        return made
+
+    errors = range(6, len(heads))
+    several = [table(0, 1, *errors[k : k + ERRORS]) for k in range(0, len(errors), ERRORS)]
+    parts = [part for each in (table(*range(6)), *several) for part in (each, "")][:-1]
+    rows = WhatFits(table(*range(len(heads))), tuple(parts))
+    lines = [Text(each.sentence.translate(PLAIN)) for each in cost.recommendations]
+    small = [*refusals(cost), *notes_of(cost)]
+    notes = [Text(line.translate(PLAIN), style="dim") for line in small]
+    title = Text(cost.problem.scene.title, style="bold")
+    return Group(title, "", rows, "", *lines, "", *notes)
+
+
+@dataclass(frozen=True)
+class WhatFits:
+    """Something for rich to print, or its parts where the terminal is narrower."""
+
+    whole: "RenderableType"
+    parts: "tuple[RenderableType, ...]"
+
+    def __rich_console__(
+        self, console: "Console", options: "ConsoleOptions"
+    ) -> "Iterator[RenderableType]":
+        from rich.measure import Measurement
+
+        unbounded = options.update(width=10 * options.max_width)
+        wide = Measurement.get(console, unbounded, self.whole).maximum
+        yield from (self.whole,) if wide <= options.max_width else self.parts
+
+
+def cost_page(cost: Cost) -> str:
+    names = shown(cost)
+    head = ("method", "setting", "unknowns", "contact", "with stresses", "memory")
+    with drawing():
+        pictures = [cost_picture(cost, name) for name in cost.references if name not in REDUNDANT]
+    return rendered(
+        Path(__file__).parent / "cost.html.j2",
+        policy=POLICY,
+        title=f"Cost: {cost.problem.scene.title}",
+        recommendations=[(each.sentence, _settings(cost, each)) for each in cost.recommendations],
+        pictures=pictures,
+        head=(*head, *map(label, names)),
+        rows=[(each.row.status, cells(cost, each, names)) for each in cost.assessed],
+        refusals=refusals(cost),
+        notes=notes_of(cost),
+    )
+
+
+def _settings(cost: Cost, recommendation: Recommendation) -> list[str]:
+    """What to write into the scene, as TOML: a line a model."""
+    rows = (recommendation.half_plane, recommendation.finite_element)
+    return [_toml(scene_sections(each.row, cost.problem)) for each in rows if each is not None]
+
+
+def _toml(sections: dict[str, dict]) -> str:
+    def written(name: str, value: object) -> str:
+        if name == "pitch":
+            value = with_unit(value, "m", 3).translate(PLAIN)  # as the setting is named
+        return f'"{value}"' if isinstance(value, str) else f"{value!r}"
+
+    return ", ".join(
+        f"{name} = {{{', '.join(f'{k} = {written(k, v)}' for k, v in fields.items())}}}"
+        for name, fields in sections.items()
+    )
+
+
+def shown(cost: Cost) -> list[str]:
+    """Quantities with a column: the usual ones, and those that the scene judges."""
+    judged = cost.problem.scene.tolerance
+    names = (*SHOWN, *(name for name in judged if name not in SHOWN))
+    return [name for name in names if name in cost.references and name not in REDUNDANT]
+
+
+def cells(cost: Cost, each: AssessedRow, names: list[str]) -> tuple[str, ...]:
+    row, measured = each.row, each.row.measured
+    if measured is None:
+        return (row.method.name, row.label, row.status, *[""] * (3 + len(names)))
+    stresses = cost.problem.scene.stress is not None
+    return (
+        row.method.name,
+        row.label,
+        integer(measured.solved.unknowns),
+        with_unit(row.seconds(False), "s", 2),
+        with_unit(row.seconds(True), "s", 2) if stresses else "",
+        with_unit(measured.memory, "byte", 3),
+        *(_error(cost, each, name) for name in names),
+    )
+
+
+def _error(cost: Cost, each: AssessedRow, name: str) -> str:
+    error, reference = each.errors.get(name), cost.references[name]
+    if error is None:
+        return "reference" if each.row is reference.row else ""
+    text = f"< {percent(reference.floor)}" if error < reference.floor else percent(error)
+    if each.row.status != OK:
+        return f"{text} {each.row.status}"
+    return text + (MARK if each in cost.fronts[name] else "")
+
+
+def refusals(cost: Cost) -> list[str]:
+    return [
+        f"{row.method.name} {row.label if row.setting else ''}".strip()
+        + f" {row.status}: {row.because}"
+        for row in cost.study.rows
+        if row.status != OK
+    ]
+
+
+def notes_of(cost: Cost) -> list[str]:
+    by_source: dict[str, list[str]] = {}
+    for name, reference in cost.references.items():
+        if name in REDUNDANT:
+            continue
+        floor = "" if reference.row is None else f" (known to {percent(reference.floor)})"
+        by_source.setdefault(reference.source, []).append(SHORT[name] + floor)
+    sources = "; ".join(f"{source}: {', '.join(names)}" for source, names in by_source.items())
+    repeats = max((r.measured.repeats for r in cost.study.rows if r.measured), default=0)
+    versions = ", ".join(f"{k} {v}" for k, v in cost.versions.items() if v is not None)
+    machine = ", ".join(f"{k} {v}" for k, v in cost.machine.items() if v is not None)
+    return [
+        f"Errors are relative, the largest of any friction coefficient, against {sources}.",
+        "*: nothing measured is both cheaper and closer (Pareto front). Seconds are processor time "
+        f"of that setting alone: medians of up to {repeats} solutions after one that does not "
+        "count.",
+        f"Machine: {machine}.",
+        f"Versions: {versions}.",
+    ]

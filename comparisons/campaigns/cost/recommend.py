@@ -1,0 +1,171 @@
+"""What to take: the rows on the Pareto front, and the cheapest setting for each tolerance."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import takewhile
+from operator import itemgetter
+
+from comparisons.campaigns.cost.methods import FINEST, METHODS
+from comparisons.campaigns.cost.reference import Reference
+from comparisons.campaigns.cost.study import OK, CostRow
+from comparisons.common.numbers import given_percent, integer, percent, with_unit
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.verdict import judge
+from comparisons.models.finite_element.mesh import COARSER_GROWTH, STEEPEST_GROWTH
+from comparisons.models.problem import FEWEST_ELEMENTS, Problem
+
+ALL = "all"
+ELEMENTS_OF_RUN = ("P1", "P2", "P3")  # finite elements that a scene can have `run` solve with
+
+Tolerances = dict[str, float]
+
+
+@dataclass(frozen=True)
+class AssessedRow:
+    """A row with its relative errors by quantity; None where it has none, or is the reference."""
+
+    row: CostRow
+    errors: dict[str, float | None]
+
+    def meets(self, floors: dict[str, float], tolerances: Tolerances) -> bool | None:
+        """Whether every error agrees with none within its tolerance, with the reference's floor for
+        uncertainty; None where an error is unknown."""
+        found = {name: self.errors.get(name) for name in tolerances}
+        if None in found.values():
+            return None
+        return all(judge(found[n], floors[n], t) == "agree" for n, t in tolerances.items())
+
+
+@dataclass(frozen=True)
+class Recommendation:
+    """For one tolerance, or for all at once, the cheapest row of each model that `run` can solve
+    with, and the cheapest of all; None where none meets it."""
+
+    quantity: str
+    tolerance: float | None
+    half_plane: AssessedRow | None
+    finite_element: AssessedRow | None
+    cheapest: AssessedRow | None
+    sentence: str
+
+
+def needs_stress(quantities: Iterable[str]) -> bool:
+    return any(QUANTITIES[name].needs_stress for name in quantities)
+
+
+def pareto(assessed: list[AssessedRow], quantity: str, floor: float) -> list[AssessedRow]:
+    """Rows than which none is both cheaper and closer, the cheapest first."""
+    stresses, best, found = needs_stress([quantity]), float("inf"), []
+    known = [a for a in assessed if a.row.status == OK and a.errors.get(quantity) is not None]
+    for each in sorted(known, key=lambda a: a.row.seconds(stresses)):
+        error = max(each.errors[quantity], floor)
+        if error < best:
+            best = error
+            found.append(each)
+    return found
+
+
+def recommendations(
+    assessed: list[AssessedRow], references: dict[str, Reference], tolerances: Tolerances
+) -> list[Recommendation]:
+    floors = {name: reference.floor for name, reference in references.items()}
+    known = {name: value for name, value in tolerances.items() if name in floors}
+    aims = [{name: value} for name, value in known.items()] + [known] * (len(known) > 1)
+    return [_recommendation(assessed, floors, aim) for aim in aims]
+
+
+def _recommendation(
+    assessed: list[AssessedRow], floors: dict[str, float], tolerances: Tolerances
+) -> Recommendation:
+    stresses = needs_stress(tolerances)
+    judged = [(each, each.meets(floors, tolerances)) for each in assessed if each.row.status == OK]
+
+    def cheapest(rows: Iterable[AssessedRow]) -> AssessedRow | None:
+        return min(rows, key=lambda a: a.row.seconds(stresses), default=None)
+
+    def steady(*names: str) -> AssessedRow | None:
+        """The cheapest of methods that meets the tolerances as all finer ones do: not by chance."""
+        found = []
+        for name in names:
+            rows = reversed([pair for pair in judged if pair[0].row.method.name == name])
+            # None: itself the reference
+            known = (pair for pair in rows if pair[1] is not None)
+            found += [each for each, _ in takewhile(itemgetter(1), known)]
+        return cheapest(found)
+
+    half_plane, finite_element = steady(FINEST.name), steady(*ELEMENTS_OF_RUN)
+    best = steady(*(method.name for method in METHODS))
+    below = float("inf") if best is None else best.row.seconds(stresses)
+    lucky = cheapest(each for each, meets in judged if meets and each.row.seconds(stresses) < below)
+    name, tolerance = next(iter(tolerances.items())) if len(tolerances) == 1 else (ALL, None)
+    sentence = _sentence(tolerances, floors, lucky, half_plane, finite_element, best)
+    return Recommendation(name, tolerance, half_plane, finite_element, best, sentence)
+
+
+def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
+    """The sections of a scene whose first levels end at a row's setting. Three levels, which state
+    an uncertainty; two where the coarsest of three would be too coarse. The mesh grows at that
+    level as it did when it was measured; in a stress window its elements are as small as on the
+    scene's own third level. `run` refines on only while a tolerance is open."""
+    low, high = problem.extent
+    levels = 2 if high - low < FEWEST_ELEMENTS * row.setting * 4.0 else 3
+    sections = {"resolution": {"pitch": row.setting * 2.0 ** (levels - 1), "levels": levels}}
+    if row.method.model == "finite_element":
+        coarser = problem.coarser(row.setting)
+        growth = problem.scene.finite_element.growth * COARSER_GROWTH**coarser
+        growth = min(growth, STEEPEST_GROWTH) / COARSER_GROWTH ** (3 - levels)
+        finite_element = {"element": row.method.element, "growth": float(f"{growth:.4g}")}
+        sections["finite_element"] = finite_element
+    return sections
+
+
+def _sentence(
+    tolerances: Tolerances,
+    floors: dict[str, float],
+    lucky: AssessedRow | None,
+    *rows: AssessedRow | None,
+) -> str:
+    """What to take, and why not the cheapest row.
+
+    lucky  a cheaper row that meets the tolerances by chance
+    rows   the cheapest half-plane, the cheapest finite elements, the cheapest of all"""
+    half_plane, finite_element, best = rows
+    aim = "all tolerances of the scene"
+    if len(tolerances) == 1:
+        [(name, tolerance)] = tolerances.items()
+        aim = f"{given_percent(tolerance)} of the {QUANTITIES[name].label}"
+    uncertain = [name for name, tolerance in tolerances.items() if floors[name] >= tolerance]
+    if uncertain:
+        names = ", ".join(f"{QUANTITIES[n].label} ({percent(floors[n])})" for n in uncertain)
+        return f"For {aim} nothing can be said: the reference itself is that uncertain: {names}."
+    chance = "" if lucky is None else f"{_words(lucky, tolerances)}, but a finer one does not"
+    if best is None:
+        met = f"; by chance it is met by {chance}" if chance else ""
+        return f"For {aim} no measured setting will do{met}."
+    parts = []
+    if half_plane is not None:
+        parts.append(f"take the half-plane ({_words(half_plane, tolerances)})")
+    if finite_element is not None:
+        lead = "of" if parts else "take of"
+        parts.append(f"{lead} the finite elements {_words(finite_element, tolerances)}")
+    pairs = (("half-plane", half_plane), ("finite elements", finite_element))
+    missing = [name for name, row in pairs if row is None]
+    if missing and parts:
+        parts.append(f"no setting of the {' or the '.join(missing)} will do")
+    if best not in (half_plane, finite_element):
+        lead = "cheapest of all is" if parts else "nothing that run has will do, but"
+        parts.append(f"{lead} {_words(best, tolerances)}")
+        if lead.startswith("cheapest"):
+            parts[-1] += ", by which run cannot solve"
+    if chance:
+        parts.append(f"by chance it is met cheaper by {chance}")
+    return f"For {aim} {'; '.join(parts)}."
+
+
+def _words(assessed: AssessedRow, tolerances: Tolerances) -> str:
+    row = assessed.row
+    seconds = row.seconds(needs_stress(tolerances))
+    setting = f"at a pitch of {row.label}"
+    if row.method.model == "finite_element":
+        setting += f", {integer(row.measured.solved.unknowns)} unknowns"
+    return f"{row.method.name} {setting}: expect {with_unit(seconds, 's', 2)}"

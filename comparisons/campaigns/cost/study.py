@@ -1,0 +1,193 @@
+"""All methods at all their settings, measured one after the other; what fails is a row as well.
+
+A setting that was measured is not measured again unless scene, program, versions, machine or the
+number of repeats differ; the time it took counts as before."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from comparisons.campaigns.cost.measure import CostTask, MeasuredRun, RefusedRun, measure
+from comparisons.campaigns.cost.methods import (
+    METHODS,
+    SolutionMethod,
+    is_half_plane_problem,
+    why_not,
+)
+from comparisons.common.cache import Cache, kinds_of
+from comparisons.common.numbers import with_unit
+from comparisons.common.processes import Call, ProcessEnded, fresh_process
+from comparisons.common.progress import ProgressCallback, Step, within
+from comparisons.common.provenance import LEVEL_CODE, key_of, machine, program_code, versions
+from comparisons.models.level_cache import scene_key
+from comparisons.models.problem import Problem
+from comparisons.scenes.scene import ResolvedScene
+
+FOLDER = "cost_points"
+# What shapes what is measured, beside versions of libraries and the machine.
+CODE = (
+    *LEVEL_CODE,
+    *(f"comparisons/campaigns/cost/{name}.py" for name in ("measure", "methods", "solve")),
+)
+THREADS = 1  # of a measuring process
+# Time of a setting over that of the one before.
+GROWTH = {"half_plane": 2.5, "finite_element": 3.5}
+# Shares of budget.time, in processor seconds, by which methods are done; later ones get the rest.
+SHARES = (0.08, 0.2, 0.55, 0.75, 0.9)
+MOST_OF_REST = 0.25  # share of what is left of it beyond which a setting is not repeated
+OK, FAILED, SKIPPED = "ok", "failed", "skipped"
+
+# What a task results in; None where its process ended.
+Measure = Callable[[CostTask], MeasuredRun | RefusedRun | None]
+
+
+@dataclass(frozen=True)
+class CostRow:
+    """A method at a setting."""
+
+    method: SolutionMethod
+    setting: float | None  # pitch [m] or tolerance; None: the method does not apply
+    status: str  # ok | failed | skipped
+    because: str | None = None  # why it is not ok
+    measured: MeasuredRun | None = None
+
+    def seconds(self, stresses: bool) -> float:
+        """Processor time of the contact alone, or with the stresses."""
+        by_stage = self.measured.seconds.items()
+        return sum(s for name, s in by_stage if stresses or name != "stresses")
+
+    @property
+    def label(self) -> str:
+        if self.setting is None:
+            return "–"
+        return with_unit(self.setting, "m", 3)
+
+
+@dataclass(frozen=True)
+class Study:
+    """What was measured."""
+
+    rows: tuple[CostRow, ...]  # by method, from coarse to fine
+    # the coarsest setting with the far boundary at half its distance, by method, where needed
+    far_boundary_check: dict[str, MeasuredRun]
+
+    def of(self, name: str) -> tuple[CostRow, ...]:
+        return tuple(r for r in self.rows if r.method.name == name and r.status == OK)
+
+
+def measuring_machine() -> dict:
+    return machine() | {"threads": THREADS}
+
+
+def cost_cache(out: Path, scene: ResolvedScene, repeats: int) -> Cache:
+    """What was measured of `scene`, by task's name; and the load [N/m] of a prescribed approach."""
+    program = versions(), program_code(*CODE)
+    key = key_of(scene_key(scene), measuring_machine(), repeats, *program)
+    return Cache(out / FOLDER, key, kinds_of(MeasuredRun))
+
+
+def measured_study(
+    problem: Problem,
+    repeats: int,
+    cache: Cache,
+    callback: ProgressCallback,
+    methods: tuple[SolutionMethod, ...] = METHODS,
+) -> Study:
+    """Measure what the cache does not have, and save it there. Each method has a process of its
+    own, so that memory is its own, on one thread."""
+    spent, rows, check = 0.0, [], {}
+    shares = SHARES[-len(methods) :]
+    for number, (share, method) in enumerate(zip(shares, methods, strict=True)):
+        because = why_not(method, problem)
+        if because is not None:
+            rows.append(CostRow(method, None, SKIPPED, because))
+            continue
+        left = share * problem.scene.budget.time - spent
+        with fresh_process() as call:
+            run = _cached(cache, call)
+            part = within(callback, number / len(methods), (number + 1) / len(methods))
+            found = _series(method, problem, repeats, left, run, part)
+            if _wants_far_boundary_check(method, problem) and found[0].status == OK:
+                task = _task(problem, method, found[0].setting, half_block=True)
+                again = run(task)
+                if isinstance(again, MeasuredRun):
+                    check[method.name] = again
+        rows += found
+        spent += sum(row.measured.spent for row in found if row.measured is not None)
+    return Study(tuple(rows), check)
+
+
+def _series(
+    method: SolutionMethod,
+    problem: Problem,
+    repeats: int,
+    left: float,
+    run: Measure,
+    callback: ProgressCallback,
+) -> list[CostRow]:
+    """The rows of a method, in the processor seconds that are `left` for it."""
+    rows, settings, ended, expected = [], method.settings(problem), None, 0.0
+    growth = GROWTH[method.model]
+    for number, setting in enumerate(settings, start=1):
+        label = CostRow(method, setting, OK).label
+        name = f"{method.name}: {label} ({number} of {len(settings)})"
+        callback(Step(name, (number - 1) / len(settings)))
+        because = ended
+        if because is None and expected > left:
+            because = (
+                f"{expected:.2g} s are more than is left of this method's part of "
+                f"{problem.scene.budget.time:g} s (budget.time)"
+            )
+        if because is not None:
+            rows.append(CostRow(method, setting, SKIPPED, because))
+            continue
+        limit = MOST_OF_REST * max(left, 0.0)
+        found = run(_task(problem, method, setting, repeats=repeats, limit=limit))
+        rows.append(_row(method, setting, found))
+        if found is None:
+            ended = "the process that measured had ended"
+        elif isinstance(found, MeasuredRun):
+            left -= found.spent
+            expected = growth * found.total
+    return rows
+
+
+def _row(method: SolutionMethod, setting: float, found: MeasuredRun | RefusedRun | None) -> CostRow:
+    if found is None:
+        return CostRow(method, setting, FAILED, "the process that measured it ended")
+    if isinstance(found, RefusedRun):
+        return CostRow(method, setting, SKIPPED if found.skipped else FAILED, found.because)
+    if not found.solved.converged:
+        return CostRow(method, setting, FAILED, "did not converge", found)
+    return CostRow(method, setting, OK, None, found)
+
+
+def _cached(cache: Cache, call: Call) -> Measure:
+    """Measures by the process that is called what the cache does not have, and saves it."""
+
+    def measured(task: CostTask) -> MeasuredRun | RefusedRun | None:
+        found = cache.load(task.name)
+        if found is None:
+            try:
+                found = call(measure, task)
+            except ProcessEnded:
+                return None
+            if isinstance(found, MeasuredRun):
+                cache.save(task.name, found)
+        return found
+
+    return measured
+
+
+def _task(problem: Problem, method: SolutionMethod, setting: float, **given: float) -> CostTask:
+    """`given`: repeats, limit, half_block."""
+    prescribed = problem.scene.load.kind == "approach"
+    load = problem.hertz.load_per_length if prescribed else None
+    return CostTask(problem.scene, load, method.name, setting, **given)
+
+
+def _wants_far_boundary_check(method: SolutionMethod, problem: Problem) -> bool:
+    """Whether the finite elements are a reference, whose far boundary counts."""
+    scene = problem.scene
+    unbounded = scene.thickness is None or scene.width is None
+    return method.model == "finite_element" and unbounded and not is_half_plane_problem(problem)

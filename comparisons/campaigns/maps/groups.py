@@ -1,0 +1,364 @@
+"""The dimensionless groups of a map: how a scene's tables take a value of each; and its axes.
+
+    a, p0   half-width [m] and peak pressure [Pa] of the smooth contact under the scene's load
+    t, w    thickness and width of the body [m]        R   radius of relative curvature [m]
+    mu      coefficient of friction                    H   hardness [Pa]
+    beta    Dundurs' constant of body and roller       E   Young's moduli [Pa]
+    V       speed of the body past the contact [m/s]   h   thickness of its coating [m]
+    k, k'   conductivity [W/(m K)] of body and coating, kappa diffusivity of the body [m^2/s]
+
+Each group also says which of the half-plane's assumptions the finite elements drop for it. All
+else stays as in the scene, but for what follows from its lengths: waves that are stretched keep
+their slopes. Groups that change a are set before those that are measured by it.
+"""
+
+import copy
+import difflib
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from analytic.surface.roughness import shortest_wavelength
+from comparisons.common.errors import InputError, SceneError
+from comparisons.figures.quantity import HEAT_QUANTITIES
+from comparisons.models.heat import peclet_numbers
+from comparisons.models.problem import Problem, problem_of
+from comparisons.scenes.resolve import resolve_tables
+
+# Fields of made profiles that are lengths along x, and the one that heights are proportional to.
+WAVES = {
+    "sinusoid": ("wavelength", "length"),
+    "self-affine": ("length", "shortest_wavelength", "longest_wavelength"),
+    "ground": ("length", "shortest_wavelength", "roll_off_wavelength", "longest_wavelength"),
+}
+HEIGHTS = {"sinusoid": ("amplitude",), "self-affine": ("rms_height",), "ground": ("rms_height",)}
+SHORTEST = 4.0  # samples of a profile's shortest wave, where it names none
+FILTERS = ("cutoff", "short_cutoff")
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where tables come from: what messages call the scene, and the folder of its profile."""
+
+    source: str
+    folder: Path
+
+
+SetTo = Callable[[dict, float, Origin], None]
+ValueOf = Callable[[Problem], float]
+
+
+@dataclass(frozen=True)
+class Group:
+    """A dimensionless group, one of groups.toml."""
+
+    set_to: SetTo  # gives the SI tables of a scene (changed in place) a value of the group
+    value_of: ValueOf | None  # the group's value of a scene, where it says how large an effect is
+    # symbol, label: for axes, short and in words
+    symbol: str
+    label: str
+    span: tuple[float, float]  # its range unless another one is asked for
+    # fields of [finite_element] that drop the assumption that the group is about
+    finite_element: Mapping[str, object] = field(default_factory=dict)
+    early: bool = False  # the group changes a
+    vanishes: bool = True  # the effect goes to zero with the group
+
+
+def smooth_problem(tables: Mapping, origin: Origin) -> Problem:
+    """The smooth contact of half-planes under a scene's load, which groups refer to."""
+    plain = {
+        "roller": tables["roller"],
+        "body": {name: tables["body"][name] for name in ("youngs_modulus", "poissons_ratio")},
+        "load": {k: v for k, v in tables["load"].items() if k not in ("friction", "position")},
+    }
+    if "approach" in plain["load"]:
+        raise SceneError(
+            f"{origin.source}: load.approach: is no load that groups can refer to; allowed for a "
+            "map is per_length or hertz_peak_pressure"
+        )
+    plain["load"].pop("coupled", None)
+    return problem_of(resolve_tables(plain, name="smooth", **vars(origin)))
+
+
+def tables_with(tables: Mapping, values: Mapping[str, float], origin: Origin) -> dict:
+    """SI tables of a scene in which every named group has its value. Raises SceneError where the
+    scene does not have what a group is about."""
+    changed = copy.deepcopy(dict(tables))
+    for name in sorted(values, key=lambda name: not GROUPS[name].early):
+        GROUPS[name].set_to(changed, values[name], origin)
+    return changed | {"finite_element": finite_elements(changed, values)}
+
+
+def finite_elements(tables: Mapping, names: Iterable[str]) -> dict:
+    """The scene's [finite_element] without the assumptions that the named groups are about."""
+    settings = dict(tables.get("finite_element", {}))
+    for name in names:
+        settings |= GROUPS[name].finite_element
+    if settings.get("deformation") == "finite" and tables.get("profile"):
+        settings["geometry"] = "rough"
+    return settings
+
+
+def _half_width(tables: dict, origin: Origin) -> float:
+    return smooth_problem(tables, origin).hertz.half_width
+
+
+def _size(name: str, problem: Problem) -> float:
+    extent = getattr(problem.scene, name)
+    return 0.0 if extent is None else problem.hertz.half_width / extent
+
+
+def _radius(problem: Problem) -> float:
+    return problem.hertz.half_width / problem.scene.roller_radius
+
+
+def _friction(problem: Problem) -> float:
+    return max(problem.scene.friction) * abs(problem.dundurs_beta)
+
+
+def _slope(problem: Problem) -> float:
+    info = problem.scene.profile_info
+    return 0.0 if info is None else info.roughness.rms_slope
+
+
+def _wavelength(problem: Problem) -> float:
+    profile = problem.scene.tables.get("profile") or {}
+    if profile.get("kind") in WAVES:
+        shortest = _shortest(profile)
+    else:
+        shortest = shortest_wavelength(problem.scene.profile)
+    return shortest / problem.hertz.half_width
+
+
+def _shortest(profile: Mapping) -> float:
+    """Wave [m] of a made profile."""
+    if profile["kind"] == "sinusoid":
+        return profile["wavelength"]
+    spacing = profile["length"] / (profile["samples"] - 1)
+    return profile.get("shortest_wavelength", SHORTEST * spacing)
+
+
+def _set_size(name: str, tables: dict, value: float, origin: Origin) -> None:
+    tables["body"][name] = _half_width(tables, origin) / value
+
+
+def _set_radius(tables: dict, value: float, origin: Origin) -> None:
+    """By the load: a = 2 p0 R / E*."""
+    if not tables["roller"].get("rigid"):
+        raise SceneError(
+            f"{origin.source}: roller: is elastic; allowed with a_over_radius, which takes finite "
+            "deformation, is roller.rigid = true"
+        )
+    modulus = smooth_problem(tables, origin).modulus
+    tables["load"].pop("per_length", None)
+    tables["load"]["hertz_peak_pressure"] = 0.5 * value * modulus
+
+
+def _set_friction(tables: dict, value: float, origin: Origin) -> None:
+    beta = abs(smooth_problem(tables, origin).dundurs_beta)
+    if beta == 0.0:
+        raise SceneError(
+            f"{origin.source}: body: has the roller's elastic constants, so that friction moves "
+            "nothing; allowed with friction_dundurs are unlike bodies or a rigid roller"
+        )
+    tables["load"]["friction"] = value / beta
+    tables["load"]["coupled"] = False
+
+
+def _set_hardness(tables: dict, value: float, origin: Origin) -> None:
+    """By hardness, which caps the half-plane's pressure, and yield stress; their ratio stays."""
+    body = tables["body"]
+    if not {"hardness", "yield_stress"} <= body.keys():
+        raise SceneError(
+            f"{origin.source}: body.yield_stress: is missing; allowed with "
+            "peak_pressure_over_hardness are body.hardness and body.yield_stress"
+        )
+    factor = smooth_problem(tables, origin).hertz.peak_pressure / value / body["hardness"]
+    for name in {"hardness", "yield_stress", "hardening_modulus"} & body.keys():
+        body[name] *= factor
+
+
+def _set_poissons_ratio(tables: dict, value: float, origin: Origin) -> None:
+    tables["body"]["poissons_ratio"] = value
+
+
+def _set_modulus_ratio(tables: dict, value: float, origin: Origin) -> None:
+    if "youngs_modulus" not in tables["roller"]:
+        raise SceneError(
+            f"{origin.source}: roller.rigid: is true; allowed with modulus_ratio is an elastic one"
+        )
+    tables["roller"]["youngs_modulus"] = value * tables["body"]["youngs_modulus"]
+
+
+def _section(name: str, tables: dict, origin: Origin) -> dict:
+    if name not in tables:
+        raise SceneError(f"{origin.source}: {name}: is missing; allowed for its groups is [{name}]")
+    return tables[name]
+
+
+def _peclet(problem: Problem) -> float | None:
+    return None if problem.scene.heat is None else peclet_numbers(problem)["body"]
+
+
+def _set_peclet(tables: dict, value: float, origin: Origin) -> None:
+    """By the speed."""
+    heat = _section("heat", tables, origin)
+    share = 1.0 / heat["slide_to_roll"] + 0.5  # of the speed, at which the body moves
+    if share == 0.0:
+        raise SceneError(
+            f"{origin.source}: heat.slide_to_roll: is -2, at which the contact stays on the body; "
+            "allowed with peclet is any other one"
+        )
+    stored = heat["body_density"] * heat["body_specific_heat"]
+    diffusivity = heat["body_conductivity"] / stored
+    heat["speed"] = 2.0 * diffusivity * value / (_half_width(tables, origin) * abs(share))
+
+
+def _set_coating(tables: dict, value: float, origin: Origin) -> None:
+    _section("coating", tables, origin)["thickness"] = value * _half_width(tables, origin)
+
+
+def _set_conductivity(tables: dict, value: float, origin: Origin) -> None:
+    heat = _section("heat", tables, origin)
+    heat["coating_conductivity"] = value * heat["body_conductivity"]
+
+
+def _made_profile(tables: dict, origin: Origin, group: str) -> dict:
+    profile = tables.get("profile") or {}
+    if profile.get("kind") not in WAVES:
+        raise SceneError(
+            f"{origin.source}: profile: cannot be changed along {group}; allowed there is kind = "
+            + ", ".join(f'"{kind}"' for kind in WAVES)
+        )
+    return profile
+
+
+def _set_wavelength(tables: dict, value: float, origin: Origin) -> None:
+    """By scaling the profile: x and heights by one factor, so that slopes stay."""
+    profile = _made_profile(tables, origin, "wavelength_over_a")
+    kind = profile["kind"]
+    factor = value * _half_width(tables, origin) / _shortest(profile)
+    for name in (*WAVES[kind], *HEIGHTS[kind], *FILTERS):
+        if isinstance(profile.get(name), float):
+            profile[name] *= factor
+    if "position" in tables["load"]:
+        tables["load"]["position"] *= factor
+
+
+def _set_slope(tables: dict, value: float, origin: Origin) -> None:
+    profile = _made_profile(tables, origin, "rms_slope")
+    scene = resolve_tables(tables, name="slope", **vars(origin))
+    factor = value / scene.profile_info.roughness.rms_slope
+    for name in (*HEIGHTS[profile["kind"]], "rms_slope"):
+        if name in profile:
+            profile[name] *= factor
+
+
+# How each group is set, and how large it is in a scene where it says how large an effect is.
+FUNCTIONS: dict[str, tuple[SetTo, ValueOf | None]] = {
+    "a_over_thickness": (partial(_set_size, "thickness"), partial(_size, "thickness")),
+    "a_over_width": (partial(_set_size, "width"), partial(_size, "width")),
+    "a_over_radius": (_set_radius, _radius),
+    "rms_slope": (_set_slope, _slope),
+    "wavelength_over_a": (_set_wavelength, _wavelength),
+    "friction_dundurs": (_set_friction, _friction),
+    "peak_pressure_over_hardness": (_set_hardness, None),
+    "poissons_ratio": (_set_poissons_ratio, None),
+    "modulus_ratio": (_set_modulus_ratio, None),
+    "peclet": (_set_peclet, _peclet),
+    "coating_over_a": (_set_coating, None),
+    "conductivity_ratio": (_set_conductivity, None),
+}
+GROUPS = {
+    name: Group(*FUNCTIONS[name], **fields)
+    for name, fields in tomllib.loads(
+        Path(__file__).with_name("groups.toml").read_text(encoding="utf-8")
+    ).items()
+}
+
+
+FIGURES = 6  # significant, of the values: the same on every machine
+SPANS_DECADES = 3.0  # largest over smallest value from which an axis is logarithmic
+FEWEST, MOST = 2, 200  # values of an axis
+_AXIS = re.compile(r"\s*([\w-]+)\s*(?:=\s*([^:\s]+)\s*:\s*([^:\s]+)\s*)?")
+_POINTS = re.compile(r"\s*(\d+)\s*[x×]\s*(\d+)\s*")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """`count` values of a group from `low` to `high`."""
+
+    group: str
+    low: float
+    high: float
+    count: int
+
+    @property
+    def logarithmic(self) -> bool:
+        return self.low > 0.0 and self.high / self.low >= SPANS_DECADES
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """Ascending; of equal ratios on a logarithmic axis, else of equal differences."""
+        spaced = np.geomspace if self.logarithmic else np.linspace
+        found = spaced(self.low, self.high, self.count)
+        return tuple(float(f"{value:.{FIGURES}g}") for value in found)
+
+    def __str__(self) -> str:
+        return f"{self.group}={self.low:g}:{self.high:g}"
+
+
+def axis_of(given: str, count: int, option: str) -> Axis:
+    """The axis that "GROUP" or "GROUP=FROM:TO" means. Raises InputError, which names the `option`,
+    for anything else."""
+    found = _AXIS.fullmatch(given)
+    if not found:
+        raise InputError(f"{option}: is {given!r}; allowed is GROUP or GROUP=FROM:TO")
+    name = found[1].replace("-", "_")
+    if name not in GROUPS:
+        near = difflib.get_close_matches(name, GROUPS, n=1, cutoff=0.0)[0]
+        raise InputError(
+            f"{option}: there is no group {found[1]}; the nearest is {near}; "
+            f"allowed are {', '.join(GROUPS)}"
+        )
+    low, high = GROUPS[name].span
+    if found[2]:
+        try:
+            low, high = float(found[2]), float(found[3])
+        except ValueError:
+            low = high = np.nan
+        if not (0.0 <= low < high < np.inf):
+            raise InputError(
+                f"{option}: the range is {found[2]}:{found[3]}; allowed are two numbers, "
+                "from 0 on, the smaller one first"
+            )
+        if low == 0.0 and name != "poissons_ratio":
+            raise InputError(f"{option}: {name} begins at 0; allowed is above 0")
+    return Axis(name, low, high, count)
+
+
+def counts_of(given: str) -> tuple[int, int]:
+    found = _POINTS.fullmatch(given)
+    counts = tuple(map(int, found.groups())) if found else ()
+    if not counts or not all(FEWEST <= count <= MOST for count in counts):
+        raise InputError(
+            f"--points: is {given!r}; allowed is NxM, from {FEWEST} to {MOST} values each"
+        )
+    return counts
+
+
+def usual_axes(tables: dict, quantity: str) -> tuple[str, str]:
+    if quantity in HEAT_QUANTITIES:
+        return "peclet", "coating_over_a" if "coating" in tables else "a_over_thickness"
+    load, profile = tables["load"], tables.get("profile") or {}
+    if profile.get("kind") in WAVES:
+        return "wavelength_over_a", "rms_slope"
+    rigid = tables["roller"].get("rigid", False)
+    if np.max(load.get("friction", 0.0)) > 0.0 and rigid:
+        return "a_over_thickness", "friction_dundurs"
+    return "a_over_thickness", "a_over_radius" if rigid else "a_over_width"

@@ -1,0 +1,152 @@
+"""A scene on the finished maps: about how large the half-plane's model error is, before solving.
+
+A map is of another scene with the same values of two groups: rigid rollers, one wave in place of a
+trace. Where a scene lies on no map, the estimates say what each effect may do at most.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+
+from comparisons.campaigns.maps.content import differences, places, read_map, scaled, unscaled
+from comparisons.campaigns.maps.groups import GROUPS
+from comparisons.campaigns.maps.picture import Mark
+from comparisons.campaigns.maps.request import FINISHED
+from comparisons.common.errors import InputError
+from comparisons.common.numbers import significant
+from comparisons.common.progress import Stages
+from comparisons.figures.quantity import HEAT_QUANTITIES, label
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.problem import Problem, problem_of
+from comparisons.scenes.resolve import load_scene
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.selection import select_effects
+
+LAW = "law_of_elasticity"  # an unknown of the body, no error of the half-plane
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a scene lies on a map."""
+
+    name: str  # of the finished map
+    groups: tuple[float, float]  # (x, y) the scene's values of its groups
+    # (x, y) the same, but the map's first value where an effect is smaller than on the map
+    shown: tuple[float, float]
+    # by quantity: relative model error, straight between the map's points on its scale
+    errors: dict[str, float]
+
+    @property
+    def text(self) -> str:
+        content = finished_map(self.name)
+        values = (
+            f"{content[axis]['symbol']} {'=' if value == shown else '<='} {significant(shown, 2)}"
+            for axis, value, shown in zip("xy", self.groups, self.shown, strict=True)
+        )
+        errors = (f"{label(name)} {100.0 * error:+.2g} %" for name, error in self.errors.items())
+        return (
+            f"by the map {self.name} ({', '.join(values)}): model error about {', '.join(errors)}"
+        )
+
+
+def finished_names() -> tuple[str, ...]:
+    return tuple(sorted(path.stem for path in FINISHED.glob("*.json")))
+
+
+def finished_map(name: str) -> dict:
+    return read_map(FINISHED / f"{name}.json")
+
+
+def problem_named(scene: str) -> Problem:
+    return problem_of(load_scene(scene))
+
+
+def place_on(name: str, problem: Problem) -> Place | None:
+    """None where the map is of another kind of surface or does not reach so far."""
+    content = finished_map(name)
+    if ("profile" in content["scene"]) != (problem.scene.profile is not None):
+        return None
+    heat, of_map = problem.scene.heat, content["scene"].get("heat")
+    if of_map and heat:
+        other_base = problem.scene.thickness and heat.base != of_map.get("base", heat.base)
+        if other_base or heat.slide_to_roll != of_map["slide_to_roll"]:
+            return None
+    groups, shown = [], []
+    for axis in (content["x"], content["y"]):
+        group = GROUPS[axis["group"]]
+        value = None if group.value_of is None else group.value_of(problem)
+        if value is None or value > axis["values"][-1]:
+            return None
+        if value < axis["values"][0] and not group.vanishes:
+            return None
+        groups.append(value)
+        shown.append(max(value, axis["values"][0]))
+    wanted = (*problem.scene.tolerance, *(HEAT_QUANTITIES if of_map else ()))
+    errors = {q: interpolated(content, q, *shown) for q in wanted}
+    errors = {quantity: error for quantity, error in errors.items() if np.isfinite(error)}
+    return Place(name, tuple(groups), tuple(shown), errors) if errors else None
+
+
+def interpolated(content: dict, quantity: str, x: float, y: float) -> float:
+    """Relative model error between a map's points; nan where a neighbour's is unknown."""
+    axes = content["y"], content["x"]
+    values = scaled(differences(content, quantity))
+    between = RegularGridInterpolator([places(axis) for axis in axes], values)
+    at = [places(axis | {"values": [v]})[0] for axis, v in zip(axes, (y, x), strict=True)]
+    return float(unscaled(between(at)[0]))
+
+
+def places_of(problem: Problem) -> tuple[Place, ...]:
+    """On as few finished maps as have all groups that the scene has, those with most first."""
+    found = [place for name in finished_names() if (place := place_on(name, problem))]
+    found.sort(key=lambda place: -np.count_nonzero(place.groups))
+    chosen: list[Place] = []
+    covered: set[tuple[bool, str]] = set()
+    for place in found:
+        content = finished_map(place.name)
+        heats = content["quantity"] in HEAT_QUANTITIES
+        own = {
+            (heats, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
+        }
+        if own - covered or not (own or chosen):
+            chosen.append(place)
+            covered |= own
+    return tuple(chosen)
+
+
+def mark_of(content: dict, problem: Problem) -> Mark:
+    """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
+    where a group has no value for a scene."""
+    values = []
+    for axis in (content["x"], content["y"]):
+        value_of = GROUPS[axis["group"]].value_of
+        smooth = axis["group"] == "wavelength_over_a" and problem.scene.profile is None
+        if value_of is None or smooth:
+            raise InputError(f"--mark: {problem.scene.name} has no {axis['group']} to be marked at")
+        values.append(value_of(problem))
+    return problem.scene.name, (values[0], values[1])
+
+
+def first_answer(problem: Problem) -> list[str]:
+    """Lines for a user who waits: by the maps, or else by the estimates for a coarse half-plane."""
+    found = places_of(problem)
+    beside = {
+        "coating": problem.scene.coating,
+        "plastic flow": problem.scene.finite_element.plastic,
+    }
+    off = [name for name, has in beside.items() if has]
+    if found and not off:
+        return [place.text for place in found]
+    level = half_plane_level(problem, problem.pitches[0], None, Stages())
+    effects = select_effects(problem, float(level.solution.pressure.max()), ()).estimates
+    bounds = []
+    for name in problem.scene.tolerance:
+        sizes = {effect: s[name] for effect, s in effects.items() if name in s and effect != LAW}
+        if sizes:
+            total, most = sum(sizes.values()), max(sizes, key=sizes.get)
+            bound = f"{100.0 * total:.2g} %" if total < 1.0 else "100 % or more"
+            bounds.append(f"{label(name)} {bound} ({EFFECTS[most].label} most)")
+    if not bounds:
+        return []
+    return [f"by estimates, on no finished map: model error at most about {', '.join(bounds)}"]

@@ -1,0 +1,83 @@
+"""paper.html: one page that opens without a network and prints without loss."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.campaigns.paper.claim_table import claim_row, summary
+from comparisons.campaigns.paper.sections import Section
+from comparisons.common.numbers import UNKNOWN, given, integer, percent, significant, with_unit
+from comparisons.figures.verdict import Comparison
+from comparisons.report.html import STYLES, rendered
+from comparisons.report.tables.problem import load_text
+from comparisons.report.tables.text import TextTable
+
+if TYPE_CHECKING:
+    from comparisons.campaigns.paper.reproduce import Paper
+
+SHOWN = {
+    "peak_pressure": "peak pressure",
+    "contact_length": "contact length",
+    "pressure_l2": "pressure, L2",
+    "tau1_max": "largest τ₁",
+    "tau1_field_near": "τ₁ down to 0.1 a, L2",
+    "tau1_field_deep": "τ₁ from 0.5 a on, L2",
+}
+
+
+def paper_page(paper: "Paper", sections: tuple[Section, ...]) -> str:
+    problem = next(iter(paper.outcomes.values())).problem
+    return rendered(
+        Path(__file__).parent / "paper.html.j2",
+        policy=STYLES,
+        summary=summary(paper.judged),
+        claims=[claim_row(each) for each in paper.judged],
+        sections=sections,
+        models=_models(paper),
+        surfaces=_surfaces(paper),
+        paper=paper,
+        scene=problem.scene,
+        hertz=problem.hertz,
+        load=load_text(problem),
+        with_unit=with_unit,
+        given=given,
+    )
+
+
+def _models(paper: "Paper") -> TextTable:
+    rows = []
+    for name, outcome in paper.outcomes.items():
+        for friction in outcome.problem.scene.friction:
+            compared = [c for c in outcome.comparisons if c.friction == friction]
+            found = {c.quantity: _difference(c) for c in compared}
+            cells = [found.get(quantity, UNKNOWN) for quantity in SHOWN]
+            rows.append((_short(name), f"{friction:g}", *cells))
+    head = ("surface", "friction", *SHOWN.values())
+    return TextTable("How far the two models are apart", head, tuple(rows))
+
+
+def _short(scene: str) -> str:
+    return scene.removeprefix("ground-").replace("-", " ")
+
+
+def _difference(row: Comparison) -> str:
+    signed = row.half_plane is not None
+    found = percent(row.difference, signed=signed, uncertainty=row.uncertainty)
+    return f"{found} ({percent(row.uncertainty, digits=1)})"
+
+
+def _surfaces(paper: "Paper") -> TextTable:
+    rows = []
+    for name, outcome in paper.outcomes.items():
+        info = outcome.problem.scene.profile_info
+        half_plane, finite_element = (run.finest for run in outcome.runs.values())
+        profile = (UNKNOWN,) * 4
+        if info is not None:
+            lengths = info.roughness.ra, info.roughness.rq, info.spacing
+            ra, rq, spacing = (with_unit(length, "m", 3) for length in lengths)
+            profile = (ra, rq, significant(info.roughness.rms_slope, 2), spacing)
+        unknowns = (integer(level.unknowns) for level in (half_plane, finite_element))
+        pitch = with_unit(half_plane.grid.pitch, "m", 3)
+        rows.append((_short(name), *profile, pitch, *unknowns))
+    head = ("surface", "Ra", "Rq", "rms slope", "sampling interval", "pressure element, finest")
+    head += ("unknowns, half-plane", "unknowns, finite elements")
+    return TextTable("Surfaces, and how finely they were solved", head, tuple(rows))

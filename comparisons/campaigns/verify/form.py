@@ -1,0 +1,248 @@
+"""The exact cases as a test that any code can take: scenes, a form to fill in, and its judgement.
+
+The form is a CSV table, a row a figure: expected value, tolerance, and two columns to fill in, the
+answer [SI] and its relative uncertainty. A row is judged as figures of a run are; `covered` says
+whether an answer lies within its own uncertainty."""
+
+import csv
+import io
+import json
+import math
+import re
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from analytic.exact.cases import ExactContact, exact_contacts
+from comparisons.campaigns.verify.rough import FEW, LAYERED, RoughBody, rough_contact, rough_scene
+from comparisons.campaigns.verify.scenes import ExactScene, gallery_scenes, layer_scenes
+from comparisons.common.errors import ExitStatus, InputError
+from comparisons.common.files import publish
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.verdict import Verdict, judge
+from comparisons.report.html import rendered
+from comparisons.results.flat_table import csv_text
+
+if TYPE_CHECKING:
+    from rich.console import Group
+
+COLUMNS = ("case", "quantity", "unit", "expected", "tolerance", "answer", "uncertainty")
+TOLERANCE = 0.01  # of the form as it is written; whoever fills it in may tighten it
+DIGITS = 10
+GAP_POINTS = 2001  # of a wave or a punch
+HALF_PLANES = (20, 21, 22)  # seeds of rough contacts
+ELEMENTS = 60.0  # of a scene's third level, on half a mean patch
+FILE_SIZE = 2**20  # bytes of the largest form
+
+
+@dataclass(frozen=True)
+class FormCase:
+    """A case of the form."""
+
+    name: str
+    title: str
+    # by name, text: a scene with its trace, or the gap of a wave or a punch
+    files: Mapping[str, str]
+    exact: Mapping[str, float]  # figures [SI] by quantity
+    about: str = ""  # what no scene says, in words
+
+
+@dataclass(frozen=True)
+class FormRow:
+    """A filled-in figure; error, uncertainty and tolerance are relative."""
+
+    case: str
+    quantity: str
+    expected: float
+    answer: float
+    error: float
+    uncertainty: float
+    tolerance: float
+    verdict: Verdict
+    covered: bool
+
+
+@dataclass(frozen=True)
+class JudgedForm:
+    """The rows that were filled in, and the number of those that were not."""
+
+    rows: tuple[FormRow, ...]
+    empty: int
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        verdicts = {row.verdict for row in self.rows}
+        if "differ" in verdicts:
+            return ExitStatus.OUTSIDE_TOLERANCE
+        return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
+
+    def as_dict(self) -> dict:
+        return {"rows": [asdict(row) for row in self.rows], "empty": self.empty}
+
+
+@cache
+def form_cases() -> tuple[FormCase, ...]:
+    """Hertz at rest and sliding, layers, rough contacts made from pressures, waves, punches."""
+    bodies = [(seed, RoughBody("half-plane")) for seed in HALF_PLANES]
+    bodies += [(2 * k, body) for k, body in enumerate(LAYERED)]  # at rest: friction moves layers
+    contacts = [
+        (f"rough {body.name} {seed}", rough_contact(seed, body, FEW)) for seed, body in bodies
+    ]
+    scenes = [scene for scene in gallery_scenes() if scene.kind != "hardness"]
+    scenes += layer_scenes()
+    scenes += [
+        replace(rough_scene(name, contact, ELEMENTS, {}), name=name) for name, contact in contacts
+    ]
+    others = [case for case in exact_contacts() if case.period is not None or case.knots]
+    return (*map(_of_scene, scenes), *map(_of_gap, others))
+
+
+def export_form(out: Path) -> int:
+    """Write scenes, form and README to `out`; the number of cases. InputError if that fails."""
+    cases = form_cases()
+    files = {name: text for case in cases for name, text in case.files.items()}
+    files["form.csv"] = _form(cases)
+    files["README.md"] = rendered(
+        Path(__file__).parent / "verify.md.j2", cases=cases, tolerance=TOLERANCE
+    )
+    publish(out, files)
+    return len(cases)
+
+
+def judged_form(path: Path) -> JudgedForm:
+    """Raises InputError for a file that is no form, an unknown case, and what is no number."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            table = list(csv.DictReader(io.StringIO(file.read(FILE_SIZE)), strict=True))
+    except (OSError, UnicodeError, csv.Error) as error:
+        raise InputError(f"{path}: cannot be read ({error}); allowed is a form.csv") from None
+    missing = set(COLUMNS) - set(table[0] if table else ())
+    if missing:
+        raise InputError(f"{path}: has no column {sorted(missing)[0]}; allowed is a form.csv")
+    exact = {(c.name, q): value for c in form_cases() for q, value in c.exact.items()}
+    rows, empty = [], 0
+    for line, given in enumerate(table, start=2):
+        if not (given["answer"] or "").strip():
+            empty += 1
+            continue
+        where = f"{path}: line {line}"
+        key = given["case"], given["quantity"]
+        if key not in exact:
+            raise InputError(f"{where}: {' '.join(map(str, key))} is no figure of the form")
+        answer = _number(given, "answer", where)
+        tolerance = _number(given, "tolerance", where, least=0.0)
+        uncertainty = _number(given, "uncertainty", where, least=0.0)
+        expected = exact[key]
+        error = answer / expected - 1.0
+        verdict = judge(error, uncertainty, tolerance)
+        covered = abs(error) <= uncertainty
+        rows.append(
+            FormRow(*key, expected, answer, error, uncertainty, tolerance, verdict, covered)
+        )
+    if not rows:
+        raise InputError(f"{path}: has no answer; allowed is a form with at least one filled in")
+    return JudgedForm(tuple(rows), empty)
+
+
+def form_table(judged: JudgedForm) -> "Group":
+    from rich.console import Group
+
+    from comparisons.report.terminal import plain_table
+
+    numbers = "expected", "answer", "error, %", "uncert., %", "tol., %", "verdict", "covered"
+    table = plain_table("case", "quantity", numbers=numbers)
+    for row in judged.rows:
+        values = (f"{value:.5g} {unit_of(row.quantity)}" for value in (row.expected, row.answer))
+        shares = (f"{100 * value:.3g}" for value in (row.error, row.uncertainty, row.tolerance))
+        covered = "yes" if row.covered else "no"
+        table.add_row(row.case, row.quantity, *values, *shares, row.verdict, covered)
+    counts = Counter(row.verdict for row in judged.rows)
+    listed = ", ".join(f"{counts[v]} {v}" for v in ("agree", "differ", "inconclusive"))
+    covered = sum(row.covered for row in judged.rows)
+    return Group(
+        table, f"{listed}; {covered} within their own uncertainty; {judged.empty} not filled in"
+    )
+
+
+def unit_of(quantity: str) -> str:
+    return QUANTITIES[quantity].unit if quantity in QUANTITIES else "m"
+
+
+def _number(given: Mapping[str, str], column: str, where: str, least: float = -math.inf) -> float:
+    """A cell as a number; nothing counts as 0 but for the answer, which is there."""
+    text = (given[column] or "0").strip()
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value >= least):
+        allowed = "a number" if least < 0.0 else "a number of 0 or more"
+        raise InputError(f"{where}: {column}: is {text}; allowed is {allowed}")
+    return value
+
+
+def _form(cases: tuple[FormCase, ...]) -> str:
+    rows = (
+        (case.name, quantity, unit_of(quantity), f"{value:.{DIGITS}g}", TOLERANCE, "", "")
+        for case in cases
+        for quantity, value in case.exact.items()
+    )
+    return csv_text([COLUMNS, *rows])
+
+
+def _of_scene(scene: ExactScene) -> FormCase:
+    """What a user would write, without what only concerns the project's own models."""
+    name = _slug(scene.name)
+    kept = ("roller", "body", "coating", "profile", "load", "stress", "resolution")
+    tables = {section: dict(scene.tables[section]) for section in kept if section in scene.tables}
+    files = {}
+    if scene.trace is not None:
+        trace = scene.trace.read.profile
+        files[f"{name}.csv"] = _table("x [m],height [m]", trace.x, trace.height)
+        tables["profile"] = {"file": f"{name}.csv", "form": "none", "x_unit": "m", "z_unit": "m"}
+    lines = [f"title = {json.dumps(scene.name)}"]
+    for section, fields in tables.items():
+        lines += ["", f"[{section}]", *(f"{key} = {_toml(value)}" for key, value in fields.items())]
+    lines += ["", "[budget]", "effects = false", ""]
+    files[f"{name}.toml"] = "\n".join(lines)
+    return FormCase(name, scene.name, files, {q: v for q, v in scene.exact.items() if v})
+
+
+def _of_gap(case: ExactContact) -> FormCase:
+    """The gap of what no scene describes: of a wave that goes on for ever, a period; of a punch
+    three half-widths, with the ends of its flat among the points."""
+    name = _slug(case.name)
+    half = case.half_range if case.period is None else 0.5 * case.period
+    x = np.union1d(np.linspace(-half, half, GAP_POINTS), case.knots)
+    bodies = " and ".join(
+        f"E = {m.youngs_modulus:g} Pa, nu = {m.poissons_ratio:g}"
+        for m in (case.body, case.roller)
+        if m is not None
+    )
+    about = f"{case.load:.{DIGITS}g} N/m"
+    about += "" if case.period is None else f" on each period of {case.period:g} m"
+    about += f"; half-planes of {bodies}"
+    about += " under a rigid one" if case.roller is None else ""
+    wanted = ("peak_pressure", "contact_length", "mean_gap")
+    exact = {q: case.quantities[q] for q in wanted if case.quantities.get(q)}
+    files = {f"{name}.csv": _table("x [m],gap [m]", x, case.gap(x))}
+    return FormCase(name, case.name, files, exact, about)
+
+
+def _table(head: str, *columns: np.ndarray) -> str:
+    rows = (",".join(f"{value:.15g}" for value in row) for row in zip(*columns, strict=True))
+    return "\n".join([head, *rows, ""])
+
+
+def _toml(value: object) -> str:
+    """Of a string, a number, a truth, or a list of such: as in JSON."""
+    return json.dumps(value, default=float)
+
+
+def _slug(text: str) -> str:
+    return re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-")

@@ -1,0 +1,67 @@
+"""The finite elements' contact again by PETSc's variational inequality, on the same mesh.
+
+It shares mesh, stiffness and hats with a level of `run`, but neither its compliance operator nor
+its contact solver, so that a mistake of either shows."""
+
+import tomllib
+from collections.abc import Iterable
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from comparisons.campaigns.checks import BoundedFigure, CheckedCase, Findings
+from comparisons.common.progress import Stages
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.scenes.resolve import resolve_tables
+
+AGREE = 1e-6  # relative, in pressure and in load
+SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_text("utf-8"))
+
+
+def independent_cases(names: Iterable[str] = SCENES) -> list[CheckedCase]:
+    model, group = "finite_element", "independent solver"
+    return [CheckedCase(group, n, model, partial(independent_findings, n)) for n in names]
+
+
+def independent_findings(name: str) -> Findings:
+    """Largest difference of the pressures under one load, over the largest pressure; and relative
+    difference of the loads at one approach."""
+    from comparisons.models.finite_element.bodies import BodyCache, bodies_of
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement
+    from fem.body.surface import hat_forces
+    from fem.contact.variational_inequality import solve_variational_inequality
+
+    scene = resolve_tables(SCENES[name], name="verify", folder=Path("."), source=f"verify: {name}")
+    problem = problem_of(scene)
+    plan = make_plan(problem, ("finite_element",))
+    refinement, body_cache = Refinement(problem.pitches[0]), BodyCache()
+    level = finite_element_level(problem, plan, refinement, None, Stages(), body_cache=body_cache)
+    grid = level.grid
+    # the bodies that the level was solved on, by the patches that its mesh is refined at
+    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), body_cache)
+    hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
+    load = problem.hertz.load_per_length
+    other = solve_variational_inequality(
+        [(body, hat_forces(body.surface, hats)) for body in bodies.all],
+        grid.hat_integrals(problem.finite_element_gap, problem.knots),
+        grid.weights,
+        load,
+        np.inf if scene.hardness is None else scene.hardness,
+    )
+    pressure = level.solution.pressure
+    difference = float(np.abs(pressure - other.pressure).max() / pressure.max())
+    approach = other.approach - problem.first_touch
+    again = finite_element_level(problem, plan, refinement, None, Stages(), approach, body_cache)
+    loads = float(abs(grid.weights @ again.solution.pressure - load) / load)
+    if not all(mesh is level.mesh for mesh in (bodies.rough.mesh, again.mesh)):
+        raise RuntimeError(f"{name}: the solvers were on different meshes")
+    reference = "PETSc's vinewtonrsls on the whole system"
+    return Findings(
+        (
+            BoundedFigure("pressure", difference, AGREE, reference),
+            BoundedFigure("load", loads, AGREE, reference),
+        )
+    )

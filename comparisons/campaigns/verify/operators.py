@@ -1,0 +1,176 @@
+"""Exact contacts that no scene describes: waves and rounded punches on the half-plane's operators,
+rigid cylinders on the analytic layer. Each is solved on three grids, judged as a scene's levels."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.exact.cases import ExactContact, exact_contacts
+from analytic.exact.layers import LayerReference, layer_references
+from analytic.grid import HatGrid, roller_gap
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
+from analytic.material import Material
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+from analytic.operators.periodic import PeriodicHalfPlane
+from comparisons.campaigns.checks import CheckedCase
+from comparisons.campaigns.verify.coverage import ExactFindings, Pair
+from comparisons.campaigns.verify.scenes import (
+    LAYER_MODULUS,
+    LAYER_RADIUS,
+    LAYER_THICKNESS,
+    NEARLY_INCOMPRESSIBLE,
+)
+from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, Uncertainty, length_resolution
+
+LEVELS = 3
+FULL = 1.0 - 1e-12  # of a period: contact without an edge
+MARGIN = 0.5  # of the half-width: grid beyond the contact
+FORMAL_ORDERS = {"mean_gap": 2.0}  # of figures that are not compared in scenes
+
+
+@dataclass(frozen=True)
+class OperatorContact:
+    """A contact on an operator of the library."""
+
+    name: str
+    source: str
+    kind: str  # wave | punch | layer | rough
+    model: str  # half_plane | layer
+    make: Callable[[int, float], ModelOperator]  # operator of a grid's count and pitch [m]
+    gap: Callable[[np.ndarray], np.ndarray]  # g0(x) [m], smooth but for `knots` [m]
+    knots: tuple[float, ...]
+    load: float
+    span: tuple[float, float]  # (2,) ends of the grid [m]; a period's where it is periodic
+    scale: float  # [m] of which the pitch is a part: half of the contact, or its rounded corner
+    exact: dict[str, float]
+    periodic: bool = False
+    patches: int = 1  # of contact, a period's
+
+
+def operator_contacts() -> tuple[OperatorContact, ...]:
+    contacts = [_contact(c) for c in exact_contacts() if c.period is not None or c.knots]
+    layers = [_layer(r, r.poissons_ratio or NEARLY_INCOMPRESSIBLE) for r in layer_references()]
+    return (*contacts, *layers)
+
+
+def operator_cases(
+    contacts: Sequence[OperatorContact], resolutions: Sequence[float]
+) -> list[CheckedCase]:
+    """Each contact with its own number of elements on the third level."""
+    return [
+        CheckedCase(
+            contact.kind,
+            f"{contact.name}, {elements:g} elements",
+            contact.model,
+            partial(operator_findings, contact, elements),
+        )
+        for contact, elements in zip(contacts, resolutions, strict=True)
+    ]
+
+
+def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
+    levels = [_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1)]
+    history = [_figures(case, *level) for level in levels]
+    grid, solution = levels[-1]
+    iteration = PRESSURE_PER_RESIDUAL * solution.residuals.worst
+    found = []
+    for quantity, exact in case.exact.items():
+        values = [figures[quantity] for figures in history]
+        order = FORMAL_ORDERS.get(quantity) or QUANTITIES[quantity].formal_order
+        length = quantity == "contact_length"
+        resolution = length_resolution(grid.pitch, case.patches) if length else 0.0
+        convergence = grid_convergence(values, order, resolution)
+        scale = abs(values[-1])
+        error = convergence.uncertainty / scale
+        found.append(
+            Pair(
+                case=f"{case.name}, {elements:g} elements",
+                source=case.source,
+                kind=case.kind,
+                model=case.model,
+                quantity=quantity,
+                levels=tuple(values),
+                exact=float(exact),
+                scale=scale,
+                uncertainty=Uncertainty(iteration, error, 0.0, convergence),
+                converged=all(s.converged for _, s in levels),
+            )
+        )
+    return ExactFindings.of(found)
+
+
+def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSolution]:
+    """One grid with about `elements` on the case's scale; a whole even number on a period."""
+    pitch = case.scale / elements
+    if case.periodic:
+        half = round(case.span[1] / pitch)
+        grid = HatGrid(case.span[1] / half, -half, half - 1)
+    else:
+        grid = HatGrid.within(*case.span, pitch)
+    weighted_gap = grid.hat_integrals(case.gap, np.array(case.knots))
+    load = Constraints(load=case.load)
+    return grid, solve_contact(case.make(grid.count, grid.pitch), weighted_gap, grid.weights, load)
+
+
+def _figures(case: OperatorContact, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
+    patches = contact_patches(grid.x, solution.pressure, solution.gap)
+    return {
+        "peak_pressure": float(solution.pressure.max()),
+        "contact_length": float((patches[:, 1] - patches[:, 0]).sum()),
+        "mean_gap": float(solution.gap.mean()),
+    }
+
+
+def _contact(case: ExactContact) -> OperatorContact:
+    names = ("peak_pressure", "contact_length", "mean_gap")
+    exact = {name: case.quantities[name] for name in names if name in case.quantities}
+    half_width = 0.5 * case.quantities["contact_length"]
+    if case.period is None:
+        kind, reach = HalfPlane, (1.0 + MARGIN) * half_width
+    else:
+        kind, reach = PeriodicHalfPlane, 0.5 * case.period
+        if half_width > FULL * reach:
+            exact = {"peak_pressure": exact["peak_pressure"]}  # no edge, no gap
+    return OperatorContact(
+        name=case.name,
+        source=case.source,
+        kind="punch" if case.period is None else "wave",
+        model="half_plane",
+        make=partial(kind, modulus=case.combined_modulus),
+        gap=case.gap,
+        knots=case.knots,
+        load=case.load,
+        span=(-reach, reach),
+        scale=half_width - max(case.knots, default=0.0),
+        exact=exact,
+        periodic=case.period is not None,
+    )
+
+
+def _layer(reference: LayerReference, nu: float) -> OperatorContact:
+    material = Material(LAYER_MODULUS, nu)
+    body = LayeredBody(material, LAYER_THICKNESS, reference.base)
+    unit = material.plane_strain_modulus * LAYER_THICKNESS / LAYER_RADIUS
+    half_width = reference.half_width * LAYER_THICKNESS
+    reach = (1.0 + MARGIN) * half_width
+    return OperatorContact(
+        name=f"analytic layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t",
+        source="slope equation by collocation, analytic/exact/layer_contact.json",
+        kind="layer",
+        model="layer",
+        make=partial(LayeredSurface, body=body),
+        gap=roller_gap(LAYER_RADIUS),
+        knots=(),
+        load=reference.load * unit * LAYER_THICKNESS,
+        span=(-reach, reach),
+        scale=half_width,
+        exact={"peak_pressure": reference.peak_pressure * unit, "contact_length": 2 * half_width},
+    )

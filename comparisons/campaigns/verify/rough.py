@@ -1,0 +1,198 @@
+"""Rough contacts with an exact solution: as scenes, and on the library's operators.
+
+Their initial gap is made from the pressures (`analytic.exact.manufactured`), so that there are as
+many patches as one likes, of any widths, on a half-plane, a layer or a coating. A scene's roughness
+is what the gap lies below a roller's parabola, sampled so densely that its spline leaves errors far
+below any stated uncertainty."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from analytic.exact.cases import ALUMINIUM, CERAMIC, STEEL
+from analytic.exact.manufactured import ManufacturedContact, random_patches
+from analytic.layers.layered import Base, LayeredBody
+from analytic.layers.operator import LayeredSurface
+from analytic.material import Material
+from analytic.profile import Profile
+from analytic.surface.readers.files import MeasuredProfile
+from comparisons.campaigns.checks import CheckedCase
+from comparisons.campaigns.verify.operators import OperatorContact, operator_cases
+from comparisons.campaigns.verify.scenes import (
+    LOOSE,
+    LOOSE_STRESS,
+    ExactScene,
+    elastic_table,
+    fine_half_plane,
+    scene_cases,
+    spread,
+)
+from comparisons.models.problem import Problem
+from comparisons.scenes.profile import KnownTrace
+
+HALF_PLANES, FINITE_ELEMENTS, LAYERS = 20, 3, 4
+# Third level: pressure elements on half of a mean patch. With fewer the first level has not the
+# order of the others yet, and the uncertainties are ten times the errors.
+ELEMENTS, MESHED = (40.0, 110.0), (30.0, 80.0)  # of the half-plane and layer, of finite elements
+FRICTIONS = (0.0, 0.1)
+MANY, FEW = (3, 5, 4, 7, 6), (3, 2, 4)  # patches, by what a solution costs
+REACH = 1e-4  # [m] half of the distance from the first to the last contact
+PRESSURE = 2e9  # [Pa] of the highest asperities
+SAMPLES, BEYOND = 4001, 0.6  # of the trace, and its length beside the contact over REACH
+DEPTH = 0.4  # of REACH: depth of the window, within every layer and coating
+SOURCE = "displacement of the chosen pressures, analytic/exact/manufactured.py"
+
+
+@dataclass(frozen=True)
+class RoughBody:
+    """What is pressed: `material` at the surface, of a `thickness` over REACH on a `base`."""
+
+    name: str
+    material: Material = STEEL
+    thickness: float | None = None
+    base: Base | Material | None = None
+
+
+HALF_PLANE = RoughBody("half-plane")
+LAYERED = (
+    RoughBody("bonded layer", thickness=0.8, base="bonded"),
+    RoughBody("hard coating", CERAMIC, 0.4, ALUMINIUM),
+    RoughBody("frictionless layer", thickness=1.5, base="frictionless"),
+    RoughBody("soft coating", ALUMINIUM, 0.5, STEEL),
+    RoughBody("nearly incompressible layer", Material(207e9, 0.45), 1.0, "bonded"),
+)
+
+
+def rough_contact(
+    seed: int, body: RoughBody = HALF_PLANE, counts: tuple[int, ...] = MANY
+) -> ManufacturedContact:
+    """Patches drawn from the seed, on a body; on a layer or a coating under a rigid roller."""
+    patches = random_patches(seed, counts[seed % len(counts)], REACH, PRESSURE)
+    friction = FRICTIONS[seed % len(FRICTIONS)]
+    if body.thickness is None:
+        return ManufacturedContact(patches, body.material, body.material, None, friction)
+    layer = LayeredBody(body.material, body.thickness * REACH, body.base)
+    return ManufacturedContact(patches, body.material, None, layer, friction)
+
+
+def rough_cases() -> list[CheckedCase]:
+    contacts = rough_operator_contacts()
+    return [
+        *scene_cases(rough_scenes()),
+        *operator_cases(contacts, spread(len(contacts), *ELEMENTS)),
+    ]
+
+
+def rough_scenes(
+    half_planes: int = HALF_PLANES, finite_elements: int = FINITE_ELEMENTS, layers: int = LAYERS
+) -> tuple[ExactScene, ...]:
+    """So many half-planes for the half-plane and for the finite elements, and bodies of LAYERED for
+    the finite elements; with the model error where there are finite elements."""
+    bodies = [HALF_PLANE] * (half_planes + finite_elements) + list(LAYERED[:layers])
+    found = []
+    resolutions = spread(half_planes, *ELEMENTS) + spread(len(bodies) - half_planes, *MESHED)
+    for seed, (body, elements) in enumerate(zip(bodies, resolutions, strict=True)):
+        held = seed % 2 or body.base is not None
+        settings = {} if held else {"far_field": "half-plane"}
+        contact = rough_contact(seed, body, MANY if seed < half_planes else FEW)
+        scene = rough_scene(_name(seed, body, contact), contact, elements, settings)
+        if seed < half_planes:
+            scene = replace(scene, models=("half_plane",))
+        elif body.base is None:
+            scene = replace(scene, half_plane=partial(_no_error, scene))
+        else:
+            scene = replace(scene, half_plane=fine_half_plane)
+        found.append(scene)
+    return tuple(found)
+
+
+def rough_scene(
+    name: str, contact: ManufacturedContact, elements: float, finite_element: Mapping[str, object]
+) -> ExactScene:
+    """The scene of a contact, with so many elements on half a mean patch on the third level."""
+    tables = {
+        "roller": {"radius": roller_radius(contact), **elastic_table(contact.roller)},
+        "body": elastic_table(contact.body),
+        "profile": {"file": "manufactured", "form": "none"},
+        "load": {"per_length": contact.load, "friction": contact.friction, "coupled": False},
+        "stress": {"half_range": f"{1.1 * REACH} m", "depth": f"{DEPTH * REACH} m"},
+        "resolution": {"pitch": 4.0 * _half_patch(contact) / elements},
+        "finite_element": dict(finite_element),
+        "tolerance": LOOSE | LOOSE_STRESS,
+        "budget": {"effects": False},
+    }
+    tables["stress"]["points"] = [60, 20]
+    layer = contact.layer
+    if layer is not None and layer.rigid:
+        tables["body"] |= {"thickness": layer.thickness, "base": layer.base}
+    elif layer is not None:
+        tables["coating"] = tables["body"] | {"thickness": layer.thickness}
+        tables["body"] = elastic_table(layer.base)
+    extremes = contact.extremes(DEPTH * REACH)
+    exact = {
+        "peak_pressure": contact.peak_pressure,
+        "contact_length": contact.contact_length,
+        "tau1_max": extremes["tau1"].value,
+        "tau1_max_depth": extremes["tau1"].z,
+        "txz_max_abs": extremes["txz"].value,
+    }
+    name += f", {elements:g} elements"
+    given = contact.pressure, ("finite_element",), trace_of(contact)
+    return ExactScene(name, SOURCE, "rough", tables, exact, *given)
+
+
+def rough_operator_contacts() -> tuple[OperatorContact, ...]:
+    """Layers and coatings on the library's own operators."""
+    found = []
+    for seed, body in enumerate(LAYERED * 2):
+        contact = rough_contact(seed, body)
+        margin = 0.5 * REACH
+        found.append(
+            OperatorContact(
+                name=_name(seed, body, contact),
+                source=SOURCE,
+                kind="rough",
+                model="layer",
+                make=partial(LayeredSurface, body=contact.layer),
+                gap=contact.gap,
+                knots=(),
+                load=contact.load,
+                span=(contact.ends[0] - margin, contact.ends[1] + margin),
+                scale=_half_patch(contact),
+                exact={
+                    "peak_pressure": contact.peak_pressure,
+                    "contact_length": contact.contact_length,
+                },
+                patches=len(contact.patches),
+            )
+        )
+    return tuple(found)
+
+
+def roller_radius(contact: ManufacturedContact) -> float:
+    """R [m] of a roller whose smooth contact would be as wide as the rough one under its load."""
+    half_width = 0.5 * np.ptp(contact.ends)
+    return float(0.25 * np.pi * contact.modulus * half_width**2 / contact.load)
+
+
+def trace_of(contact: ManufacturedContact) -> KnownTrace:
+    """The roughness under that roller, x = 0 in the middle."""
+    x = np.linspace(-1.0, 1.0, SAMPLES) * (1.0 + BEYOND) * REACH
+    height = 0.5 * x**2 / roller_radius(contact) - contact.gap(x)
+    return KnownTrace(MeasuredProfile(Profile(x, height), "text", None, 0, 0), None)
+
+
+def _no_error(scene: ExactScene, problem: Problem) -> Mapping[str, float]:
+    return scene.exact
+
+
+def _half_patch(contact: ManufacturedContact) -> float:
+    return 0.5 * contact.contact_length / len(contact.patches)
+
+
+def _name(seed: int, body: RoughBody, contact: ManufacturedContact) -> str:
+    return (
+        f"rough {body.name} {seed}, {len(contact.patches)} patches, friction {contact.friction:g}"
+    )

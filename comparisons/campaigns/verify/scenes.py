@@ -1,0 +1,306 @@
+"""Scenes whose exact answer is known, as a user would write them, and their solution.
+
+Each is solved as `run` does, from the tables of a scene to a stated uncertainty, and judged by a
+closed form (or, on layers, by a table of ten digits) that the solution does not use. An elastic
+contact only depends on ratios. For the numerics cases differ by where the edges fall between two
+nodes, so each case has its own number of pressure elements on a half-width.
+
+Nomenclature: a half-width [m], h pitch of the pressure elements [m], R radius [m], p0 peak
+pressure [Pa], mu friction coefficient."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from analytic.exact.cases import (
+    STEEL,
+    Curve,
+    ExactContact,
+    capped_case,
+    exact_contacts,
+    hertz_case,
+    sliding_case,
+)
+from analytic.exact.layers import LayerReference, layer_references
+from analytic.material import Material
+from comparisons.campaigns.checks import CheckedCase
+from comparisons.campaigns.verify.coverage import MODEL_ERROR, ExactFindings, Pair
+from comparisons.common.progress import Stages, no_progress
+from comparisons.common.tasks import Tasks
+from comparisons.figures.convergence import Convergence
+from comparisons.figures.quantity import MODELS, QUANTITIES
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.level_cache import level_cache
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import Problem, problem_of
+from comparisons.models.window import window_of
+from comparisons.runs.refinement import refined
+from comparisons.runs.run import solve
+from comparisons.scenes.profile import KnownTrace
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.studies.contact import figures, relative_l2, uncertainties
+
+FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
+SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
+SHARES = (0.95, 0.8, 0.6)  # of the peak pressure that a hardness leaves
+# a/h of the third level. With fewer the first level has too few open nodes to find an edge from.
+FEWEST_ELEMENTS, MOST_ELEMENTS = 55.0, 130.0
+HALF_PLANE_ROUNDS = 6
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+# Extremes are searched in the window of the field.
+WINDOW = {"half_range": 1.5, "depth": 1.5, "points": [60, 20]}
+LAYER_RADIUS, LAYER_THICKNESS, LAYER_MODULUS = 0.1, 1e-3, 200e9
+FINER = 8.0
+NEARLY_INCOMPRESSIBLE = 0.4999  # beside 0.3, where any Poisson's ratio gives the same
+
+# So loose that three levels always do: the clock must not decide on a fourth.
+LOOSE = {"peak_pressure": 0.9, "contact_length": 0.9}
+LOOSE_STRESS = {"tau1_max": 0.9}
+COMPARED = ("peak_pressure", "contact_length", "tau1_max", "tau1_max_depth", "txz_max_abs")
+
+
+@dataclass(frozen=True)
+class ExactScene:
+    """A scene and its exact figures."""
+
+    # name, source: of the case, and of its solution
+    name: str
+    source: str
+    # Hertz | surface (Hertz, most shear on the surface) | sliding | hardness | layer | rough
+    kind: str
+    tables: Mapping[str, object]  # of the scene, as TOML has them
+    exact: Mapping[str, float]  # figures [SI] by the names of `comparisons.figures.quantity`
+    pressure: Curve | None = None  # p(x) [Pa] where it is known in closed form
+    models: tuple[str, ...] = MODELS  # that the solution holds for
+    trace: KnownTrace | None = None  # in place of the file that the scene's profile names
+    # figures of the half-plane on the same gap, None where its model error is not asked for
+    half_plane: Callable[[Problem], Mapping[str, float]] | None = None
+
+
+def exact_scenes() -> tuple[ExactScene, ...]:
+    return (*gallery_scenes(), *half_plane_scenes(), *finite_element_scenes(), *layer_scenes())
+
+
+def gallery_scenes() -> tuple[ExactScene, ...]:
+    return tuple(
+        scene_of(case)
+        for case in exact_contacts()
+        if case.period is None and not case.knots and case.friction >= 0.0
+    )
+
+
+def half_plane_scenes(rounds: int = HALF_PLANE_ROUNDS) -> tuple[ExactScene, ...]:
+    """Many resolutions, which are cheap for the half-plane."""
+    cases = rollers(FRICTIONS, SLIDING_FRICTIONS, SHARES)
+    return tuple(
+        replace(scene_of(case, elements), models=("half_plane",))
+        for case, elements in zip(cases * rounds, spread(len(cases) * rounds), strict=True)
+    )
+
+
+def finite_element_scenes() -> tuple[ExactScene, ...]:
+    """Fewer, with other far boundaries, sizes, growths and degrees of the finite elements."""
+    settings = (
+        {"far_field": "half-plane"},
+        {"far_field": "half-plane", "element": "P3"},
+        {"block": 200.0, "growth": 0.1},
+    )
+    fewer = rollers(FRICTIONS[::2], (0.5,), (0.8,))
+    asked = [(settings[0], case) for case in rollers(FRICTIONS, (0.5,), (0.8,))]
+    asked += product(settings[1:], fewer)
+    return tuple(
+        replace(scene_of(case, elements, setting), models=("finite_element",))
+        for (setting, case), elements in zip(asked, spread(len(asked)), strict=True)
+    )
+
+
+def spread(count: int, fewest: float = FEWEST_ELEMENTS, most: float = MOST_ELEMENTS) -> list[float]:
+    """Numbers between the two, even on a logarithmic scale, in steps of the golden ratio."""
+    ratio = most / fewest
+    return [round(fewest * ratio ** (k * GOLDEN % 1.0), 1) for k in range(1, count + 1)]
+
+
+def layer_scenes() -> tuple[ExactScene, ...]:
+    """Rigid cylinders on layers, for the finite elements alone."""
+    found = []
+    for reference in layer_references():
+        nu = reference.poissons_ratio
+        ratios = (0.3, NEARLY_INCOMPRESSIBLE) if nu is None else (nu,)
+        found += [layer_scene(reference, ratio) for ratio in ratios]
+    # every other one's model error: with both models it takes twice the time
+    return tuple(
+        replace(scene, half_plane=smooth_half_plane) if number % 2 else scene
+        for number, scene in enumerate(found)
+    )
+
+
+@cache
+def rollers(
+    frictions: tuple[float, ...], sliding_frictions: tuple[float, ...], shares: tuple[float, ...]
+) -> tuple[ExactContact, ...]:
+    """Hertz's contact of like bodies, where friction does not change the pressure; rigid cylinders,
+    where it does; Hertz's contact under a hardness of these shares of the peak pressure."""
+    hertz = (
+        hertz_case(f"Hertz, friction {friction:g}", (STEEL, STEEL), 8.2e-3, 1.4e9, friction)
+        for friction in frictions
+    )
+    sliding = (
+        sliding_case(f"sliding, friction {friction:g}", (STEEL, None), 10e-3, 1e6, friction)
+        for friction in sliding_frictions
+    )
+    capped = (
+        capped_case(f"flattened, hardness {share:g} p0", (STEEL, STEEL), 8.2e-3, 1.4e9, share)
+        for share in shares
+    )
+    return (*hertz, *sliding, *capped)
+
+
+def scene_of(
+    case: ExactContact,
+    elements: float | None = None,
+    finite_element: Mapping[str, object] | None = None,
+) -> ExactScene:
+    """The scene of a roller, with a/h = `elements` on the third level (None: the default)."""
+    radius = 0.5 * case.half_range**2 / float(case.gap(np.array(case.half_range)))
+    load = {"per_length": case.load, "friction": case.friction, "coupled": case.coupled}
+    tables = {
+        "roller": {"radius": radius, **elastic_table(case.roller)},
+        "body": elastic_table(case.body),
+        "load": load,
+        "tolerance": dict(LOOSE),
+    }
+    name = case.name
+    if np.isfinite(case.hardness):
+        tables["body"]["hardness"] = case.hardness
+    if "tau1_max" in case.quantities:
+        tables["stress"], tables["tolerance"] = WINDOW, LOOSE | LOOSE_STRESS
+    if elements is not None:
+        half_width = np.sqrt(4.0 * case.load * radius / (np.pi * case.combined_modulus))
+        tables["resolution"] = {"pitch": 4.0 * float(half_width) / elements}
+        name += f", a/h = {elements:g}"
+    if finite_element is not None:
+        tables["finite_element"] = dict(finite_element)
+        name += "".join(f", {field} {value}" for field, value in finite_element.items())
+    exact = {q: case.quantities[q] for q in COMPARED if q in case.quantities}
+    kind = "hardness" if np.isfinite(case.hardness) else "sliding" if case.coupled else "Hertz"
+    if exact.get("tau1_max_depth") == 0.0:
+        kind = "surface"
+    return ExactScene(name, case.source, kind, tables, exact, case.pressure)
+
+
+def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
+    """A rigid cylinder on a layer of Poisson's ratio `nu`."""
+    modulus = LAYER_MODULUS / (1.0 - nu**2)
+    load = reference.load * modulus * LAYER_THICKNESS**2 / LAYER_RADIUS
+    tables = {
+        "roller": {"radius": LAYER_RADIUS, "rigid": True},
+        "body": {
+            **elastic_table(Material(LAYER_MODULUS, nu)),
+            "thickness": LAYER_THICKNESS,
+            "base": reference.base,
+        },
+        "load": {"per_length": load},
+        "tolerance": dict(LOOSE),
+        "budget": {"effects": False},
+    }
+    exact = {
+        "peak_pressure": reference.peak_pressure * modulus * LAYER_THICKNESS / LAYER_RADIUS,
+        "contact_length": 2.0 * reference.half_width * LAYER_THICKNESS,
+    }
+    name = f"layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t"
+    source = "slope equation by collocation, analytic/exact/layer_contact.json"
+    return ExactScene(name, source, "layer", tables, exact, models=("finite_element",))
+
+
+def scene_cases(scenes: Iterable[ExactScene]) -> list[CheckedCase]:
+    return [
+        CheckedCase(scene.kind, scene.name, model, partial(scene_findings, scene, model))
+        for scene in scenes
+        for model in scene.models
+    ]
+
+
+def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
+    """Solve a scene with one model, as `run` does, and compare each figure with the exact one.
+    Where the half-plane's are known too, both solve it, and its model error is compared."""
+    resolved = resolve_tables(
+        scene.tables,
+        name="verify",
+        folder=Path("."),
+        source=f"verify: {scene.name}",
+        trace=scene.trace,
+    )
+    problem, (friction,) = problem_of(resolved), resolved.friction
+    plan, budget = make_plan(problem, MODELS if scene.half_plane else (model,)), None
+    if scene.half_plane:
+        outcome = solve(problem, plan, None)
+        runs, budget = outcome.runs, outcome.budget
+    else:
+        window = window_of(problem) if plan.stress else None
+        runs, _ = refined(problem, plan, window, level_cache(None, resolved, plan), Tasks())
+    run = runs[model]
+    stated = uncertainties(run, problem, friction)
+    history = [figures(level, problem, friction) for level in run.levels]
+    converged = all(level.solution.converged for each in runs.values() for level in each.levels)
+    common = {"case": scene.name, "source": scene.source, "kind": scene.kind}
+    pairs = [
+        Pair(
+            **common,
+            model=model,
+            quantity=quantity,
+            levels=tuple(level[quantity] for level in history),
+            exact=float(exact),
+            scale=abs(history[-1][quantity]) or QUANTITIES[quantity].scale(problem.hertz),
+            uncertainty=stated[quantity],
+            converged=converged,
+        )
+        for quantity, exact in scene.exact.items()
+    ]
+    if budget is not None:
+        half_plane = scene.half_plane(problem)
+        for quantity, exact in scene.exact.items():
+            found = budget.of(quantity, friction)
+            value, stated = found.value, found.uncertainty  # one number for all causes
+            known = Convergence(value, value, stated, 1.0, None, "too few levels")
+            pairs.append(
+                Pair(
+                    **common,
+                    model="half_plane",
+                    quantity=quantity,
+                    levels=(value,),
+                    exact=half_plane[quantity] / exact - 1.0,
+                    scale=1.0,
+                    uncertainty=Uncertainty(0.0, stated, 0.0, known),
+                    converged=converged,
+                    table=MODEL_ERROR,
+                )
+            )
+    if scene.pressure is None:
+        return ExactFindings.of(pairs)
+    solved = ((level.grid.x, level.solution.pressure) for level in run.levels)
+    return ExactFindings.of(pairs, tuple(relative_l2(p, scene.pressure(x)) for x, p in solved))
+
+
+def smooth_half_plane(problem: Problem) -> dict[str, float]:
+    """Hertz's figures."""
+    hertz = problem.hertz
+    return {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
+
+
+def fine_half_plane(problem: Problem) -> dict[str, float]:
+    """Figures of the half-plane on pressure elements FINER times as small as the third level's."""
+    pitch, (friction,) = problem.reference_pitch / FINER, problem.scene.friction
+    level = half_plane_level(problem, pitch, window_of(problem), Stages(no_progress))
+    return figures(level, problem, friction)
+
+
+def elastic_table(material: Material | None) -> dict:
+    """A material as a scene's table has it; None is rigid."""
+    if material is None:
+        return {"rigid": True}
+    return {"youngs_modulus": material.youngs_modulus, "poissons_ratio": material.poissons_ratio}

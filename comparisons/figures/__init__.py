@@ -1,0 +1,1 @@
+"""What a result is: a figure with its meaning, its uncertainty and its verdict."""

@@ -1,0 +1,116 @@
+"""The uncertainty of a figure: by cause, and how uncertainties are composed. All of it is here.
+
+Causes: iteration, by what is left of the contact conditions; discretisation, by the sequence of
+levels (`comparisons.figures.convergence`); domain, by what halving the distance of the far
+boundary changes. That is as many times smaller than what is left of the boundary's effect as a step
+of refinement of order 1/2 would be: stresses below a held block's contact were seen to go with
+order 0.5 to 1 of its size.
+
+One rule composes them: every part bounds an error of unknown sign, and bounds add linearly,
+
+    U(figure) = iteration + discretisation + domain          U(sum of c f) = sum of |c| U(f)
+
+Roots of sums of squares would need errors that are independent of each other. These are not: both
+models have the same pressure elements, all levels the same solver and block, and an error that
+refinement has not shown yet shows in several parts at once. So it is for a model's figures, for
+effects and model errors, for points of maps and for claims of the paper.
+
+A difference of two solutions on the same pressure elements, or its norm, is a figure with a
+sequence of its own: what these elements leave out is in both. Against exact answers (zero, in 40
+figures of smooth and rough contacts that both models solved) all are covered so, on median by 4.8
+times the error; by the sum of both models' own discretisations, 18 times.
+
+No figure has an uncertainty of discretisation below the resolution that it is read with."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid
+from comparisons.figures.convergence import Convergence
+
+COVERAGE = 0.95  # of true errors by stated uncertainties: what `verify` demands and measures
+DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
+# A contact residual r leaves errors of up to this multiple of r in the pressures: 1e-6 of the
+# displacements' range was seen to leave 2e-3.
+PRESSURE_PER_RESIDUAL = 2e3
+# Of a pitch: how well `contact_patches` finds the edge of a smooth contact between two nodes, at
+# any place of it and on every level (0.047 at worst in 280 contacts).
+EDGE_FOUND = 0.05
+LENGTHS = ("contact_length", "contact_ratio")  # quantities that are read with that resolution
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Relative uncertainty of a figure, by cause; `convergence` says how refinement went."""
+
+    iteration: float
+    discretisation: float
+    domain: float
+    convergence: Convergence
+
+    @property
+    def total(self) -> float:
+        """Sum of the parts: they are bounds, not random."""
+        return self.iteration + self.discretisation + self.domain
+
+
+class SolvedLevel(Protocol):
+    """What is read of a level that is solved (`comparisons.models.level`)."""
+
+    grid: HatGrid
+    solution: ContactSolution
+    patches: np.ndarray  # (k, 2) [m]
+    contact_length: float  # [m]
+
+
+def iteration(*levels: SolvedLevel) -> float:
+    """Relative, of pressures and what follows from them, by the contact residuals of all the
+    levels that a figure, a difference or a norm is made from."""
+    return PRESSURE_PER_RESIDUAL * sum(level.solution.residuals.worst for level in levels)
+
+
+def far_boundary(moved: float, first: float = 0.0) -> float:
+    """In the figure's unit, by its values on the coarsest level with a block of half the size and
+    with the whole one. For a norm of their difference `moved` is that norm."""
+    return DOMAIN * abs(moved - first)
+
+
+def length_resolution(pitch: float, patches: int) -> float:
+    """How finely the length of contact [m] in a number of patches can be read on a grid. The errors
+    of a patch's two edges may add; those of different patches are independent."""
+    return 2.0 * EDGE_FOUND * pitch * float(np.sqrt(patches))
+
+
+def relative_resolution(one: SolvedLevel, other: SolvedLevel) -> float:
+    """The same of (one - other) / other, of two models or of an effect: both lengths err."""
+    edges = [length_resolution(level.grid.pitch, len(level.patches)) for level in (one, other)]
+    ratio = one.contact_length / other.contact_length
+    return (edges[0] + ratio * edges[1]) / other.contact_length
+
+
+def peak_resolution(pressure: np.ndarray) -> float:
+    """How finely the largest pressure can be read from nodal pressures (n,), relative to it. Two
+    models have their peaks at different places between the nodes. Off by half a pitch, a node is an
+    eighth of the second difference too low, and so is an interpolation to other nodes."""
+    top = int(np.argmax(pressure))
+    before, high, after = np.pad(pressure, 1)[top : top + 3]
+    return float(2.0 * (2.0 * high - before - after) / 8.0 / high) if high > 0.0 else 0.0
+
+
+def difference_of_figures(own: float, ratio: float, reference: float) -> float:
+    """Of (figure - reference) / reference, in a run's comparison and in the model error.
+
+    own        uncertainty of the figure, relative to the reference
+    ratio      figure over reference
+    reference  relative uncertainty of the reference. It counts |ratio| times, to first order, and
+               not less than whole: a figure that vanishes says nothing of its reference."""
+    return own + max(1.0, abs(ratio)) * reference
+
+
+def difference_of_norms(refined: float, domain: float, parts: tuple[float, ...]) -> float:
+    """Of the norm of the half-plane against the whole model: by its refinement and far boundary,
+    or, as norms may agree by chance, after the triangle's inequality by its `parts`."""
+    return max(refined + domain, sum(parts))

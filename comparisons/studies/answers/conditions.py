@@ -1,0 +1,70 @@
+"""How well an answer's pressures solve the scene's problem, whoever computed them.
+
+They are put on the models' own pressure elements, and the contact conditions are evaluated with the
+models' operators: the half-plane's always, the finite elements' where they are linear bodies under
+vertical pressures, on the coarsest level. The approach is that which leaves no gap on average by
+pressure. Of interpolation between points at a spacing s a residual of the order (s/a)^1.5 remains.
+"""
+
+from collections.abc import Mapping
+from dataclasses import asdict
+
+from analytic.contact.problem import assessed
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import ComplianceOperator
+from analytic.operators.tangential import CoupledHalfPlane
+from comparisons.common.progress import Stages
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from comparisons.studies.answers.answer import Answer
+
+
+def balance(answer: Answer, problem: Problem) -> float:
+    """(load that the pressures carry - the scene's) / the scene's."""
+    return answer.load / problem.hertz.load_per_length - 1.0
+
+
+def operators_of(
+    problem: Problem, plan: Plan, runs: Mapping[str, ModelRun]
+) -> dict[str, tuple[HatGrid, ComplianceOperator]]:
+    """Pressure elements and compliance by model."""
+    grid = list(runs.values())[-1].finest.grid
+    half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
+    found: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
+    settings = problem.scene.finite_element
+    linear = settings.deformation == "linear" and not settings.plastic
+    if "finite_element" in runs and linear and settings.gap == "reference":
+        level = runs["finite_element"].levels[0]
+        found["finite_element"] = level.grid, _finite_elements(problem, plan, level)
+    return found
+
+
+def conditions(
+    answer: Answer, problem: Problem, operators: Mapping[str, tuple[HatGrid, ComplianceOperator]]
+) -> dict[str, dict]:
+    """`Residuals` by model, but for the load; relative and zero when exact."""
+    return {name: _residuals(answer, problem, *given) for name, given in operators.items()}
+
+
+def _residuals(
+    answer: Answer, problem: Problem, grid: HatGrid, operator: ComplianceOperator
+) -> dict[str, float]:
+    pressure = answer.on(grid.x)
+    gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+    moved, load = operator.apply(pressure), float(grid.weights @ pressure)
+    approach = float(pressure @ (gap + moved)) / load if load > 0.0 else 0.0
+    given = moved, pressure, gap, grid.weights, approach, problem.constraints()
+    found = asdict(assessed(*given, iterations={}).residuals)
+    del found["load_balance"]  # `balance` has it, by the answer's own points
+    return found
+
+
+def _finite_elements(problem: Problem, plan: Plan, level: Level) -> ComplianceOperator:
+    """The compliance of the scene's finite elements on a level, made again."""
+    from comparisons.models.finite_element.bodies import BodyCache, bodies_of
+    from comparisons.models.finite_element.contact import mutual_compliance
+    from comparisons.models.finite_element.mesh import Refinement
+
+    given = problem, plan, Refinement(level.grid.pitch), level.patches, Stages(), BodyCache()
+    return mutual_compliance(problem, bodies_of(*given), level.grid)

@@ -1,0 +1,149 @@
+"""What each effect contributes, alone and jointly, on each level: differences of solutions.
+
+With F(S) the finite elements' solution with the effects S, W all of them, K those that are finite
+deformation together, c normal-tangential coupling, 0 none:
+
+    an effect i            F({i}) - F(0)
+    finite deformation     F(K + c) - F(c), c only under friction, where sliding traction moves it
+    plastic flow           F(flow + c) - F(c)
+    interaction            F(W) - F(0) - the sum of these
+
+These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
+F(W) - F(scene)."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import reduce
+from operator import sub
+from typing import Protocol
+
+from comparisons.models.problem import Problem
+from comparisons.studies.model_error.catalogue import COUPLED, KINEMATIC, kinematic
+from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.studies.model_error.selection import NONLINEAR, ORDER, EffectSelection
+from comparisons.studies.model_error.variants import STRAINED, ModelVariant
+
+
+class NotComputedError(Exception):
+    """A model variant has no solution; the message says why."""
+
+    def __init__(self, variant: ModelVariant, why: str) -> None:
+        super().__init__(variant, why)
+        self.variant = variant
+
+    def __str__(self) -> str:
+        return " ".join(str(self.args[1]).split())
+
+
+@dataclass(frozen=True)
+class SplitVariants:
+    """The variants that the split takes at one friction coefficient."""
+
+    whole: ModelVariant  # with all effects
+    own: ModelVariant | None  # that stands for the scene's own finite elements, None: these
+    nothing: ModelVariant  # without any effect
+    pairs: dict[str, tuple[ModelVariant, ModelVariant]]  # by effect, with and without it
+
+    @property
+    def wholes(self) -> tuple[ModelVariant, ...]:
+        """Those that the model error takes; the others split it."""
+        return (self.whole,) if self.own is None else (self.whole, self.own)
+
+    @property
+    def all(self) -> tuple[ModelVariant, ...]:
+        """Each once, the whole first."""
+        of_pairs = (variant for pair in self.pairs.values() for variant in pair)
+        return tuple(dict.fromkeys((*self.wholes, self.nothing, *of_pairs)))
+
+
+@dataclass(frozen=True)
+class EffectContributions:
+    """At one friction coefficient, on one level."""
+
+    whole: QuantitiesOfInterest  # the finite elements with all effects
+    own: QuantitiesOfInterest  # the scene's own
+    # without any effect; None where nothing is split on this level
+    nothing: QuantitiesOfInterest | None
+    # by effect, the solutions with and without it, as far as there are any
+    pairs: dict[str, tuple[QuantitiesOfInterest, QuantitiesOfInterest]]
+    unsplit: str | None = None  # why there can be no split, else None
+
+    @property
+    def not_contained(self) -> QuantitiesOfInterest:
+        """What the scene's own finite elements lack of the whole."""
+        return self.whole - self.own
+
+    def effect(self, name: str) -> QuantitiesOfInterest:
+        """What an effect changes by itself."""
+        return sub(*self.pairs[name])
+
+    def interaction(self, names: Iterable[str]) -> QuantitiesOfInterest:
+        """What the effects change jointly beyond the sum of the named ones."""
+        return reduce(sub, map(self.effect, names), self.whole - self.nothing)
+
+
+class VariantSolutions(Protocol):
+    """Solutions by variant, number of the level from 1, and friction coefficient."""
+
+    def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
+        """Of the scene's own finite elements."""
+
+    def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
+        """Of a variant; raises NotComputedError."""
+
+
+def split_variants(problem: Problem, selection: EffectSelection, friction: float) -> SplitVariants:
+    """The variants at a friction coefficient, the same on every level."""
+    chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
+    quadratic = problem.scene.finite_element.element != STRAINED and "finite_strain" in chosen
+
+    def variant(effects: frozenset[str]) -> ModelVariant:
+        shaped = effects & {COUPLED, *NONLINEAR}
+        return ModelVariant(effects, friction if shaped else None, quadratic)
+
+    def grown(effects: frozenset[str]) -> frozenset[str]:
+        """With what nonlinear bodies cannot be without."""
+        if "finite_strain" in effects:
+            effects |= kinematic(problem.scene)
+        return effects | ({COUPLED} if friction and effects & set(NONLINEAR) else frozenset())
+
+    nothing, pairs = frozenset(), {}
+    for name in ORDER:
+        inside = name in KINEMATIC[:-1] and "finite_strain" in chosen
+        if name in chosen and not inside:
+            beside = chosen & {COUPLED} if name in NONLINEAR else nothing
+            pairs[name] = variant(grown(beside | {name})), variant(beside)
+    own = None
+    if quadratic:
+        own = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))
+    return SplitVariants(variant(grown(chosen)), own, variant(nothing), pairs)
+
+
+def contributions_of(
+    solutions: VariantSolutions,
+    split: SplitVariants,
+    friction: float,
+    level: int,
+    whole_alone: bool = False,
+) -> EffectContributions:
+    """All contributions on a level, or of the `whole_alone`; raises NotComputedError where that has
+    no solution. An effect without a solution by itself counts in the interaction."""
+
+    def solved(variant: ModelVariant) -> QuantitiesOfInterest:
+        return solutions.solution(variant, level, friction)
+
+    whole = solved(split.whole)
+    own = solved(split.own) if split.own else solutions.scene_solution(level, friction)
+    if whole_alone:
+        return EffectContributions(whole, own, None, {})
+    try:
+        nothing = solved(split.nothing)
+    except NotComputedError as error:
+        return EffectContributions(whole, own, None, {}, str(error))
+    pairs = {}
+    for name, (with_it, without) in split.pairs.items():
+        try:
+            pairs[name] = solved(with_it), solved(without)
+        except NotComputedError:
+            continue
+    return EffectContributions(whole, own, nothing, pairs)

@@ -1,0 +1,366 @@
+"""The error budget of a finished comparison: the model error by effects, and the trace's sampling.
+
+What the sampling leaves unknown is estimated by solving again from every other sample, the even or
+the odd ones: the larger change counts. The half-plane is enough, for both models press one curve.
+
+What cannot change a verdict is left out, unless budget.effects is "all":
+
+1. The effects beside the scene's own finite elements, where every judged figure agrees or differs
+   by the first comparison already, even if these change it by the sum of all their estimates.
+2. The whole's third level, where every judged figure holds, fails, or remains inconclusive by what
+   is not modelled, wherever in its uncertainty on the second level the error comes to lie.
+
+The model error and its uncertainty are stated for every figure in any case."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+from analytic.profile import Profile
+from comparisons.common.cache import Cache
+from comparisons.common.mpi import from_first
+from comparisons.common.progress import Stages
+from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
+from comparisons.figures.verdict import Comparison, ToleranceCheck, is_decided
+from comparisons.models.half_plane import expected_of, half_plane_level
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+from comparisons.studies.coupling import Coupling
+from comparisons.studies.model_error.contributions import (
+    EffectContributions,
+    NotComputedError,
+    SplitVariants,
+    contributions_of,
+    split_variants,
+)
+from comparisons.studies.model_error.model_error import ModelError, model_errors
+from comparisons.studies.model_error.quantities_of_interest import quantities_of, relative_sizes
+from comparisons.studies.model_error.selection import EffectSelection, select_effects
+from comparisons.studies.model_error.solutions import SolvedVariants
+from comparisons.studies.model_error.variants import ModelVariant
+
+SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
+LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
+SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
+ASKED = 'budget.effects = "all" computes it'
+GROWTH_OF_TIME = 3.2  # from one level to the next, at most
+
+
+@dataclass(frozen=True)
+class ErrorBudget:
+    """What separates the half-plane from the whole model, and both from the surface."""
+
+    selection: EffectSelection  # which effects were computed
+    levels: int  # that the whole was taken to; 0 where it has no solution
+    unsplit: str | None  # why the difference of the models could not be split, else None
+    model_errors: tuple[ModelError, ...]  # of each quantity at each friction coefficient
+    # by friction and quantity: what half the samples of the trace change
+    sampling: dict[float, dict[str, float]]
+    seconds: float  # that the effects took
+    # by friction, the finite elements with every effect that matters, on the finest level of the
+    # effects, with their fields
+    wholes: dict[float, Level] = field(default_factory=dict)
+    # which further level of the whole cannot change a verdict, else None
+    left_out: str | None = None
+
+    def of(self, quantity: str, friction: float) -> ModelError:
+        wanted = quantity, friction
+        return next(e for e in self.model_errors if (e.quantity, e.friction) == wanted)
+
+    def beyond(self, quantity: str, tolerance: Mapping[str, float]) -> float | None:
+        """Root of the sum of squares of what is estimated and not modelled, where it exceeds the
+        tolerance of a quantity: the figure then says little, whatever it is; else None."""
+        size = math.hypot(*self.selection.not_modelled(quantity).values())
+        return size if size > tolerance.get(quantity, math.inf) else None
+
+    def tolerance_checks(self, tolerance: Mapping[str, float]) -> list[ToleranceCheck]:
+        """Of every model error that has a tolerance."""
+        return _tolerance_checks(self.model_errors, self.selection, tolerance)
+
+
+def error_budget(
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    runs: dict[str, ModelRun],
+    rows: tuple[Comparison, ...],
+    couplings: tuple[Coupling, ...],
+    cache: Cache,
+    tasks: Tasks,
+) -> ErrorBudget:
+    """Select the effects that may matter, solve them, and split the difference of the models. An
+    effect that cannot be solved is not modelled: its estimate and the reason are kept."""
+    half_plane = runs["half_plane"]
+    selection = _selected(problem, plan, half_plane, couplings)
+    is_frugal = problem.scene.budget.effects != "all"
+    if is_frugal and selection.added and _is_decided(rows, selection):
+        selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
+    patches, unsplit = half_plane.levels[0].patches, None
+    solved = SolvedVariants(problem, window, runs["finite_element"], cache, tasks, patches)
+    while True:
+        splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
+        solved.keep(split.whole for split in splits.values())
+        try:
+            frugal = selection if is_frugal else None
+            levels, own, unsplit, left_out = _refined(half_plane, rows, splits, solved, frugal)
+            wholes = {mu: solved.finest(split.whole) for mu, split in splits.items()}
+            break
+        except NotComputedError as error:
+            dropped = _given_up(selection, splits, solved)
+            if not dropped:  # what the scene itself has cannot be taken apart
+                levels, own, unsplit, left_out = 0, _unsplit(rows), str(error), None
+                wholes = dict.fromkeys(splits, runs["finite_element"].finest)
+                break
+            selection = selection.without(dropped, str(error))
+    sampling = {}
+    if problem.scene.profile is not None:
+        sampling = sampling_changes(problem, window, half_plane.levels, tasks)
+    own, seconds = tuple(own), solved.seconds
+    return ErrorBudget(selection, levels, unsplit, own, sampling, seconds, wholes, left_out)
+
+
+def announce_effects(
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    half_plane: ModelRun,
+    couplings: tuple[Coupling, ...],
+    cache: Cache,
+    tasks: Tasks,
+) -> Callable[[], None]:
+    """Make known to the tasks what `error_budget` will ask for, as far as the half-plane alone, on
+    the levels that the scene asks for, can tell: they may begin before the finite elements are
+    done. Should the half-plane's finest level select other effects, these are solved then.
+
+    To be called where the scene's own finite elements leave a figure open on the least levels is
+    what is returned: so will the whole, whose further level need not wait until it does. A process
+    then stays with the bodies of one level."""
+    selection = _selected(problem, plan, half_plane, couplings)
+    patches = half_plane.levels[0].patches
+    solved = SolvedVariants(problem, window, None, cache, tasks, patches)
+    splits = [split_variants(problem, selection, mu) for mu in problem.scene.friction]
+    solved.keep(split.whole for split in splits)
+    wholes = [each for split in splits for each in split.wholes]
+    every = [each for split in splits for each in split.all]
+    most = min(_most_levels(problem), len(half_plane.levels))
+
+    def announce(splitting: int, further: int) -> None:
+        for number in range(1, most + 1):
+            is_further = number > LEAST_LEVELS
+            solved.announce(wholes, number, further if is_further else LATER)
+            solved.announce(() if is_further else every, number, splitting)
+
+    announce(LAST, PERHAPS)
+    _announce_sampling(problem, window, half_plane.levels, tasks)
+    return partial(announce, LATER, LATER)
+
+
+def _selected(
+    problem: Problem, plan: Plan, half_plane: ModelRun, couplings: tuple[Coupling, ...]
+) -> EffectSelection:
+    pressure = half_plane.finest.solution.pressure
+    mean = float(pressure @ pressure / pressure.sum())
+    selection = select_effects(problem, float(pressure.max()), couplings, mean)
+    if plan.effects:
+        return selection
+    asked = selection.added | set(selection.impossible) - {"law_of_elasticity"}
+    return selection.without(asked, "not asked for (budget.effects)")
+
+
+def _most_levels(problem: Problem) -> int:
+    return min(MOST_LEVELS, problem.scene.budget.levels or MOST_LEVELS)
+
+
+def _refined(
+    half_plane: ModelRun,
+    rows: tuple[Comparison, ...],
+    splits: dict[float, SplitVariants],
+    solved: SolvedVariants,
+    frugal: EffectSelection | None,
+) -> tuple[int, list[ModelError], str | None, str | None]:
+    """The level that the whole was taken to, the model errors, why these are not split, and which
+    level cannot change a verdict.
+
+    frugal  what was selected, where such a level is left out; else None
+
+    The split stays on the least levels, unless the whole and the scene's own finite elements are
+    all that it takes. Raises NotComputedError where a whole has no solution on the least levels."""
+    problem, runs = solved.problem, {"half_plane": half_plane, "finite_element": solved.own}
+    history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
+    own: list[ModelError] = []
+    left_out, tolerance = None, problem.scene.tolerance
+    most = min(_most_levels(problem), len(solved.own.levels))
+    every = dict.fromkeys(each for split in splits.values() for each in split.all)
+    wholes = dict.fromkeys(each for split in splits.values() for each in split.wholes)
+
+    def take(number: int, alone: bool) -> None:
+        """A level into the history."""
+        solved.prepare(wholes if alone else every, number)
+        new = {mu: contributions_of(solved, splits[mu], mu, number, alone) for mu in history}
+        for mu, parts in new.items():
+            history[mu][number - 1 : number] = [parts]
+
+    def errors() -> list[ModelError]:
+        by_friction = {mu: [row for row in rows if row.friction == mu] for mu in history}
+        given = problem, solved.window, runs
+        return [
+            e for mu, there in by_friction.items() for e in model_errors(*given, there, history[mu])
+        ]
+
+    for number in range(1, LEAST_LEVELS + 1):
+        solved.announce(every, number, LAST)
+    for number in range(1, most + 1):  # the wholes, which others need, before what splits them
+        if number > LEAST_LEVELS and _is_beyond(solved, number, wholes):
+            break
+        try:
+            take(number, alone=True)
+        except NotComputedError:
+            if number <= LEAST_LEVELS:
+                raise
+            break
+        own = errors()
+        if number >= LEAST_LEVELS and _settled(rows, own):
+            break
+        if LEAST_LEVELS <= number < most and frugal:
+            checks = _tolerance_checks(own, frugal, tolerance)
+            if all(check.is_fixed for check in checks):
+                left_out = f"level {number + 1} of the whole model: cannot change a verdict"
+                left_out += f" ({ASKED})"
+                break
+    for number in range(1, len(next(iter(history.values()))) + 1):
+        if number <= LEAST_LEVELS or not any(solved.is_open(each, number) for each in every):
+            take(number, alone=False)
+    own = errors()
+    found = [parts.unsplit for of_friction in history.values() for parts in of_friction]
+    unsplit = next(filter(None, found), None)
+    return len(next(iter(history.values()))), own, unsplit, left_out
+
+
+def _is_decided(rows: tuple[Comparison, ...], selection: EffectSelection) -> bool:
+    """Whether every judged row agrees or differs whatever the effects do that its finite elements
+    do not have."""
+    missing = [sizes for n, sizes in selection.estimates.items() if n not in selection.contained]
+    return all(
+        row.uncertainty is not None
+        and is_decided(
+            row.difference,
+            row.uncertainty,
+            sum(sizes.get(row.quantity, 0.0) for sizes in missing),
+            row.tolerance,
+        )
+        for row in rows
+        if row.tolerance is not None
+    )
+
+
+def _tolerance_checks(
+    errors: Iterable[ModelError], selection: EffectSelection, tolerance: Mapping[str, float]
+) -> list[ToleranceCheck]:
+    found = []
+    for error in errors:
+        name, value, uncertainty = error.quantity, error.value, error.uncertainty
+        if name in tolerance:
+            left = selection.not_modelled(name), tolerance[name]
+            found.append(ToleranceCheck(name, error.friction, value, uncertainty, *left))
+    return found
+
+
+def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant]) -> bool:
+    """Whether a level of these variants would exceed the time, by the laws of cost: clocks would
+    give another machine other figures."""
+    spent = sum(level.expected_seconds for level in solved.own.levels)
+    spent += sum(solved.expected_of(each) for each in range(1, number))
+    finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
+    return spent + finer > solved.problem.scene.budget.time
+
+
+def _unsplit(rows: tuple[Comparison, ...]) -> list[ModelError]:
+    """The models' differences as they are."""
+    found = []
+    for row in rows:
+        uncertainty = math.inf if row.uncertainty is None else row.uncertainty
+        found.append(ModelError(row.quantity, row.friction, {}, 0.0, row.difference, uncertainty))
+    return found
+
+
+def _settled(rows: tuple[Comparison, ...], own: list[ModelError]) -> bool:
+    """Whether the effects add little to the uncertainty of every judged figure."""
+    found = {(e.quantity, e.friction): e.uncertainty for e in own}
+    return all(
+        found[row.quantity, row.friction]
+        <= (row.uncertainty or 0.0) + SHARE_OF_TOLERANCE * row.tolerance
+        for row in rows
+        if row.tolerance is not None
+    )
+
+
+def _given_up(
+    selection: EffectSelection, splits: dict[float, SplitVariants], solved: SolvedVariants
+) -> frozenset[str]:
+    """The added effects to leave out where the whole has no solution: those that have none by
+    themselves, else finite deformation, else all."""
+    failed = {variant for variant, _ in solved.failed}
+    alone = {
+        name
+        for split in splits.values()
+        for name, (with_it, _) in split.pairs.items()
+        if with_it in failed
+    }
+    for fewer in (alone, {"finite_strain"}):
+        if selection.added & fewer:
+            return selection.added & fewer
+    return selection.added
+
+
+def sampling_changes(
+    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
+) -> dict[float, dict[str, float]]:
+    """By friction coefficient and quantity, the relative change from half the samples.
+
+    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared"""
+    level, found = levels[:SAMPLED][-1], {}
+    for first, key in enumerate(_announce_sampling(problem, window, levels, tasks)):
+        thinned, other = _thinned(problem, first), tasks.result(key)
+        for friction in problem.scene.friction:
+            sizes = found.setdefault(friction, {})
+            whole = quantities_of(level, problem, friction).largest()
+            change = quantities_of(other, thinned, friction).largest() - whole
+            for name, size in relative_sizes(change, whole, problem, window).items():
+                sizes[name] = max(sizes.get(name, 0.0), abs(size))
+    return found
+
+
+def _announce_sampling(
+    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
+) -> list[str]:
+    """The keys of the tasks that solve from the even and from the odd samples."""
+    if problem.scene.profile is None:
+        return []
+    number = min(SAMPLED, len(levels))
+    keys, grid = [f"sampling-{first}-{number}" for first in (0, 1)], levels[number - 1].grid
+    cost = expected_of(grid.count)
+    for first, key in enumerate(keys):
+        given = problem, first, grid.pitch, window
+        tasks.add(key, _sampled, *given, seconds=cost.seconds, memory=cost.memory, urgency=LAST)
+    return keys
+
+
+def _sampled(
+    here: Here, problem: Problem, first: int, pitch: float, window: Window | None
+) -> Level:
+    here.callback("error budget: sampling of the trace")
+    thinned = _thinned(problem, first)
+    return from_first(lambda: half_plane_level(thinned, pitch, window, Stages()))
+
+
+def _thinned(problem: Problem, first: int) -> Problem:
+    """The problem with every other sample of its profile from the given one on, and both ends, so
+    that nothing is cut off; on the same grids."""
+    profile, scene = problem.scene.profile, problem.scene
+    last = len(profile.x) - 1
+    samples = sorted({0, *range(first, last + 1, 2), last})
+    profile = Profile(profile.x[samples], profile.height[samples])
+    return replace(problem, scene=replace(scene, profile=profile))

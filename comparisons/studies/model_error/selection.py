@@ -1,0 +1,108 @@
+"""Which effects a run computes: those that may move a judged figure by a share of its tolerance."""
+
+from dataclasses import dataclass, replace
+
+from comparisons.common.mpi import is_several
+from comparisons.models.assumptions import laws
+from comparisons.models.problem import Problem
+from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.coupling import Coupling
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
+from comparisons.studies.model_error.estimates import Sizes, estimates
+
+SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
+# Effects in the order of the sums of their contributions, whose last bit depends on it.
+NONLINEAR = ("finite_strain", "plastic_flow")
+ORDER = (
+    "exact_circle",
+    "coating",
+    "normal_tangential_coupling",
+    "finite_roller",
+    "deformed_gap",
+    "finite_size",
+    "rough_boundary",
+    *NONLINEAR,
+)
+
+
+@dataclass(frozen=True)
+class EffectSelection:
+    """What becomes of every effect."""
+
+    contained: frozenset[str]  # the scene's own finite elements have it
+    added: frozenset[str]  # computed beside, for the verdict
+    negligible: dict[str, Sizes]  # too small to matter, each with its estimate
+    impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
+    estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
+
+    @property
+    def whole(self) -> frozenset[str]:
+        """Effects of the whole model, which the verdict is about."""
+        return self.contained | self.added
+
+    def without(self, names: frozenset[str], why: str) -> "EffectSelection":
+        """The same without some of the added effects, for a reason."""
+        impossible = self.impossible | dict.fromkeys(names, why)
+        return replace(self, added=self.added - names, impossible=dict(sorted(impossible.items())))
+
+    def not_modelled(self, quantity: str) -> Sizes:
+        """By name, estimates of the effects on a quantity that no model has."""
+        open_effects = set(self.negligible) | set(self.impossible)
+        return {
+            name: sizes[quantity]
+            for name, sizes in self.estimates.items()
+            if name in open_effects and quantity in sizes
+        }
+
+
+def select_effects(
+    problem: Problem, peak: float, couplings: tuple[Coupling, ...], mean: float | None = None
+) -> EffectSelection:
+    """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure, `mean` the mean of
+    its contact, by default the same."""
+    own, tolerance = contained(problem.scene), problem.scene.tolerance
+    found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
+    sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
+    added, negligible, impossible = set(), {}, {}
+    for name, sizes in sized.items():
+        if name in own:
+            continue
+        matters = any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
+        why = why_not(name, problem)
+        if not matters:
+            negligible[name] = sizes
+        elif why is not None:
+            impossible[name] = why
+        else:
+            added.add(name)
+    if any(problem.scene.friction) and (added | own) & set(NONLINEAR):
+        negligible.pop(COUPLED, None)  # these bodies have it
+    return EffectSelection(own, frozenset(added), negligible, impossible, sized)
+
+
+def law_leaned_on(selection: EffectSelection, scene: ResolvedScene) -> str:
+    """For the end of a sentence: the law of elasticity that the whole has, where the scene gives
+    one and nothing is left of its spread; else nothing."""
+    if "finite_strain" not in selection.whole or "law_of_elasticity" in selection.estimates:
+        return ""
+    return f", with {laws(scene)} elasticity"
+
+
+def why_not(name: str, problem: Problem) -> str | None:
+    """Why an effect cannot be computed in a scene, or None."""
+    scene = problem.scene
+    if name == "law_of_elasticity":
+        return "no law is given: it is taken for neo-Hookean"
+    if name == "plastic_flow":
+        if scene.yielding is None:
+            return "the body has no yield stress"
+        return "the scene says finite_element.plastic = false"
+    if name != "finite_strain":
+        return None
+    reasons = {
+        "flow is of small deformation": scene.finite_element.plastic,
+        "a cap on the pressure is of small deformation": scene.hardness is not None,
+        "the body is coated": scene.coating is not None,
+        "it is solved on one process": is_several(),
+    }
+    return next((why for why, hindered in reasons.items() if hindered), None)

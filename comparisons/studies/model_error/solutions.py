@@ -1,0 +1,174 @@
+"""Model variants solved level by level, each once, as tasks of the run."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from analytic.contact.problem import ContactError
+from comparisons.common.cache import Cache
+from comparisons.common.errors import InputError
+from comparisons.common.progress import Stages
+from comparisons.common.tasks import LATER, Here, Tasks
+from comparisons.figures.quantity import MODELS
+from comparisons.models.forecast import expected_level
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import Plan, make_plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+from comparisons.studies.model_error.catalogue import EFFECTS, contained, is_taken_apart
+from comparisons.studies.model_error.contributions import NotComputedError
+from comparisons.studies.model_error.quantities_of_interest import (
+    QuantitiesOfInterest,
+    quantities_of,
+)
+from comparisons.studies.model_error.variants import ModelVariant, problem_with
+from fem.solver.mumps import FemError
+from meshes.block import MeshError
+
+CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
+
+
+@dataclass
+class SolvedVariants:
+    """Quantities of interest of model variants on the levels of a problem."""
+
+    problem: Problem
+    window: Window | None
+    own: ModelRun | None  # the scene's own finite elements; None while they are not solved yet
+    cache: Cache  # of levels
+    tasks: Tasks  # that solve the variants
+    # (k, 2) [m] of the half-plane's contact: what the variants' tasks will take
+    patches: np.ndarray
+    # by variant, number of the level from 1, and friction coefficient
+    solved: dict[tuple[ModelVariant, int, float], QuantitiesOfInterest] = field(
+        default_factory=dict
+    )
+    # why a variant has no solution, by variant and number of the level
+    failed: dict[tuple[ModelVariant, int], NotComputedError] = field(default_factory=dict)
+    seconds: float = 0.0  # that the variants took, of all processes together
+    # the same by the laws of cost [s], by variant and number of the level
+    expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
+    # the variants whose finest level is kept, with its fields; by these, the level
+    wholes: dict[ModelVariant, Level | None] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        scene = self.problem.scene
+        self._own_effects = contained(scene) if is_taken_apart(scene) else None
+
+    def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
+        """Of the scene's own finite elements."""
+        return quantities_of(self.own.levels[number - 1], self.problem, friction)
+
+    def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
+        """Of a variant on a level, solved where it is new; raises NotComputedError."""
+        if self._is_own(variant):
+            return self.scene_solution(number, friction)
+        self.prepare([variant], number)
+        if (variant, number) in self.failed:
+            raise self.failed[variant, number]
+        return self.solved[variant, number, friction]
+
+    def prepare(self, asked: Iterable[ModelVariant], number: int) -> None:
+        """Solve the variants that are new on a level."""
+        for variant, key in self.announce(asked, number):
+            try:
+                self._keep(variant, number, self.tasks.result(key))
+            except NotComputedError as error:
+                self.failed[variant, number] = error
+
+    def announce(
+        self, asked: Iterable[ModelVariant], number: int, urgency: int = LATER
+    ) -> list[tuple[ModelVariant, str]]:
+        """Make those that are new on a level known to the tasks; each with its task's key."""
+        new = [each for each in dict.fromkeys(asked) if self.is_open(each, number)]
+        new.sort(key=lambda variant: "finite_strain" not in variant.effects)  # the dearest first
+        return [(variant, self._add(variant, number, urgency)) for variant in new]
+
+    def is_open(self, variant: ModelVariant, number: int) -> bool:
+        """Whether a level of a variant is yet to be solved."""
+        frictions = self.problem.scene.friction
+        solved = any((variant, number, mu) in self.solved for mu in frictions)
+        return not (self._is_own(variant) or solved or (variant, number) in self.failed)
+
+    def expected_of(self, number: int, asked: Iterable[ModelVariant] | None = None) -> float:
+        """Seconds that the variants of a level take by the laws of cost, or those asked for."""
+        known = {each: cost for (each, level), cost in self.expected.items() if level == number}
+        return math.fsum(known.get(each, 0.0) for each in (known if asked is None else asked))
+
+    def keep(self, wholes: Iterable[ModelVariant]) -> None:
+        """Take these for `wholes`, from their first level on."""
+        self.wholes = dict.fromkeys(wholes)
+        self.solved = {key: each for key, each in self.solved.items() if key[0] not in self.wholes}
+
+    def finest(self, variant: ModelVariant) -> Level:
+        """The finest level of one of the `wholes`."""
+        return self.own.finest if self._is_own(variant) else self.wholes[variant]
+
+    def _is_own(self, variant: ModelVariant) -> bool:
+        frictions = self.problem.scene.friction
+        shaped = variant.friction is None or frictions == (variant.friction,)
+        return shaped and not variant.quadratic and variant.effects == self._own_effects
+
+    def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
+        whole, problem = variant in self.wholes, problem_with(self.problem, variant)
+        key = f"{'whole' if whole else 'part'}-{variant.name}-{number}"
+        plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
+        cost = expected_level("finite_element", problem, plan, pitch, self.patches)
+        given = self.cache, key, problem, plan, self.window, variant, number, whole
+        size = {"seconds": cost.seconds, "memory": cost.memory}
+        self.expected.setdefault((variant, number), cost.seconds)
+        self.tasks.add(key, _level, *given, **size, urgency=urgency, shares=pitch)
+        return key
+
+    def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
+        """Note the solution of a variant on a level."""
+        self.seconds += sum(level.seconds.values())
+        if variant in self.wholes:
+            self.wholes[variant] = level
+        self.expected[variant, number] = level.expected_seconds
+        problem = problem_with(self.problem, variant)
+        for each in problem.scene.friction:
+            self.solved[variant, number, each] = quantities_of(level, problem, each)
+
+
+def _level(here: Here, cache: Cache, key: str, *given: object) -> Level:
+    """What `_solved` finds with what is `given`, from the cache or into it."""
+    level = cache.load(key)
+    if level is None:
+        level = _solved(here, *given)
+        cache.save(key, level)
+    return level
+
+
+def _solved(
+    here: Here,
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    variant: ModelVariant,
+    number: int,
+    fields: bool,
+) -> Level:
+    """A variant's `problem` on a level, with its mesh's `fields` where asked; raises
+    NotComputedError."""
+    from comparisons.models.finite_element.bodies import BodyCache
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement
+
+    words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
+    here.callback(f"error budget: finite elements with {words}, level {number}")
+    pitch = problem.pitches[0] / 2.0 ** (number - 1)
+    body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
+    wanted = problem, plan, Refinement(pitch), window, Stages()
+    try:
+        level = finite_element_level(*wanted, body_cache=body_cache, fields=fields)
+    except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
+        raise NotComputedError(variant, str(error)) from error
+    if not level.solution.converged:
+        raise NotComputedError(variant, f"the contact did not converge on level {number}")
+    low, high = problem.extent
+    if level.patches[0, 0] < low + CLEAR * pitch or level.patches[-1, 1] > high - CLEAR * pitch:
+        raise NotComputedError(variant, "the contact reaches the end of the pressures")
+    return level

@@ -1,0 +1,97 @@
+"""What a scene's uncertain inputs do to the half-plane's figures."""
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import asdict
+from functools import partial
+
+import numpy as np
+
+from comparisons.common.cache import Cache
+from comparisons.common.tasks import LATER, Here, Tasks
+from comparisons.models.half_plane import expected_of
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
+from comparisons.studies.contact import figures as compared_figures
+from comparisons.studies.scatter.figures import InputScatter, ScatteredFigure
+from comparisons.studies.scatter.samples import solve_samples, solved, values_at
+from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
+
+TOGETHER = 16  # samples of a task: what an interrupted run may lose
+
+
+def announce_scatter(
+    problem: Problem, cache: Cache, tasks: Tasks, executor: Executor | None = None
+) -> Callable[[Level], InputScatter]:
+    """Make the samples known to the tasks of a run, or give them to an executor; what is returned
+    waits for them, and takes the half-plane's finest level."""
+    scene, wanted = problem.scene, problem.scene.scatter
+    points = designs(wanted.samples, len(wanted.inputs), wanted.seed)
+    x = problem.grid(problem.pitches[0]).x
+    cost = expected_of(len(x)).seconds * TOGETHER
+    waits = []
+    for start in range(0, points[..., 0].size, TOGETHER):
+        batch = points.reshape(-1, len(wanted.inputs))[start : start + TOGETHER]
+        key, given = f"scatter-{start}", (scene, batch, x)
+        if executor is None:
+            tasks.add(key, _batch, cache, key, *given, seconds=cost, urgency=LATER)
+            waits.append(partial(tasks.result, key))
+        else:
+            waits.append(executor.submit(solve_samples, *given).result)
+    return lambda finest: _gathered(problem, finest, points, [wait() for wait in waits])
+
+
+def _batch(here: Here, cache: Cache, key: str, *given: object) -> dict[str, object]:
+    """Some samples, from the cache or into it."""
+    found = cache.load(key)
+    if found is None:
+        here.callback("half-plane: uncertain inputs")
+        found = solve_samples(*given)
+        cache.save(key, found)
+    return found
+
+
+def _gathered(
+    problem: Problem, finest: Level, points: np.ndarray, batches: list[dict]
+) -> InputScatter:
+    """Figures, shares and band from the batches in their order."""
+    wanted, (nominal, _) = problem.scene.scatter, solved(problem)
+    x = problem.grid(problem.pitches[0]).x
+    found = [each for batch in batches for each in batch["figures"]]
+    why = [each for each in found if isinstance(each, str)]
+    figures = []
+    columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
+    scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
+    for number, (friction, coarse) in enumerate(nominal.items()):
+        for quantity, value in compared_figures(finest, problem, friction).items():
+            values = [np.nan if isinstance(f, str) else f[number][quantity] for f in found]
+            values = np.array(values).reshape(len(points), -1)
+            if coarse[quantity]:
+                values *= value / coarse[quantity]
+            drawn = values[np.isfinite(values)]
+            if not drawn.size:
+                continue
+            spread = drawn.std(ddof=1) if drawn.size > 1 else 0.0
+            ends = _interval(drawn)
+            parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
+            row = quantity, friction, value, float(drawn.mean()), float(spread)
+            figures.append(ScatteredFigure(*row, tuple(map(float, ends)), parts))
+    pressures = np.concatenate([batch["pressures"] for batch in batches])
+    pressures = pressures[np.isfinite(pressures[:, 0])]
+    band = _interval(pressures) if len(pressures) else np.full((2, len(x)), np.nan)
+    counts = wanted.samples, len(found), len(why), why[0] if why else None
+    return InputScatter(tuple(figures), *counts, problem.pitches[0], x, band)
+
+
+def _interval(values: np.ndarray) -> np.ndarray:
+    """The central INTERVAL of values along the first axis: (2, …)."""
+    return np.percentile(values, (50.0 * (1.0 - INTERVAL), 50.0 * (1.0 + INTERVAL)), axis=0)
+
+
+def _by_input(found: Shares | None, inputs: tuple[str, ...]) -> dict | None:
+    if found is None:
+        return None
+    columns = {name: values.tolist() for name, values in asdict(found).items()}
+    return {
+        name: {kind: values[i] for kind, values in columns.items()} for i, name in enumerate(inputs)
+    }

@@ -1,0 +1,226 @@
+"""Interrupted cost studies go on from what they have measured, and measure it once."""
+
+import json
+import os
+import signal
+import sys
+from contextlib import nullcontext
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenes import SMOOTH, STEEL, changed, resolved
+
+from comparisons.campaigns.cost import methods as cost_methods
+from comparisons.campaigns.cost import study as cost_study
+from comparisons.campaigns.cost.cost import GOES_ON, _problem, cost
+from comparisons.campaigns.cost.measure import CostTask, MeasuredRun, measure
+from comparisons.campaigns.cost.methods import FINEST, METHODS
+from comparisons.campaigns.cost.study import FOLDER, cost_cache
+from comparisons.common.progress import no_progress
+from comparisons.models.finite_element.level import problem_of_approach
+
+SMALL = tuple(method for method in METHODS if method.name in (FINEST.name, "P2"))
+# The command line, with methods and settings left out that would only take time.
+COMMAND = """
+import sys
+from comparisons.campaigns.cost import cost, methods
+from comparisons.cli import main
+methods.HALF_PLANE_PITCHES, methods.FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5), (2.0, 1.0)
+small = tuple(m for m in methods.METHODS if m.name in ("hats, FFT", "P2"))
+cost.cost.__defaults__ = (*cost.cost.__defaults__[:-1], small)
+if __name__ == "__main__":
+    sys.exit(main())
+"""
+
+
+def saved(out: Path) -> dict[str, int]:
+    """The measured settings, and when each was written."""
+    return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.npz")}
+
+
+class Here:
+    """Measures in this process, at few settings.
+
+    asked    method and setting of each that was measured
+    stop_at  the number of the one that is interrupted, 0 for none
+    """
+
+    def __init__(self) -> None:
+        self.asked, self.stop_at = [], 0
+
+    def call(self, function, task: CostTask) -> MeasuredRun:
+        assert function is measure
+        self.asked.append((task.method, task.setting))
+        if self.stop_at == len(self.asked):
+            raise KeyboardInterrupt
+        return measure(task)
+
+
+@pytest.fixture
+def here(monkeypatch) -> Here:
+    found = Here()
+    monkeypatch.setattr(cost_methods, "HALF_PLANE_PITCHES", (2.0, 1.0, 0.5))
+    monkeypatch.setattr(cost_methods, "FINITE_ELEMENT_PITCHES", (2.0,))
+    monkeypatch.setattr(cost_study, "fresh_process", lambda: nullcontext(found.call))
+    monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda found: "")
+    return found
+
+
+@pytest.fixture(scope="module")
+def measured() -> tuple[CostTask, MeasuredRun]:
+    """A setting with stresses under two frictions."""
+    made = resolved(changed(SMOOTH, stress={"points": [60, 20]}, load={"friction": [0.0, 0.1]}))
+    task = CostTask(made, None, FINEST.name, 1e-5, repeats=2)
+    return task, measure(task)
+
+
+class TestStore:
+    def test_what_comes_back_is_what_was_measured(self, measured, tmp_path):
+        task, found = measured
+        cache = cost_cache(tmp_path, task.scene, 2)
+        assert cache.load(task.name) is None
+        cache.save(task.name, found)
+        again = cache.load(task.name)
+        for name in ("seconds", "total", "wall", "spread", "repeats", "memory", "spent"):
+            assert getattr(again, name) == getattr(found, name)
+        assert again.solved.figures == found.solved.figures
+        assert np.array_equal(again.solved.pressure, found.solved.pressure)
+        for one, other in zip(again.solved.stresses, found.solved.stresses, strict=True):
+            assert one.extremes == other.extremes
+            assert np.array_equal(one.field.sx, other.field.sx)
+        assert again.solved.level.solution.residuals == found.solved.level.solution.residuals
+
+    def test_settings_are_told_apart(self, measured, tmp_path):
+        task, found = measured
+        cache = cost_cache(tmp_path, task.scene, 2)
+        cache.save(task.name, found)
+        for other in ({"setting": 2e-5}, {"half_block": True}, {"method": "P3"}):
+            assert cache.load(replace(task, **other).name) is None
+        assert cache.load(replace(task, limit=7.0).name) is not None
+
+    @pytest.mark.parametrize(
+        "patched",
+        [
+            ("comparisons.campaigns.cost.study.machine", {"processor": "another"}),
+            ("comparisons.campaigns.cost.study.versions", {"numpy": "0"}),
+            ("comparisons.campaigns.cost.study.program_code", "another"),
+        ],
+    )
+    def test_another_machine_or_version_measures_anew(
+        self, measured, patched, tmp_path, monkeypatch
+    ):
+        task, found = measured
+        cost_cache(tmp_path, task.scene, 2).save(task.name, found)
+        assert cost_cache(tmp_path, task.scene, 2).load(task.name) is not None
+        monkeypatch.setattr(patched[0], lambda *given: patched[1])
+        assert cost_cache(tmp_path, task.scene, 2).load(task.name) is None
+
+    def test_so_does_another_scene_or_number_of_repeats(self, measured, tmp_path):
+        task, found = measured
+        cost_cache(tmp_path, task.scene, 2).save(task.name, found)
+        other = resolved(changed(SMOOTH, load={"per_length": 3.5e6}))
+        assert cost_cache(tmp_path, other, 2).load(task.name) is None
+        assert cost_cache(tmp_path, task.scene, 3).load(task.name) is None
+
+    def test_what_was_cut_short_is_not_there(self, measured, tmp_path):
+        task, found = measured
+        cache = cost_cache(tmp_path, task.scene, 2)
+        cache.save(task.name, found)
+        [path] = cache.folder.iterdir()
+        path.write_bytes(path.read_bytes()[:-100])
+        assert cache.load(task.name) is None
+        (cache.folder / ".half.npz.7.part").write_text("PK")
+        cache.remove_leftovers()
+        assert list(cache.folder.iterdir()) == [path]
+
+
+class TestGoesOn:
+    def test_from_where_it_stopped(self, here, tmp_path):
+        out = tmp_path / "out"
+        here.stop_at = 3
+        with pytest.raises(KeyboardInterrupt, match=GOES_ON):
+            cost(resolved(SMOOTH), out, 1, methods=SMALL)
+        before = saved(out)
+        assert len(before) == 2 and [path.name for path in out.iterdir()] == [FOLDER]
+        here.stop_at = 0
+        found = cost(resolved(SMOOTH), out, 1, methods=SMALL)
+        assert here.asked[2] == here.asked[3]  # what was stopped is asked again, nothing else
+        assert len(set(here.asked)) == 4 == len(here.asked) - 1
+        assert before.items() <= saved(out).items() and len(found.study.rows) == 4
+
+    def test_a_finished_study_is_there_at_once(self, here, tmp_path):
+        cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
+        content, asked = (tmp_path / "cost.json").read_text(), len(here.asked)
+        cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
+        assert len(here.asked) == asked == 4
+        assert (tmp_path / "cost.json").read_text() == content
+        cost(resolved(changed(SMOOTH, load={"per_length": 3.5e6})), tmp_path, 1, methods=SMALL)
+        assert len(here.asked) == 2 * asked
+
+    def test_what_failed_is_tried_again(self, here, tmp_path, monkeypatch):
+        tried = []
+
+        def failing(function, task):
+            tried.append(task.method)
+            return cost_study.RefusedRun("MeshError: no mesh", skipped=False)
+
+        cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
+        for path in (tmp_path / FOLDER).glob("P2*"):
+            path.unlink()
+        monkeypatch.setattr(cost_study, "fresh_process", lambda: nullcontext(failing))
+        for _ in range(2):
+            found = cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
+            assert found.study.rows[-1].because == "MeshError: no mesh"
+        assert tried == ["P2", "P2"]
+
+    def test_the_load_of_an_approach_is_sought_once(self, tmp_path, monkeypatch):
+        tables = SMOOTH | {
+            "roller": {"radius": 7.5706e-3, "rigid": True},
+            "body": {**STEEL, "thickness": 4e-4},
+            "load": {"approach": 2e-6},
+            "resolution": {"pitch": 2e-5},
+        }
+        given = resolved(tables)
+        first = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
+        monkeypatch.setattr("comparisons.campaigns.cost.cost.fresh_process", lambda: 1 / 0)
+        again = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
+        assert again.hertz.load_per_length == first.hertz.load_per_length
+        assert (
+            first.hertz.load_per_length
+            == problem_of_approach(given, no_progress).constraints().load
+        )
+
+
+@pytest.fixture
+def command(tmp_path) -> tuple:
+    """`crosscheck cost` of a small scene, and its folder."""
+    (tmp_path / "small.toml").write_text(
+        "roller = {radius = 7.5706e-3, youngs_modulus = 210e9, poissons_ratio = 0.3}\n"
+        "body = {youngs_modulus = 210e9, poissons_ratio = 0.3}\n"
+        "load = {per_length = 3.55e6}\n"
+    )
+    (tmp_path / "program.py").write_text(COMMAND)
+    out = tmp_path / "out"
+    scene, program = tmp_path / "small.toml", tmp_path / "program.py"
+    return (sys.executable, program, "cost", scene, "--repeats", 1, "--out", out), out
+
+
+def test_a_ctrl_c_ends_it_and_the_same_command_goes_on(command, started, until):
+    words, out = command
+    with started(*words) as process:
+        assert until(lambda: len(saved(out)) >= 1)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        assert process.wait(20.0) == 130
+        said = process.stderr.read()  # nobody holds it any more
+    assert said == f"crosscheck: interrupted; {GOES_ON}\n"
+    before = saved(out)
+    assert 1 <= len(before) < 5 and not (out / "cost.json").exists()
+    with started(*words) as process:
+        printed, said = process.communicate(timeout=120.0)
+        assert process.returncode == 0 and said == "" and "cost.html" in printed
+    assert before.items() <= saved(out).items() and len(saved(out)) == 5
+    content = json.loads((out / "cost.json").read_text())
+    assert [row["status"] for row in content["rows"]] == ["ok"] * 5
+    assert sorted(path.name for path in out.iterdir()) == ["cost.html", "cost.json", FOLDER]

@@ -1,0 +1,171 @@
+"""Cost studies: methods and where they apply, references for errors, how a setting is measured."""
+
+import time
+import types
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import SMOOTH, changed, problem, resolved
+
+from analytic.exact.hertz import hertz_from_load
+from comparisons.campaigns.cost import measure as cost_measure
+from comparisons.campaigns.cost.measure import CostTask, ProcessorStages, RefusedRun, measure
+from comparisons.campaigns.cost.methods import (
+    FINEST,
+    METHODS,
+    is_half_plane_problem,
+    why_not,
+)
+from comparisons.campaigns.cost.page import cells, shown
+from comparisons.campaigns.cost.reference import error_of, is_exact, references
+from comparisons.campaigns.cost.result import assess
+from comparisons.campaigns.cost.solve import touching_strips
+from comparisons.campaigns.cost.study import OK, CostRow, Study
+from comparisons.common.errors import SceneError
+from comparisons.figures.quantity import MODELS
+from comparisons.models.problem import problem_of
+
+WAVY = SMOOTH | {
+    "profile": {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6},
+    "load": {"per_length": 2e5},
+}
+HERTZ = hertz_from_load(3.55e6, 7.5706e-3, 210e9 / 0.91 / 2.0)
+BY_NAME = {method.name: method for method in METHODS}
+
+
+class TestMethods:
+    @pytest.mark.parametrize(
+        ("sections", "half_plane"),
+        [
+            ({}, True),
+            ({"roller": {"poissons_ratio": 0.2}}, True),
+            ({"body": {"thickness": 2e-3}}, False),
+            ({"body": {"hardness": 9e9}}, True),
+            ({"finite_element": {"gap": "displaced"}}, False),
+            ({"finite_element": {"roller_shape": "circle"}}, False),
+            ({"finite_element": {"roller_body": "disc"}}, False),
+        ],
+    )
+    def test_where_they_apply(self, sections, half_plane):
+        made = problem(changed(SMOOTH, **sections))
+        assert is_half_plane_problem(made) is half_plane
+        assert is_exact(made) is half_plane
+        assert all(why_not(m, made) is None for m in METHODS)
+
+    def test_friction_that_moves_the_surfaces_leaves_hats_alone(self):
+        coupled = {"friction": [0.3], "coupled": True}
+        made = problem(changed(SMOOTH, roller={"poissons_ratio": 0.0}, load=coupled))
+        plain = [m for m in METHODS if m.model == "half_plane"]
+        assert [why_not(m, made) is None for m in plain] == [m == FINEST for m in plain]
+        assert not is_exact(made)
+
+    @pytest.mark.parametrize("element", ["hats", "strips"])
+    def test_of_hertz_errors_fall_with_the_pitch(self, element):
+        made = resolved(changed(SMOOTH, stress={"points": [60, 20]}))
+        exact = {
+            "peak_pressure": HERTZ.peak_pressure,
+            "contact_length": 2.0 * HERTZ.half_width,
+            "tau1_max": HERTZ.tau1_max,
+        }
+        errors = []
+        for part in (1.0, 0.125):
+            pitch = part * problem_of(made).pitches[0]
+            found = measure(CostTask(made, None, f"{element}, FFT", pitch)).solved.figures[0]
+            errors.append([abs(found[name] / value - 1.0) for name, value in exact.items()])
+        assert np.all(np.array(errors[0]) < [1e-3, 1.5e-2, 1e-3])
+        assert np.all(np.array(errors[1]) < np.array(errors[0]) / 4.0)
+
+    def test_strips_reach_from_edge_to_edge(self):
+        grid = problem(SMOOTH).grid(1e-4)
+        pressure = np.zeros(grid.count)
+        pressure[[2, 3, 6]] = 1.0
+        patches = touching_strips(grid, types.SimpleNamespace(pressure=pressure))
+        assert patches / 1e-4 - grid.first == pytest.approx(np.array([[1.5, 3.5], [5.5, 6.5]]))
+
+
+@pytest.fixture(scope="module")
+def study():
+    """The finest method on waves, at five settings."""
+    made = resolved(WAVY)
+    pitches = FINEST.settings(problem_of(made))[:5]
+    rows = [
+        CostRow(FINEST, p, OK, None, measure(CostTask(made, None, FINEST.name, p))) for p in pitches
+    ]
+    return problem_of(made), Study(tuple(rows), {})
+
+
+class TestReference:
+    def test_of_a_rough_half_plane_is_its_finest_with_its_uncertainty(self, study):
+        made, rows = study
+        found = references(made, rows, None)
+        last = rows.rows[-1]
+        for name, reference in found.items():
+            assert reference.row is last and reference.source.startswith("hats, FFT at ")
+            assert 0.0 < reference.floor < 0.05, name
+        finer = measure(CostTask(made.scene, None, FINEST.name, 0.25 * last.setting)).solved
+        for name in ("peak_pressure", "contact_length"):
+            true = error_of(finer, name, found[name], made, None)
+            assert true <= found[name].floor
+
+    def test_errors_fall_towards_it(self, study):
+        made, rows = study
+        found = assess(made, rows)
+        for name in ("peak_pressure", "pressure_l2"):
+            errors = [each.errors[name] for each in found.assessed]
+            assert errors[-1] is None
+            assert errors[0] > 3.0 * errors[2] > 0.0
+        texts = cells(found, found.assessed[-1], shown(found))
+        assert texts[-1] == "reference"
+
+    def test_two_rows_have_no_uncertainty(self, study):
+        made, rows = study
+        assert references(made, replace(rows, rows=rows.rows[:2]), None) == {}
+
+
+class TestMeasure:
+    @pytest.fixture
+    def calls(self, monkeypatch):
+        """Every call of `solved`, which takes no time."""
+        calls, answer = [], object()
+
+        def solved(method, problem, setting, window, stages, half_block):
+            calls.append(setting)
+            with stages.stage("contact"):
+                return answer
+
+        monkeypatch.setattr(cost_measure, "solved", solved)
+        monkeypatch.setattr(cost_measure, "_begun", set())
+        return calls
+
+    def test_the_first_solution_does_not_count(self, calls):
+        found = measure(CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5, repeats=3, limit=60.0))
+        assert (len(calls), found.repeats) == (4, 3)
+        found = measure(CostTask(resolved(SMOOTH), None, FINEST.name, 5e-6, repeats=3, limit=60.0))
+        assert (len(calls), found.repeats) == (7, 3)
+
+    def test_no_more_than_fit_and_at_least_one(self, calls):
+        assert (
+            measure(CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5, 3, limit=0.0)).repeats == 1
+        )
+        assert len(calls) == 2
+
+    def test_what_goes_wrong_is_stated(self, monkeypatch):
+        def solved(*arguments):
+            raise SceneError("made.toml: budget.memory: is too small")
+
+        monkeypatch.setattr(cost_measure, "solved", solved)
+        task = CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5)
+        assert measure(task) == RefusedRun("made.toml: budget.memory: is too small", skipped=True)
+        monkeypatch.setattr(cost_measure, "solved", lambda *a: 1 / 0)
+        assert measure(task) == RefusedRun("ZeroDivisionError: division by zero", skipped=False)
+
+    def test_seconds_are_processor_time(self):
+        stages = ProcessorStages()
+        with stages.stage("waiting"):
+            time.sleep(0.05)
+        assert stages.seconds["waiting"] < 0.02
+
+
+def test_both_models_are_measured():
+    assert {method.model for method in METHODS} == set(MODELS)

@@ -1,0 +1,132 @@
+"""Decks solved by CalculiX: from a scene to figures that agree with the finite elements, within
+what both state; decks that are wrong on purpose do not."""
+
+import os
+import shutil
+import subprocess
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scenes
+
+from comparisons import api
+from comparisons.campaigns.decks.write import write_deck
+
+pytestmark = pytest.mark.skipif(
+    shutil.which("ccx") is None, reason="decks in CalculiX: apt-get install calculix-ccx"
+)
+SVK = {"law": "st-venant-kirchhoff"}  # CalculiX and the finite elements both have it
+WAVES = {"kind": "self-affine", "hurst": 0.8, "rms_height": "0.15 um", "samples": 512}
+WAVES |= {"length": "400 um", "seed": 3, "shortest_wavelength": "40 um"}
+FINITE = {"deformation": "finite", "geometry": "rough"}
+SCENES = {
+    "smooth": api.tables("smooth"),
+    "layer": api.tables("layer"),
+    "coated": scenes.changed(api.tables("coated"), load={"friction": 0.0}),
+    "waves": scenes.changed(
+        api.tables("sinusoid") | {"roller": {"radius": "10 mm", "rigid": True}},
+        body=SVK,
+        finite_element=FINITE,
+    ),
+    "rubber": scenes.changed(api.tables("finite-strain"), body=SVK),
+    "rough": {
+        "roller": {"radius": "5 mm", "rigid": True},
+        "body": scenes.STEEL,
+        "profile": WAVES,
+        "load": {"hertz_peak_pressure": "1 GPa"},
+        "tolerance": {"peak_pressure": 0.02},
+    },
+}
+RESOLVED = ("smooth", "coated")  # to 2 % on these two meshes; the others' are too coarse for it
+COARSER = 2.0  # elements of the coarse deck over those of the scene's first level
+
+
+def solved(folder: Path, tables: dict, level: int, old: str = "", new: str = "") -> np.ndarray:
+    """x [m] and pressure [Pa] (n, 2) of a deck's last step, after a change of its text."""
+    deck = write_deck(scenes.resolved(tables), "calculix", folder, level).deck
+    if old:
+        text = (folder / "job.inp").read_text()
+        assert old in text
+        (folder / "job.inp").write_text(text.replace(old, new))
+    one = os.environ | {"OMP_NUM_THREADS": "1"}
+    done = subprocess.run(["ccx", "job"], cwd=folder, env=one, capture_output=True, timeout=600)
+    assert done.returncode == 0, done.stdout[-500:]
+    pressure = contact_values(folder / "job.frd", 49)
+    surface = deck.rough.surface
+    x = deck.rough.points[surface, 0]
+    return np.column_stack([1e-3 * x, [1e6 * pressure.get(n + 1, 0.0) for n in surface]])
+
+
+def contact_values(path: Path, column: int) -> dict[int, float]:
+    """By node, a column of 12 characters of the last increment's contact."""
+    _, _, block = path.read_text().rpartition("\n -4  CONTACT")
+    lines = [line for line in block.partition("\n -3")[0].splitlines() if line[:3] == " -1"]
+    return {int(line[3:13]): float(line[column : column + 12]) for line in lines}
+
+
+def coarse(tables: dict) -> dict:
+    """The scene with a level of larger elements before its first."""
+    pitch = scenes.problem(tables).pitches[0]
+    return tables | {"resolution": {"pitch": COARSER * pitch}}
+
+
+def judged(folder: Path, tables: dict, old: str = "", new: str = "") -> dict:
+    """By quantity, CalculiX on two resolutions as `run --answer` judges it beside the scene's
+    finite elements: by the stress on the surface of its solution of the decks."""
+    tables = {name: section for name, section in tables.items() if name != "stress"}
+    for level in (1, 2):
+        solved(folder / str(level), coarse(tables), level, old, new)
+    read = tomllib.loads((folder / "1/answer.toml").read_text())
+    files = [str(folder / str(level) / read["file"]) for level in (1, 2)]
+    asked = {"answers": {"calculix": read | {"file": files}}}
+    found = api.run(tables | asked, "finite-element").result["answers"]["calculix"]
+    return {name: rows[0] for name, rows in found["comparison"].items()}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_calculix_agrees_with_the_finite_elements(name, tmp_path):
+    rows = judged(tmp_path, SCENES[name])
+    for quantity in ("peak_pressure", "contact_length"):
+        row = rows[quantity]
+        assert abs(row["difference"]) <= row["uncertainty"]
+        assert row["verdict"] != "differ"
+    found = rows["peak_pressure"]["verdict"]
+    assert found == ("agree" if name in RESOLVED else "inconclusive")
+
+
+def test_a_deck_of_another_modulus_differs(tmp_path):
+    steel = "210000000, 0.3"
+    row = judged(tmp_path, SCENES["smooth"], steel, steel.replace("21", "23"))["peak_pressure"]
+    assert row["verdict"] == "differ" and row["difference"] > row["uncertainty"]
+
+
+def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
+    """As `run --answer` twice: the stress on the surface and below it, on two resolutions."""
+    pytest.importorskip("pyvista_frd", reason="answers of CalculiX: crosscheck[answers]")
+    tables = scenes.changed(api.tables("smooth"), stress={"points": [120, 40]})
+    for level in (1, 2):
+        solved(tmp_path / str(level), tables, level)
+    read = tomllib.loads((tmp_path / "1/answer.toml").read_text())
+    files = [str(tmp_path / str(level) / read["file"]) for level in (1, 2)]
+    answers = {"calculix": read | {"file": files}}
+    found = api.run(tables | {"answers": answers}, "half-plane").result["answers"]["calculix"]
+    for quantity in ("peak_pressure", "contact_length", "tau1_max"):
+        (row,) = found["comparison"][quantity]
+        assert abs(row["difference"]) <= row["uncertainty"] < 0.1
+    assert found["comparison"]["peak_pressure"][0]["verdict"] == "agree"
+    assert abs(found["balance"]) < 2e-3
+
+
+def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):
+    """Like bodies: shear is friction times pressure, towards +x on the rough body."""
+    tables = {k: v for k, v in api.tables("smooth-sliding").items() if k != "stress"}
+    solved(tmp_path, coarse(tables), 1)
+    shear = contact_values(tmp_path / "job.frd", 61)
+    pressure = contact_values(tmp_path / "job.frd", 49)
+    hertz = scenes.problem(tables).hertz.peak_pressure
+    assert max(pressure.values()) == pytest.approx(1e-6 * hertz, rel=2e-3)
+    assert [abs(shear[n]) for n in pressure] == pytest.approx(
+        [0.1 * p for p in pressure.values()], abs=1e-9 * hertz
+    )

@@ -1,0 +1,150 @@
+"""Decks as text: complete, consistent, and of the scene. FEniCSx' script is solved."""
+
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scenes
+
+from comparisons import api
+from comparisons.campaigns.decks.problem import deck_problem
+from comparisons.campaigns.decks.write import write_deck
+from comparisons.cli import main
+from comparisons.common.errors import SceneError
+
+KNOWN = {  # keywords of Abaqus/Standard that a deck may use
+    *("HEADING", "INCLUDE", "NODE", "ELEMENT", "NSET", "SURFACE", "EQUATION", "MATERIAL"),
+    *("ELASTIC", "HYPERELASTIC", "SOLID SECTION", "SURFACE INTERACTION", "SURFACE BEHAVIOR"),
+    *("CONTACT PAIR", "FRICTION", "CHANGE FRICTION", "BOUNDARY", "CLOAD", "STEP", "STATIC"),
+    *("END STEP", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "CONTACT PRINT"),
+}
+CALCULIX = {"NODE FILE", "EL FILE", "CONTACT FILE"}
+SLIDING = scenes.changed(api.tables("coated"), load={"friction": [0.0, 0.1]})
+
+
+def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
+    """Keyword, parameters and data lines, with included files in their places."""
+    text = (folder / "job.inp").read_text()
+    for name in re.findall(r"\*INCLUDE, INPUT=(\S+)", text):
+        text = text.replace(f"*INCLUDE, INPUT={name}\n", (folder / name).read_text())
+    found = []
+    for line in text.splitlines():
+        if line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            keyword, *given = [part.strip() for part in line[1:].split(",")]
+            parameters = dict((*part.split("="), "")[:2] for part in given)
+            found.append((keyword, parameters, []))
+        elif line.strip():
+            found[-1][2].append([part.strip() for part in line.split(",")])
+    return found
+
+
+@pytest.mark.parametrize("code", ["calculix", "abaqus"])
+@pytest.mark.parametrize("scene", ["layer", "finite-strain", SLIDING])
+def test_a_deck_is_complete(tmp_path, scene, code):
+    resolved = api.load(scene)
+    deck = write_deck(resolved, code, tmp_path).deck
+    found = blocks(tmp_path)
+    assert {keyword for keyword, *_ in found} <= KNOWN | (CALCULIX if code == "calculix" else set())
+    nodes, elements, sets, surfaces, materials = {}, {}, {}, {}, set()
+    for keyword, given, data in found:
+        if keyword == "NODE":
+            nodes |= {int(n): (float(x), float(y)) for n, x, y in data}
+            sets[given["NSET"]] = [int(row[0]) for row in data]
+        elif keyword == "ELEMENT":
+            assert given["TYPE"] == "CPE6"
+            elements |= {int(e): list(map(int, row)) for e, *row in data}
+            sets[given["ELSET"]] = [int(row[0]) for row in data]
+        elif keyword == "NSET":
+            sets[given["NSET"]] = [int(n) for row in data for n in row]
+        elif keyword == "SURFACE":
+            surfaces[given["NAME"]] = [(int(e), int(face[1])) for e, face in data]
+        elif keyword == "MATERIAL":
+            materials.add(given["NAME"])
+        elif keyword == "SOLID SECTION":
+            assert given["ELSET"] in sets and given["MATERIAL"] in materials
+        elif keyword == "BOUNDARY":
+            assert all(row[0] in sets for row in data)
+        elif keyword == "CONTACT PAIR":
+            assert set(data[0]) == set(surfaces) == {"ROUGH_TOP", "ROLLER_TOP"}
+        elif keyword == "EQUATION":
+            assert data[0] == ["2"] and int(data[1][3]) == max(nodes) and data[1][4] == "2"
+            assert int(data[1][0]) in sets["ROLLER_HELD_Y"]
+    assert len(nodes) == sum(len(body.points) for body in deck.bodies.values()) + 1
+    assert set(np.ravel(list(elements.values()))) == set(nodes) - set(sets["REFERENCE"])
+    for row in elements.values():  # anticlockwise, with midpoints between their corners
+        x, y = np.array([nodes[n] for n in row]).T
+        assert np.cross([x[1] - x[0], y[1] - y[0]], [x[2] - x[0], y[2] - y[0]]) > 0.0
+        bend = np.hypot(x[3:] - 0.5 * (x[:3] + x[[1, 2, 0]]), y[3:] - 0.5 * (y[:3] + y[[1, 2, 0]]))
+        assert bend.max() < 0.1 * np.hypot(x[1] - x[0], y[1] - y[0])
+    for name, faces in surfaces.items():
+        on = {elements[e][k] for e, face in faces for k in (face - 1, face % 3, face + 2)}
+        assert on == set(sets[f"{name}_NODES"])
+    (load,) = {row[2] for keyword, _, data in found if keyword == "CLOAD" for row in data}
+    assert float(load) == pytest.approx(-1e-3 * scenes_load(resolved))
+    steps = [keyword for keyword, *_ in found].count("STEP")
+    slides = [mu for mu in resolved.friction if mu]
+    assert steps == 1 + len(slides) + (code == "abaqus" or deck.finite)
+    finite = {bool(given.get("NLGEOM")) for keyword, given, _ in found if keyword == "STEP"}
+    assert finite == {deck.finite}
+    answer = tomllib.loads((tmp_path / "answer.toml").read_text())
+    assert answer["units"] == {"length": "mm", "stress": "MPa"}
+
+
+def scenes_load(resolved) -> float:
+    """[N/m]"""
+    from comparisons.models.problem import problem_of
+
+    return problem_of(resolved).hertz.load_per_length
+
+
+def test_a_linear_deck_is_the_scene_in_flatter_form():
+    """Heights over, moduli times the same factor: the gap between the two tops is the scene's."""
+    problem = scenes.problem(api.tables("sinusoid"))
+    deck = deck_problem(problem, problem.pitches[0])
+    top = deck.rough.points[deck.rough.surface]
+    gap = 1e-3 * deck.flatter * (deck.roller.points[deck.roller.surface, 1].max() - top[:, 1])
+    inside = abs(1e-3 * top[:, 0]) < problem.extent[1]
+    wanted = problem.gap(1e-3 * top[inside, 0]) - problem.first_touch
+    assert gap[inside] == pytest.approx(wanted, abs=1e-6 * wanted.max())
+    moduli = [body.materials[0].youngs_modulus / deck.flatter for body in deck.bodies.values()]
+    assert moduli == pytest.approx([210e9, 210e9])
+
+
+def test_what_a_code_cannot_have_is_refused(tmp_path):
+    hencky = scenes.changed(api.tables("finite-strain"), body={"law": "hencky"})
+    for tables, code, said in (
+        (hencky, "calculix", "body.law"),
+        (hencky, "fenicsx", "flat ones"),
+        (api.tables("yielding"), "calculix", "finite_element.plastic"),
+        (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "abaqus", "body.hardness"),
+    ):
+        with pytest.raises(SceneError, match=said):
+            write_deck(scenes.resolved(tables), code, tmp_path / code)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_the_script_for_fenicsx_solves_the_scene(tmp_path, level):
+    """Errors of Hertz's peak pressure and half-width fall with the elements."""
+    write_deck(api.load("smooth"), "fenicsx", tmp_path, level)
+    subprocess.run([sys.executable, "solve.py"], cwd=tmp_path, check=True, capture_output=True)
+    x, pressure = np.loadtxt(tmp_path / "pressure.csv", delimiter=",", skiprows=1).T
+    hertz = scenes.problem(api.tables("smooth")).hertz
+    assert pressure.max() == pytest.approx(1e-6 * hertz.peak_pressure, rel=1e-3 / level)
+    exact = np.sqrt(np.maximum(1.0 - (1e-3 * x / hertz.half_width) ** 2, 0.0)) * pressure.max()
+    assert np.sqrt(np.mean((pressure - exact) ** 2)) < 0.03 / level * pressure.max()
+
+
+def test_the_command_says_where_the_deck_is(tmp_path, capsys):
+    out = tmp_path / "deck"
+    assert main(["deck", "layer", "--for", "abaqus", "--out", str(out)]) == 0
+    assert str(out / "README.md") in capsys.readouterr().out
+    assert f"--answer abaqus={out}/answer.toml" in (out / "README.md").read_text()
+    assert main(["deck", "layer", "--for", "ansys", "--out", str(out)]) == 2
+    assert main(["deck", "layer", "--for", "abaqus", "--out", str(out), "--level", "0"]) == 2

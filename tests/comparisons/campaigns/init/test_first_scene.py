@@ -1,0 +1,375 @@
+"""From a measured profile to a scene that runs as it stands."""
+
+import gzip
+import json
+import tomllib
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from scenes import PROFILES
+
+from comparisons.campaigns.init import first_scene
+from comparisons.campaigns.init.first_scene import write_first_scene
+from comparisons.campaigns.init.picture import picture
+from comparisons.campaigns.init.scene_text import FIELDS, scene_text
+from comparisons.cli import main
+from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.schema.fields import field_type
+from comparisons.scenes.schema.profile import VARIETIES
+from comparisons.scenes.schema.scene import SECTIONS, SceneFile
+
+SHIPPED = sorted(PROFILES.glob("*.csv"))
+X = 0.5 * np.arange(801)  # um
+Z = 0.2 * np.sin(2.0 * np.pi * X / 31.0) + 0.05 * np.cos(2.0 * np.pi * X / 7.0)  # um
+RMS = np.sqrt(0.5 * (0.2**2 + 0.05**2)) * 1e-6
+
+
+def rows(x, z, separator=",") -> str:
+    return "".join(f"{a:.6g}{separator}{b:.6g}\n" for a, b in zip(x, z, strict=True))
+
+
+def heights(z) -> str:
+    return "".join(f"{value:.6g}\n" for value in z)
+
+
+def sdf(z) -> str:
+    head = (
+        "aISO-1.0\nNumPoints = 801\nNumProfiles = 5\nXscale = 0.5e-6\nYscale = 1e-6\n"
+        "Zscale = 1e-6\nDataType = 7\n*\n"
+    )
+    line = " ".join(f"{value:.6g}" for value in z)
+    flat = " ".join(["0"] * len(z))
+    return f"{head}{flat}\n{flat}\n{line}\n{flat}\n{flat}\n*\n"
+
+
+FILES = {
+    "commas under named columns": ("x_um,height_um\n" + rows(X, Z)).encode(),
+    "decimal commas": ("x [mm];z [µm]\n" + rows(1e-3 * X, Z, ";").replace(".", ",")).encode(
+        "latin-1"
+    ),
+    "no header, micrometres": rows(X, Z, "\t").encode(),
+    "no header, millimetres and nanometres": rows(1e-3 * X, 1e3 * Z, " ").encode(),
+    "UTF-16": ("Distance (um)\tHeight (nm)\n" + rows(X, 1e3 * Z, "\t")).encode("utf-16"),
+    "a count first": (
+        "index,x in µm,y in µm\n"
+        + "".join(f"{i},{a:.6g},{b:.6g}\n" for i, (a, b) in enumerate(zip(X, Z, strict=True)))
+    ).encode(),
+    "raw and levelled": (
+        "x [mm],raw [um],levelled [nm]\n"
+        + "".join(f"{a / 1e3:.6g},{b:.6g},0\n" for a, b in zip(X, Z, strict=True))
+    ).encode(),
+    "packed": gzip.compress(("x_um,z_um\n" + rows(X, Z)).encode()),
+    "heights with their spacing": ("# step = 0,5 um\n# z in nm\n" + heights(1e3 * Z)).encode(),
+    "a map": sdf(Z).encode(),
+    "lost samples": ("x_um,z_um\n" + rows(X, Z).replace("100,", "100,NaN #", 1)).encode(),
+}
+
+
+INCH = 25400.0  # um
+HEADS = {  # units of x and of z, as a scene has them
+    "x [inch], z [microinch]": (INCH, 1e-6 * INCH, "inch", "microinch"),
+    "x_in,z_uin": (INCH, 1e-6 * INCH, "inch", "microinch"),
+    "Distance (mils), Height (micro-inches)": (1e-3 * INCH, 1e-6 * INCH, "mil", "microinch"),
+    "x / um, z / \N{ANGSTROM SIGN}": (1.0, 1e-4, "um", "angstrom"),
+    "X [um], Z [Angstrom]": (1.0, 1e-4, "um", "angstrom"),
+    "Lateral (MM), Raw (Micrometers)": (1e3, 1.0, "mm", "um"),
+    "x [cm], z [pm]": (1e4, 1e-6, "cm", "pm"),
+    "position (um), height (um) (raw)": (1.0, 1.0, "um", "um"),
+}
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture(autouse=True)
+def undrawn(monkeypatch) -> None:
+    """Drawing takes the longest."""
+    monkeypatch.setattr(first_scene, "picture", lambda scene: "")
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_a_shipped_profile_makes_a_scene_that_loads_as_it_was_read(path, tmp_path):
+    made = write_first_scene(path, tmp_path / "mine.toml")
+    scene = load_scene(tmp_path / "mine.toml")
+    assert scene.profile_info.roughness == made.scene.profile_info.roughness
+    assert scene.profile_info.path.samefile(path)
+    assert made.profile.fields == {"x_unit": '"um"', "z_unit": '"um"', "form": '"line"'}
+    assert all("x_um,height_um" in made.profile.reasons[name] for name in ("x_unit", "z_unit"))
+    given = np.loadtxt(path, delimiter=",", skiprows=3)
+    np.testing.assert_allclose(scene.profile_info.trace.height, 1e-6 * given[:, 1], rtol=1e-12)
+
+
+@pytest.mark.parametrize("content", FILES.values(), ids=FILES)
+def test_every_format_is_read_in_its_own_units(folder, content):
+    (folder / "trace.dat").write_bytes(content)
+    assert main(["init", "trace.dat"]) == 0
+    info = load_scene(folder / "trace.toml").profile_info
+    assert info.length == pytest.approx(400e-6, rel=1e-9)
+    assert info.roughness.rq == pytest.approx(RMS, rel=0.02)
+    assert (info.bridged > 0) == (b"NaN" in content)
+    assert info.place == ("row 2 of 5 rows and 801 columns, 0.0004 m by 4e-06 m"
+                          if b"aISO" in content else None)  # fmt: skip
+
+
+@pytest.mark.parametrize("head", HEADS)
+def test_units_that_a_header_names_count(folder, head, capsys):
+    x_unit, z_unit, *names = HEADS[head]
+    (folder / "trace.csv").write_text(f"{head}\n" + rows(X / x_unit, Z / z_unit))
+    assert main(["init", "trace.csv"]) == 0
+    assert "guessed by size" not in capsys.readouterr().out
+    scene = load_scene("trace.toml")
+    assert [scene.tables["profile"][name] for name in ("x_unit", "z_unit")] == names
+    assert scene.profile_info.length == pytest.approx(400e-6, rel=1e-5)
+    assert scene.profile_info.roughness.rq == pytest.approx(RMS, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("head", "unit", "option"),
+    [("x [foo], z [um]", "foo", "--x-unit"), ("x (um), z (mV)", "mV", "--z-unit")],
+)
+def test_units_that_are_no_length_are_errors_unless_another_is_given(
+    folder, capsys, head, unit, option
+):
+    (folder / "trace.csv").write_text(f"{head}\n" + rows(X, Z))
+    assert main(["init", "trace.csv"]) == 2
+    said = capsys.readouterr().err
+    assert f'"{unit}" is no known unit of length (by "{head}" in the file); known are m, mm' in said
+    assert all(f" {name}" in said for name in ("angstrom", "inch", "mil", "microinch", option))
+    assert main(["init", "trace.csv", option, "um"]) == 0
+
+
+def test_a_missing_stretch_is_told_bridged_and_refused_without(folder, capsys):
+    kept = (X < 100.0) | (X > 300.0)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X[kept], Z[kept]))
+    assert main(["init", "trace.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "801 samples, 400.0 um long, 500.0 nm apart" in said
+    assert "nothing was measured from 99.50 um to 300.5 um: what is pressed there is a" in said
+    info = load_scene("trace.toml").profile_info
+    assert info.bridged == 401 and info.roughness.rt < 1.5 * np.ptp(Z) * 1e-6
+    text = Path("trace.toml").read_text().replace('\ndropouts = "bridge"', "")
+    Path("trace.toml").write_text(text)
+    assert main(["run", "trace.toml", "--models", "half-plane"]) == 2
+    assert (
+        "x has a gap from 9.95e-05 m to 0.0003005 m (401 samples lost)" in capsys.readouterr().err
+    )
+
+
+def test_uneven_samples_are_told_as_such(folder, capsys):
+    x = np.cumsum(np.random.default_rng(2).uniform(0.2, 0.8, 101)).round(3)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(x, Z[:101]))
+    assert main(["init", "trace.csv"]) == 0
+    least, most = np.diff(x).min(), np.diff(x).max()
+    assert f"long, {1e3 * least:.1f} nm to {1e3 * most:.1f} nm apart" in capsys.readouterr().out
+
+
+def test_a_spike_is_named(folder, capsys):
+    z = Z.copy()
+    z[300] += 5.0
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, z))
+    assert main(["init", "trace.csv"]) == 0
+    assert "a spike stands out of the trace, by 4.9" in capsys.readouterr().out
+
+
+def test_two_columns_of_roughness_say_why_they_differ(folder, capsys):
+    x = 0.5 * np.arange(4001)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(x, np.sin(x / 5.0)))
+    assert main(["init", "trace.csv"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "as pressed: the whole trace without its line" in said
+    assert (
+        "ISO 21920-2: waves longer than 0.8 mm and shorter than 2.5 um are filtered off, and the "
+        "middle 800.0 um of 2.000 mm count"
+    ) in said
+    assert "section lengths: 1 where the standard asks for 5, so that Rz is Rt" in said
+
+
+def test_bodies_and_load_are_options(folder):
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
+    options = ["--radius", "4 mm", "--load", "0.05 N/um", "--youngs-modulus", "70 GPa"]
+    options += ["--poissons-ratio", "0.33", "--hardness", "2 GPa", "--friction", "0.2"]
+    assert main(["init", "trace.csv", *options]) == 0
+    scene = load_scene("trace.toml")
+    assert (scene.roller_radius, scene.load.kind, scene.load.value) == (
+        pytest.approx(4e-3), "load_per_length", pytest.approx(5e4)
+    )  # fmt: skip
+    for material in (scene.roller, scene.body):
+        assert (material.youngs_modulus, material.poissons_ratio) == (pytest.approx(70e9), 0.33)
+    assert (scene.hardness, list(scene.friction)) == (pytest.approx(2e9), [0.2])
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--radius", "4 N"], "--radius: is "),
+        (["--poissons-ratio", "0.6"], "--poissons-ratio: is 0.6; allowed is"),
+        (["--load", "1 N/um", "--peak-pressure", "1 GPa"], "--peak-pressure: is given beside"),
+        (["--radius", "9 m", "--load", "1 N/um"], "trace.csv: load"),
+        (["--columns", "0,1,2"], "--columns: is a list of 3"),
+    ],
+)
+def test_options_that_do_not_go_are_one_line(folder, capsys, options, words):
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
+    assert main(["init", "trace.csv", *options]) == 2
+    said = capsys.readouterr().err
+    assert words in said and said.count("\n") == 1
+    assert [path.name for path in folder.iterdir()] == ["trace.csv"]
+
+
+def test_a_picture_stands_beside_the_scene(folder, capsys, monkeypatch):
+    monkeypatch.setattr(first_scene, "picture", picture)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
+    assert main(["init", "trace.csv", "--out", "mine.toml"]) == 0
+    assert "picture mine.svg" in capsys.readouterr().out
+    assert ElementTree.parse("mine.svg").getroot().tag.endswith("svg")
+    assert Path("mine.svg").stat().st_size > 20_000
+    Path("mine.toml").unlink()
+    Path("mine.svg").write_text("mine")
+    assert main(["init", "trace.csv", "--out", "mine.toml"]) == 2
+    assert "mine.svg: is there already; allowed is --force" in capsys.readouterr().err
+    assert Path("mine.svg").read_text() == "mine" and not Path("mine.toml").exists()
+    assert main(["init", "trace.csv", "--out", "mine.toml", "--no-picture"]) == 0
+    assert Path("mine.svg").read_text() == "mine"
+
+
+def test_a_small_map_gets_a_load_that_fits_it(folder):
+    """As an atomic force microscope has it: 100 nm long, some tenths of a nanometre rough."""
+    (folder / "trace.csv").write_text("x_nm,z_nm\n" + rows(X / 4.0, Z))
+    assert main(["init", "trace.csv"]) == 0
+    assert 0.0 < load_scene("trace.toml").roller_radius < 10e-6
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
+    lay = np.outer(np.sin(np.arange(90) / 2.0), np.ones(70))
+    lay = lay if turned else lay.T
+    count, profiles = lay.shape[1], lay.shape[0]
+    head = f"aISO-1.0\nNumPoints = {count}\nNumProfiles = {profiles}\nXscale = 1e-6\n"
+    head += "Yscale = 1e-6\nZscale = 1e-7\nDataType = 7\n*\n"
+    body = "\n".join(" ".join(f"{value:.6g}" for value in row) for row in lay)
+    (folder / "map.sdf").write_text(f"{head}{body}\n*\n")
+    made = write_first_scene(Path("map.sdf"))
+    name = "column" if turned else "row"
+    assert made.profile.fields[name] == "35"
+    assert made.profile.reasons[name] == (
+        f"the middle one of 70, across the lay: slopes along {name}s are all that there are, none "
+        "the other way"
+    )
+    assert made.scene.profile_info.roughness.rq == pytest.approx(1e-7 / np.sqrt(2.0), rel=0.05)
+
+
+def test_the_scene_runs_unchanged(folder, monkeypatch):
+    monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")  # takes the longest
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, 0.05 * Z))
+    assert main(["init", "trace.csv"]) == 0
+    assert main(["run", "trace.toml", "--models", "half-plane", "--out", "out"]) == 0
+    scene = json.loads((folder / "out/result.json").read_text())["scene"]
+    assert (scene["title"], scene["roller"]["radius"]) == ("trace under a smooth roller", 0.01)
+
+
+def test_a_short_trace_gets_a_small_roller(folder):
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(0.1 * X, 0.01 * Z))
+    radius = write_first_scene(Path("trace.csv")).scene.roller_radius
+    assert 1e-5 <= radius <= 1e-3
+
+
+def test_the_form_of_a_round_specimen_is_an_arc(folder):
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z - (X - 200.0) ** 2 / 1e4))
+    made = write_first_scene(Path("trace.csv"))
+    assert made.profile.fields["form"] == '"arc"'
+    assert made.scene.profile_info.form.radius == pytest.approx(5e-3, rel=0.01)
+
+
+def test_what_is_asked_for_is_not_guessed(folder):
+    (folder / "trace.csv").write_text(rows(X, Z))
+    assert main(["init", "trace.csv", "--x-unit", "mm", "--z-unit", "nm"]) == 0
+    info = load_scene("trace.toml").profile_info
+    assert info.length == pytest.approx(0.4)
+    assert info.roughness.rq == pytest.approx(1e-3 * RMS, rel=0.02)
+
+
+def test_json(folder, capsys):
+    (folder / "trace.csv").write_bytes(FILES["commas under named columns"])
+    assert main(["init", "trace.csv", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["scene"] == "trace.toml"
+    assert found["profile"]["samples"] == 801
+    assert found["fields"] == {"x_unit": "um", "z_unit": "um", "form": "line"}
+    assert found["surface"]["pressed"]["rq"] == pytest.approx(RMS, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "arguments", "words"),
+    [
+        ("trace.csv", None, [], "there is no such file"),
+        ("trace.csv", b"", [], "is empty"),
+        ("trace.csv", b"one\ntwo\n", [], "has no samples"),
+        ("trace.csv", b"1,2\n2,x\n3,4\n4,5\n", [], "is not a number"),
+        ("trace.bin", b"\x00\x01\x02" * 99, [], "SurfaceTopography"),
+        ("trace.csv", heights(Z).encode(), [], 'allowed is --spacing, such as "0.5 um"'),
+        ("trace.csv", rows(X, Z).encode(), ["--x-unit", "kg"], "--x-unit: is "),
+        ("trace.csv", rows(X, Z).encode(), ["--spacing", "1 um", "--x-unit", "um"], "beside"),
+        ("trace.csv", rows(X, Z).encode(), ["--row", "1"], "is a line scan"),
+        ("trace.csv", rows(X, Z).encode(), ["--out", "no/scene.toml"], "no is no folder"),
+        ("trace.csv", rows(X, Z).encode(), ["--out", "trace.csv", "--force"], "the profile itself"),
+        ("trace.csv", rows(1e-3 * X[:9], Z[:9]).encode(), ["--x-unit", "um", "--z-unit", "um"],
+         "trace.csv: load"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_used_is_one_line_and_leaves_nothing(
+    folder, capsys, name, content, arguments, words
+):
+    if content is not None:
+        (folder / name).write_bytes(content)
+    before = {path: path.read_bytes() for path in folder.iterdir()}
+    assert main(["init", name, *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert words in err and err.count("\n") == 1
+    assert {path: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_scene_is_not_overwritten_but_by_force(folder, capsys):
+    (folder / "trace.csv").write_bytes(FILES["commas under named columns"])
+    (folder / "trace.toml").write_text("mine")
+    assert main(["init", "trace.csv"]) == 2
+    assert "trace.toml: is there already; allowed is --force" in capsys.readouterr().err
+    assert (folder / "trace.toml").read_text() == "mine"
+    assert main(["init", "trace.csv", "--force"]) == 0
+    assert load_scene("trace.toml").profile_info.samples == 801
+
+
+DESCRIBED = tomllib.loads(FIELDS.read_text(encoding="utf-8"))
+
+
+def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
+    of_a_file = VARIETIES["file"].fields()
+    for section, table in SECTIONS.items():
+        names = set(table.model_fields) if section != "profile" else of_a_file
+        fields = dict(DESCRIBED[section])
+        assert fields.pop("section") and set(fields) == names
+        for name, (_, example) in fields.items():
+            value = tomllib.loads(f"value = {example}")["value"]
+            field_type(table, name).read(value)
+    # answers come from other codes, each in a section of its own name
+    assert set(SceneFile.model_fields) == {*DESCRIBED, "answers"}
+
+
+def test_unused_sections_come_alive_when_their_signs_are_taken_away():
+    values = {
+        "roller": {"radius": '"10 mm"', "rigid": "true"},
+        "body": {"youngs_modulus": '"3 MPa"', "poissons_ratio": "0.3"},
+        "load": {"per_length": '"1 N/mm"'},
+    }
+    text = scene_text("A title", values, {})
+    lines = [line for line in text.splitlines() if not line.startswith("# ")]
+    tables = tomllib.loads("\n".join(line.removeprefix("#") for line in lines))
+    assert tables.keys() == DESCRIBED.keys()
+    sections = tables.keys() - {"title"}
+    assert all(tables[name].keys() == DESCRIBED[name].keys() - {"section"} for name in sections)
+    assert max(map(len, text.splitlines())) <= 100

@@ -1,0 +1,89 @@
+"""The maps that come with the project: complete, made by the command that they name, true."""
+
+import json
+import shlex
+from functools import cache
+
+import pytest
+
+from comparisons.campaigns.maps.content import described, read_map
+from comparisons.campaigns.maps.picture import map_picture
+from comparisons.campaigns.maps.point import TOLERANCES, solve_point
+from comparisons.campaigns.maps.request import FINISHED, request_of
+from comparisons.campaigns.maps.rule import rules_of
+from comparisons.campaigns.points import FAILED, SOLVED
+from comparisons.common.provenance import versions
+
+HEAT_NAMES = ("peclet-insulated", "peclet-radius", "peclet-thickness")
+NAMES = ("curvature-thickness", "slope-wavelength", "thickness-friction", *HEAT_NAMES)
+# A point of each that costs little and whose error is well above its uncertainty: column, row.
+CHEAP = {"curvature-thickness": (9, 9), "slope-wavelength": (9, 0), "thickness-friction": (9, 9)}
+CHEAP |= dict.fromkeys(HEAT_NAMES, (3, 7))
+
+
+@cache
+def asked_for(name: str):
+    """The request that the command named in a map makes."""
+    content = read_map(FINISHED / f"{name}.json")
+    program, command, scene, *options = shlex.split(content["command"])
+    assert (program, command) == ("crosscheck", "map")
+    given = dict(zip(options[::2], options[1::2], strict=True))
+    assert given.keys() == {"--points", "--x", "--y", "--quantity"}
+    return request_of(scene, **{name.removeprefix("--"): value for name, value in given.items()})
+
+
+@pytest.fixture(params=NAMES)
+def finished(request) -> tuple[str, dict]:
+    return request.param, read_map(FINISHED / f"{request.param}.json")
+
+
+def test_each_map_has_its_scene_and_picture():
+    found = {path.name for path in FINISHED.iterdir()}
+    assert {name for name in found if name.endswith(".json")} == {f"{n}.json" for n in NAMES}
+    assert found >= {f"{name}.{end}" for name in NAMES for end in ("toml", "svg")}
+
+
+def test_the_command_asks_for_the_same_points(finished):
+    name, content = finished
+    request = asked_for(name)
+    assert request.scene == name
+    assert described(request) == content["scene"]
+    assert request.finite_element == content["finite_element"]
+    assert [(p.x, p.y) for p in request.points] == [(p["x"], p["y"]) for p in content["points"]]
+    assert content["x"]["values"] == list(request.x.values)
+    assert content["y"]["values"] == list(request.y.values)
+
+
+def test_every_point_was_computed(finished):
+    _, content = finished
+    kinds = [point["status"] for point in content["points"]]
+    assert set(kinds) <= {SOLVED, FAILED} and kinds.count(SOLVED) >= 0.95 * len(kinds)
+
+
+def test_one_point_is_what_it_was(finished):
+    name, content = finished
+    request, (column, row) = asked_for(name), CHEAP[name]
+    number = row * len(content["x"]["values"]) + column
+    again = solve_point(request.points[number])["found"]
+    before = content["points"][number]
+    assert again["status"] == before["status"] == SOLVED
+    for quantity, error in again["quantities"].items():
+        finished = before["quantities"][quantity]
+        # another gmsh or solver may give another mesh, and errors as far off as they claim
+        assert abs(error["difference"] - finished["difference"]) <= finished["uncertainty"], (
+            quantity
+        )
+
+
+def test_rules_are_those_of_the_points(finished):
+    _, content = finished
+    assert json.loads(json.dumps(rules_of(content))) == content["rules"]
+    assert [rule["tolerance"] for rule in content["rules"]] == list(TOLERANCES)
+    assert all(rule["points_inside"] for rule in content["rules"][1:])
+
+
+def test_pictures_show_the_points(finished):
+    name, content = finished
+    if versions()["matplotlib"] != content["versions"]["matplotlib"]:
+        pytest.skip("another matplotlib draws another file")
+    assert (FINISHED / f"{name}.svg").read_text(encoding="utf-8") == map_picture(content)

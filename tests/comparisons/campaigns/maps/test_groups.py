@@ -1,0 +1,172 @@
+"""Groups of a map: a scene takes their values; and its axes."""
+
+from pathlib import Path
+
+import pytest
+
+from comparisons.campaigns.maps.groups import Origin, axis_of, counts_of, tables_with
+from comparisons.common.errors import InputError, SceneError
+from comparisons.models.problem import problem_of
+from comparisons.scenes.resolve import resolve_tables
+
+HERE = Origin("made.toml", Path("."))
+RIGID = {
+    "roller": {"radius": 0.01, "rigid": True},
+    "body": {"youngs_modulus": 2e11, "poissons_ratio": 0.3},
+    "load": {"hertz_peak_pressure": 1e9},
+}
+ELASTIC = RIGID | {"roller": {"radius": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.2}}
+CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
+HEAT = {f"{b}_{name}": v for b in ("body", "roller", "coating") for name, v in CONSTANTS.items()}
+HEAT |= {"speed": 1.0, "slide_to_roll": 1.0}
+COATING = {"thickness": 1e-5, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+WAVES = {
+    "sinusoid": {"kind": "sinusoid", "wavelength": 4e-5, "amplitude": 1e-7},
+    "self-affine": {
+        "kind": "self-affine",
+        "hurst": 0.8,
+        "samples": 512,
+        "length": 1e-3,
+        "rms_height": 2e-7,
+    },
+    "ground": {
+        "kind": "ground",
+        "rms_height": 2e-7,
+        "samples": 1024,
+        "length": 2e-3,
+        "shortest_wavelength": 2e-5,
+        "roll_off_wavelength": 2e-4,
+        "longest_wavelength": 2e-3,
+    },
+}
+
+
+def set_to(tables: dict, **values: float):
+    """The problem of a scene whose groups have these values."""
+    return problem_of(resolve_tables(tables_with(tables, values, HERE), name="m", **vars(HERE)))
+
+
+class TestGroups:
+    @pytest.mark.parametrize("name", ["a_over_thickness", "a_over_width"])
+    def test_sizes_of_the_body_follow_the_half_width_that_the_curvature_gives(self, name):
+        problem = set_to(RIGID, **{name: 0.25}, a_over_radius=0.02)
+        size = getattr(problem.scene, name.removeprefix("a_over_"))
+        assert problem.hertz.half_width == pytest.approx(0.02 * 0.01, rel=1e-12)
+        assert problem.hertz.half_width / size == pytest.approx(0.25, rel=1e-12)
+        settings = problem.scene.finite_element
+        assert (settings.deformation, settings.roller_shape) == ("finite", "circle")
+
+    def test_friction_moves_the_surfaces_of_the_finite_elements_alone(self):
+        problem = set_to(
+            ELASTIC | {"load": {"per_length": 1e5, "coupled": True}},
+            **{"friction_dundurs": 0.05, "a_over_thickness": 1.0},
+        )
+        assert problem.scene.friction[0] * abs(problem.dundurs_beta) == pytest.approx(0.05)
+        assert problem.scene.finite_element.coupled and not problem.scene.coupled
+        assert problem.hertz.load_per_length == pytest.approx(1e5)
+
+    def test_materials_take_their_constants(self):
+        scene = set_to(ELASTIC, poissons_ratio=0.42, modulus_ratio=3.0).scene
+        assert scene.body.poissons_ratio == 0.42
+        assert scene.roller.youngs_modulus == pytest.approx(3.0 * scene.body.youngs_modulus)
+        assert scene.roller.poissons_ratio == 0.2
+
+    def test_hardness_and_yield_stress_keep_their_ratio(self):
+        body = RIGID["body"] | {"hardness": 3e9, "yield_stress": 1e9}
+        tables = RIGID | {"body": body}
+        problem = set_to(tables, peak_pressure_over_hardness=0.8, poissons_ratio=0.2)
+        scene = problem.scene
+        assert problem.hertz.peak_pressure / scene.hardness == pytest.approx(0.8)
+        assert scene.hardness / scene.yielding.stress == pytest.approx(3.0)
+        assert scene.finite_element.plastic
+
+    @pytest.mark.parametrize("kind", WAVES)
+    def test_waves_take_length_and_slope(self, kind):
+        tables = RIGID | {"profile": WAVES[kind], "load": {"hertz_peak_pressure": 5e8}}
+        values = {"wavelength_over_a": 0.5, "a_over_radius": 0.004}
+        for slope in (None, 0.03):
+            asked = values | ({} if slope is None else {"rms_slope": slope})
+            problem = set_to(tables, **asked)
+            given = problem.scene.tables["profile"]
+            name = "wavelength" if kind == "sinusoid" else "shortest_wavelength"
+            length = given.get(name, 4.0 * given["length"] / (given.get("samples", 2) - 1))
+            assert length / problem.hertz.half_width == pytest.approx(0.5)
+            if slope is None:  # a likeness
+                plain = resolve_tables(tables, name="m", **vars(HERE))
+                slope = plain.profile_info.roughness.rms_slope
+            found = problem.scene.profile_info.roughness.rms_slope
+            assert found == pytest.approx(slope, rel=0.02 if kind == "sinusoid" else 1e-9)
+            assert problem.scene.finite_element.geometry == "rough"
+            assert problem.scene.finite_element.gap == "displaced"
+
+    def test_heat_follows_the_half_width(self):
+        tables = ELASTIC | {"heat": HEAT, "coating": COATING}
+        tables["load"] = tables["load"] | {"friction": 0.1}
+        tables["finite_element"] = {"far_field": "held"}
+        problem = set_to(tables, peclet=3.0, coating_over_a=0.2, conductivity_ratio=0.5)
+        heat, half_width = problem.scene.heat, problem.hertz.half_width
+        speed = abs(heat.velocities[0])
+        assert speed * half_width / (2.0 * heat.body.diffusivity) == pytest.approx(3.0)
+        assert problem.scene.coating.thickness == pytest.approx(0.2 * half_width)
+        assert heat.coating.conductivity == pytest.approx(0.5 * heat.body.conductivity)
+
+    def test_a_body_of_its_own_size_has_a_held_far_boundary(self):
+        tables = RIGID | {"finite_element": {"far_field": "half-plane"}}
+        assert set_to(tables, a_over_thickness=1.0).scene.finite_element.far_field == "held"
+
+    @pytest.mark.parametrize(
+        ("tables", "group", "what"),
+        [
+            (RIGID, "rms_slope", "profile:"),
+            (RIGID, "modulus_ratio", "roller.rigid:"),
+            (RIGID, "peak_pressure_over_hardness", "body.yield_stress:"),
+            (RIGID, "peclet", r"heat: is missing; allowed for its groups is \[heat\]"),
+            (RIGID, "coating_over_a", r"coating: is missing"),
+            (RIGID | {"heat": {"slide_to_roll": -2.0}}, "peclet", "is -2, at which the contact"),
+            (RIGID | {"coating": {}}, "conductivity_ratio", "heat: is missing"),
+            (ELASTIC, "a_over_radius", "a_over_radius, which takes finite"),
+            (ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]}, "friction_dundurs", "body:"),
+            (
+                {**RIGID, "body": {**RIGID["body"], "thickness": 1e-3}, "load": {"approach": 1e-6}},
+                "a_over_thickness",
+                "load.approach:",
+            ),
+        ],
+        ids=lambda value: value if isinstance(value, str) else "",
+    )
+    def test_what_is_missing_in_a_scene_is_named(self, tables, group, what):
+        with pytest.raises(SceneError, match=what):
+            set_to(tables, **{group: 0.1})
+
+
+class TestAxes:
+    def test_axes(self):
+        axis = axis_of("a-over-thickness=0.1:10", 3, "--x")
+        assert (axis.group, axis.values, axis.logarithmic) == (
+            "a_over_thickness",
+            (0.1, 1.0, 10.0),
+            True,
+        )
+        assert str(axis) == "a_over_thickness=0.1:10"
+        axis = axis_of("poissons_ratio", 3, "--x")
+        assert (axis.values, axis.logarithmic) == ((0.0, 0.245, 0.49), False)
+        assert counts_of("3x12") == (3, 12)
+
+    @pytest.mark.parametrize(
+        ("given", "what"),
+        [
+            ("a_over_thicknes", "--x: there is no group a_over_thicknes; the nearest is a_over_th"),
+            ("rms_slope=0.2:0.1", "--x: the range is 0.2:0.1"),
+            ("rms_slope=a:b", "--x: the range is a:b"),
+            ("rms_slope=0:1", "--x: rms_slope begins at 0"),
+            ("rms_slope=1", "--x: is 'rms_slope=1'"),
+        ],
+    )
+    def test_wrong_axes(self, given, what):
+        with pytest.raises(InputError, match=f"^{what}"):
+            axis_of(given, 3, "--x")
+
+    @pytest.mark.parametrize("given", ["3", "1x3", "3x201", "x", "3x-2"])
+    def test_wrong_points(self, given):
+        with pytest.raises(InputError, match=r"^--points: is"):
+            counts_of(given)

@@ -1,0 +1,214 @@
+"""Maps: rules bound what their points say, and pictures show it."""
+
+import numpy as np
+import pytest
+
+from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
+from comparisons.campaigns.maps.picture import map_figure, map_picture
+from comparisons.campaigns.maps.rule import rule_of
+from comparisons.campaigns.points import FAILED, SOLVED
+from comparisons.report.figures.style import drawing
+
+
+@pytest.fixture
+def made(smooth_map) -> dict:
+    return smooth_map(lambda x, y: 0.02 * (x / 0.3) ** 2 * (y / 0.1))
+
+
+@pytest.fixture
+def smooth_map():
+    """smooth_map(error): the content of a map with that error, of x and y."""
+
+    def content(error, uncertainty: float = 1e-4) -> dict:
+        axes = {
+            "x": ("a_over_thickness", "a/t", np.geomspace(0.03, 3.0, 9)),
+            "y": ("friction_dundurs", "μβ", np.geomspace(0.01, 1.0, 7)),
+        }
+        points = [
+            {
+                "x": x,
+                "y": y,
+                "status": SOLVED,
+                "error": SIGNIFICANT,
+                "quantities": {
+                    "peak_pressure": {"difference": error(x, y), "uncertainty": uncertainty}
+                },
+            }
+            for y in axes["y"][2]
+            for x in axes["x"][2]
+        ]
+        return {
+            "quantity": "peak_pressure",
+            "scene": {"title": "Made"},
+            **{
+                name: {
+                    "group": group,
+                    "symbol": symbol,
+                    "label": "",
+                    "logarithmic": True,
+                    "values": values.tolist(),
+                }
+                for name, (group, symbol, values) in axes.items()
+            },
+            "tolerances": [0.01, 0.02, 0.05, 0.1],
+            "points": points,
+        }
+
+    return content
+
+
+def transposed(content: dict) -> dict:
+    points = np.array(content["points"], dtype=object)
+    turned = points.reshape(7, 9).T.ravel().tolist()
+    return content | {"x": content["y"], "y": content["x"], "points": turned}
+
+
+class TestRule:
+    def test_a_power_law_is_found_from_its_good_side(self, made):
+        rule = rule_of(made, 0.02)
+        assert (rule.group, rule.other_group, rule.side) == (
+            "a_over_thickness",
+            "friction_dundurs",
+            "below",
+        )
+        assert rule.exponent == -0.5
+        assert 0.94 * 0.3 * 0.1**0.5 < rule.coefficient < 0.3 * 0.1**0.5
+        assert rule.points_inside >= 0.9 * rule.points_within and rule.largest_error <= 0.02
+        assert rule.law == f"a/t < {rule.coefficient:g} (μβ)^-0.5"
+        assert "keeps the peak pressure within 2 % for a/t = 0.03 to 3 and μβ = 0.01" in rule.text
+
+    def test_either_axis_and_end_may_bound(self, smooth_map):
+        rule = rule_of(transposed(smooth_map(lambda x, y: -0.02 * (0.3 / x) ** 2)), 0.02)
+        assert (rule.group, rule.side, rule.exponent) == ("a_over_thickness", "above", 0.0)
+        assert 0.3 < rule.coefficient < 0.33
+
+    def test_errors_that_add_bound_both_groups(self, smooth_map):
+        content = smooth_map(lambda x, y: -0.02 * ((x / 0.3) ** 2 + (y / 0.15) ** 2))
+        rule = rule_of(content, 0.02)
+        assert rule.points_inside >= 0.8 * rule.points_within
+        assert (rule.group, rule.side, rule.other_range[0]) == ("a_over_thickness", "below", 0.01)
+        assert rule.other_range[1] == pytest.approx(0.1)
+        assert rule.law.endswith("and μβ <= 0.1")
+        values = {"x": content["x"]["values"], "y": content["y"]["values"]}
+        held = [
+            0.02 * ((x / 0.3) ** 2 + (y / 0.15) ** 2)
+            for y in values["y"]
+            for x in values["x"]
+            if y <= rule.other_range[1] and x < rule.coefficient * y**rule.exponent
+        ]
+        assert len(held) == rule.points_inside and max(held) == pytest.approx(rule.largest_error)
+        assert max(held) <= 0.02
+
+    def test_uncertainty_counts(self, smooth_map):
+        def error(x, y):
+            return 0.02 * (x / 0.3)
+
+        sure, unsure = (rule_of(smooth_map(error, size), 0.02) for size in (1e-6, 0.005))
+        assert unsure.coefficient < 0.85 * sure.coefficient
+
+    def test_a_failed_point_ends_its_line(self, made):
+        before = rule_of(made, 0.1)
+        good = next(
+            n
+            for n, p in enumerate(made["points"])
+            if p["x"] > 0.08 and p["quantities"]["peak_pressure"]["difference"] < 0.01
+        )
+        made["points"][good] = {"x": 0.0, "y": 0.0, "status": FAILED, "why": "…"}
+        after = rule_of(made, 0.1)
+        assert after.points_inside < before.points_inside
+        held = {
+            "a_over_thickness": made["x"]["values"][good % 9],
+            "friction_dundurs": made["y"]["values"][good // 9],
+        }
+        value, other = held[after.group], held[after.other_group]
+        limit = after.coefficient * other**after.exponent
+        bounded = value < limit if after.side == "below" else value > limit
+        assert not (bounded and after.other_range[0] <= other <= after.other_range[1])
+
+    def test_everywhere_and_nowhere(self, smooth_map):
+        everywhere = rule_of(smooth_map(lambda x, y: 1e-3), 0.02)
+        assert (everywhere.points_inside, everywhere.coefficient, everywhere.law) == (
+            63,
+            None,
+            "everywhere",
+        )
+        nowhere = rule_of(smooth_map(lambda x, y: 0.3), 0.02)
+        assert (nowhere.points_inside, nowhere.largest_error, nowhere.law) == (
+            0,
+            None,
+            "no simple bound",
+        )
+
+
+class TestPicture:
+    def drawn(self, content: dict):
+        with drawing():
+            return map_figure(content).axes[0]
+
+    @pytest.mark.parametrize(
+        ("error", "shown"), [(-0.09, "−9.0"), (0.47, "+47"), (-0.0102, "−1.0"), (1e-4, "+0.010")]
+    )
+    def test_errors_are_stated_in_two_digits(self, smooth_map, error, shown):
+        axes = self.drawn(smooth_map(lambda x, y: error, 1e-9))
+        assert {text.get_text() for text in axes.texts} == {shown}
+
+    def test_only_significant_errors_have_a_colour(self, made):
+        made["points"][0]["error"] = BELOW
+        made["points"][1]["error"] = INCONCLUSIVE
+        made["points"][2] = {"x": 0.0, "y": 0.0, "status": FAILED, "why": "…"}
+        axes = self.drawn(made)
+        cells = axes.patches
+        assert len(cells) == 63 - 1
+        assert [cell.get_hatch() for cell in cells[:3]] == ["....", "////", None]
+        assert [cell.get_facecolor()[3] for cell in cells[:3]] == [0.0, 0.0, 1.0]
+        crosses = [line for line in axes.lines if line.get_marker() == "x"]
+        assert len(crosses) == 1
+        place = np.log10(made["x"]["values"][2]), np.log10(made["y"]["values"][0])
+        assert np.allclose(crosses[0].get_xydata(), place)
+        words = [text.get_text() for text in axes.get_legend().get_texts()]
+        assert words[4:] == [
+            "within its numerical uncertainty, below 1 %",
+            "within its numerical uncertainty",
+            "failed",
+        ]
+
+    def test_colours_are_of_the_error(self, smooth_map):
+        """One band a colour, and a larger error is darker."""
+        axes = self.drawn(smooth_map(lambda x, y: -0.004 * x / 0.03))
+        colours = [cell.get_facecolor()[:3] for cell in axes.patches[:9]]
+        brightness = np.array(colours) @ [0.299, 0.587, 0.114]
+        assert np.all(np.diff(brightness) <= 0.0) and brightness[-1] < brightness[0] - 0.3
+
+    @pytest.mark.parametrize("sign", [1.0, -1.0])
+    def test_lines_are_where_the_error_is_the_tolerance(self, smooth_map, sign):
+        axes = self.drawn(smooth_map(lambda x, y: sign * 0.01 * x / 0.2))
+        found = [
+            path.vertices[:, 0].mean() for line in axes.collections for path in line.get_paths()
+        ]
+        assert np.allclose(10.0 ** np.array(sorted(found)), [0.2, 0.4, 1.0, 2.0], rtol=0.02)
+
+    @pytest.mark.parametrize(("largest", "count"), [(0.009, None), (0.03, 2), (0.2, 4)])
+    def test_the_legend_names_the_lines_that_are_drawn(self, smooth_map, largest, count):
+        legend = self.drawn(smooth_map(lambda x, y: -largest * x / 4.0)).get_legend()
+        words = None if legend is None else [text.get_text() for text in legend.get_texts()]
+        lines = [f"error of {share} %" for share in (1, 2, 5, 10)]
+        assert words == (None if count is None else lines[:count])
+
+    def test_equal_maps_give_equal_pictures(self, made):
+        text = map_picture(made)
+        assert text == map_picture(made) and text.startswith("<?xml")
+
+
+@pytest.mark.parametrize(
+    ("difference", "uncertainty", "kind"),
+    [
+        (0.02, 0.01, SIGNIFICANT),
+        (-0.02, 0.03, INCONCLUSIVE),
+        (0.002, 0.003, BELOW),
+        (0.5, None, INCONCLUSIVE),
+    ],
+)
+def test_an_error_is_held_against_its_uncertainty(difference, uncertainty, kind):
+    error = {"difference": difference, "uncertainty": uncertainty}
+    found = {"status": SOLVED, "quantities": {"peak_pressure": error}}
+    assert significance(found, "peak_pressure") == {"error": kind}

@@ -1,0 +1,128 @@
+"""How a number judges a claim of the paper, and how its uncertainty is found."""
+
+from math import inf
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from comparisons.campaigns.paper.claims.claim_list import FIGURES, SCENES, claims
+from comparisons.campaigns.paper.claims.judgement import (
+    CONFIRMED,
+    DENIED,
+    INCONCLUSIVE,
+    Claim,
+    MeasuredNumber,
+    judgement,
+    measured,
+)
+
+
+def claim(**changes) -> Claim:
+    given = {"reading": lambda view: 0.0, "confirms": (2.0, 3.0)}
+    words = dict.fromkeys(("key", "figure", "title", "text", "measure", "scene"), "…")
+    return Claim(**words | given | changes)
+
+
+def outcome_of(value, uncertainty, other=None, **changes):
+    numbers = {"half_plane": MeasuredNumber(value, uncertainty)}
+    numbers["finite_element"] = MeasuredNumber(value if other is None else other, uncertainty)
+    return judgement(claim(**changes), numbers)
+
+
+class TestJudgement:
+    @pytest.mark.parametrize(
+        ("value", "uncertainty", "expected"),
+        [
+            (2.5, 0.4, CONFIRMED),
+            (2.0, 0.0, CONFIRMED),
+            (1.5, 0.4, DENIED),
+            (3.5, 0.4, DENIED),
+            (2.1, 0.2, INCONCLUSIVE),
+            (1.9, 0.2, INCONCLUSIVE),
+            (2.5, inf, INCONCLUSIVE),
+        ],
+    )
+    def test_the_whole_uncertainty_must_lie_on_one_side(self, value, uncertainty, expected):
+        assert outcome_of(value, uncertainty)[0] == expected
+
+    @pytest.mark.parametrize(
+        ("value", "expected"), [(2.5, CONFIRMED), (1.5, INCONCLUSIVE), (0.5, DENIED), (4.0, DENIED)]
+    )
+    def test_between_words_and_their_denial_it_is_inconclusive(self, value, expected):
+        found, why = outcome_of(value, 0.1, allows=(1.0, 3.0), ambiguity="no number")
+        assert (found, why) == (expected, "no number" if expected == INCONCLUSIVE else None)
+
+    def test_what_a_stand_in_was_made_for_proves_nothing_but_may_fail(self):
+        found, why = outcome_of(2.5, 0.1, tuned="this ratio")
+        assert found == INCONCLUSIVE and "made to show this ratio" in why
+        assert outcome_of(1.0, 0.1, tuned="this ratio") == (DENIED, None)
+
+    def test_models_that_say_different_things_are_inconclusive(self):
+        found, why = outcome_of(2.5, 0.1, other=1.0)
+        assert found == INCONCLUSIVE and "do not say the same" in why
+
+    def test_the_uncertain_model_is_named(self):
+        found, why = outcome_of(2.5, 0.1, other=2.05)
+        assert found == INCONCLUSIVE and "finite elements" in why and "half-plane" not in why
+
+    def test_an_unsolved_contact_is_inconclusive(self):
+        found, why = judgement(claim(), {"half_plane": MeasuredNumber(2.5, 0.1, converged=False)})
+        assert found == INCONCLUSIVE and why == "the contact of the half-plane did not converge"
+
+    @pytest.mark.parametrize(
+        ("confirms", "allows", "expected"),
+        [
+            ((2.0, inf), None, "Confirmed from 2 a on, else denied."),
+            ((0.0, 0.5), None, "Confirmed from 0 to 0.5 a, else denied."),
+            ((0.9, 1.0), (0.5, 1.0), "Confirmed from 0.9 to 1 a, denied unless from 0.5 to 1 a."),
+        ],
+    )
+    def test_the_criterion_says_the_bounds(self, confirms, allows, expected):
+        assert claim(confirms=confirms, allows=allows, unit="a").criterion == expected
+
+
+class TestMeasured:
+    def outcome(self, values, check=None):
+        levels = [SimpleNamespace(value=v, solution=self.solution()) for v in values]
+        level = None if check is None else SimpleNamespace(value=check, solution=None)
+        run = SimpleNamespace(levels=levels, finest=levels[-1], far_boundary_check=level)
+        return SimpleNamespace(runs={"m": run}, problem=None, window=None)
+
+    def solution(self):
+        return SimpleNamespace(converged=True, residuals=SimpleNamespace(worst=0.0))
+
+    def test_uncertainty_grows_with_levels_boundary_and_reading(self):
+        def reading(view):
+            return view.level.value + 0.01 * (view.every - 1)
+
+        plain = measured(self.outcome([1.04, 1.02, 1.01]), "m", lambda view: view.level.value)
+        assert plain.value == 1.01
+        assert plain.uncertainty == pytest.approx(1.25 * 0.01)  # order 1: 1.25 times the last step
+        fast = measured(self.outcome([1.05, 1.01, 1.0]), "m", lambda view: view.level.value)
+        # faster than order 1: no order is trusted, and the fit with order 1 scatters
+        assert fast.uncertainty == pytest.approx(0.02533, abs=1e-5)
+        read = measured(self.outcome([1.04, 1.02, 1.01]), "m", reading)
+        assert read.uncertainty == pytest.approx(plain.uncertainty + 0.01)
+        bound = measured(self.outcome([1.04, 1.02, 1.01], check=1.05), "m", reading)
+        assert bound.uncertainty == pytest.approx(read.uncertainty + 0.01 / (np.sqrt(2.0) - 1.0))
+
+    def test_an_error_against_an_exact_value_has_none(self):
+        assert measured(self.outcome([3.0, 2.0, 1.0]), "m", lambda v: v.level.value, True) == (
+            MeasuredNumber(1.0, 0.0)
+        )
+
+
+def test_the_list_of_claims_is_whole():
+    listed = claims()
+    for name in ("key", "title"):
+        assert len({getattr(c, name) for c in listed}) == len(listed) > 30
+    assert {c.scene for c in listed} == set(SCENES) == set(FIGURES)
+    for each in listed:
+        low, high = each.confirms
+        assert low < high
+        if each.allows is not None:
+            assert each.ambiguity and each.allows[0] <= low and high <= each.allows[1]
+        number = each.figure.partition("(")[0]
+        assert number in {"1", "5", "11", *FIGURES.values()}
+        assert number in {"1", "5", "11"} or number == FIGURES[each.scene]

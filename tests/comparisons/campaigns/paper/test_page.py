@@ -1,0 +1,249 @@
+"""The paper computed anew at low resolution: what its page, numbers, files and pictures hold."""
+
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from comparisons import cli
+from comparisons.campaigns.paper import reproduce
+from comparisons.campaigns.paper.claims.book import judged_book
+from comparisons.campaigns.paper.claims.claim_list import FIGURES, SCENES, claims
+from comparisons.campaigns.paper.claims.judgement import OUTCOMES
+from comparisons.campaigns.paper.claims.readings import SLIDING
+from comparisons.campaigns.paper.pictures import depth as depth_pictures
+from comparisons.campaigns.paper.pictures import pressure as pressure_pictures
+from comparisons.campaigns.paper.pictures import shear as shear_pictures
+from comparisons.campaigns.paper.reproduce import FRICTIONS, Fineness
+from comparisons.common.errors import ExitStatus, InputError
+from comparisons.figures.quantity import LABELS, MODELS
+
+COARSE = Fineness(pitch=80e-6, points=(40, 20))
+PICTURES = 1 + 2 + 3 * len(SCENES) + 4 + 2
+DRAWING = (pressure_pictures, shear_pictures, depth_pictures)
+
+
+class Page(HTMLParser):
+    """Pictures, places, links and text of a page."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.images, self.places, self.links, self.words = [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        named = dict(attributes)
+        if "id" in named:
+            self.places.append(named["id"])
+        if tag == "img":
+            self.images.append(named)
+        for name in ("src", "href", "srcset"):
+            if name in named:
+                self.links.append(named[name])
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The finished paper, its folder, and every figure by the module that drew it."""
+    figures: dict[str, list] = {}
+    with pytest.MonkeyPatch.context() as patch:
+        for module in DRAWING:
+            name, real = module.__name__.rpartition(".")[2], module.data_uri
+
+            def keep(drawn, name=name, real=real):
+                figures.setdefault(name, []).append(drawn)
+                return real(drawn)
+
+            patch.setattr(module, "data_uri", keep)
+        out = tmp_path_factory.mktemp("paper") / "out"
+        stages = []
+        found = reproduce.paper(out, COARSE, stages.append)
+    return SimpleNamespace(paper=found, out=out, figures=figures, stages=stages)
+
+
+@pytest.fixture(scope="module")
+def page(made):
+    return Page((made.out / "paper.html").read_text(encoding="utf-8"))
+
+
+def test_the_page_holds_every_figure(page):
+    assert len(page.images) == PICTURES == 21
+    for image in page.images:
+        assert image["src"].startswith("data:image/svg+xml;base64,")
+        assert len(image["alt"]) > 40
+    assert len({image["alt"] for image in page.images}) == PICTURES
+    sections = [place for place in page.places if place.startswith("figure-")]
+    assert sections == [
+        f"figure-{n}" for n in ("1", "5", "6", "8", "9", "10", "11", "seireg", "seireg-heat")
+    ]
+
+
+def test_the_page_holds_every_claim_with_its_outcome(made, page):
+    text = " ".join(" ".join(page.words).split()).replace("\u00a0", " ").replace("\u2060", "")
+    for each in made.paper.judged:
+        assert page.places.count(f"claim-{each.claim.key}") == 1
+        assert f"#claim-{each.claim.key}" in page.links
+        for said in (each.claim.text, each.claim.measure, each.claim.criterion, each.why or ""):
+            assert " ".join(said.split()) in text
+    assert len(made.paper.judged) == len(claims()) + len(judged_book())
+    assert len(page.places) == len(set(page.places))
+
+
+def test_on_a_telephone_each_number_of_a_claim_has_its_name(made):
+    source = (made.out / "paper.html").read_text(encoding="utf-8")
+    table = source[source.index('<table class="claims') : source.index("</table>")]
+    heads = re.findall(r"<th scope=\"col\">(.*?)</th>", table)
+    for row in table.split("<tr ")[1:]:
+        assert re.findall(r"<td data-name=\"(.*?)\"", row) == heads[1:]
+        assert row.count("<td") == len(heads) - 1
+
+
+def test_the_page_needs_no_network(page):
+    assert all(link.startswith(("#", "data:")) for link in page.links)
+
+
+def test_numbers_hold_what_the_page_says(made):
+    content = json.loads((made.out / "paper.json").read_text(encoding="utf-8"))
+    listed = [*claims(), *(each.claim for each in judged_book())]
+    assert [claim["key"] for claim in content["claims"]] == [c.key for c in listed]
+    assert sum(content["outcomes"].values()) == len(content["claims"])
+    assert set(content["outcomes"]) == set(OUTCOMES) and set(content["surfaces"]) == set(SCENES)
+    for claim, judged in zip(content["claims"], made.paper.judged, strict=True):
+        assert set(claim["numbers"]) == set(judged.claim.models)
+        assert (claim["why"] is None) == (claim["outcome"] != "inconclusive")
+        for model, number in claim["numbers"].items():
+            assert number["value"] == judged.numbers[model].value
+            assert number["uncertainty"] >= 0.0
+    assert content == made.paper.as_dict()
+
+
+def test_exact_figures_are_met_even_so_coarsely(made):
+    numbers = {each.claim.key: each for each in made.paper.judged}
+    for key, exact in (("smooth-tau1", 0.300283), ("smooth-txz", 0.25), ("smooth-depth", 0.786151)):
+        for number in numbers[key].numbers.values():
+            assert abs(number.value - exact) <= max(number.uncertainty, 2e-3)
+    assert numbers["load"].numbers["half_plane"].value == pytest.approx(1.0, abs=1e-8)
+    assert numbers["edge-friction"].numbers["finite_element"].value > 1.05
+
+
+def test_progress_names_surfaces_and_figures(made):
+    assert all(any(name in stage for stage in made.stages) for name in SCENES)
+    assert "drawing figure 11" in made.stages
+
+
+class TestPictures:
+    def test_pressures_share_one_scale_and_are_over_hertz(self, made):
+        trace, *panels = made.figures["pressure"]
+        assert len(panels) == len(SCENES)
+        limits = {axes.get_ylim() for figure in (trace, *panels) for axes in figure.axes[:1]}
+        assert len(limits) == 1
+        assert len({figure.axes[1].get_ylim() for figure in panels}) == 1
+        for figure, name in zip(panels, SCENES, strict=True):
+            run = made.paper.outcomes[name].runs["half_plane"].finest
+            p0 = made.paper.outcomes[name].problem.hertz.peak_pressure
+            lines = {line.get_label(): line.get_ydata() for line in figure.axes[0].lines}
+            assert {LABELS[name] for name in MODELS} <= set(lines)
+            assert max(lines["half-plane"]) == run.solution.pressure.max() / p0
+            assert max(lines["half-plane"]) < figure.axes[0].get_ylim()[1]
+            assert figure.axes[0].get_ylabel() == "p/p₀"
+            assert [axes.get_xlabel() for axes in figure.axes] == ["", "x/a"]
+            assert figure.axes[1].get_ylabel() == "height [µm]"
+
+    def test_the_trace_has_the_papers_axis(self, made):
+        axes = made.figures["pressure"][0].axes[1]
+        np.testing.assert_allclose(axes.get_xticks(), [0, 559, 1118, 1677, 2236], atol=1e-6)
+        assert "µm" in axes.get_xlabel()
+        assert "25 µm" in [text.get_text() for text in axes.texts]
+
+    def test_shear_has_one_scale_for_all_surfaces(self, made):
+        drawn = made.figures["shear"]
+        assert len(drawn) == 2 * len(SCENES)
+        for contours in (drawn[::2], drawn[1::2]):  # orthogonal, principal
+            bars = [figure.axes[-1] for figure in contours]
+            assert len({(bar.get_xlim(), tuple(bar.get_xticks())) for bar in bars}) == 1
+            for figure in contours:
+                assert len(figure.axes) == len(FRICTIONS) + 1
+                assert figure.axes[-2].get_xlabel() == "x/a"
+                assert {axes.get_ylabel() for axes in figure.axes[:-1]} == {"z/a"}
+                assert any(t.get_text().endswith("/p₀") for t in figure.axes[-1].texts)
+
+    def test_depth_sections_carry_units_and_both_models(self, made):
+        first, near = made.figures["depth"]
+        for figure in (first, near):
+            axes = figure.axes[0]
+            assert (axes.get_xlabel(), axes.get_ylabel()) == ("stress/p₀", "z/a")
+            labels = [line.get_label() for line in axes.lines]
+            assert sum("finite elements" in label for label in labels) == 2
+        assert near.axes[0].get_ylim() == (0.1, 0.0)
+
+
+@pytest.mark.parametrize("step", ["solve_surfaces", "sections_of"])
+def test_an_interrupt_leaves_nothing(monkeypatch, tmp_path, capsys, step):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(reproduce, "solve_surfaces", lambda *_, **__: {})
+    monkeypatch.setattr(reproduce, "claims", tuple)
+    monkeypatch.setattr(reproduce, step, stopped)
+    assert cli.main(["paper", "--out", str(tmp_path / "out")]) == ExitStatus.INTERRUPTED
+    said = "crosscheck: interrupted; nothing was written, the same command starts again\n"
+    assert capsys.readouterr() == ("", said)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_is_refused_before_solving(monkeypatch, tmp_path):
+    monkeypatch.setattr(reproduce, "solve_surfaces", None)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="not a folder"):
+        reproduce.paper(tmp_path / "file")
+
+
+def test_the_model_error_stands_beside_each_claim_of_a_real_contact(made, page):
+    content = json.loads((made.out / "paper.json").read_text(encoding="utf-8"))
+    claims_in_json = {claim["key"]: claim for claim in content["claims"]}
+    for claim in claims():
+        error = claims_in_json[claim.key]["model_error"]
+        assert (error is None) == (claim.quantity is None)
+        if error is not None:
+            friction = SLIDING if claim.slides else 0.0
+            found = made.paper.outcomes[claim.scene].budget.of(claim.quantity, friction)
+            assert error["quantity"] == claim.quantity and error["value"] == found.value
+    text = " ".join("".join(page.words).split()).replace("\u00a0", " ").replace("\u2060", "")
+    assert text.count("Model error of the half-plane in this figure:") == sum(
+        claim.quantity is not None for claim in claims()
+    )
+    # finite deformation was not computed: its estimate stands there
+    left = claims_in_json["twice-unrun"]["model_error"]["not_modelled"]
+    assert left["finite_strain"] > 0.05
+    assert "not modelled, by estimate: at most" in text
+
+
+@pytest.mark.parametrize("arguments", [[], ["--json"]])
+def test_the_command_prints_the_claims(made, monkeypatch, capsys, arguments):
+    calls = []
+
+    def reproduced(out: Path, callback, effects):
+        assert effects is False
+        calls.append(out)
+        return made.paper
+
+    monkeypatch.setattr(reproduce, "paper", reproduced)
+    assert cli.main(["paper", *arguments]) == ExitStatus.DONE
+    out, err = capsys.readouterr()
+    assert calls == [Path("results/paper")] and err == ""
+    if arguments:
+        assert json.loads(out) == made.paper.as_dict()
+    else:
+        assert all(
+            each.claim.title.split(",")[0].replace("₀", "0") in out.replace("₀", "0")
+            for each in made.paper.judged
+        )
+        assert "inconclusive" in out and "paper.html" in out
+    assert set(FIGURES) == set(SCENES)

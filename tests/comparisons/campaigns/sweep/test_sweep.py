@@ -1,0 +1,219 @@
+"""One scene at many values of its fields: from Python, by the command, scattered, refused."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from scenes import STEEL
+
+from comparisons import api
+from comparisons.campaigns.sweep.request import MARGIN, sweep_request
+from comparisons.campaigns.sweep.study import scatter
+from comparisons.campaigns.sweep.zone_map import zone_map_figure
+from comparisons.cli import main
+from comparisons.common.errors import InputError
+from comparisons.models.problem import problem_of
+from comparisons.report.figures import style
+
+WAVES = {
+    "roller": {"radius": 8e-3, "rigid": True},
+    "body": STEEL,
+    "profile": {"kind": "self-affine", "length": "1.2 mm", "samples": 600, "hurst": 0.8,
+                "rms_height": "0.1 um", "seed": 3},
+    "load": {"hertz_peak_pressure": "1 GPa", "friction": [0.0]},
+    "resolution": {"levels": 2},
+}  # fmt: skip
+
+
+def request(over, tables=WAVES, **place):
+    given = {"name": "scene", "folder": None, "source": "scene"} | place
+    return sweep_request(tables, over, ("half_plane",), **given)
+
+
+def test_placements_keep_the_contact_on_the_trace():
+    asked = request(["position=5"])
+    [swept] = asked.fields
+    scene = api.load(WAVES)
+    reach = problem_of(scene).extent
+    start, end = scene.position + scene.profile.x[[0, -1]]
+    assert swept.values[0] + MARGIN * reach[0] == pytest.approx(start)
+    assert swept.values[-1] + MARGIN * reach[1] == pytest.approx(end)
+    assert np.ptp(np.diff(swept.values)) < 1e-12
+    assert all(point.why is None for point in asked.points)
+
+
+def test_each_point_is_the_scene_with_its_values():
+    found = api.sweep(WAVES, ["position=2", "load=0.5 GPa,1 GPa"], workers=1)
+    assert len(found.content["points"]) == 4
+    place, load = found.content["points"][1]["values"]
+    alone = WAVES | {"load": {"hertz_peak_pressure": load, "position": place, "friction": [0.0]}}
+    expected = {row["quantity"]: row["half_plane"] for row in api.run(alone, "half-plane").rows}
+    rows = [r for r in found.rows if (r["load.position"], r["load.hertz_peak_pressure"])
+            == (place, load)]  # fmt: skip
+    assert {row["quantity"]: row["half_plane"] for row in rows} == expected
+    assert "4 scenes (2 of load.position x 2 of load.hertz_peak_pressure), 0 failed" in repr(found)
+
+
+def test_the_scatter_is_that_of_the_values():
+    found = api.sweep(WAVES, "friction=0:0.2:2", workers=1)
+    assert [each["friction"] for each in found.content["scatter"]] == [None] * 3
+    values = np.array([1.0, 2.0, 6.0])
+    rows = [[{"quantity": "peak_pressure", "friction": 0.0, "half_plane": v,
+              "finite_element": None, "model_error": None}] for v in values]  # fmt: skip
+    [one] = scatter([{"rows": each} for each in rows], over_friction=False)
+    assert (one["count"], one["mean"], one["smallest"], one["largest"]) == (3, 3.0, 1.0, 6.0)
+    assert one["standard_deviation"] == pytest.approx(np.sqrt((4.0 + 1.0 + 9.0) / 2.0))
+
+
+def test_pressure_follows_the_root_of_the_load():
+    """Hertz's law along a sweep of the load, both ends with their units."""
+    smooth = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6}}
+    found = api.sweep(smooth, "load=0.5 kN/mm:2 kN/mm:4", workers=1)
+    peaks = [r["half_plane"] for r in found.rows if r["quantity"] == "peak_pressure"]
+    assert np.diff(np.log(peaks)) == pytest.approx(
+        0.5 * np.diff(np.log([0.5, 1, 1.5, 2])), abs=1e-4
+    )
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("sweep")
+    (folder / "waves.toml").write_text(
+        '[roller]\nradius = 8e-3\nrigid = true\n[body]\nyoungs_modulus = "210 GPa"\n'
+        'poissons_ratio = 0.3\n[profile]\nkind = "sinusoid"\nwavelength = "40 um"\n'
+        'amplitude = "50 nm"\n[load]\nhertz_peak_pressure = "1 GPa"\n[resolution]\nlevels = 2\n'
+    )
+    asked = ["sweep", str(folder / "waves.toml"), "--out", str(folder / "out")]
+    asked += ["--over", "profile.amplitude=20 nm,50 nm,never", "--over", "roller.radius=8e-3,1e-2"]
+    return folder / "out", asked, main(asked)
+
+
+def test_the_command_leaves_table_picture_and_json(made, capsys):
+    out, _, status = made
+    assert status == 0
+    content = json.loads((out / "sweep.json").read_text())
+    failed = [point["why"] for point in content["points"] if point["status"] == "failed"]
+    assert len(content["points"]) == 6 and len(failed) == 2
+    assert all("profile.amplitude" in why for why in failed)
+    with (out / "sweep.csv").open() as lines:
+        rows = list(csv.DictReader(lines))
+    assert {row["profile.amplitude"] for row in rows} == {"20 nm", "50 nm"}
+    assert (out / "sweep.svg").read_text().startswith("<?xml")
+
+
+def test_a_second_call_solves_nothing(made, monkeypatch, capsys):
+    out, asked, _ = made
+    before = (out / "sweep.json").read_bytes()
+    monkeypatch.setattr("comparisons.runs.run.run", None)
+    assert main(asked) == 0
+    assert (out / "sweep.json").read_bytes() == before
+    assert "6 scenes (3 of profile.amplitude x 2 of roller.radius), 2 failed" in (
+        capsys.readouterr().out
+    )
+
+
+def test_bulges_are_drawn_over_the_relative_penetration(tmp_path, capsys):
+    """On an elastic body none, whatever h/R; as many elements on a half-width at every load."""
+    (tmp_path / "slides.toml").write_text(
+        '[roller]\nradius = 1e-2\nrigid = true\n[body]\nyoungs_modulus = "210 GPa"\n'
+        'poissons_ratio = 0.3\n[load]\nhertz_peak_pressure = "1 GPa"\nfriction = [0, 0.3]\n'
+        "[stress]\npoints = [60, 30]\nbulge = true\n[resolution]\nelements = 8\nlevels = 2\n"
+        "[budget]\ntime = 1\neffects = false\n"
+    )
+    out = tmp_path / "out"
+    asked = ["sweep", str(tmp_path / "slides.toml"), "--workers", "1", "--out", str(out)]
+    asked += ["--models", "finite-element", "--over", "load.hertz_peak_pressure=0.5 GPa,1 GPa"]
+    assert main(asked) == 0
+    assert "bulge.svg" in capsys.readouterr().out
+    points = json.loads((out / "sweep.json").read_text())["points"]
+    [one], [two] = (point["bulge"] for point in points)
+    assert two["relative_penetration"] == pytest.approx(4.0 * one["relative_penetration"])
+    assert two["contact"] == pytest.approx(2.0 * one["contact"], rel=1e-6)
+    assert two["over_penetration"] == pytest.approx(one["over_penetration"], abs=1e-6)
+    assert abs(two["height"]) < two["uncertainty"]
+    assert (out / "bulge.svg").read_text().startswith("<?xml")
+
+
+def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
+    """Long waves bridge it, short ones do not, and friction does."""
+    (tmp_path / "waves.toml").write_text(
+        '[roller]\nradius = 5.76923e-3\nyoungs_modulus = "210 GPa"\npoissons_ratio = 0.3\n'
+        '[body]\nyoungs_modulus = "210 GPa"\npoissons_ratio = 0.3\n[profile]\n'
+        'kind = "sinusoid"\nwavelength = "40 um"\namplitude = "200 nm"\n[load]\n'
+        'hertz_peak_pressure = "1 GPa"\nfriction = [0, 0.3]\n[stress]\npoints = [120, 40]\n'
+        "[resolution]\nlevels = 2\n"
+    )
+    out = tmp_path / "out"
+    asked = ["sweep", str(tmp_path / "waves.toml"), "--workers", "1", "--out", str(out)]
+    assert main([*asked, "--over", "profile.wavelength=20 um,45 um"]) == 0
+    assert "quiescent_zone.svg" in capsys.readouterr().out
+    points = json.loads((out / "sweep.json").read_text())["points"]
+    found = [p["quiescent_zone"]["half_plane"] for p in points]
+    statuses = [[entry["status"] for entry in entries] for entries in found]
+    assert statuses == [["quiescent", "bridged"], ["bridged", "bridged"]]
+    assert all(0 <= entry["bridged"] <= entry["asperities"] for e in found for entry in e)
+    content = json.loads((out / "sweep.json").read_text())
+    with style.drawing():
+        axes = zone_map_figure(content).axes
+    shown = [[text.get_text() for text in each.texts] for each in axes]
+    assert shown == [[f"{e[k]['level']['value']:.2f}" for e in found] for k in (0, 1)]
+    assert [each.get_title(loc="left") for each in axes] == [
+        "friction 0, half-plane",
+        "friction 0.3, half-plane",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("over", "said"),
+    [
+        ("position", "is 'position'; allowed is FIELD=A,B,C"),
+        ("load=1 GPa:2 GPa", "allowed is FIELD=A,B,C or FIELD=FROM:TO:N"),
+        ("load=1 GPa:2 MPa:3", "two numbers of one unit"),
+        ("load=1:2:0", "how many values, from 2"),
+        ("position=1", "allowed are from 2 to"),
+        ("amplitude=3", "with FIELD as in body.youngs_modulus"),
+        ("body.colour=1,2", "body.colour"),
+        ("load=1 m,2 m", "a pressure"),
+        ("load.position=0:1:100000", "from 2 to 10000"),
+        ("title.x=1", "title is no table"),
+    ],
+)
+def test_wrong_sweeps_are_one_line(over, said):
+    with pytest.raises(InputError) as refused:
+        request([over], WAVES | {"title": "Waves"})
+    assert said in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_a_smooth_scene_has_no_placements_and_a_field_is_swept_once(capsys, tmp_path):
+    assert main(["sweep", "smooth", "--over", "position=4", "--out", str(tmp_path / "a")]) == 2
+    assert "a smooth scene is the same everywhere" in capsys.readouterr().err
+    with pytest.raises(InputError, match="given twice"):
+        request(["friction=0,1", "load.friction=0.2,0.3"])
+    with pytest.raises(InputError, match="is missing"):
+        request([])
+    assert not (tmp_path / "a").exists()
+
+
+def test_tables_of_a_named_scene_run_anywhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tables = api.tables("ground-polished")
+    assert api.load(tables).profile_info.samples == api.load("ground-polished").profile_info.samples
+
+
+def test_stresses_as_arrays():
+    tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6},
+              "stress": {"points": [21, 8], "depth": 1.0}}  # fmt: skip
+    found = api.run(tables, "half-plane")
+    arrays = found.stress()
+    shape = (*arrays["z"].shape, *arrays["x"].shape)
+    assert len(shape) == 2 and arrays["z"][0] == 0.0 and np.all(np.diff(arrays["z"]) > 0.0)
+    assert all(arrays[name].shape == shape for name in ("sx", "sz", "txz", "tau1"))
+    middle = shape[1] // 2  # the pressure, in compression, under the roller's middle
+    assert arrays["sz"][0, middle] == pytest.approx(-found.contact()["pressure"].max(), rel=0.01)
+    radius = np.hypot(0.5 * (arrays["sx"] - arrays["sz"]), arrays["txz"])
+    assert arrays["tau1"] == pytest.approx(radius)
+    with pytest.raises(InputError, match="at friction 0"):
+        found.stress(friction=0.3)
+    with pytest.raises(InputError, match="model: is whole"):
+        found.stress("whole")

@@ -1,0 +1,179 @@
+"""Cases, rows and files of `verify` and `stability`."""
+
+import io
+import json
+from functools import partial
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from comparisons.campaigns.checks import (
+    BoundedFigure,
+    CheckedCase,
+    CheckedRow,
+    Findings,
+    order_figure,
+    relative_error,
+    rows_table,
+    run_case,
+    study_junit,
+    verdict_lines,
+)
+from comparisons.campaigns.robustness import run as robustness
+from comparisons.campaigns.robustness.run import all_cases, run_robustness
+from comparisons.cli import main
+from comparisons.common.errors import ExitStatus
+
+
+def findings(value: float, high: float = 1.0, low: float = 0.0) -> Findings:
+    return Findings((BoundedFigure("error", value, high, "the exact one", low, "a note"),))
+
+
+def case(found: Findings, name: str = "made") -> CheckedCase:
+    return CheckedCase("tests", name, "half_plane", lambda: found)
+
+
+def failing() -> Findings:
+    raise ArithmeticError("no\nsolution [bold]")
+
+
+RAISES = CheckedCase("tests", "raises", "finite_element", failing)
+
+
+def row(*figures: BoundedFigure) -> CheckedRow:
+    return run_case(case(Findings(figures)))
+
+
+@pytest.mark.parametrize(
+    ("value", "high", "low", "holds"),
+    [
+        (1.0, 1.0, 0.0, True),
+        (1.1, 1.0, 0.0, False),
+        (np.nan, 1.0, 0.0, False),
+        (np.inf, np.inf, 0.0, False),
+        (0.5, 1.0, 0.6, False),
+        (-0.1, 1.0, 0.0, False),
+    ],
+)
+def test_a_figure_holds_within_its_bounds(value, high, low, holds):
+    assert run_case(case(findings(value, high, low))).holds is holds
+
+
+def test_orders_and_errors_count_on_both_sides():
+    held = [order_figure("", order, 2.0, 0.25, "").holds for order in (1.7, 1.8, 2.2, 2.3)]
+    assert held == [False, True, True, False]
+    assert relative_error("", 0.75, 1.0, 1.0, "").value == 0.25
+
+
+def test_a_row_without_a_figure_or_with_an_error_fails_and_says_why():
+    assert not row().holds and row().faults == ["half_plane, tests, made: no figures"]
+    raised = run_case(RAISES)
+    assert not raised.holds and raised.error == "ArithmeticError: no solution [bold]"
+
+
+def test_an_interrupt_is_no_row():
+    def stop() -> Findings:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_case(CheckedCase("tests", "stops", "half_plane", stop))
+
+
+def test_the_decisive_figure_is_the_first_or_the_one_that_fails_by_most():
+    right, wrong = BoundedFigure("a", 0.5, 1.0, "x"), BoundedFigure("b", 3.0, 1.0, "x")
+    worse = BoundedFigure("c", np.nan, 1.0, "x")
+    assert row(right, right).decisive is right
+    assert row(right, wrong).decisive is wrong
+    assert row(wrong, worse).decisive is worse
+
+
+@pytest.fixture
+def written(tmp_path):
+    """A study of three rows, its folder and what was announced."""
+    (tmp_path / "result.json").write_text("a run's own")
+    announced = []
+    cases = (case(findings(np.inf)), RAISES, case(findings(0.1), "good"))
+    junit = tmp_path / "ci" / "rows.xml"
+    return run_robustness(tmp_path, junit, announced.append, lambda: cases), tmp_path, announced
+
+
+def test_one_bad_row_does_not_end_the_others_and_the_table_shows_all(written):
+    study, _, announced = written
+    assert study.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+    assert [row.holds for row in study.rows] == [False, False, True]
+    assert announced[-1] == "3 of 3, 2 failed: half_plane: tests: good"
+    console = Console(width=160, file=io.StringIO())
+    console.print(rows_table(study.rows), verdict_lines(study))
+    text = console.file.getvalue()
+    assert "1 of 3 cases hold" in text and "[bold]" in text and "DOES NOT HOLD" in text
+
+
+def test_json_holds_all_rows_beside_the_other_files_of_the_folder(written):
+    study, folder, _ = written
+    content = json.loads((folder / "stability.json").read_text())
+    assert (content["passed"], content["failed"], content["holds"]) == (1, 2, False)
+    assert content["faults"] == study.faults
+    assert content["rows"][0]["figures"][0]["value"] is None
+    assert content["rows"][1]["error"] == "ArithmeticError: no solution [bold]"
+    assert content["rows"][2]["figures"][0] == {
+        "name": "error",
+        "value": 0.1,
+        "high": 1.0,
+        "low": 0.0,
+        "reference": "the exact one",
+        "holds": True,
+    }
+    names = sorted(path.name for path in folder.iterdir())
+    assert names == ["ci", "result.json", "stability.json"]
+
+
+def test_junit_has_a_testcase_for_each_figure_and_error(written):
+    study, folder, _ = written
+    text = (folder / "ci" / "rows.xml").read_text()
+    assert text == study_junit(study)
+    [suite] = ElementTree.fromstring(text.encode())
+    assert (suite.get("tests"), suite.get("failures")) == ("3", "2")
+    first, raised, good = suite
+    assert first.get("classname") == "stability.half_plane"
+    assert first.get("name") == "tests: made: error"
+    assert "inf, expected at most 1" in first.find("failure").get("message")
+    assert "ArithmeticError" in raised.find("failure").get("message")
+    assert good.find("system-out").text == "0.1, expected at most 1 (the exact one); a note"
+
+
+def test_no_rows_are_no_success(tmp_path):
+    assert run_robustness(tmp_path, cases=tuple).exit_status == ExitStatus.OUTSIDE_TOLERANCE
+
+
+@pytest.mark.parametrize(("value", "status"), [(0.5, 0), (2.0, 1)])
+def test_the_command_ends_with_what_the_rows_say(tmp_path, monkeypatch, capsys, value, status):
+    monkeypatch.chdir(tmp_path)
+    short = partial(run_robustness, cases=lambda: [case(findings(value))])
+    monkeypatch.setattr(robustness, "run_robustness", short)
+    assert main(["stability", "--junit", "ci.xml"]) == status
+    out, err = capsys.readouterr()
+    assert f"{1 - status} of 1 cases hold" in out and err == ""
+    assert (tmp_path / "ci.xml").is_file()
+    assert main(["stability", "--json"]) == status
+    shown = capsys.readouterr().out
+    assert shown == (tmp_path / "results" / "stability" / "stability.json").read_text()
+
+
+@pytest.mark.parametrize("command", ["stability", "verify"])
+def test_places_that_cannot_be_written_are_refused_first(tmp_path, capsys, command):
+    (tmp_path / "file").write_text("")
+    assert main([command, "--out", str(tmp_path / "file")]) == ExitStatus.BAD_INPUT
+    assert "is not a folder" in capsys.readouterr().err
+    given = [command, "--out", str(tmp_path / "out"), "--junit", str(tmp_path)]
+    assert main(given) == ExitStatus.BAD_INPUT
+    assert "allowed is a file" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_each_case_has_a_name_of_its_own_and_both_models_have_many():
+    cases = all_cases()
+    names = [(case.model, case.group, case.name) for case in cases]
+    assert len(set(names)) == len(names) >= 105
+    assert sum(case.model == "finite_element" for case in cases) >= 50

@@ -1,0 +1,192 @@
+"""`crosscheck verify` on a part of its cases: it holds, and it sees what does not."""
+
+import json
+import os
+import pickle
+import re
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from analytic.exact.layers import layer_references
+from comparisons import cli
+from comparisons.campaigns.checks import CheckedCase, run_case, run_cases
+from comparisons.campaigns.verify import run
+from comparisons.campaigns.verify.coverage import (
+    FEWEST_ROUGH,
+    LEAST_COVERAGE,
+    MODEL_ERROR,
+    Verification,
+)
+from comparisons.campaigns.verify.independent_solver import independent_cases
+from comparisons.campaigns.verify.manufactured import manufactured_cases
+from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
+from comparisons.campaigns.verify.rough import rough_operator_contacts, rough_scenes
+from comparisons.campaigns.verify.run import Scope, verify
+from comparisons.campaigns.verify.scenes import (
+    COMPARED,
+    exact_scenes,
+    finite_element_scenes,
+    gallery_scenes,
+    half_plane_scenes,
+    layer_scenes,
+    scene_cases,
+    scene_findings,
+    spread,
+)
+from comparisons.common import tasks
+from comparisons.common.errors import ExitStatus
+from comparisons.figures import convergence
+
+# Evaluated, the number of the process as a finding.
+PROCESS = """(
+    lambda c: c.Findings((c.BoundedFigure("process", __import__("os").getpid(), 1e9, ""),))
+)(__import__("sys").modules["comparisons.campaigns.checks"])"""
+SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory) -> tuple[Verification, Path]:
+    """A verification of some finite elements, of half-planes for the orders; and its folder."""
+    folder = tmp_path_factory.mktemp("verify")
+    scenes = (
+        *(scene for scene in half_plane_scenes(rounds=4) if scene.kind == "Hertz"),
+        *(scene for scene in half_plane_scenes(rounds=1) if scene.kind != "Hertz"),
+        finite_element_scenes()[0],
+        *(layer_scenes()[k] for k in SOME_LAYERS),
+        *rough_scenes(half_planes=3, finite_elements=1, layers=1),
+    )
+    contacts = (*operator_contacts()[:12], *rough_operator_contacts()[:2])
+    scope = Scope(
+        (*scene_cases(scenes), *operator_cases(contacts, spread(len(contacts)))),
+        (*manufactured_cases([("flat", 2)]), *independent_cases(["smooth"])),
+        fewest=60,
+        fewest_rough=10,
+    )
+    return verify(folder / "out", folder / "ci" / "verify.xml", scope=scope), folder
+
+
+def half_plane_scope(count: int | None = None) -> Scope:
+    return Scope(tuple(scene_cases(half_plane_scenes(rounds=1)[:count])), fewest=0, fewest_rough=0)
+
+
+class TestCases:
+    def test_there_are_enough_of_each_kind(self):
+        scenes = exact_scenes()
+        assert len({scene.name for scene in scenes}) == len(scenes)
+        for model in ("half_plane", "finite_element"):
+            kinds = {scene.kind for scene in scenes if model in scene.models}
+            assert kinds >= {"Hertz", "surface", "sliding", "hardness"}
+        figures = sum(len(scene.exact) * len(scene.models) for scene in scenes)
+        contacts, rough = operator_contacts(), rough_operator_contacts()
+        assert figures + sum(len(c.exact) for c in contacts) >= 550
+        rough_ones = rough_scenes()
+        cases = scene_cases((*scenes, *rough_ones))
+        cases += operator_cases((*contacts, *rough), spread(len(contacts) + len(rough)))
+        assert pickle.dumps([case.solve for case in cases])  # for other processes
+        rough = (*rough_ones, *rough)
+        assert sum(len(case.exact) for case in rough) >= FEWEST_ROUGH
+        assert len({case.name for case in rough}) == len(rough)
+        assert {contact.kind for contact in operator_contacts()} == {"wave", "punch", "layer"}
+
+    def test_no_two_cases_put_the_edge_at_the_same_place(self):
+        tables = [scene.tables for scene in half_plane_scenes()]
+        places = {(t["resolution"]["pitch"], t["load"]["per_length"]) for t in tables}
+        assert len(places) == len(tables)
+
+    def test_scenes_are_judged_by_what_is_compared(self):
+        for scene in exact_scenes():
+            assert {"peak_pressure", "contact_length"} <= set(scene.exact) <= set(COMPARED)
+        assert len(gallery_scenes()) >= 10
+
+    def test_layers_have_their_own_load(self):
+        reference = layer_references()[3]
+        scene = next(s for s in layer_scenes() if "a = 0.25 t" in s.name and "nu = 0.3," in s.name)
+        modulus = 200e9 / (1.0 - 0.3**2)
+        assert scene.exact["contact_length"] == pytest.approx(2.0 * 0.25e-3)
+        load = reference.load * modulus * 1e-6 / 0.1
+        assert scene.tables["load"]["per_length"] == pytest.approx(load)
+
+    def test_a_scene_is_solved_as_a_run_is(self):
+        scene = half_plane_scenes()[0]
+        found = scene_findings(scene, "half_plane")
+        assert [pair.quantity for pair in found.pairs] == list(scene.exact)
+        assert all(figure.holds for figure in found.figures)
+        assert all(pair.converged and len(pair.levels) == 3 for pair in found.pairs)
+        assert found.pressure_errors[-1] < 0.02 and len(found.pressure_errors) == 3
+
+
+def test_processes_find_what_one_finds(monkeypatch):
+    """In the same order, each case once."""
+    contacts = operator_contacts()[:4]
+    cases = scene_cases(half_plane_scenes(rounds=1)[:4]) + operator_cases(contacts, spread(4))
+    process = CheckedCase("", "process", "half_plane", partial(eval, PROCESS))
+    alone = [run_case(case).findings for case in cases]
+    for worth in ("WORTH_A_FORK", "WORTH_A_START"):
+        monkeypatch.setattr(tasks, worth, 0.0)
+    *beside, last = run_cases([*cases, process])
+    assert [row.case for row in beside] == cases
+    assert [row.findings for row in beside] == alone
+    alone = len(os.sched_getaffinity(0)) == 1
+    assert (last.findings.figures[0].value == os.getpid()) == alone
+
+
+class TestWhole:
+    def test_a_part_of_it_holds(self, quick):
+        found, _ = quick
+        assert found.faults == []
+        assert found.exit_status == ExitStatus.DONE
+        assert found.coverage.covered >= LEAST_COVERAGE
+        groups = [row.case.group for row in found.rows]
+        assert {"order", "manufactured", "independent solver", "coverage"} <= set(groups)
+        assert groups.count("order") >= 5
+        tables = found.groups("table", "kind")
+        assert all(tables[MODEL_ERROR, kind].count >= 2 for kind in ("layer", "rough"))
+
+    def test_files_say_the_same(self, quick):
+        found, folder = quick
+        content = json.loads((folder / "out" / "verify.json").read_text())
+        assert content["holds"] is True
+        assert content["coverage"]["covered"] == found.coverage.covered
+        assert [pair["error"] for pair in content["pairs"]] == [p.error for p in found.pairs]
+        page = (folder / "out" / "verify.html").read_text()
+        assert "src=" not in page and page.count("<tr>") > len(found.pairs)
+        assert sorted(p.name for p in (folder / "out").iterdir()) == ["verify.html", "verify.json"]
+
+    def test_junit_names_each_figure_once(self, quick):
+        found, folder = quick
+        [suite] = ElementTree.parse(folder / "ci" / "verify.xml").getroot()
+        names = {(case.get("classname"), case.get("name")) for case in suite}
+        assert len(names) == len(suite) == sum(len(row.findings.figures) for row in found.rows)
+        assert all("relative error" in c.find("system-out").text for c in suite[: len(found.pairs)])
+
+    def test_a_stated_uncertainty_that_is_too_small_is_seen(self, monkeypatch, tmp_path):
+        monkeypatch.setattr(convergence, "REGULAR", 0.0)
+        found = verify(tmp_path / "out", scope=half_plane_scope())
+        assert not found.holds
+        assert any("share covered: 0." in line for line in found.faults)
+
+    def test_a_case_that_cannot_be_solved_is_a_fault_and_not_the_end(self, tmp_path):
+        scene = half_plane_scenes()[0]
+        impossible = replace(scene, tables=scene.tables | {"resolution": {"pitch": 1.0}})
+        scope = Scope(tuple(scene_cases((impossible, scene))), fewest=0, fewest_rough=0)
+        found = verify(tmp_path, scope=scope)
+        assert found.rows[0].error is not None and len(found.pairs) == len(scene.exact)
+        assert found.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+
+
+def test_the_command_prints_the_coverage_and_ends_with_the_verdict(monkeypatch, capsys, tmp_path):
+    scope = half_plane_scope(4)
+    monkeypatch.setattr(run, "everything", lambda: scope)
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["verify", "--junit", "ci.xml"]) == ExitStatus.DONE
+    shown = capsys.readouterr().out
+    assert re.search(r"^coverage (9[5-9]|100) %\s*$", shown, re.MULTILINE)
+    assert (tmp_path / "results" / "verify" / "verify.json").is_file()
+    assert (tmp_path / "ci.xml").is_file()
+    monkeypatch.setattr(run, "everything", lambda: replace(scope, fewest=1000))
+    assert cli.main(["verify", "--out", "other"]) == ExitStatus.OUTSIDE_TOLERANCE
+    assert "informative figures: 20, expected at least 1000" in capsys.readouterr().out

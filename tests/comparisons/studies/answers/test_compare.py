@@ -1,0 +1,108 @@
+"""Answers from outside against a model: verdicts, uncertainties, what the run leaves of them."""
+
+import json
+
+import numpy as np
+import pytest
+from scenes import QUICK, resolved
+
+from comparisons.report.saved import read_outcome
+from comparisons.results.flat_table import tidy_rows
+from comparisons.runs.rerun import rerun
+from comparisons.runs.run import run
+from comparisons.studies.answers.answer import Answer
+
+
+def verdicts(outcome):
+    return {r.quantity: r.verdict for r in outcome.answers[0].rows if r.verdict is not None}
+
+
+def row(outcome, quantity):
+    return next(r for r in outcome.answers[0].rows if r.quantity == quantity)
+
+
+def test_hertz_exact_pressure_agrees(answered, curve):
+    outcome = answered(curve())
+    assert verdicts(outcome) == {"peak_pressure": "agree", "contact_length": "agree"}
+    found = outcome.answers[0]
+    assert abs(found.balance) < 1e-3 and found.hints == ()
+    assert max(found.conditions["half_plane"].values()) < 1e-3
+    assert row(outcome, "contact_length").own_uncertainty is None
+    assert outcome.exit_status == 0
+
+
+def test_three_per_cent_more_differ(answered, curve):
+    outcome = answered(curve(p=lambda p: 1.03 * p))
+    assert verdicts(outcome) == {"peak_pressure": "differ", "contact_length": "agree"}
+    assert row(outcome, "peak_pressure").difference == pytest.approx(0.03, abs=1e-4)
+    found = outcome.answers[0]
+    assert found.balance == pytest.approx(0.03, abs=1e-3)
+    assert found.conditions["half_plane"]["penetration"] > 0.01
+    assert outcome.exit_status == 1
+
+
+def test_own_finite_elements_field_agrees(answered, tmp_path):
+    """As any code's file: read from the mesh, and compared with what was found off its nodes."""
+    run(resolved(QUICK), tmp_path / "own", ("finite_element",))
+    section = {"file": str(tmp_path / "own/finite_element/stress.vtu")}
+    outcome = answered(section, ("finite_element",))
+    assert set(verdicts(outcome)) == {"peak_pressure", "contact_length", "tau1_max"}
+    assert set(verdicts(outcome).values()) == {"agree"}
+    assert row(outcome, "tau1_field_near").difference < 0.02
+    assert row(outcome, "tau1_field_deep").difference < 0.005
+    assert max(outcome.answers[0].conditions["finite_element"].values()) < 1e-3
+
+
+def test_several_resolutions_state_an_uncertainty(answered, curve):
+    """Too long by 8 %, 4 % and 2 % of what each has left: the fit sees order one."""
+
+    def stretched(by):
+        return curve(x=lambda x: (1.0 + by) * x, points=round(8.0 / by) + 1)["file"]
+
+    outcome = answered({"file": [stretched(by) for by in (0.02, 0.08, 0.04)]})
+    spacing = [answer.spacing for answer in outcome.answers[0].answers]
+    assert spacing == sorted(spacing, reverse=True)
+    found = row(outcome, "contact_length")
+    assert found.difference == pytest.approx(0.02, abs=2e-3)
+    assert found.own_uncertainty == pytest.approx(1.25 * 0.02, rel=0.1)
+    assert found.verdict == "inconclusive"
+
+
+def test_measured_data_have_their_validation_comparison(answered, curve):
+    outcome = answered(curve(p=lambda p: 0.95 * p, scatter=0.04))
+    (found,) = outcome.answers[0].validation["peak_pressure"]
+    assert found["E"] == pytest.approx(1.0 / 0.95 - 1.0, abs=1e-3)
+    assert found["u_D"] == 0.04 and found["u_input"] is None
+    assert found["u_val"] == pytest.approx(np.hypot(found["u_num"], 0.04))
+    assert row(outcome, "peak_pressure").own_uncertainty == pytest.approx(0.038, abs=1e-3)
+    assert row(outcome, "peak_pressure").verdict == "inconclusive"  # 5 +- 3.8 against 2 %
+
+
+def test_files_table_and_repetition_follow(answered, curve, tmp_path, undrawn):
+    section = curve(p=lambda p: 1.03 * p)
+    outcome = answered(section, out=tmp_path / "out")
+    result = json.loads((tmp_path / "out/result.json").read_text())
+    given = result["answers"]["other"]["comparison"]["peak_pressure"][0]
+    assert given["verdict"] == "differ" and given["friction"] == 0.0
+    record = json.loads((tmp_path / "out/record.json").read_text())
+    assert record["hashes"]["answer_other"] == [outcome.answers[0].finest.sha256]
+    rows = [r for r in tidy_rows([tmp_path / "out"]) if r["answer"] == "other"]
+    assert {"peak_pressure": "differ", "contact_length": "agree"}.items() <= {
+        r["quantity"]: r["verdict"] for r in rows
+    }.items()
+    assert "Answers from outside" in (tmp_path / "out/report.html").read_text()
+    same = read_outcome(tmp_path / "out").answers[0]
+    assert same.as_dict() == outcome.answers[0].as_dict()
+    with open(section["file"], "w") as file:
+        file.write("gone\n")
+    again = rerun(tmp_path / "out")
+    assert again.movement.moved == () and again.bits
+
+
+def test_edges_are_found_between_points():
+    """Of a smooth edge, to a small part of the spacing."""
+    for offset in np.linspace(0.0, 0.9, 4):
+        x = 0.05 * (np.arange(-30, 31) + offset)
+        found = Answer("f", "0", x, np.sqrt(np.maximum(1.0 - x**2, 0.0)))
+        assert found.patches == pytest.approx(np.array([[-1.0, 1.0]]), abs=0.05 * 0.05)
+        assert found.load == pytest.approx(np.pi / 2.0, rel=5e-3)

@@ -1,0 +1,315 @@
+"""Files of other codes: what is in them is found, and what is wrong with them is said in a line."""
+
+import shutil
+import subprocess
+import sys
+from importlib.util import find_spec
+
+import meshio
+import numpy as np
+import pytest
+import pyvista
+from scenes import QUICK, problem, resolved
+
+from analytic.exact.hertz import hertz_stress
+from comparisons.cli import main
+from comparisons.common.errors import InputError
+from comparisons.models.window import window_of
+from comparisons.scenes.resolve import load_scene
+from comparisons.studies.answers.readers.files import read_answers
+from meshes.block import structured
+
+NO_CCX = "no CalculiX: apt-get install calculix-ccx"
+# CalculiX, in mm and MPa, y up: half a plane in plane strain under a pressure on its top.
+DECK = """*NODE
+{nodes}
+*ELEMENT,TYPE=CPE6,ELSET=BODY
+{elements}
+*NSET,NSET=HELD
+{held}
+*MATERIAL,NAME=STEEL
+*ELASTIC
+210000.,0.3
+*SOLID SECTION,ELSET=BODY,MATERIAL=STEEL
+1.
+*BOUNDARY
+HELD,1,2
+"""
+STEP = """*STEP
+*STATIC
+*DLOAD
+{loads}
+*NODE FILE{flag}
+U
+*EL FILE{flag}
+S
+*END STEP
+"""
+
+
+def block(hertz):
+    """A structured mesh of quadratic triangles, finer towards the contact."""
+    fine = np.linspace(-1.5, 1.5, 31)
+    far = 1.5 + 0.1 * np.cumsum(1.5 ** np.arange(1, 11))
+    x = np.concatenate([-far[::-1], fine, far])
+    z = np.concatenate([[0.0], np.cumsum(0.05 * 1.25 ** np.arange(22))])
+    return structured(hertz.half_width * x, hertz.half_width * z)
+
+
+def exact(mesh, hertz):
+    return hertz_stress(hertz, mesh.points[:, 0], mesh.points[:, 1], 0.0)
+
+
+def read(section, **changes):
+    posed = problem(QUICK | changes | {"answers": {"other": section}})
+    return read_answers(posed, window_of(posed))["other"][-1]
+
+
+def vtu(path, points, triangles, stress, name="S"):
+    """Quadratic triangles with a tensor of six components, x y z xy yz xz."""
+    cells = np.column_stack([np.full(len(triangles), 6), triangles]).ravel()
+    grid = pyvista.UnstructuredGrid(cells, np.full(len(triangles), 22), points)
+    grid[name] = stress
+    grid.save(path)
+    return {"file": str(path)}
+
+
+def tensor(stress, vertical="y", sign=1.0):
+    zero = np.zeros_like(stress.sx)
+    if vertical == "y":
+        return np.column_stack([stress.sx, stress.sz, zero, -sign * stress.txz, zero, zero])
+    return np.column_stack([stress.sx, zero, stress.sz, zero, zero, -sign * stress.txz])
+
+
+def holds(found, hertz, near=0.02):
+    peak = found.on(np.zeros(1))[0]
+    assert peak == pytest.approx(hertz.peak_pressure, rel=near)
+    assert found.load == pytest.approx(hertz.load_per_length, rel=max(near, 0.01))
+    assert found.stress.extremes["tau1"].value == pytest.approx(hertz.tau1_max, rel=near)
+    assert found.stress.depth == pytest.approx(hertz.tau1_max_depth, rel=0.1)
+
+
+@pytest.mark.parametrize("up", ["y", "-y", "z", "-z"])
+def test_any_axis_may_point_out_of_the_body(hertz, tmp_path, up):
+    mesh = block(hertz)
+    sign = -1.0 if up.startswith("-") else 1.0
+    (x, z), zero = mesh.points.T, np.zeros(len(mesh.points))
+    columns = [x, -sign * z, zero] if up[-1] == "y" else [x, zero, -sign * z]
+    stress = tensor(exact(mesh, hertz), up[-1], sign)
+    section = vtu(tmp_path / "a.vtu", np.column_stack(columns), mesh.triangles, stress)
+    for given in (section, section | {"up": up}):
+        found = read(given)
+        holds(found, hertz, near=2e-3)
+        shown = found.stress.field
+        right = shown.txz[:, shown.txz.shape[1] * 3 // 4]
+        known = exact(mesh, hertz).txz[(x > 0.0) & (z > 0.1 * hertz.half_width)]
+        assert np.sign(np.nansum(right)) == np.sign(known.sum())
+
+
+def test_friction_keeps_its_direction(hertz, tmp_path):
+    """The shear on the top is minus the traction's: sliding that pulls towards +x."""
+    mesh = block(hertz)
+    stress = hertz_stress(hertz, mesh.points[:, 0], mesh.points[:, 1], 0.2)
+    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
+    section = vtu(tmp_path / "a.vtu", points, mesh.triangles, tensor(stress))
+    found = read(section, load=QUICK["load"] | {"friction": 0.2})
+    middle = found.stress.field.txz.shape[1] // 2
+    expected = hertz_stress(hertz, np.zeros(1), np.full(1, 1e-9), 0.2).txz
+    assert found.stress.field.txz[0, middle] == pytest.approx(expected[0], rel=0.02)
+
+
+def test_the_roller_in_the_same_file_is_left_out(hertz, tmp_path):
+    mesh = block(hertz)
+    body = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
+    roller = body * [0.2, -0.2, 1.0]
+    stress = tensor(exact(mesh, hertz))
+    section = vtu(
+        tmp_path / "a.vtu",
+        np.vstack([roller, body]),
+        np.vstack([mesh.triangles, mesh.triangles + len(body)]),
+        np.vstack([7.0 * stress, stress]),
+    )
+    holds(read(section), hertz, near=2e-3)
+
+
+@pytest.fixture(scope="module")
+def solved_by_calculix(hertz, tmp_path_factory):
+    """`solved_by_calculix(flag)`: the result file of a pressed body."""
+    if shutil.which("ccx") is None:
+        pytest.skip(NO_CCX)
+    pytest.importorskip("pyvista_frd", reason="no pyvista-frd-reader: pip install")
+    mesh = block(hertz)
+    x, y = 1e3 * mesh.points[:, 0], -1e3 * mesh.points[:, 1]
+    triangles = mesh.triangles[:, [0, 2, 1, 5, 4, 3]]
+    loads, halves = [], []
+    for face, ends in enumerate(((0, 1), (1, 2), (2, 0)), 1):
+        on_top = np.flatnonzero(np.all(y[triangles[:, ends]] > -1e-9, axis=1))
+        for element in on_top:  # the mean over an edge, which keeps the load
+            start, stop = np.sort(x[triangles[element, ends]]) / 1e3
+            mean = hertz.pressure(np.linspace(start, stop, 2001)).mean()
+            if mean:
+                loads.append(f"{element + 1},P{face},{mean / 1e6:.9g}")
+                halves.append(f"{element + 1},P{face},{mean / 2e6:.9g}")
+    held = np.flatnonzero((np.abs(x) > x.max() - 1e-9) | (y < y.min() + 1e-9))
+    content = {
+        "nodes": "\n".join(
+            f"{i},{a:.12g},{b:.12g}" for i, (a, b) in enumerate(zip(x, y, strict=True), 1)
+        ),
+        "elements": "\n".join(
+            ",".join(map(str, (i, *nodes))) for i, nodes in enumerate(triangles + 1, 1)
+        ),
+        "held": "\n".join(str(node + 1) for node in held),
+    }
+
+    def solved(flag):
+        folder = tmp_path_factory.mktemp("ccx")
+        steps = (STEP.format(flag=flag, loads="\n".join(each)) for each in (halves, loads))
+        (folder / "job.inp").write_text(DECK.format(**content) + "".join(steps))
+        subprocess.run(["ccx", "job"], cwd=folder, check=True, capture_output=True, timeout=120)
+        return folder / "job.frd"
+
+    return solved
+
+
+@pytest.mark.parametrize("flag", [",OUTPUT=2D", ",OUTPUT=3D"])
+def test_a_result_of_calculix(solved_by_calculix, hertz, flag):
+    """In its plane, or as the layer of wedges that it solves on; the last of two steps."""
+    path = solved_by_calculix(flag)
+    given = {"file": str(path), "units": {"length": "mm", "stress": "MPa"}}
+    holds(read(given), hertz, near=0.05)  # the body is 18 half-widths deep
+    half = read(given | {"step": 0})
+    assert half.load == pytest.approx(0.5 * hertz.load_per_length, rel=0.03)
+
+
+def test_a_truncated_result_of_calculix(solved_by_calculix, tmp_path):
+    content = solved_by_calculix("").read_bytes()
+    path = tmp_path / "cut.frd"
+    path.write_bytes(content[: len(content) // 2])
+    with pytest.raises(InputError, match=r"cut\.frd: ends before its last line"):
+        read({"file": str(path)})
+
+
+def text(rows):
+    return "x,p\n" + "\n".join(rows) + "\n"
+
+
+ROWS = [f"{x:g},{(1 - x**2) * 1e9:g}" for x in np.linspace(-1.0, 1.0, 11)]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("a.csv", text([*ROWS[:4], "0.1,nan", *ROWS[4:]]), "line 6: holds no number"),
+        ("a.csv", text([",".join(r.split(",")[::-1]) for r in ROWS]), "are they swapped"),
+        ("a.csv", text([*ROWS, ROWS[-1]]), "x = 1 m twice"),
+        ("a.csv", text(ROWS[:3]), "has 3 points"),
+        ("a.csv", text([f"{x},0" for x in range(9)]), "no pressure but 0"),
+        ("a.csv", "nothing here\n", "no row of numbers"),
+        ("a.vtu", "<VTKFile", "cannot be read|holds no mesh"),
+        ("a.frd", "    1C\n", "ends before its last line"),
+        ("a.med", "not HDF", "cannot be read|not installed"),
+        ("a.what", "?", "does not support"),
+    ],
+)
+def test_what_cannot_be_read_is_said_in_one_line(tmp_path, capsys, name, content, said):
+    path = tmp_path / name
+    path.write_text(content)
+    before = path.read_bytes()
+    with pytest.raises(InputError, match=said) as raised:
+        read({"file": str(path)})
+    assert str(raised.value).startswith("answers.other.file: ") and "\n" not in str(raised.value)
+    assert path.read_bytes() == before
+    assert capsys.readouterr().err == ""
+
+
+def test_a_body_that_is_not_in_a_plane(hertz, tmp_path):
+    block = pyvista.ImageData(dimensions=(6, 6, 6), spacing=(1e-4,) * 3).cast_to_unstructured_grid()
+    block["S"] = np.zeros((block.n_points, 6))
+    block.save(tmp_path / "a.vtu")
+    with pytest.raises(InputError, match="nodes stand in 6 planes"):
+        read({"file": str(tmp_path / "a.vtu"), "up": "y"})
+
+
+def test_missing_stresses_steps_and_frictions(hertz, tmp_path):
+    mesh = block(hertz)
+    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
+    section = vtu(tmp_path / "a.vtu", points, mesh.triangles, tensor(exact(mesh, hertz)), "U")
+    with pytest.raises(InputError, match="holds no stresses in its plane, of U"):
+        read(section)
+    with pytest.raises(InputError, match=r"allowed is friction = one of 0, 0\.1"):
+        read(section, load=QUICK["load"] | {"friction": [0.0, 0.1]})
+    moved = vtu(
+        tmp_path / "b.vtu", points - [0, 1e-3, 0], mesh.triangles, tensor(exact(mesh, hertz))
+    )
+    with pytest.raises(InputError, match=r"its surface lies 0\.001 m off the scene's"):
+        read(moved)
+    holds(read(moved | {"z_origin": -1e-3}), hertz, near=2e-3)
+
+
+def test_components_in_an_exodus_file(hertz, tmp_path):
+    """In MOOSE's order, of which VTK takes the first two for a vector."""
+    from vtkmodules.vtkIOExodus import vtkExodusIIWriter
+
+    mesh = block(hertz)
+    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
+    cells = np.column_stack([np.full(len(mesh.triangles), 6), mesh.triangles]).ravel()
+    grid = pyvista.UnstructuredGrid(cells, np.full(len(mesh.triangles), 22), points)
+    stress = exact(mesh, hertz)
+    named = {"stress_xx": stress.sx, "stress_xy": -stress.txz, "stress_yy": stress.sz}
+    for name, values in named.items():
+        grid[name] = values
+    writer = vtkExodusIIWriter()
+    writer.SetFileName(str(tmp_path / "a.e"))
+    writer.SetInputData(grid)
+    writer.Write()
+    holds(read({"file": str(tmp_path / "a.e")}), hertz, near=2e-3)
+
+
+def test_steps_of_xdmf(hertz, tmp_path):
+    mesh = block(hertz)
+    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
+    stress = tensor(exact(mesh, hertz))
+    cells = [("triangle6", mesh.triangles)]
+    with meshio.xdmf.TimeSeriesWriter(tmp_path / "a.xdmf", data_format="XML") as writer:
+        writer.write_points_cells(points, cells)
+        for time in (0.5, 1.0):
+            writer.write_data(time, point_data={"S": time * stress})
+    holds(read({"file": str(tmp_path / "a.xdmf")}), hertz, near=2e-3)
+    half = read({"file": str(tmp_path / "a.xdmf"), "step": 0})
+    assert half.load == pytest.approx(0.5 * hertz.load_per_length, rel=0.01)
+    with pytest.raises(InputError, match="has 2 steps; allowed is a step from 0 to 1"):
+        read({"file": str(tmp_path / "a.xdmf"), "step": 2})
+
+
+def test_med_is_read_beside_another_hdf5(hertz, tmp_path):
+    """Written in another process, too: dolfinx has loaded its own HDF5 into this one."""
+    if find_spec("h5py") is None:
+        pytest.skip("no h5py: pip install h5py")
+    mesh = block(hertz)
+    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
+    section = vtu(tmp_path / "a.vtu", points, mesh.triangles, tensor(exact(mesh, hertz)))
+    convert = f"import meshio; m = meshio.read({section['file']!r}); "
+    convert += "m.point_data = {'SIEF_NOEU': m.point_data['S']}; m.write('a.med')"
+    subprocess.run([sys.executable, "-c", convert], cwd=tmp_path, check=True)
+    holds(read({"file": str(tmp_path / "a.med")}), hertz, near=2e-3)
+
+
+def test_answers_on_the_command_line(tmp_path, hertz, capsys):
+    (tmp_path / "a.csv").write_text(text(ROWS))
+    (tmp_path / "a.toml").write_text('file = "a.csv"\nunits = {length = "mm"}\n')
+    scene = load_scene("smooth", [f"one={tmp_path / 'a.csv'}", f"two={tmp_path / 'a.toml'}"])
+    one, two = scene.answers
+    assert one.files == two.files == (str(tmp_path / "a.csv"),)
+    assert (one.length, two.length) == (1.0, 1e-3)
+    both = load_scene("smooth", [f"one={tmp_path / name}" for name in ("a.csv", "b.csv")])
+    assert len(both.answers[0].files) == 2
+    out = tmp_path / "out"
+    assert main(["run", "smooth", "--answer", "nothing", "--out", str(out)]) == 2
+    assert main(["run", "smooth", "--answer", f"a={out}/no.csv", "--out", str(out)]) == 2
+    complaint = capsys.readouterr().err
+    assert "--answer: is" in complaint and "no.csv: there is no such file" in complaint
+    assert not out.exists()
+
+
+def test_a_scene_without_answers_names_none():
+    assert resolved(QUICK).answers == () and "answers" not in resolved(QUICK).tables

@@ -1,0 +1,176 @@
+"""Flash temperatures from the scene to its files: both models, uncertainties, verdict, report."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenes import PROFILES, STEEL, changed, resolved
+
+from comparisons.figures.quantity import MODELS
+from comparisons.report.saved import read_outcome
+from comparisons.report.tables.heat import heat_facts, heat_lines, heat_table
+from comparisons.results.flat_table import rows_of
+from comparisons.runs.run import run
+
+CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
+EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}
+TRACE = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "profile": {
+        "file": str(PROFILES / "ground_unrun.csv"),
+        "x_unit": "um",
+        "z_unit": "um",
+        "form": "none",
+    },
+    "load": {"per_length": 0.6e6, "friction": [0.0, 0.1], "position": "1118 um"},
+    "heat": {"speed": 1.0, **EQUAL},
+    "budget": {"effects": False},
+    "resolution": {"pitch": "1.6 um"},
+}
+
+
+@pytest.fixture(scope="module")
+def rough(tmp_path_factory):
+    out = tmp_path_factory.mktemp("heat") / "out"
+    return run(resolved(TRACE), out, MODELS)
+
+
+def test_a_rough_trace_has_one_flash_temperature_by_both_models(rough):
+    """Both solve one problem but for the roller, a disc in the finite elements: what is left of
+    their difference is numerical, and within what is stated."""
+    for figure in rough.heat.figures:
+        (roller,) = figure.effects.values()
+        assert roller["uncertainty"] < 1e-4 < 1e-3 < abs(roller["value"]) < 0.02
+        assert abs(figure.difference - roller["value"]) < figure.uncertainty < 0.02
+        assert figure.verdict == "agree"
+        assert abs(figure.by_pressure) < figure.uncertainty
+    assert rough.heat.figures[0].values["half_plane"] > 100.0
+    assert rough.heat.friction == 0.1
+
+
+def test_figures_in_result_json(rough):
+    heat = json.loads((rough.directory / "result.json").read_text())["heat"]
+    flash = heat["figures"]["flash_temperature"]
+    assert flash["verdict"] == "agree"
+    assert flash["values"]["finite_element"] == pytest.approx(
+        flash["values"]["half_plane"], rel=0.02
+    )
+    assert heat["models"]["half_plane"]["flash_position"] < 0.0  # the hot end is behind
+    assert set(heat["rules"]) == {"equal_largest", "equal_mean", "conductivities"}
+
+
+def test_temperatures_as_csv(rough):
+    for model in MODELS:
+        path = Path(rough.directory) / model / "temperature.csv"
+        x, heat, into_body, body, _ = np.loadtxt(path, delimiter=",", skiprows=1).T
+        found = rough.heat.contacts[model]
+        assert x == pytest.approx(found.x, abs=1e-12)
+        assert body == pytest.approx(found.body, rel=1e-9)
+        assert heat.max() == pytest.approx(0.1 * rough.runs[model].finest.solution.pressure.max())
+        assert 0.5 * heat.sum() < into_body.sum() < heat.sum()
+
+
+def test_report_and_terminal(rough):
+    page = (rough.directory / "report.html").read_text()
+    assert "<h2>Frictional heat</h2>" in page
+    assert "Rise of temperature below the surface of the roller" in page
+    assert "agree" in heat_lines(rough)[0]
+    again = read_outcome(rough.directory)
+    assert heat_table(again) == heat_table(rough)
+
+
+def test_below_the_surface_it_cools(rough):
+    study = rough.heat
+    for field in study.field:
+        assert field.shape == (len(study.z), len(study.x))
+        assert field.max() == pytest.approx(field[0].max())
+        assert np.all(np.diff(field.max(axis=1)) < 0.0)
+    largest = study.figures[0].values["half_plane"]
+    assert study.field[0].max() == pytest.approx(largest, rel=5e-3)
+
+
+def test_one_model_alone():
+    scene = resolved(changed(TRACE, heat={"slide_to_roll": -2.0}))
+    outcome = run(scene, None, ("half_plane",))
+    figure = outcome.heat.figures[0]
+    assert (figure.difference, figure.verdict) == (None, None)
+    assert 0.0 < figure.own["half_plane"] < 0.05
+    assert outcome.heat.peclet["body"] == 0.0
+
+
+STRESSED = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+    "heat": {"speed": 10.0, "stresses": True, "body_expansion": "12 um/m/K", **EQUAL},
+    "stress": {"points": [120, 40]},
+    "budget": {"effects": False},
+}
+
+
+@pytest.fixture(scope="module")
+def stressed(tmp_path_factory):
+    return run(resolved(STRESSED), tmp_path_factory.mktemp("stressed") / "out", MODELS)
+
+
+def test_thermal_stresses_by_both_models(stressed):
+    """Transforms and elements, whose meshes and boundaries differ, have one answer; without heat
+    it is that of the comparison."""
+    tau1, depth, along = stressed.heat.figures[3:]
+    for figure in (tau1, depth, along):
+        assert abs(figure.difference) < figure.uncertainty + 3e-3  # held 400 a away
+        assert figure.uncertainty < 0.05
+    assert tau1.verdict == depth.verdict == "agree"
+    own = stressed.runs["half_plane"].finest.stress(0.1).extremes["tau1"]
+    assert tau1.elastic["half_plane"] == own.value
+    assert depth.elastic["half_plane"] == own.z
+    # 2 mu p0 at the trailing edge (Johnson 1985, section 7.1), which heat takes back
+    assert along.elastic["half_plane"] == pytest.approx(0.2e9, rel=2e-3)
+    assert along.elastic["finite_element"] == pytest.approx(0.2e9, rel=1e-2)
+    assert max(along.values.values()) < 0.0
+
+
+def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
+    less = changed(STRESSED, heat={"body_expansion": "1e-9 1/K"})
+    without = run(resolved(less), None, ("half_plane",)).heat
+    for figure in without.figures[3:]:
+        alone = figure.elastic["half_plane"]
+        assert figure.values["half_plane"] == pytest.approx(alone, rel=1e-3)
+    flash, *_ = without.figures
+    assert flash.values["half_plane"] == stressed.heat.figures[0].values["half_plane"]
+
+
+def test_thermal_stresses_in_every_output(stressed):
+    result = json.loads((stressed.directory / "result.json").read_text())
+    row = result["heat"]["figures"]["sx_heated"]
+    assert row["values"]["half_plane"] < 0.0 < row["elastic"]["half_plane"]
+    place = result["heat"]["stresses"]["finite_element"]["elastic"]["sx_position"]
+    assert place == pytest.approx(-stressed.problem.hertz.half_width, rel=2e-3)
+    page = (stressed.directory / "report.html").read_text()
+    assert "Last, σx of the body's surface, thin without heat." in page.replace("&#39;", "'")
+    said = "; ".join(heat_lines(stressed))
+    assert "199." in said and "without)" in said and "agree" in said
+    rows = {each["quantity"]: each for each in rows_of(result, "made")}
+    assert rows["tau1_heated"]["unit"] == "Pa" and rows["tau1_depth_heated"]["unit"] == "m"
+    assert heat_table(read_outcome(stressed.directory)) == heat_table(stressed)
+
+
+def test_a_slab_is_no_half_space():
+    tables = changed(TRACE, body={"thickness": "60 um"}, heat={"speed": 0.05, "tolerance": 0.02})
+    tables["load"] = {"hertz_peak_pressure": 1e9, "friction": 0.1}
+    del tables["profile"], tables["resolution"]
+    outcome = run(resolved(tables), None, MODELS)
+    figure = outcome.heat.figures[0]
+    assert figure.verdict == "differ"
+    assert outcome.exit_status == 1
+    assert list(outcome.heat.contains) == ["thickness", "roller"]
+    effects = figure.effects
+    # without the slab more heat enters the roller: together they are less than their sum
+    assert 1.0 < figure.difference < effects["thickness"]["value"] < 2.0
+    assert -0.02 < effects["roller"]["value"] < -0.002
+    assert [fact for fact, _ in heat_facts(outcome)][-2:] == [
+        "the largest rise without the body's thickness, its base at its bulk temperature",
+        "the largest rise without the roller as a disc",
+    ]

@@ -1,0 +1,62 @@
+"""Scenes that budgets are made for, and model variants without finite elements."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from scenes import STEEL, changed, problem
+
+from comparisons.models.problem import Problem
+from comparisons.studies.model_error.contributions import NotComputedError
+from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.studies.model_error.variants import ModelVariant
+
+BASE = {
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"hertz_peak_pressure": 2e9},
+}
+
+
+@pytest.fixture(scope="session")
+def problem_with() -> Callable[..., Problem]:
+    """`problem_with(body={…}, load={…}, …)`: smooth steel bodies, with other or further tables."""
+
+    def made(**tables: dict) -> Problem:
+        merged = changed(BASE, **tables)
+        if merged["roller"].get("rigid"):
+            merged["roller"] = {"radius": merged["roller"]["radius"], "rigid": True}
+        return problem(merged)
+
+    return made
+
+
+@dataclass
+class MadeSolutions:
+    """Solutions drawn at random, the same whenever the same variant is asked for.
+
+    without  variants that have no solution
+    """
+
+    own: ModelVariant
+    without: frozenset[ModelVariant] = frozenset()
+    asked: list[ModelVariant] = field(default_factory=list)
+
+    def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
+        self.asked.append(variant)
+        if variant in self.without:
+            raise NotComputedError(variant, "no mesh")
+        rng = np.random.default_rng(
+            abs(hash((tuple(sorted(variant.effects)), variant.friction, number)))
+        )
+        figures = {"peak_pressure": rng.normal(size=3), "contact_length": rng.normal(size=1)}
+        return QuantitiesOfInterest(figures, rng.normal(size=5), rng.normal(size=(2, 3)))
+
+    def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
+        return self.solution(self.own, number, friction)
+
+
+@pytest.fixture
+def made_solutions() -> type[MadeSolutions]:
+    return MadeSolutions

@@ -1,0 +1,77 @@
+"""Scenes taken apart into effects, and put together again."""
+
+import pytest
+
+from comparisons.studies.model_error.catalogue import (
+    EFFECTS,
+    contained,
+    is_taken_apart,
+    plain,
+    with_effects,
+)
+
+SWITCHED = {
+    "finite_size": {"body": {"thickness": 1e-3}},
+    "coating": {
+        "coating": {"thickness": 2e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.2},
+    },
+    "rough_boundary": {
+        "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6},
+        "finite_element": {"geometry": "rough", "gap": "reference"},
+    },
+    "deformed_gap": {"finite_element": {"gap": "displaced"}},
+    "exact_circle": {"finite_element": {"roller_shape": "circle"}},
+    "finite_roller": {"finite_element": {"roller_body": "disc"}},
+    "normal_tangential_coupling": {
+        "roller": {"rigid": True},
+        "load": {"friction": 0.2},
+        "finite_element": {"coupled": True},
+    },
+    "finite_strain": {"roller": {"rigid": True}, "finite_element": {"deformation": "finite"}},
+    "plastic_flow": {
+        "body": {"yield_stress": 1e9, "hardening_modulus": 1e9},
+        "finite_element": {"plastic": True},
+    },
+}
+
+
+def test_every_effect_is_tried():
+    assert {*SWITCHED, "law_of_elasticity"} == set(EFFECTS)  # a law is no switch
+
+
+@pytest.mark.parametrize("name", SWITCHED)
+def test_a_scene_with_one_switch_has_that_effect_alone(problem_with, name):
+    scene = problem_with(**SWITCHED[name]).scene
+    expected = {name, "deformed_gap"} if name == "finite_strain" else {name}
+    assert contained(scene) == expected
+    assert is_taken_apart(scene)
+
+
+@pytest.mark.parametrize("name", SWITCHED)
+def test_without_its_effects_it_is_what_the_half_plane_takes(problem_with, name):
+    scene = problem_with(**SWITCHED[name]).scene
+    assert contained(plain(scene)) == frozenset()
+    assert with_effects(scene, ()) == plain(scene)
+    assert plain(plain(scene)) == plain(scene)
+
+
+@pytest.mark.parametrize("name", SWITCHED)
+def test_an_effect_is_given_whatever_else_is_there(problem_with, name):
+    scene = problem_with(**SWITCHED[name]).scene
+    others = {"deformed_gap", "exact_circle"}
+    assert contained(with_effects(scene, {name, *others})) == {name, *others}
+
+
+def test_what_both_models_have_is_no_effect(problem_with):
+    scene = problem_with(roller={"rigid": True}, load={"friction": 0.2, "coupled": True}).scene
+    assert contained(scene) == frozenset()
+    assert plain(scene).finite_element.coupled  # as the half-plane is
+
+
+def test_a_scene_that_keeps_less_than_the_half_plane_has_is_told(problem_with):
+    scene = problem_with(
+        roller={"rigid": True},
+        load={"friction": 0.2, "coupled": True},
+        finite_element={"coupled": False},
+    ).scene
+    assert not is_taken_apart(scene)

@@ -1,0 +1,199 @@
+"""Contributions, interaction and whole: they add up whatever the bodies answer."""
+
+import itertools
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from comparisons.studies.model_error.contributions import (
+    NotComputedError,
+    contributions_of,
+    split_variants,
+)
+from comparisons.studies.model_error.quantities_of_interest import (
+    QuantitiesOfInterest,
+    relative_sizes,
+)
+from comparisons.studies.model_error.selection import EffectSelection
+from comparisons.studies.model_error.variants import ModelVariant
+from comparisons.studies.model_error.variants import problem_with as body_problem
+
+COUPLED = "normal_tangential_coupling"
+SINGLE = ("finite_roller", "exact_circle", COUPLED, "finite_strain")
+PLAIN = ModelVariant(frozenset())
+WAVY = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
+
+
+def selection_of(contained: Iterable[str] = (), added: Iterable[str] = ()) -> EffectSelection:
+    return EffectSelection(frozenset(contained), frozenset(added), {}, {}, {})
+
+
+def close(one: QuantitiesOfInterest, other: QuantitiesOfInterest) -> bool:
+    figures = (np.allclose(one.figures[name], other.figures[name]) for name in one.figures)
+    return (
+        all(figures)
+        and np.allclose(one.pressure, other.pressure)
+        and np.allclose(one.tau1, other.tau1)
+    )
+
+
+def split_by(problem, solutions, friction=0.0, contained=(), added=()):
+    split = split_variants(problem, selection_of(contained, added), friction)
+    return split, contributions_of(solutions, split, friction, 1)
+
+
+@pytest.mark.parametrize("count", range(1, len(SINGLE) + 1))
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_effects_and_interaction_add_up_to_the_whole(problem_with, made_solutions, count, friction):
+    problem = problem_with(load={"friction": friction})
+    for names in itertools.combinations(SINGLE, count):
+        _, parts = split_by(problem, made_solutions(PLAIN), friction, added=names)
+        effects = [parts.effect(name) for name in parts.pairs]
+        total = sum(effects, start=parts.interaction(parts.pairs))
+        assert close(total, parts.not_contained)  # the scene's own has none of them
+        assert set(parts.pairs) == set(names) - ({COUPLED} if friction == 0.0 else set())
+
+
+@pytest.mark.parametrize("name", ["exact_circle", "finite_strain"])
+def test_one_effect_does_not_interact(problem_with, made_solutions, name):
+    split, parts = split_by(problem_with(), made_solutions(PLAIN), added={name})
+    assert not np.any(parts.interaction([name]).pressure)
+    assert close(parts.effect(name), parts.not_contained)
+    assert len(split.all) == 2
+
+
+def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solutions):
+    problem = problem_with(finite_element={"gap": "displaced"})
+    own = ModelVariant(frozenset({"deformed_gap"}))
+    _, parts = split_by(problem, made_solutions(own), contained={"deformed_gap"})
+    assert set(parts.pairs) == {"deformed_gap"}
+    assert np.any(parts.effect("deformed_gap").pressure)
+    assert not np.any(parts.not_contained.pressure)
+
+
+def test_frictions_share_bodies_that_it_does_not_press_otherwise(problem_with):
+    problem = problem_with(roller={"rigid": True}, load={"friction": [0.1, 0.3]})
+    selection = selection_of(added={"exact_circle", COUPLED})
+    asked = {each for mu in (0.1, 0.3) for each in split_variants(problem, selection, mu).all}
+    coupled = {variant.friction for variant in asked if COUPLED in variant.effects}
+    assert coupled == {0.1, 0.3}
+    assert {v.friction for v in asked if COUPLED not in v.effects} == {None}
+
+
+class TestFiniteDeformation:
+    """One effect with all that makes it, and measured with friction where there is any."""
+
+    def test_its_parts_are_neither_solved_nor_listed(self, problem_with, made_solutions):
+        problem = problem_with(roller={"rigid": True}, profile=WAVY, load={"friction": 0.2})
+        own = ModelVariant(frozenset({"deformed_gap"}))
+        solutions = made_solutions(own)
+        split, parts = split_by(
+            problem, solutions, 0.2, {"deformed_gap"}, {"finite_strain", "rough_boundary"}
+        )
+        together = {"deformed_gap", "rough_boundary", "finite_strain", COUPLED}
+        assert set(parts.pairs) == {"finite_strain"}
+        assert split.whole == ModelVariant(frozenset(together), 0.2)
+        assert set(solutions.asked) == {split.whole, PLAIN, own}
+        scene = body_problem(problem, split.whole).scene
+        assert scene.finite_element.coupled and scene.friction == (0.2,)
+        assert scene.finite_element.geometry == "rough"
+
+    def test_coupling_that_matters_is_no_part_of_it(self, problem_with, made_solutions):
+        problem = problem_with(roller={"rigid": True}, load={"friction": 0.2})
+        split, parts = split_by(
+            problem, made_solutions(PLAIN), 0.2, added={"finite_strain", COUPLED}
+        )
+        coupled = ModelVariant(frozenset({COUPLED}), 0.2)
+        assert split.pairs[COUPLED] == (coupled, PLAIN)
+        assert split.pairs["finite_strain"] == (split.whole, coupled)
+        assert not np.any(np.abs(parts.interaction(parts.pairs).pressure) > 1e-12)
+
+    def test_all_bodies_are_solved_as_it_is(self, problem_with):
+        problem = problem_with(finite_element={"element": "P3"})
+        split = split_variants(problem, selection_of(added={"finite_strain"}), 0.0)
+        assert split.own == split.nothing and all(variant.quadratic for variant in split.all)
+        scene = body_problem(problem, split.nothing).scene
+        assert scene.finite_element.element == "P2"
+        linear = split_variants(problem, selection_of(added={"exact_circle"}), 0.0)
+        assert linear.own is None and not any(variant.quadratic for variant in linear.all)
+
+
+class TestWithoutSolution:
+    ADDED = ("exact_circle", "finite_roller", "finite_strain")
+
+    def test_of_an_effect_by_itself_the_interaction_has_it(self, problem_with, made_solutions):
+        alone = frozenset({ModelVariant(frozenset({"exact_circle"}))})
+        _, parts = split_by(problem_with(), made_solutions(PLAIN, alone), added=self.ADDED)
+        assert set(parts.pairs) == {"finite_roller", "finite_strain"} and parts.unsplit is None
+        total = sum(map(parts.effect, parts.pairs), start=parts.interaction(parts.pairs))
+        assert close(total, parts.not_contained)
+
+    def test_of_none_the_whole_stays(self, problem_with, made_solutions):
+        own = ModelVariant(frozenset({"exact_circle"}))
+        _, parts = split_by(
+            problem_with(), made_solutions(own, frozenset({PLAIN})), added=self.ADDED
+        )
+        assert parts.pairs == {} and parts.unsplit == "no mesh"
+        assert np.any(parts.not_contained.pressure)
+
+    def test_of_the_whole_nothing_is_known(self, problem_with, made_solutions):
+        split = split_variants(problem_with(), selection_of(added=self.ADDED), 0.0)
+        with pytest.raises(NotComputedError):
+            contributions_of(made_solutions(PLAIN, frozenset({split.whole})), split, 0.0, 1)
+
+
+class TestLargestValues:
+    """Of three asperities; the largest stands on the second, and on the third with an effect."""
+
+    BEFORE = QuantitiesOfInterest(
+        {"peak_pressure": np.array([1.0, 4.0, 3.0]), "contact_length": np.array([2.0])},
+        np.ones(4),
+        None,
+    )
+    AFTER = replace(
+        BEFORE,
+        figures={"peak_pressure": np.array([1.0, 4.2, 4.5]), "contact_length": np.array([3.0])},
+    )
+
+    def test_a_change_is_that_of_one_asperity(self, problem_with):
+        sizes = relative_sizes(self.AFTER - self.BEFORE, self.BEFORE, problem_with(), None)
+        assert sizes["peak_pressure"] == pytest.approx(0.05)
+        assert sizes["contact_length"] == pytest.approx(0.5)
+        back = relative_sizes(self.BEFORE - self.AFTER, self.AFTER, problem_with(), None)
+        assert back["peak_pressure"] == pytest.approx(-1.5 / 4.5)
+
+    def test_the_largest_of_each_may_stand_apart(self):
+        assert (self.BEFORE.leading("peak_pressure"), self.AFTER.leading("peak_pressure")) == (1, 2)
+        change = self.AFTER.largest() - self.BEFORE.largest()
+        assert change.figures["peak_pressure"] == pytest.approx([0.5])
+
+
+def test_what_vanishes_is_measured_by_hertz(problem_with):
+    problem = problem_with()
+    figures = {"tau1_max": np.array([2.0]), "tau1_max_depth": np.zeros(1)}
+    whole = QuantitiesOfInterest(figures, np.ones(4), None)
+    moved = {"tau1_max": np.zeros(1), "tau1_max_depth": np.array([1e-6])}
+    found = relative_sizes(
+        QuantitiesOfInterest(moved, 0.5 * np.ones(4), None), whole, problem, None
+    )
+    assert found["tau1_max_depth"] == pytest.approx(1e-6 / problem.hertz.half_width)
+    assert found["pressure_l2"] == pytest.approx(0.5)
+
+
+def test_bodies_have_names_of_their_own():
+    bodies = [
+        ModelVariant(frozenset(names), friction, quadratic)
+        for names in (
+            (),
+            ("exact_circle",),
+            ("finite_roller",),
+            ("exact_circle", "finite_roller"),
+            ("finite_strain",),
+        )
+        for friction in (None, 0.1, 0.2)
+        for quadratic in (False, True)
+    ]
+    assert len({body.name for body in bodies}) == len(bodies)
+    assert all(set(body.name) <= set("abcdefghijklmnopqrstuvwxyz+-.@0123456789") for body in bodies)

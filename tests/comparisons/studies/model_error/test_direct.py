@@ -1,0 +1,143 @@
+"""The model error of the half-plane, put together of effects, against finite elements that have
+them all.
+
+Here they are switched on in the scene, from the first level to the last: nothing is added up.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import RUBBER, STEEL, problem, resolved
+
+from comparisons.common.progress import Stages
+from comparisons.figures.quantity import MODELS
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.plan import make_plan
+from comparisons.models.window import window_of
+from comparisons.results.outcome import Outcome
+from comparisons.runs.run import run
+from comparisons.studies.contact import figures, norms
+from comparisons.studies.model_error.catalogue import contained
+from comparisons.studies.model_error.contributions import split_variants
+from comparisons.studies.model_error.model_error import ModelError
+
+COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
+ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": RUBBER}
+ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": STEEL}
+LIKE_STEEL = {"roller": {"radius": 5e-3, **STEEL}, "body": STEEL}
+WAVES = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6}
+STRESS = {"depth": 0.5, "half_range": 1.2, "points": [40, 20]}
+CIRCLE = {"roller_shape": "circle"}
+STRAINED = CIRCLE | {"gap": "displaced", "deformation": "finite"}
+QUANTITIES = ("peak_pressure", "contact_length", "pressure_l2")
+STRESSES = ("tau1_max", "txz_max_abs")
+
+# What both scenes have, and the switches that one of them has beside it.
+SCENES = {
+    "rubber": (ON_RUBBER | {"load": {"per_length": 1e3}}, STRAINED),
+    "rubber, friction": (
+        ON_RUBBER | {"load": {"per_length": 1e3, "friction": 0.3}},
+        STRAINED | {"coupled": True},
+    ),
+    "rubber layer": (
+        ON_RUBBER | {"body": RUBBER | {"thickness": 5e-3}, "load": {"per_length": 1e3}},
+        STRAINED,
+    ),
+    "steel block, friction": (
+        ON_STEEL
+        | {
+            "body": STEEL | {"thickness": 2e-3, "width": 4e-3},
+            "load": {"hertz_peak_pressure": 2e9, "friction": 0.2},
+        },
+        STRAINED | {"coupled": True},
+    ),
+    "waves on steel, friction": (
+        ON_STEEL
+        | {
+            "profile": WAVES,
+            "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
+            "stress": STRESS,
+        },
+        STRAINED | {"coupled": True, "geometry": "rough"},
+    ),
+    "steel on steel": (
+        LIKE_STEEL | {"load": {"hertz_peak_pressure": 3e9}},
+        STRAINED | {"roller_body": "disc"},
+    ),
+    "waves, steel on steel, friction": (
+        LIKE_STEEL
+        | {
+            "profile": WAVES,
+            "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.1},
+            "stress": STRESS,
+        },
+        STRAINED | {"coupled": True, "geometry": "rough", "roller_body": "disc"},
+    ),
+    "coated steel, friction": (
+        {
+            "roller": {"radius": 5e-3, "rigid": True},
+            "body": STEEL,
+            "coating": COATING,
+            "load": {"hertz_peak_pressure": 2.5e9, "friction": 0.2},
+        },
+        CIRCLE | {"coupled": True},
+    ),
+}
+
+
+def outcome_of(tables: dict, levels: int) -> Outcome:
+    """On three levels, its effects on so many."""
+    judged = {*QUANTITIES, *(STRESSES if "stress" in tables else ())}
+    scene = resolved(tables | {"tolerance": dict.fromkeys(judged, 1e-5)})
+    scene = replace(
+        scene,
+        resolution=replace(scene.resolution, most=3),
+        budget=replace(scene.budget, levels=levels, time=1e4),
+    )
+    return run(scene, None, MODELS)
+
+
+def direct_errors(tables: dict) -> dict[str, float]:
+    """(half-plane - finite elements) / finite elements on the third level, by quantity."""
+    posed = problem(tables)
+    plan, pitch = make_plan(posed, MODELS), posed.pitches[2]
+    window = window_of(posed) if plan.stress else None
+    friction = posed.scene.friction[0]
+    one = half_plane_level(posed, pitch, window, Stages())
+    other = finite_element_level(posed, plan, Refinement(pitch), window, Stages())
+    flat, real = (figures(level, posed, friction) for level in (one, other))
+    found = {name: flat[name] / real[name] - 1.0 for name in flat}
+    return found | norms(one, other, posed, friction, window)
+
+
+def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, float]]:
+    """Of every quantity, put together and switched on; the third level has so many elements to a
+    half-width."""
+    tables, switches = SCENES[name]
+    half_width = problem(tables).hertz.half_width
+    tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}
+    added, switched = outcome_of(tables, levels), tables | {"finite_element": switches}
+    assert added.budget.levels == levels and added.budget.unsplit is None
+    friction = added.problem.scene.friction[0]
+    split = split_variants(added.problem, added.budget.selection, friction)
+    assert split.whole.effects == contained(resolved(switched))
+    errors = direct_errors(switched)
+    return [(added.budget.of(quantity, friction), each) for quantity, each in errors.items()]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_effects_on_two_levels_contain_what_all_at_once_make_on_three(name):
+    # between waves the pressures of a coarse grid do not reach far enough
+    for own, direct in both(name, levels=2, elements=64.0 if "waves" in name else 24.0):
+        assert abs(own.value - direct) <= own.uncertainty < np.inf, own.quantity
+        if own.quantity == "peak_pressure":
+            assert own.uncertainty < 0.05
+
+
+def test_on_the_same_levels_they_are_the_same():
+    """Relative to the whole, wherever it comes from."""
+    for own, direct in both("rubber layer", levels=3, elements=16.0):
+        assert own.value == pytest.approx(direct, abs=1e-6), own.quantity

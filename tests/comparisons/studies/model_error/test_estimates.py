@@ -1,0 +1,94 @@
+"""Estimates are larger than the effects: on every point of the maps, and in the stresses."""
+
+import json
+from pathlib import Path
+
+import pytest
+from scenes import STEEL, problem, resolved
+
+import comparisons.campaigns.maps
+from comparisons.campaigns.maps.groups import Origin, tables_with
+from comparisons.common.progress import Stages
+from comparisons.figures.quantity import MODELS
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.plan import make_plan
+from comparisons.scenes.files import read_toml
+from comparisons.studies.model_error.estimates import estimates
+
+FINISHED = Path(comparisons.campaigns.maps.__file__).parent / "finished"
+MAPS = sorted(path.stem for path in FINISHED.glob("*.toml") if "heat" not in read_toml(path))
+
+
+def test_there_are_maps():
+    assert len(MAPS) >= 2
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_they_bound_every_point_of_a_finished_map(name):
+    """What the half-plane is off by, beyond its uncertainty, is at most the sum of estimates."""
+    content = json.loads((FINISHED / f"{name}.json").read_text(encoding="utf-8"))
+    origin = Origin(name, FINISHED)
+    base = resolved(read_toml(FINISHED / f"{name}.toml"), name, FINISHED)
+    checked, tight = 0, 0.0
+    for point in content["points"]:
+        if point["status"] != "solved":
+            continue
+        groups = {content[axis]["group"]: point[axis] for axis in ("x", "y")}
+        tables = tables_with(base.tables, groups, origin)
+        posed = problem(tables)
+        found = point["quantities"]
+        peak = found["peak_pressure"]["half_plane"]
+        linear = {"rough_boundary"} if "profile" in base.tables else set()  # which the maps have
+        sums = [estimates(posed, peak, peak, had) for had in (set(), linear)]
+        for sizes in sums:
+            del sizes["law_of_elasticity"]  # the maps take one law
+        for quantity, error in found.items():
+            if error["uncertainty"] is None:
+                continue
+            bound = max(sum(e.get(quantity, 0.0) for e in sizes.values()) for sizes in sums)
+            proven = abs(error["difference"]) - error["uncertainty"]
+            assert proven <= bound, (groups, quantity)
+            tight = max(tight, proven / bound)
+            checked += 1
+    assert checked >= 4 * 60
+    assert tight > 0.3  # nor are they idle: somewhere an effect is a third of its bound
+
+
+# Third-order constants of a carbon steel [Pa], of the order that metals have.
+LAWED = {
+    "neo-hookean": {},
+    "st-venant-kirchhoff": {},
+    "murnaghan": {"murnaghan": {"l": -461e9, "m": -636e9, "n": -708e9}},
+}
+
+
+@pytest.mark.parametrize("surface", ["smooth", "waves"])
+@pytest.mark.parametrize("roller", ["rigid", "elastic"])
+def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
+    """Peak pressures of full solutions at finite deformation, of one body and of two alike."""
+    peaks, strain = {}, {"deformation": "finite", "gap": "displaced"}
+    for law, constants in LAWED.items():
+        body = STEEL | {"law": law, **constants}
+        tables = {
+            "roller": {"radius": 5e-3} | ({"rigid": True} if roller == "rigid" else body),
+            "body": body,
+            "load": {"hertz_peak_pressure": 2e9},
+            "finite_element": strain,
+        }
+        if surface == "waves":
+            wave = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.15e-6}
+            tables |= {"profile": wave, "finite_element": strain | {"geometry": "rough"}}
+        posed = problem(tables)
+        plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
+        level = finite_element_level(posed, plan, refinement, None, Stages())
+        peaks[law] = float(level.solution.pressure.max())
+        assert "law_of_elasticity" not in estimates(posed, peaks[law], peaks[law])
+    plain = {name: STEEL if name == "body" else table for name, table in tables.items()}
+    if roller == "elastic":
+        plain["roller"] = {"radius": 5e-3, **STEEL}
+    peak = peaks.pop("neo-hookean")
+    bound = estimates(problem(plain), peak, peak)["law_of_elasticity"]["peak_pressure"]
+    spread = [each / peak - 1.0 for each in peaks.values()]
+    assert min(spread) < 0.0 < max(spread)
+    assert 0.5 * bound < max(map(abs, spread)) < bound

@@ -1,0 +1,103 @@
+"""Largest values asperity by asperity: which one a model error is about, and what else may be it.
+
+The models are made up: three asperities, whose largest shears and depths each solution just has.
+"""
+
+from types import SimpleNamespace
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from comparisons.figures.verdict import Comparison
+from comparisons.studies.model_error.contributions import EffectContributions
+from comparisons.studies.model_error.model_error import ModelError, model_errors
+from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
+
+PLACES = np.array([-30e-6, 0.0, 40e-6])
+MODULE = "comparisons.studies.model_error.model_error"
+
+
+def solution(*shears: float, depths=(1e-6, 2e-6, 3e-6)) -> QuantitiesOfInterest:
+    figures = {"tau1_max": np.array(shears), "tau1_max_depth": np.array(depths)}
+    return QuantitiesOfInterest(figures, np.ones(4), None, {"tau1_max": PLACES})
+
+
+def errors(
+    problem, half_plane, plain, whole, effects: dict, settled: float = 1e-4
+) -> dict[str, ModelError]:
+    """Of the largest shear and its depth; the same on all three levels."""
+    level = SimpleNamespace
+    runs = {
+        name: SimpleNamespace(levels=[level(found=of)] * 3, finest=level(found=of))
+        for name, of in (("half_plane", half_plane), ("finite_element", plain))
+    }
+    pairs = {name: (with_it, plain) for name, with_it in effects.items()}
+    history = [EffectContributions(whole, plain, plain, pairs)] * 3
+    rows = []
+    for name in ("tau1_max", "tau1_max_depth"):
+        one, other = (of.largest().figures[name][0] for of in (half_plane, plain))
+        difference = one / other - 1.0
+        rows.append(Comparison(name, 0.0, one, other, difference, settled, None, None))
+    stated = {name: SimpleNamespace(total=settled) for name in ("tau1_max", "tau1_max_depth")}
+    with patch.multiple(
+        MODULE,
+        quantities_of=lambda level, problem, friction: level.found,
+        pair_history=lambda *given: None,
+        uncertainties=lambda *given: stated,
+        iteration=lambda *levels: 0.0,
+        relative_resolution=lambda *levels: 0.0,
+    ):
+        return {each.quantity: each for each in model_errors(problem, None, runs, rows, history)}
+
+
+def test_an_effect_that_moves_the_maximum_is_measured_where_the_whole_has_it(problem_with):
+    """It raises the third asperity by 10 % and lowers the second by 10 %: no difference of the
+    largest values, which stand at two places, is either."""
+    plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
+    found = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})
+    shear = found["tau1_max"]
+    effect = shear.effects["finite_strain"]
+    assert effect.value == pytest.approx(0.29 / 3.19) and effect.moves_maximum
+    assert shear.value == pytest.approx(3.0 / 3.19 - 1.0)
+    assert shear.jump == pytest.approx(0.1 / 3.19)
+    assert shear.moved == (0.0, 40e-6)
+    assert shear.value == pytest.approx(-effect.value - shear.interaction + shear.jump)
+    depth = found["tau1_max_depth"]
+    assert depth.value == pytest.approx(-1.0 / 3.0) and depth.jump == pytest.approx(-1.0 / 3.0)
+
+
+def test_where_the_maximum_stays_there_is_no_jump(problem_with):
+    plain, strained = solution(1.0, 3.0, 2.5), solution(1.0, 3.3, 2.6)
+    shear = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})["tau1_max"]
+    assert (shear.jump, shear.moved) == (0.0, None)
+    assert not shear.effects["finite_strain"].moves_maximum
+    assert shear.uncertainty == pytest.approx(1e-4, rel=0.5)
+
+
+def test_effects_that_outweigh_each_other_interact(problem_with):
+    plain, one, other = solution(1.0, 3.0, 2.0), solution(1.0, 3.1, 2.0), solution(1.0, 3.05, 2.0)
+    effects = {"finite_strain": one, "exact_circle": other}
+    whole = solution(1.0, 2.7, 2.0)
+    shear = errors(problem_with(), plain, plain, whole, effects)["tau1_max"]
+    assert shear.interaction == pytest.approx(-0.45 / 2.7) and shear.interacts
+    parts = sum(effect.value for effect in shear.effects.values()) + shear.interaction
+    assert shear.value == pytest.approx(-parts)
+
+
+def test_twin_peaks_are_not_said_to_move(problem_with):
+    """Symmetric bodies have two equal largest values: rounding chooses one."""
+    plain, strained = solution(3.0, 1.0, 3.0 - 1e-9), solution(3.3 - 1e-9, 1.0, 3.3)
+    shear = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})["tau1_max"]
+    assert shear.moved is None and not shear.effects["finite_strain"].moves_maximum
+    assert shear.effects["finite_strain"].value == pytest.approx(0.3 / 3.3)
+
+
+def test_an_asperity_that_may_have_it_counts_in_the_uncertainty(problem_with):
+    near, far = solution(1.0, 3.0, 2.99), solution(1.0, 3.0, 2.5)
+    of = [errors(problem_with(), each, each, each, {}, settled=0.01) for each in (near, far)]
+    wide, narrow = (each["tau1_max"].uncertainty for each in of)
+    assert narrow == pytest.approx(0.01) and wide == pytest.approx(narrow, abs=2e-4)
+    # the depth may be the other one's
+    wide, narrow = (each["tau1_max_depth"].uncertainty for each in of)
+    assert narrow == pytest.approx(0.01) and wide == pytest.approx(0.01 + 1.0 / 2.0)

@@ -1,0 +1,121 @@
+"""What cannot change a verdict is left out: the verdicts are those with all of it."""
+
+from dataclasses import replace
+
+import pytest
+
+from comparisons.common.cache import Cache, kinds_of
+from comparisons.common.tasks import LATER, PERHAPS, Tasks
+from comparisons.figures.quantity import MODELS
+from comparisons.figures.verdict import ToleranceCheck, is_decided
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import make_plan
+from comparisons.runs.refinement import refined
+from comparisons.studies.contact import compared
+from comparisons.studies.model_error.error_budget import announce_effects, error_budget
+from comparisons.studies.model_error.validity import validity_verdict
+
+SMALL = {"resolution": {"pitch": 12e-6, "levels": 3}, "finite_element": {"block": 40}}
+JUDGED = ("peak_pressure", "contact_length")
+RIGID = {"rigid": True}
+WAVY = {"kind": "sinusoid", "wavelength": 150e-6, "amplitude": 0.2e-6}
+SCENES = {
+    "smooth": {"roller": RIGID},
+    "smooth, well within": {"roller": RIGID, "tolerance": dict.fromkeys(JUDGED, 0.1)},
+    "layer": {"roller": RIGID, "body": {"thickness": 0.3e-3, "base": "bonded"}},
+    "coated": {
+        "roller": RIGID,
+        "coating": {"thickness": 40e-6, "youngs_modulus": 30e9, "poissons_ratio": 0.3},
+    },
+    "wave": {"roller": RIGID, "profile": WAVY, "load": {"friction": 0.1}},
+    "wave, tight": {
+        "roller": RIGID,
+        "profile": WAVY,
+        "tolerance": dict.fromkeys(JUDGED, 0.008),
+        "budget": {"time": 20.0},
+    },
+}
+DECIDED = ("smooth, well within", "layer")  # by the comparison and the effects' estimates
+FIXED = ("wave, tight",)  # on the second level
+
+
+@pytest.fixture(scope="module")
+def budgets(problem_with, tmp_path_factory):
+    """`budgets(name)`: of a scene, as it is and with all effects, and its tolerances."""
+
+    def made(name: str):
+        problem = problem_with(**(SMALL | SCENES[name]))
+        plan = make_plan(problem, MODELS)
+        cache = Cache(tmp_path_factory.mktemp("levels"), name, kinds_of(Level))
+        runs, _ = refined(problem, plan, None, cache, Tasks())
+        rows, found = compared(problem, runs, None), []
+        for effects in (True, "all"):
+            scene = replace(problem.scene, budget=replace(problem.scene.budget, effects=effects))
+            posed = replace(problem, scene=scene)
+            found.append(error_budget(posed, plan, None, runs, rows, (), cache, Tasks()))
+        return *found, problem.scene.tolerance
+
+    return made
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_verdicts_are_those_with_all_effects(budgets, name):
+    frugal, whole, tolerance = budgets(name)
+    assert whole.left_out is None
+    found, wanted = (each.tolerance_checks(tolerance) for each in (frugal, whole))
+    assert [check.verdict for check in found] == [check.verdict for check in wanted]
+    assert validity_verdict(found)[0] == validity_verdict(wanted)[0]
+    selections = [each.selection.added for each in (frugal, whole)]
+    assert (selections[0] < selections[1]) == (name in DECIDED)
+    assert (frugal.left_out is not None) == (frugal.levels < whole.levels) == (name in FIXED)
+    for one, other in zip(found, wanted, strict=True):  # what was left out is stated as unknown
+        assert abs(one.value - other.value) <= one.total_uncertainty
+
+
+@pytest.mark.parametrize(
+    ("value", "uncertainty", "unknown", "fixed"),
+    [
+        (0.010, 0.002, 0.005, True),  # holds
+        (0.050, 0.010, 0.010, True),  # fails
+        (0.010, 0.005, 0.030, True),  # what is not modelled is in the way
+        (0.010, 0.011, 0.030, False),  # and the error itself is hardly known
+        (0.010, 0.008, 0.011, False),  # may come to hold
+        (0.055, 0.010, 0.040, False),  # may come to fail
+        (0.010, float("inf"), 0.030, False),
+    ],
+)
+def test_a_verdict_is_fixed_where_no_finer_solution_turns_it(value, uncertainty, unknown, fixed):
+    check = ToleranceCheck("peak_pressure", 0.0, value, uncertainty, {"coating": unknown}, 0.02)
+    assert check.is_fixed == fixed
+
+
+@pytest.mark.parametrize(
+    ("difference", "uncertainty", "size", "decided"),
+    [
+        (0.005, 0.002, 0.010, True),
+        (0.005, 0.002, 0.014, False),
+        (-0.30, 0.01, 0.10, True),
+        (-0.30, 0.01, 0.25, False),
+        (-0.30, 0.01, 1.5, False),
+    ],
+)
+def test_a_difference_is_decided_where_no_effect_turns_it(difference, uncertainty, size, decided):
+    assert is_decided(difference, uncertainty, size, 0.02) == decided
+
+
+@pytest.mark.parametrize(("tolerance", "urgency"), [(0.2, PERHAPS), (0.008, LATER)])
+def test_its_own_elements_say_whether_a_third_level_of_the_whole_is_likely(
+    problem_with, tmp_path, tolerance, urgency
+):
+    """It then waits for nothing: the second level of the scene's own leaves a figure open."""
+    changed = {"tolerance": dict.fromkeys(JUDGED, tolerance), "budget": {"time": 20.0}}
+    problem = problem_with(**SMALL, roller=RIGID, profile=WAVY, **changed)
+    plan, cache = make_plan(problem, MODELS), Cache(tmp_path, "waves", kinds_of(Level))
+    tasks = Tasks()
+
+    def announced(half_plane: ModelRun):
+        return announce_effects(problem, plan, None, half_plane, (), cache, tasks)
+
+    refined(problem, plan, None, cache, tasks, announced)
+    wholes = {key: task for key, task in tasks._tasks.items() if key.startswith("whole-")}
+    assert [task.urgency for key, task in wholes.items() if key.endswith("-3")] == [urgency]

@@ -1,0 +1,66 @@
+"""Sliding traction on bodies of like constants: half-planes move alike, layers and coats do not."""
+
+import numpy as np
+import pytest
+from scenes import STEEL, problem
+
+from comparisons.common.progress import Stages
+from comparisons.figures.quantity import MODELS
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.level import Level
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import Problem
+from comparisons.studies.model_error.quantities_of_interest import quantities_of, relative_sizes
+from comparisons.studies.model_error.selection import select_effects
+
+HALF_WIDTH = 216e-6  # of the smooth contact
+BODIES = {
+    "thin layer": {"body": STEEL | {"thickness": 0.3 * HALF_WIDTH}},
+    "thick layer": {"body": STEEL | {"thickness": 4.0 * HALF_WIDTH}},
+    "hard coating": {
+        "coating": {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
+    },
+    "soft coating": {"coating": {"thickness": 20e-6, "youngs_modulus": 5e9, "poissons_ratio": 0.4}},
+}
+
+
+def solved(tables: dict, **finite_element: object) -> tuple[Problem, Level]:
+    """Like bodies under friction, on one level."""
+    made = {
+        "roller": {"radius": 8.2e-3, **STEEL},
+        "body": STEEL,
+        "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.3},
+        "finite_element": finite_element,
+        "resolution": {"pitch": HALF_WIDTH / 20.0},
+        "tolerance": {"peak_pressure": 0.02, "contact_length": 0.02, "pressure_l2": 0.02},
+    } | tables
+    posed = problem(made)
+    plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
+    return posed, finite_element_level(posed, plan, refinement, None, Stages())
+
+
+def test_half_planes_are_moved_alike():
+    _, still = solved({})
+    _, moved = solved({}, coupled=True)
+    apart = np.abs(moved.solution.pressure - still.solution.pressure).max()
+    assert moved.solution.converged and apart < 1e-9 * still.solution.pressure.max()
+
+
+def test_along_the_roller_s_normal_a_solution_is_found():
+    """There it is not symmetric, for like bodies too: traction moves both sideways."""
+    _, moved = solved({}, gap="displaced", coupled=True)
+    assert moved.solution.converged
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_what_layers_and_coats_are_moved_otherwise_is_bounded_and_not_passed_over(name):
+    posed, still = solved(BODIES[name])
+    _, moved = solved(BODIES[name], coupled=True)
+    without = quantities_of(still, posed, 0.3)
+    difference = quantities_of(moved, posed, 0.3) - without
+    change = relative_sizes(difference, without, posed, None)["pressure_l2"]
+    selection = select_effects(posed, posed.hertz.peak_pressure, ())
+    estimate = selection.estimates["normal_tangential_coupling"]["pressure_l2"]
+    assert 0.003 < change <= estimate < 5.0 * change
+    assert "normal_tangential_coupling" in selection.added

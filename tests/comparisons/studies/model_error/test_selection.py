@@ -1,0 +1,137 @@
+"""Which effects are computed: by estimate and tolerance, each for a reason."""
+
+from dataclasses import replace
+
+import pytest
+
+from comparisons.common.mpi import RANKS
+from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE, select_effects
+
+RIGID = {"roller": {"rigid": True}}
+
+
+def chosen(problem, peak=None, couplings=()):
+    return select_effects(problem, peak or problem.hertz.peak_pressure, couplings)
+
+
+def judged(problem, **tolerance):
+    return replace(problem, scene=replace(problem.scene, tolerance=tolerance))
+
+
+def test_an_effect_is_computed_from_a_tenth_of_a_tolerance_on(problem_with):
+    problem = problem_with(**RIGID)
+    size = chosen(problem).estimates["exact_circle"]["peak_pressure"]
+    above = judged(problem, peak_pressure=size / SHARE_OF_TOLERANCE * 0.999)
+    below = judged(problem, peak_pressure=size / SHARE_OF_TOLERANCE * 1.001)
+    assert "exact_circle" in chosen(above).added and "exact_circle" not in chosen(above).negligible
+    assert "exact_circle" in chosen(below).negligible and "exact_circle" not in chosen(below).added
+    assert chosen(below).not_modelled("peak_pressure")["exact_circle"] == size
+    assert "exact_circle" not in chosen(above).not_modelled("peak_pressure")
+
+
+def test_only_what_is_judged_asks_for_effects(problem_with):
+    assert chosen(judged(problem_with(**RIGID))).added == frozenset()
+    contact = chosen(judged(problem_with(**RIGID), peak_pressure=0.5)).added
+    near = chosen(judged(problem_with(**RIGID), tau1_field_near=0.05)).added
+    assert contact < near
+
+
+def test_what_does_not_apply_is_not_spoken_of(problem_with):
+    smooth = chosen(problem_with())
+    assert not {
+        "finite_size",
+        "coating",
+        "normal_tangential_coupling",
+        "plastic_flow",
+    } & set(smooth.estimates)
+    assert {"finite_roller", "finite_strain", "law_of_elasticity"} <= set(smooth.estimates)
+    assert "finite_roller" not in chosen(problem_with(**RIGID)).estimates
+
+
+def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
+    selection = chosen(problem_with(**RIGID, finite_element={"gap": "displaced"}))
+    assert selection.contained == {"deformed_gap"}
+    assert "deformed_gap" not in selection.added | set(selection.negligible)
+    assert "deformed_gap" not in selection.not_modelled("peak_pressure")
+    assert "deformed_gap" in selection.whole
+
+
+@pytest.mark.parametrize(
+    ("tables", "why"),
+    [
+        ({"body": {"hardness": 6e9}}, "cap on the pressure"),
+        (
+            {"coating": {"thickness": 1e-6, "youngs_modulus": 4e11, "poissons_ratio": 0.2}},
+            "coated",
+        ),
+        (
+            {"body": {"yield_stress": 3e9}, "finite_element": {"plastic": True}},
+            "flow is of small deformation",
+        ),
+    ],
+)
+def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_with, tables, why):
+    selection = chosen(problem_with(**tables))
+    assert why in selection.impossible["finite_strain"]
+    assert selection.not_modelled("peak_pressure")["finite_strain"] > 0.0
+
+
+def test_under_mpirun_finite_strain_is_not_solved(problem_with, monkeypatch):
+    assert "finite_strain" in chosen(problem_with(**RIGID)).added
+    monkeypatch.setenv(RANKS[0], "0")
+    assert "one process" in chosen(problem_with(**RIGID)).impossible["finite_strain"]
+
+
+def test_a_cap_stands_for_flow_only_where_nothing_flows(problem_with):
+    problem = problem_with(body={"hardness": 6e9})
+    assert "plastic_flow" not in chosen(problem, peak=3.5e9).estimates  # below first yield
+    capped = chosen(problem, peak=6e9)
+    assert capped.estimates["plastic_flow"]["peak_pressure"] == pytest.approx(0.1)
+    assert "no yield stress" in capped.impossible["plastic_flow"]
+
+
+def test_what_is_given_up_stands_with_its_reason(problem_with):
+    selection = chosen(problem_with()).without(frozenset({"finite_roller"}), "its mesh failed")
+    assert "finite_roller" not in selection.added
+    assert selection.impossible["finite_roller"] == "its mesh failed"
+    assert "finite_roller" in selection.not_modelled("peak_pressure")
+
+
+def test_strain_takes_back_what_linear_bodies_overdo(problem_with):
+    """From a deformed gap without strain it takes back what that overdoes next to the surface."""
+    sizes = chosen(problem_with(**RIGID)).estimates["finite_strain"]
+    linear = problem_with(**RIGID, finite_element={"gap": "displaced"})
+    beside = chosen(linear).estimates["finite_strain"]
+    assert beside["peak_pressure"] < sizes["peak_pressure"]
+    assert beside["tau1_field_near"] > 0.5 * sizes["tau1_field_near"]
+
+
+def test_finite_deformation_is_chosen_as_one(problem_with):
+    """What asks for the deformed gap or the rough boundary asks for all of it."""
+    wavy = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
+    selection = chosen(problem_with(**RIGID, profile=wavy))
+    assert "finite_strain" in selection.added
+    parts = {"deformed_gap", "rough_boundary"}
+    assert not parts & (selection.added | set(selection.estimates))
+    capped = chosen(problem_with(**RIGID, profile=wavy, body={"hardness": 6e9}))
+    assert not parts & capped.added and "finite_strain" in capped.impossible
+
+
+def test_the_law_of_elasticity_counts_with_its_spread(problem_with):
+    for problem in (problem_with(**RIGID), problem_with()):
+        selection = select_effects(problem, 2e9, (), 1.5e9)
+        assert "neo-Hookean" in selection.impossible["law_of_elasticity"]
+        law = selection.not_modelled("peak_pressure")["law_of_elasticity"]
+        length = selection.not_modelled("contact_length")["law_of_elasticity"]
+        assert law == pytest.approx(1.25 * 2e9 / 210e9) and length == pytest.approx(0.75 * law)
+    unlike = problem_with(roller={"youngs_modulus": 1e6 * 210e9})
+    assert chosen(unlike, 2e9).not_modelled("tau1_max")["law_of_elasticity"] == pytest.approx(law)
+
+
+def test_coupling_too_small_to_matter_is_in_finite_deformation(problem_with):
+    problem = problem_with(**RIGID, load={"friction": 1e-3})
+    selection = chosen(problem)
+    assert (
+        "finite_strain" in selection.added and "normal_tangential_coupling" in selection.estimates
+    )
+    assert "normal_tangential_coupling" not in selection.not_modelled("peak_pressure")

@@ -1,0 +1,91 @@
+"""Model variants solved by several processes: the same solutions, and what becomes of failures."""
+
+import pickle
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from comparisons.common.tasks import Tasks, tasks_of_a_run
+from comparisons.figures.quantity import MODELS
+from comparisons.models.level_cache import level_cache
+from comparisons.models.plan import make_plan
+from comparisons.runs.refinement import refined
+from comparisons.studies.model_error import solutions as solve
+from comparisons.studies.model_error.contributions import (
+    NotComputedError,
+    contributions_of,
+    split_variants,
+)
+from comparisons.studies.model_error.selection import EffectSelection
+from comparisons.studies.model_error.solutions import SolvedVariants
+from comparisons.studies.model_error.variants import ModelVariant
+
+RIGID = {"rigid": True}
+SELECTION = EffectSelection(frozenset(), frozenset({"exact_circle", "finite_strain"}), {}, {}, {})
+
+
+@pytest.fixture(scope="module")
+def made(problem_with):
+    """A small scene's variants, yet to be solved, by given tasks."""
+    problem = problem_with(roller=RIGID)
+    plan = make_plan(problem, MODELS)
+    keeps_nothing = level_cache(None, problem.scene, plan)
+    runs, _ = refined(problem, plan, None, keeps_nothing, Tasks())
+    own, patches = runs["finite_element"], runs["half_plane"].finest.patches
+
+    def variants(tasks) -> SolvedVariants:
+        return SolvedVariants(problem, None, own, keeps_nothing, tasks, patches)
+
+    return variants
+
+
+def test_variants_of_other_processes_are_as_here(made, monkeypatch):
+    for name in ("WORTH_A_START", "WORTH_A_FORK"):
+        monkeypatch.setattr(f"comparisons.common.tasks.{name}", 0.0)
+    alone, stages = made(Tasks()), []
+    with tasks_of_a_run(stages.append, 1e12) as tasks:
+        tasks.processes = 2
+        shared = made(tasks)
+        split = split_variants(shared.problem, SELECTION, 0.0)
+        shared.keep([split.whole])
+        assert len(shared.announce(split.all, 1)) == 3
+        shared.prepare(split.all, 1)
+        assert len(tasks._workers) == 2
+    assert len(stages) == 3 and len(split.all) == 4
+    solved = {variant for variant, _, _ in shared.solved}
+    assert solved == {*split.all} - {split.nothing}  # which is the scene's own
+    assert shared.finest(split.whole) is shared.wholes[split.whole] is not None
+    one, two = (contributions_of(bodies, split, 0.0, 1) for bodies in (alone, shared))
+    for name, values in one.not_contained.figures.items():
+        np.testing.assert_array_equal(values, two.not_contained.figures[name])
+    np.testing.assert_array_equal(one.not_contained.pressure, two.not_contained.pressure)
+    assert alone.expected_of(1) == shared.expected_of(1) > 0.0 == shared.expected_of(2)
+
+
+def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
+    gap, circle = (
+        ModelVariant(frozenset({"deformed_gap"})),
+        ModelVariant(frozenset({"exact_circle"})),
+    )
+    bodies = made(Tasks())
+    with patch.object(solve, "_solved", side_effect=NotComputedError(gap, "no\nmesh")):
+        bodies.prepare([gap], 1)
+    bodies.prepare([gap, circle], 1)  # is not tried again
+    assert bodies.solution(circle, 1, 0.0)
+    with pytest.raises(NotComputedError, match=r"^no mesh$") as caught:
+        bodies.solution(gap, 1, 0.0)
+    copied = pickle.loads(pickle.dumps(caught.value))  # as it comes from another process
+    assert (copied.variant, str(copied)) == (gap, "no mesh")
+
+
+def test_a_problem_can_be_handed_on(problem_with):
+    """With its gap, which is what the other process presses on."""
+    wavy = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
+    problem = problem_with(profile=wavy)
+    copied = pickle.loads(pickle.dumps(problem))
+    x = np.linspace(*problem.extent, 50)
+    np.testing.assert_array_equal(copied.gap(x), problem.gap(x))
+    np.testing.assert_array_equal(copied.finite_element_gap(x), problem.finite_element_gap(x))
+    assert Path(copied.scene.source) == Path(problem.scene.source)

@@ -1,0 +1,190 @@
+"""Uncertain inputs of a scene against Hertz's closed form, and what a run makes of them."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from scenes import PROFILES, SMOOTH, changed, problem, resolved
+
+from analytic.exact.hertz import hertz_from_load
+from analytic.material import combined_modulus
+from comparisons.cli import main
+from comparisons.common.cache import Cache
+from comparisons.common.progress import no_progress
+from comparisons.common.tasks import Here
+from comparisons.runs.run import run
+from comparisons.scenes.scene import Spread
+from comparisons.studies.scatter.samples import sampled, values_at
+from comparisons.studies.scatter.shares import designs
+from comparisons.studies.scatter.study import _batch
+
+INPUTS = {"load": "4 %", "body_youngs_modulus": "6 %", "roller_radius": "3 %"}
+SCENE = changed(SMOOTH, scatter=INPUTS | {"samples": 64, "seed": 3})
+TRACE = {"file": str(PROFILES / "ground_polished.csv"), "x_unit": "um", "z_unit": "um"}
+ROUGH = changed(SMOOTH, profile=TRACE, load={"per_length": 2e5})
+
+
+@pytest.fixture(scope="module")
+def outcome():
+    return run(resolved(SCENE), None, ("half_plane",))
+
+
+@pytest.fixture(scope="module")
+def exact():
+    """Hertz's peak pressure and contact length of many random samples of the same inputs."""
+    scene, rng = resolved(SCENE), np.random.default_rng(0)
+    found = []
+    for point in rng.random((20_000, 3)):
+        one = sampled(scene, point)
+        modulus = combined_modulus(one.roller, one.body)
+        hertz = hertz_from_load(one.load.value, one.roller_radius, modulus)
+        found.append((hertz.peak_pressure, 2.0 * hertz.half_width))
+    return dict(zip(("peak_pressure", "contact_length"), np.array(found).T, strict=True))
+
+
+@pytest.mark.parametrize("quantity", ["peak_pressure", "contact_length"])
+def test_mean_and_interval_are_those_of_hertz(outcome, exact, quantity):
+    figure, values = outcome.scatter.of(quantity, 0.0), exact[quantity]
+    assert figure.nominal == pytest.approx(np.median(values), rel=2e-3)
+    assert figure.mean == pytest.approx(values.mean(), rel=2e-3)
+    assert figure.standard_deviation == pytest.approx(values.std(), rel=0.1)
+    low, high = np.percentile(values, (2.5, 97.5))
+    assert figure.relative == pytest.approx(0.5 * (high - low) / np.median(values), rel=0.15)
+
+
+def test_shares_are_those_of_the_powers_in_hertz(outcome):
+    """p0 goes with the roots of P, E* and 1/R, and E* with half a power of one of two equal
+    moduli."""
+    parts = np.array([0.5 * 4.0, 0.25 * 6.0, 0.5 * 3.0]) ** 2
+    found = outcome.scatter.of("peak_pressure", 0.0).shares
+    expected = dict(zip(("load", "body_youngs_modulus", "roller_radius"), parts, strict=True))
+    for name, part in expected.items():
+        assert found[name]["first"] == pytest.approx(part / parts.sum(), abs=0.06)
+        assert found[name]["total"] == pytest.approx(part / parts.sum(), abs=0.06)
+
+
+def test_the_result_has_it_by_quantity(outcome):
+    [entry] = outcome.result["scatter"]["peak_pressure"]
+    assert entry["interval"][0] < entry["mean"] < entry["interval"][1]
+    assert set(entry["shares"]) == set(INPUTS)
+    counts = outcome.result["scatter_samples"]
+    assert counts["solutions"] == 64 * (3 + 2) and counts["failed"] == 0
+    assert run(resolved(SMOOTH), None, ("half_plane",)).result["scatter"] is None
+
+
+def test_it_is_the_same_again_and_by_any_executor(outcome):
+    with ThreadPoolExecutor(1) as executor:
+        again = run(resolved(SCENE), None, ("half_plane",), executor=executor)
+    assert again.result["scatter"] == outcome.result["scatter"]
+    other = run(resolved(changed(SCENE, scatter={"seed": 4})), None, ("half_plane",))
+    assert other.result["scatter"] != outcome.result["scatter"]
+
+
+def test_the_band_of_pressures_holds_the_nominal_one(outcome):
+    scatter, level = outcome.scatter, outcome.runs["half_plane"].levels[0]
+    middle = np.abs(scatter.x) < 0.8 * outcome.problem.hertz.half_width
+    pressure = level.solution.pressure[middle]
+    assert np.all((scatter.band[0][middle] < pressure) & (pressure < scatter.band[1][middle]))
+
+
+def test_a_run_says_it(tmp_path, capsys):
+    scene = tmp_path / "uncertain.toml"
+    scene.write_text(
+        'roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        'body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        'load = {per_length = "3.5 N/um"}\n'
+        'scatter = {load = "6 %", samples = 16}\n'
+        "tolerance = {peak_pressure = 0.02, contact_length = 0.02}\n"
+        "resolution = {levels = 2}\nbudget = {effects = false}\n"
+    )
+    out = tmp_path / "out"
+    assert main(["run", str(scene), "--out", str(out)]) in (1, 4)
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Your inputs move the" in said and "most by load 100%" in said
+    page = (out / "report.html").read_text()
+    assert 'id="inputs"' in page and "Saltelli" in page
+    entry = json.loads((out / "result.json").read_text())
+    [scatter] = entry["scatter"]["peak_pressure"]
+    # the root of a load of 6 %, 1.96 deviations to either side
+    assert scatter["relative"] == pytest.approx(0.03 * 1.96, rel=0.1)
+    assert main(["report", str(out)]) == 0
+    assert (out / "report.html").read_text() == page
+
+
+def test_finished_samples_are_not_solved_again(tmp_path):
+    cache = Cache(tmp_path, "key", {})
+    scene, points = resolved(SCENE), designs(8, 3, 0)[0][:2]
+    given = cache, "scatter-0", scene, points, np.linspace(-1e-4, 1e-4, 5)
+    first = _batch(Here(no_progress), *given)
+    assert _batch(Here(no_progress), *given[:2], None, None, None)["figures"] == first["figures"]
+
+
+class TestASample:
+    def test_normal_and_uniform_inputs_have_their_quantiles(self):
+        share = np.linspace(0.0005, 0.9995, 1000)
+        normal = values_at(Spread(2.0), 10.0, share)
+        assert normal.mean() == pytest.approx(10.0)
+        assert normal.std() == pytest.approx(2.0, rel=0.02)
+        assert normal.min() > 4.0 and normal.max() < 16.0
+        assert values_at(Spread(0.1, relative=True), -10.0, share).std() == pytest.approx(
+            1.0, rel=0.02
+        )
+        assert values_at(Spread(range=(1.0, 3.0)), 99.0, share) == pytest.approx(1.0 + 2.0 * share)
+
+    def test_the_roller_moves_along_the_trace(self):
+        scene = resolved(changed(ROUGH, scatter={"position": 20e-6}))
+        [left] = designs(8, 1, 0)[0][:1]
+        moved = sampled(scene, left)
+        far = values_at(Spread(20e-6), 0.0, left[0])
+        assert moved.position == pytest.approx(scene.position + far)
+        assert moved.profile.x == pytest.approx(scene.profile.x - far)
+        assert np.array_equal(moved.profile.height, scene.profile.height)
+
+    def test_noise_and_tip_change_the_heights(self):
+        inputs = {"noise": 10e-9, "tip_radius": {"range": [5e-6, 6e-6]}}
+        scene = resolved(changed(ROUGH, scatter=inputs))
+        one, other = (sampled(scene, np.array(p)).profile.height for p in ((0.5, 0.2), (0.5, 0.7)))
+        assert (one - other).std() == pytest.approx(np.sqrt(2.0) * 10e-9, rel=0.3)
+        assert np.array_equal(one, sampled(scene, np.array((0.5, 0.2))).profile.height)
+
+    def test_what_has_no_solution_is_counted(self):
+        beyond = {"position": {"range": [0.0, 1.5e-3]}, "samples": 8}
+        found = run(resolved(changed(ROUGH, scatter=beyond)), None, ("half_plane",)).scatter
+        assert 0 < found.failed < found.solutions and "end of the trace" in found.why
+        assert np.isfinite(found.of("peak_pressure", 0.0).mean)
+
+
+@pytest.mark.parametrize(
+    ("scatter", "message"),
+    [
+        ({}, "is missing"),
+        ({"load": "0 %"}, "scatter.load: is"),
+        ({"load": "40 %"}, "reaches -0.2"),
+        ({"load": 3.0}, "per cent"),
+        ({"load": "2 %", "samples": 100}, "64 or 128"),
+        ({"body_poissons_ratio": 0.1}, "scatter.body_poissons_ratio: reaches"),
+        ({"noise": "5 nm"}, "smooth surface"),
+        ({"load": "2 %", "correlation_length": "2 um"}, "without noise"),
+        ({"roller_radius": {"range": ["2 mm", "1 mm"]}}, "range from 0.002 to 0.001"),
+        ({"lod": "2 %"}, "nearest is scatter.load"),
+    ],
+)
+def test_wrong_sections_are_refused(scatter, message):
+    with pytest.raises(ValueError, match=message.replace(".", r"\.")):
+        resolved(SMOOTH | {"scatter": scatter})
+
+
+def test_inputs_that_the_scene_does_not_have_are_refused():
+    rigid = SMOOTH | {"roller": {"radius": 8e-3, "rigid": True}}
+    with pytest.raises(ValueError, match=r"without roller\.youngs_modulus"):
+        resolved(rigid | {"scatter": {"roller_youngs_modulus": "2 %"}})
+    sliding = changed(SMOOTH, load={"friction": [0.0, 0.1]})
+    with pytest.raises(ValueError, match="allowed with one"):
+        resolved(sliding | {"scatter": {"friction": 0.01}})
+
+
+def test_the_scene_says_what_it_was(outcome):
+    tables = outcome.problem.scene.tables
+    assert resolved(tables).scatter == outcome.problem.scene.scatter
+    assert problem(tables).scene.scatter.seed == 3

@@ -1,0 +1,191 @@
+"""What a sliding contact raises ahead of itself: against the half-plane's step, and on a layer."""
+
+import numpy as np
+import pytest
+from scenes import STEEL, changed, resolved
+
+from comparisons.figures.quantity import MODELS
+from comparisons.report.figures.sections import bulge_picture
+from comparisons.report.figures.style import drawing
+from comparisons.report.tables.bulge import bulge_table
+from comparisons.runs.run import run
+from comparisons.studies.bulge import bulges, elastic_energy
+
+RADIUS, PRESSURE = 10e-3, 1e9
+SLIDING = {
+    "roller": {"radius": RADIUS, "rigid": True},
+    "body": STEEL,
+    "load": {"hertz_peak_pressure": PRESSURE, "friction": [0.0, 0.3]},
+    "stress": {"points": [80, 30], "bulge": True},
+    "resolution": {"pitch": 20e-6, "levels": 2},
+    "budget": {"effects": False, "time": 5.0},
+}
+WAVY = {"profile": {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.2e-6}}
+THIN = {"poissons_ratio": 0.49, "thickness": 80e-6, "base": "bonded"}
+
+
+def solved(tables, models=("finite_element",)):
+    return run(resolved(tables), None, models)
+
+
+def step(friction, load, poissons_ratio=0.3):
+    """Of the surface ahead of a line load (Johnson 1985, section 2.4)."""
+    slope = (1.0 - 2.0 * poissons_ratio) * (1.0 + poissons_ratio) / STEEL["youngs_modulus"]
+    return -slope * friction * load
+
+
+@pytest.fixture(scope="module")
+def smooth():
+    return solved(SLIDING, MODELS)
+
+
+def test_an_unbounded_body_has_a_step_down_ahead_and_no_bulge(smooth):
+    [found] = smooth.result["bulge"]["by_friction"]
+    hertz = smooth.problem.hertz
+    exact = step(0.3, hertz.load_per_length)
+    assert exact < 0.0 and abs(found["height"]) < found["uncertainty"] < 0.1 * abs(exact)
+    assert found["half_plane"] == pytest.approx(exact, rel=5e-3)
+    assert abs(found["work"]) < 1e-3
+    # rigid roller: the same share of the penetration whatever that is
+    depth = hertz.half_width**2 / RADIUS
+    assert exact / depth == pytest.approx(-0.25 * np.pi * 0.3 * 0.4 / 0.7)
+    beside = np.interp(1.1 * hertz.half_width, found["distance"], found["rise"])
+    assert beside == pytest.approx(exact, rel=0.02)
+    assert found["relative_penetration"] == pytest.approx((hertz.half_width / RADIUS) ** 2)
+
+
+def test_inside_the_contact_the_step_grows_with_the_load_up_to_there(smooth):
+    [found] = smooth.result["bulge"]["by_friction"]
+    s = np.array(found["distance"]) / smooth.problem.hertz.half_width
+    inside = s < 0.8
+    share = 2.0 / np.pi * (np.arcsin(s[inside]) + s[inside] * np.sqrt(1.0 - s[inside] ** 2))
+    exact = step(0.3, smooth.problem.hertz.load_per_length) * share
+    assert np.array(found["rise"])[inside] == pytest.approx(exact, abs=0.02 * abs(exact[-1]))
+
+
+def test_both_models_carry_the_same_energy_ahead(smooth):
+    [found] = smooth.result["bulge"]["by_friction"]
+    own, other = (found["energy_ahead"][name] for name in MODELS)
+    assert own == pytest.approx(other, abs=3e-3) and own > 0.55
+    level, window = smooth.runs["half_plane"].finest, smooth.window
+    back, front = elastic_energy(smooth.problem, level, window, 0.0)
+    assert front == pytest.approx(back, rel=1e-6)
+
+
+def test_roughness_leaves_the_step_as_it_is():
+    outcome = solved(SLIDING | WAVY)
+    [found] = outcome.result["bulge"]["by_friction"]
+    exact = step(0.3, outcome.problem.hertz.load_per_length)
+    assert len(outcome.runs["finite_element"].finest.patches) > 1
+    assert found["half_plane"] == pytest.approx(exact, rel=5e-3)
+    assert abs(found["height"]) < found["uncertainty"] < 0.1 * abs(exact)
+
+
+def test_an_incompressible_layer_rises_ahead_and_not_far():
+    outcome = solved(changed(SLIDING, body=THIN, resolution={"pitch": 10e-6}))
+    [found] = outcome.result["bulge"]["by_friction"]
+    assert found["height"] > 5.0 * abs(found["half_plane"]) > 0.0
+    assert found["end"] < 3.0 * outcome.problem.hertz.half_width
+    assert found["uncertainty"] < 0.05 * found["height"]
+
+
+def test_flow_raises_a_bulge_ahead_that_ends():
+    """Beside an elastic body under the same load, which has none."""
+    flowing = changed(
+        SLIDING,
+        roller={"radius": RADIUS, "rigid": False, **STEEL},
+        body={"yield_stress": 1e9, "hardening_modulus": 10e9},
+        load={"hertz_peak_pressure": 3.5e9, "friction": 0.3},
+        finite_element={"plastic": True, "coupled": True},
+        resolution={"pitch": 150e-6},
+        budget={"time": 1.0},
+    )
+    outcome = solved(flowing)
+    [found] = outcome.result["bulge"]["by_friction"]
+    assert found["work"] is None and found["relative_penetration"] == pytest.approx(
+        3.7e-3, rel=0.01
+    )
+    a = outcome.problem.hertz.half_width
+    assert 0.15 < found["over_penetration"] < 0.35
+    assert a < found["at"] < 2.0 * a < found["end"] < 5.0 * a
+    assert np.max(found["rise"]) > 0.1 * a**2 / RADIUS  # higher than behind, in spite of the step
+
+
+FLOWING = {
+    "roller": {"radius": RADIUS, **STEEL},
+    "body": {**STEEL, "yield_stress": 1e9, "hardening_modulus": 10e9},
+    "load": {"hertz_peak_pressure": 5e9, "friction": 0.3},
+    "stress": {"points": [80, 30], "half_range": 3.0, "bulge": True},
+    "finite_element": {"plastic": True, "coupled": True},
+    "resolution": {"elements": 4.0, "levels": 2},
+    "budget": {"effects": False, "time": 1.0},
+}
+
+
+def test_the_bulge_depends_on_penetration_over_yield_strain():
+    """Half the strains by a roller of twice the radius at half the pressures: the same contact."""
+    one = solved(FLOWING)
+    tables = changed(FLOWING, roller={"radius": 2.0 * RADIUS}, body={"yield_stress": 0.5e9})
+    two = solved(changed(tables, load={"hertz_peak_pressure": 2.5e9}))
+    [first], [second] = (found.result["bulge"]["by_friction"] for found in (one, two))
+    assert second["contact"] == pytest.approx(first["contact"], rel=1e-6)
+    assert second["height"] == pytest.approx(0.5 * first["height"], rel=1e-4)
+    assert second["end"] == pytest.approx(first["end"], rel=1e-4)
+    assert second["energy"] == pytest.approx(0.25 * first["energy"], rel=1e-4)
+    assert second["plastic_strain"] == pytest.approx(0.5 * first["plastic_strain"], rel=1e-3)
+    assert second["relative_penetration"] == pytest.approx(0.25 * first["relative_penetration"])
+    assert first["contact"] > 1.5 * one.problem.hertz.half_width  # wider than what is elastic
+
+
+def test_patches_of_a_meshed_profile_have_the_step_and_no_bulge():
+    """Elastic asperities of small slopes: about each centre the half-plane's step alone."""
+    rough = changed(SLIDING | WAVY, finite_element={"geometry": "rough"}, resolution={"levels": 3})
+    [found] = solved(changed(rough, resolution={"pitch": 10e-6})).result["bulge"]["by_friction"]
+    steps = np.array([each["half_plane"] for each in found["patches"]])
+    heights = np.array([each["height"] for each in found["patches"]])
+    assert len(steps) > 2 and (steps < 0.0).all()
+    assert np.abs(heights).max() < 0.1 * np.abs(steps).max()
+    assert 0.5 < found["energy_ahead"]["finite_element"] < 0.9  # above the waves there is none
+
+
+def test_patches_that_flow_raise_bulges_of_their_own():
+    wavy = {"kind": "sinusoid", "wavelength": 400e-6, "amplitude": 4e-6}
+    tables = changed(
+        FLOWING, load={"hertz_peak_pressure": 2e9}, resolution={"pitch": 20e-6, "elements": None}
+    )
+    outcome = solved(tables | {"profile": wavy})
+    [found] = outcome.result["bulge"]["by_friction"]
+    patches, level = found["patches"], outcome.runs["finite_element"].finest
+    assert set(level.mesh_field.displacement) == {0.0, 0.3} and len(patches) == len(level.patches)
+    deepest = max(patches, key=lambda each: each["relative_penetration"])
+    assert deepest["kind"] in ("elastic", "plastic") and deepest["over_penetration"] > 0.05
+    shares = sum(each["penetration"] for each in patches)
+    assert shares == pytest.approx(found["penetration"], rel=1e-6)  # 4 P/(pi E*) of all loads
+    assert len(bulge_table(outcome).rows) == 1 + len(patches)
+
+
+@pytest.mark.parametrize(
+    ("tables", "models", "why"),
+    [
+        (SLIDING, ("half_plane",), "takes the finite elements"),
+        (changed(SLIDING, load={"friction": 0.0}), MODELS, "takes the finite elements, and fric"),
+        (changed(SLIDING | WAVY, load={"friction": 0.3}), MODELS, "a second friction coefficient"),
+    ],
+)
+def test_what_cannot_be_measured_says_why(tables, models, why, smooth):
+    from dataclasses import replace
+
+    scene = resolved(tables)
+    posed = replace(smooth.problem, scene=scene)
+    found = bulges(posed, dict.fromkeys(models), smooth.window)
+    assert why in found["why"] and list(found) == ["why"]
+
+
+def test_it_is_measured_where_it_is_asked_for(smooth, smooth_outcome):
+    assert bulges(smooth_outcome.problem, smooth_outcome.runs, smooth_outcome.window) is None
+    assert bulge_table(smooth_outcome) is None and bulge_picture(smooth_outcome) is None
+    table = bulge_table(smooth)
+    assert [row[0] for row in table.rows] == ["0.3"] and "beyond 20 a" in table.rows[0]
+    with drawing():
+        picture = bulge_picture(smooth)
+    assert "Bulge: friction 0.3: 0.00" in picture.alternative

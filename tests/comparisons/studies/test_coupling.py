@@ -1,0 +1,292 @@
+"""What friction changes by moving the surfaces of unlike bodies, against the sliding cylinder."""
+
+import json
+from dataclasses import replace
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+import scenes
+from scenes import DATA, STEEL, changed
+
+from comparisons.common.errors import SceneError
+from comparisons.common.numbers import UNKNOWN
+from comparisons.common.progress import Stages, no_progress
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.level import ModelRun
+from comparisons.report.tables.comparison import coupling_line, coupling_table
+from comparisons.results.outcome import Outcome
+from comparisons.runs.run import run
+from comparisons.studies import coupling
+from comparisons.studies.coupling import (
+    BEYOND_THE_END,
+    SHIFT,
+    Change,
+    couplings,
+)
+from comparisons.studies.model_error.estimates import estimates
+
+REFERENCES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))[
+    "sliding_cylinder"
+]
+RIGID = {
+    "title": "Rigid roller",
+    "roller": {"radius": 8e-3, "rigid": True},
+    "body": STEEL,
+    "load": {"per_length": 1e6, "friction": [0.0, 0.1, 0.3]},
+    "stress": {"points": [60, 20]},
+}
+STRONG = RIGID | {"body": {"youngs_modulus": 210e9, "poissons_ratio": 0.0}}  # beta = 1/2
+ALIKE = RIGID | {"roller": {"radius": 8e-3, **STEEL}}
+WAVY = RIGID | {
+    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
+    "body": {**STEEL, "hardness": 4e9},
+    "load": {"hertz_peak_pressure": 1e9, "friction": 0.3},
+}
+HALF_PLANE = ("half_plane",)
+
+
+def scene_of(tables: dict, **load):
+    return scenes.resolved(changed(tables, load=load))
+
+
+def problem_of(tables: dict, **load):
+    return scenes.problem(changed(tables, load=load))
+
+
+def solved(tables: dict, **load) -> Outcome:
+    return run(scene_of(tables, **load), None, HALF_PLANE)
+
+
+def half_plane_of(problem) -> ModelRun:
+    levels = (
+        half_plane_level(problem, pitch, None, Stages(no_progress)) for pitch in problem.pitches
+    )
+    return ModelRun("half_plane", tuple(levels))
+
+
+def estimate(problem, found) -> dict | None:
+    """How much friction may change by moving the surfaces, by quantity."""
+    every = estimates(problem, *2 * [problem.hertz.peak_pressure], couplings=found)
+    return every.get("normal_tangential_coupling")
+
+
+def entry(outcome: Outcome, number: int = 0) -> dict:
+    """The half-plane's entry of result.json for one friction coefficient."""
+    return outcome.result["models"]["half_plane"][number]
+
+
+@pytest.fixture(scope="module")
+def rigid() -> Outcome:
+    """Three friction coefficients, with a field."""
+    return solved(RIGID)
+
+
+@pytest.fixture(scope="module")
+def rigid_coupled() -> Outcome:
+    return solved(RIGID, friction=0.3, coupled=True)
+
+
+@pytest.fixture(scope="module")
+def wavy():
+    """A rough problem, and the half-plane's levels."""
+    problem = problem_of(WAVY)
+    return problem, half_plane_of(problem)
+
+
+class TestFigures:
+    @pytest.mark.parametrize("number", [1, 2])
+    def test_changes_are_those_of_the_exact_sliding_cylinder(self, rigid, number):
+        """Rigid on nu = 0.3: beta = 2/7, mu = 0.1 and 0.3."""
+        reference, model = REFERENCES[number - 1], entry(rigid, number)
+        assert model["friction"] == float(reference["mu"]) and reference["beta"] == "2/7"
+        found, hertz = model["normal_tangential_coupling"], rigid.problem.hertz
+        wider = float(reference["ahalf_over_aHertz_same_load"])
+        peak = float(reference["peak_over_p0Hertz_same_load"])
+        shift = float(reference["load_line_x_over_ahalf"]) * wider
+        pressure, length = found["peak_pressure"], found["contact_length"]
+        assert pressure["difference"] == pytest.approx(peak - 1.0, abs=2e-5)
+        assert pressure["value"] / hertz.peak_pressure == pytest.approx(peak, rel=2e-5)
+        assert length["value"] / hertz.half_width == pytest.approx(2.0 * wider, rel=1e-3)
+        assert found[SHIFT]["difference"] == pytest.approx(shift, rel=1e-3)
+        assert found[SHIFT]["value"] == pytest.approx(shift * hertz.half_width, rel=1e-3)
+        assert found["converged"] is True and model["normal_tangential_coupling_why"] is None
+
+    def test_the_model_s_own_figures_stay_without_it(self, rigid):
+        own = [model["contact"] for model in rigid.result["models"]["half_plane"]]
+        assert own[0] == own[1] == own[2]
+        assert own[0]["peak_pressure"] == pytest.approx(rigid.problem.hertz.peak_pressure, rel=1e-4)
+
+    def test_no_friction_no_change(self, rigid):
+        assert entry(rigid)["normal_tangential_coupling"] is None
+        assert entry(rigid)["normal_tangential_coupling_why"] == "there is no friction"
+        assert "coupling" not in {item["step"] for item in rigid.result["skipped"]}
+
+    def test_stresses_are_compared_too(self, rigid):
+        found = entry(rigid, 2)["normal_tangential_coupling"]
+        # on the surface tau1 = mu p where sx + p is what the coupling changes most
+        assert -0.05 < found["tau1_max"]["difference"] < -0.005
+        assert found["tau1_field_near"]["value"] is None
+        near, deep = (found[f"tau1_field_{part}"]["difference"] for part in ("near", "deep"))
+        assert 0.01 < deep < near < found["pressure_l2"]["difference"]
+
+    def test_a_figure_that_is_zero_without_has_a_value_and_no_relative_change(self, rigid):
+        """At friction 0.3 the largest shear stands on the surface, by a touch of the pressure."""
+        problem, level = rigid.problem, rigid.runs["half_plane"].finest
+        still = {"tau1_max_depth": 0.0, "contact_ratio": 0.0, "peak_pressure": 2.0}
+        moved = {"tau1_max_depth": 3e-5, "contact_ratio": 0.0, "peak_pressure": 3.0}
+        answers = iter([moved, still])
+        with patch.object(coupling, "figures", lambda *_: next(answers)):
+            changes = coupling._changes(problem, level, level, 0.3, rigid.window)
+        assert changes["tau1_max_depth"] == Change(3e-5, None)
+        assert changes["contact_ratio"] == Change(0.0, 0.0)
+        assert changes["peak_pressure"].difference == pytest.approx(0.5)
+        found = replace(rigid.couplings[2], changes=changes)
+        assert found.as_dict()["tau1_max_depth"] == {"value": 3e-5, "difference": None}
+        table = coupling_table(replace(rigid, couplings=(found,)))
+        [row] = [row for row in table.rows if "depth" in row[0]]
+        assert row[1:] == ("30.00 µm", UNKNOWN)
+        effect = estimate(problem, (found,))
+        assert effect["peak_pressure"] == pytest.approx(0.5)
+        scale = QUANTITIES["tau1_max_depth"].scale(problem.hertz)
+        assert effect["tau1_max_depth"] == pytest.approx(3e-5 / scale)
+
+    @pytest.mark.parametrize(("friction", "why"), [(0.0, "no friction"), (0.3, "equal constants")])
+    def test_equal_materials_skip_it(self, friction, why):
+        outcome = solved(ALIKE, friction=friction)
+        skipped = {item["step"]: item["because"] for item in outcome.result["skipped"]}
+        assert entry(outcome)["normal_tangential_coupling"] is None
+        assert why in entry(outcome)["normal_tangential_coupling_why"]
+        assert skipped["coupling"] == entry(outcome)["normal_tangential_coupling_why"]
+        assert outcome.couplings == () and coupling_table(outcome) is None
+        assert coupling_line(outcome) is None
+
+    def test_softer_roller_moves_the_contact_the_other_way(self):
+        one = solved(RIGID, friction=0.3)
+        soft = {"radius": 8e-3, "youngs_modulus": 3e9, "poissons_ratio": 0.3}
+        swapped = RIGID | {"roller": soft, "load": {"hertz_peak_pressure": 5e7}}
+        other = solved(swapped, friction=0.3)
+        assert one.couplings[0].changes[SHIFT].value < 0.0
+        assert other.problem.dundurs_beta < 0.0 < other.couplings[0].changes[SHIFT].value
+
+
+class TestSwitch:
+    def test_coupled_answer_is_the_exact_one(self, rigid_coupled):
+        reference = REFERENCES[1]
+        wider = float(reference["ahalf_over_aHertz_same_load"])
+        half = rigid_coupled.problem.hertz.half_width * wider
+        [edges] = entry(rigid_coupled)["contact"]["patches"]
+        trailing, leading = (
+            float(reference[name]) * half
+            for name in ("b_trailing_over_ahalf", "c_leading_over_ahalf")
+        )
+        assert edges == pytest.approx([-trailing, leading], rel=1e-3)
+
+    def test_both_ways_round_tell_the_same_change(self, rigid, rigid_coupled):
+        one, other = rigid.couplings[2].changes, rigid_coupled.couplings[0].changes
+        for name in ("peak_pressure", SHIFT, "pressure_l2", "tau1_max"):
+            assert one[name].difference == pytest.approx(other[name].difference, rel=0.03)
+
+    def test_default_is_the_published_way(self):
+        assert not scene_of(RIGID).coupled
+        assert scene_of(RIGID).as_dict()["load"]["coupled"] is False
+        assert problem_of(RIGID).coupling == 0.0
+
+    def test_strong_coupling_finds_its_extent(self):
+        """mu beta = 0.75 reaches beyond 1.5 Hertz half-widths, where the other answer ends."""
+        shift = np.arctan(0.75) / np.pi
+        half = 1.0 / np.sqrt(1.0 - 4.0 * shift**2)
+        outcome, other = (solved(STRONG, friction=1.5, coupled=way) for way in (True, False))
+        a = outcome.problem.hertz.half_width
+        [edges] = outcome.runs["half_plane"].finest.patches / a
+        expected = np.array([-1.0 - 2.0 * shift, 1.0 - 2.0 * shift]) * half
+        assert edges == pytest.approx(expected, abs=5e-3)
+        assert other.problem.extent[0] / a == pytest.approx(-1.5) and edges[0] < -1.5
+        length = other.couplings[0].changes["contact_length"].value
+        assert length / a == pytest.approx(2.0 * half, rel=2e-3)
+
+    def test_one_friction_alone(self):
+        with pytest.raises(SceneError, match=r"load\.coupled: is true with 3 friction.*allowed"):
+            scene_of(RIGID, coupled=True)
+
+    def test_equal_materials_are_the_same_either_way(self):
+        one, other = (entry(solved(ALIKE, friction=0.3, coupled=way)) for way in (False, True))
+        for key in ("contact", "normal_tangential_coupling", "stress"):
+            assert one[key] == other[key]
+
+
+class TestRoughBody:
+    @staticmethod
+    def cut(problem, start: float, stop: float):
+        """The problem on a trace that ends there [m]."""
+        trace = problem.scene.profile
+        kept = (trace.x >= start) & (trace.x <= stop)
+        short = replace(trace, x=trace.x[kept], height=trace.height[kept])
+        return replace(problem, scene=replace(problem.scene, profile=short))
+
+    def test_change_under_a_hardness(self, wavy):
+        [found] = couplings(*wavy, None, no_progress)
+        assert found.converged
+        assert found.changes["peak_pressure"].value <= 4e9
+        assert found.changes[SHIFT].value < 0.0
+
+    def test_a_trace_that_ends_on_one_side_changes_nothing(self, wavy):
+        """The grid is extended where there is a trace, here behind the contact only."""
+        problem, levels = wavy
+        [one] = couplings(problem, levels, None, no_progress)
+        ended = self.cut(problem, -np.inf, levels.finest.grid.x[-1] + 2e-6)
+        [other] = couplings(ended, levels, None, no_progress)
+        for name, change in one.changes.items():
+            assert other.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
+
+    def test_a_contact_that_goes_far_is_followed(self, monkeypatch):
+        """The first stretches are too short for it."""
+        problem = problem_of(STRONG, friction=1.5)
+        levels = half_plane_of(problem)
+        [expected] = couplings(problem, levels, None, no_progress)
+        stretched = coupling._stretched
+        monkeypatch.setattr(
+            coupling, "_stretched", lambda p, g, more: stretched(p, g, 1 + more // 64)
+        )
+        [found] = couplings(problem, levels, None, no_progress)
+        for name, change in expected.changes.items():
+            assert found.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
+
+    def test_there_is_no_change_where_the_trace_ends(self, wavy):
+        """Just beyond the contact at rest."""
+        problem, levels = wavy
+        level = levels.finest
+        edge = level.patches[0, 0] - 0.5e-6
+        ended = self.cut(problem, edge, -edge)
+        trace, pitch = ended.scene.profile, level.grid.pitch
+        first, last = int(np.ceil(trace.x[0] / pitch)), int(np.floor(trace.x[-1] / pitch))
+        grid = replace(level.grid, first=first + 1, last=last - 1)
+        inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
+        solution = replace(level.solution, pressure=level.solution.pressure[inside])
+        ending = replace(levels, levels=(replace(level, grid=grid, solution=solution),))
+        [found] = couplings(ended, ending, None, no_progress)
+        assert found.changes == {} and found.why == BEYOND_THE_END
+        assert found.as_dict() is None
+
+
+class TestEstimate:
+    def test_measured_changes_take_the_place_of_the_estimate(self, rigid):
+        effect = estimate(rigid.problem, rigid.couplings)
+        last = rigid.couplings[2].changes
+        for name in ("peak_pressure", "contact_length", "pressure_l2", "tau1_max_depth"):
+            assert effect[name] == abs(last[name].difference)
+
+    def test_what_was_not_measured_is_estimated(self, rigid):
+        effect = estimate(rigid.problem, ())
+        size = 0.3 * rigid.problem.dundurs_beta
+        assert effect["pressure_l2"] == pytest.approx(1.6 * size)
+        without = [replace(c, changes={}, why=BEYOND_THE_END) for c in rigid.couplings]
+        assert estimate(rigid.problem, tuple(without)) == effect
+
+    def test_what_both_models_contain_is_not_missing(self, rigid_coupled):
+        assert estimate(rigid_coupled.problem, rigid_coupled.couplings) is None
+
+    def test_equal_materials_have_no_such_effect(self, wavy_outcome):
+        assert wavy_outcome.problem.dundurs_beta == 0.0
+        assert estimate(wavy_outcome.problem, ()) is None

@@ -1,0 +1,180 @@
+"""The layer of low shear below asperities, on shear made for it and on real contacts."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scenes import STEEL, problem, resolved
+from scipy.optimize import minimize_scalar, root_scalar
+
+from analytic.exact.hertz import HertzContact, hertz_stress
+from comparisons.common.progress import Stages
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.window import window_of
+from comparisons.report.tables.quiescent_zone import zone_line, zone_table
+from comparisons.runs.run import run
+from comparisons.studies import quiescent_zone as q
+
+Z = np.linspace(0.0, 1.0, 101) ** 2
+RIPPLE = 0.04 * np.cos(400.0 * Z) * np.exp(-((Z / 0.03) ** 2))  # near the surface, no zone's
+HALF_PLANE = ("half_plane",)
+WAVY = {
+    "roller": {"radius": 10e-3, **STEEL},
+    "body": STEEL,
+    "profile": {"kind": "sinusoid", "wavelength": 25e-6, "amplitude": 0.1e-6},
+    "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.3]},
+    "stress": {"points": [200, 60]},
+    "budget": {"effects": False},
+}
+
+
+def below_a_wave(z, height=1.0, wave=100.0):
+    """A full wave of pressure shears as k z exp(-k z); the Hertz contact about as z near it."""
+    return height * wave * z * np.exp(-wave * z) + z / (0.2 + z**2)
+
+
+def test_the_dip_is_where_the_slope_of_the_shear_vanishes():
+    found = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4)
+    low = minimize_scalar(
+        lambda z: below_a_wave(z, 4.0), bounds=(0.02, 0.3), options={"xatol": 1e-9}
+    )
+    high = minimize_scalar(lambda z: -below_a_wave(z, 4.0), bounds=(0.3, 0.9))
+    top = minimize_scalar(lambda z: -below_a_wave(z, 4.0), bounds=(0.0, 0.02))
+    assert found.status == q.QUIESCENT
+    assert found.depth == pytest.approx(low.x, abs=1e-3)
+    assert (found.hertz, found.hertz_depth) == pytest.approx((-high.fun, high.x), rel=2e-3)
+    assert (found.asperity, found.asperity_depth) == pytest.approx((-top.fun, top.x), rel=5e-3)
+    assert found.level == pytest.approx(low.fun / -high.fun, rel=1e-4)
+    assert found.ratio == pytest.approx(low.fun / min(-high.fun, -top.fun), rel=1e-4)
+    least = q.QUIET * min(-high.fun, -top.fun)
+    for depth, bracket in ((found.start, (top.x, low.x)), (found.stop, (low.x, high.x))):
+        end = root_scalar(lambda z: below_a_wave(z, 4.0) - least, bracket=bracket)
+        assert depth == pytest.approx(end.root, abs=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("shear", "status", "level"),
+    [
+        (below_a_wave(Z, 0.0), q.SMOOTH, 0.0),  # it only grows
+        (below_a_wave(Z, 0.2), q.SMOOTH, None),  # a maximum too low to have a zone below it
+        (2.0 - Z, q.BRIDGED, 1.0),  # it only falls
+        (1.0 - 0.1 * np.sin(np.pi * Z / 0.4) ** 2, q.BRIDGED, 0.9),
+        (2.0 - Z - 1.4 * np.exp(-((Z / 0.1) ** 4)) + RIPPLE, q.BRIDGED, 1.0),
+    ],
+)
+def test_where_there_is_no_zone(shear, status, level):
+    found = q.shear_dip(Z, shear, 0.4)
+    assert found.status == status
+    assert np.isnan(found.start) and np.isnan(found.stop)
+    if level is not None:
+        assert found.level == pytest.approx(level, abs=0.02)
+
+
+def test_the_scale_of_shear_and_of_depth_does_not_matter():
+    one, other = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4), None
+    other = q.shear_dip(3e-4 * Z, 7e8 * below_a_wave(Z, 4.0), 1.2e-4)
+    assert (other.level, other.ratio) == pytest.approx((one.level, one.ratio), rel=1e-9)
+    assert other.start == pytest.approx(3e-4 * one.start, rel=1e-9)
+
+
+@pytest.mark.parametrize("columns", [41, 120, 777])
+def test_mean_shear_of_the_sliding_smooth_contact(columns):
+    """On the surface under the contact tau1 is mu p0; a window's columns need not end at a."""
+    hertz = HertzContact(1e-3, 1e9, 0.5 * np.pi * 1e6, 1e-2, 1e11)
+    window = SimpleNamespace(x=np.linspace(-1.37e-3, 1.5e-3, columns))
+    tau1 = hertz_stress(hertz, window.x, np.zeros((1, 1)), 0.2).tau1
+    smooth = SimpleNamespace(hertz=hertz)
+    found = q.mean_shear(smooth, window, tau1)
+    assert found == pytest.approx(0.2e9, rel=0.1 / columns)
+    cut = np.where(np.abs(window.x) < 0.3e-3, np.nan, tau1)  # above a rough boundary
+    assert q.mean_shear(smooth, window, cut) == pytest.approx(0.2e9, rel=0.1 / columns)
+
+
+@pytest.mark.parametrize(
+    ("friction", "status"), [(0.0, q.SMOOTH), (0.23, q.SMOOTH), (0.25, q.BRIDGED), (0.4, q.BRIDGED)]
+)
+def test_friction_alone_bridges_a_smooth_body(friction, status):
+    hertz = HertzContact(1.0, 1.0, 0.5 * np.pi, 1.0, 1.0)
+    window = SimpleNamespace(x=np.linspace(-1.2, 1.2, 961))
+    tau1 = hertz_stress(hertz, window.x, Z[:, None], friction).tau1
+    shear = q.mean_shear(SimpleNamespace(hertz=hertz), window, tau1)
+    assert q.shear_dip(Z, shear, 0.5).status == status
+
+
+@pytest.fixture(scope="module")
+def wavy():
+    return run(resolved(WAVY), None, HALF_PLANE)
+
+
+def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
+    still, sliding = wavy.result["quiescent_zone"]["half_plane"]
+    assert (still["status"], sliding["status"]) == (q.QUIESCENT, q.BRIDGED)
+    assert 0.0 < still["start"]["value"] < still["depth"]["value"] < still["stop"]["value"]
+    assert sliding["start"]["value"] is None
+    assert sliding["level"]["value"] > q.QUIET > still["ratio"]["value"]
+    assert len(still["asperities"]) == len(wavy.problem.asperities) + 1
+    assert sliding["bridged"] > still["bridged"]
+    for each in still["asperities"]:
+        assert 0.0 < each["length"] < 25e-6
+        assert abs(each["x"]) < wavy.problem.hertz.half_width
+
+
+@pytest.mark.parametrize(
+    ("half_range", "depth", "points"),
+    [(1.0, 1.0, [200, 60]), (2.2, 1.6, [200, 60]), (1.5, 0.8, [400, 90]), (1.5, 1.0, [90, 30])],
+)
+def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
+    wavy, half_range, depth, points
+):
+    stated, *_ = wavy.result["quiescent_zone"]["half_plane"]
+    other = WAVY | {"stress": {"half_range": half_range, "depth": depth, "points": points}}
+    posed = problem(other)
+    window = window_of(posed)
+    level = half_plane_level(
+        posed, 0.5 * wavy.runs["half_plane"].finest.grid.pitch, window, Stages()
+    )
+    found = q.zone_of(posed, level, window, 0.0)
+    a = posed.hertz.half_width
+    for name in q.FIGURES:
+        reading = 2e-3 * (
+            a if "depth" in name or name in ("start", "stop") else stated[name]["value"]
+        )
+        assert stated[name]["uncertainty"] < reading
+        assert getattr(found, name) == pytest.approx(stated[name]["value"], abs=reading)
+
+
+def test_on_a_bound_it_is_inconclusive():
+    dip = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4)
+    sizes = dict.fromkeys(q.FIGURES, 0.0)
+    known = q.QuiescentZone(0.0, replace(dip, ratio=0.74), sizes, ())
+    assert known.status == q.QUIESCENT
+    assert replace(known, uncertainty=sizes | {"ratio": 0.02}).status == q.UNCLEAR
+
+
+def test_scenes_without_fields_or_roughness_have_none(finish, smooth_tables):
+    smooth = finish(smooth_tables)
+    assert q.quiescent_zones(smooth.problem, smooth.runs, smooth.window) is None
+    outcome = run(resolved({k: v for k, v in WAVY.items() if k != "stress"}), None, HALF_PLANE)
+    assert outcome.result["quiescent_zone"] is None
+    assert zone_table(outcome) is None and zone_line(outcome) is None
+
+
+@pytest.mark.parametrize(("name", "value"), [("half_range", 0.9), ("depth", 0.6)])
+def test_a_field_that_ends_before_says_so(name, value):
+    tables = WAVY | {"stress": {name: value, "points": [60, 20]}}
+    outcome = run(resolved(tables), None, HALF_PLANE)
+    why = outcome.result["quiescent_zone"]["why"]
+    assert why == f"stress.{name} is less than {'1' if name == 'half_range' else '0.8'} a"
+    assert zone_table(outcome).rows == ((why,),) and zone_line(outcome) is None
+
+
+def test_table_and_line_say_what_the_figures_are(wavy):
+    table, line = zone_table(wavy), zone_line(wavy)
+    assert [row[:3] for row in table.rows] == [
+        ("0", "half-plane", q.QUIESCENT),
+        ("0.3", "half-plane", q.BRIDGED),
+    ]
+    still = wavy.result["quiescent_zone"]["half_plane"][0]
+    assert float(table.rows[0][6].split()[0]) == pytest.approx(still["level"]["value"], rel=5e-3)
+    assert line.startswith("friction 0: 0.") and "; friction 0.3: bridged, least shear 0.8" in line
