@@ -384,7 +384,7 @@ def top_level() -> set[str]:
         if shutil.which("git")
         else None
     )
-    if listing and listing.returncode == 0:
+    if listing and listing.stdout:  # of a repository around a tarball there is none
         return {name.split("/")[0] for name in listing.stdout.split("\0") if name}
     ignored = [line.strip("/") for line in (PROJECT / ".gitignore").read_text().splitlines()]
     names = os.listdir(PROJECT)

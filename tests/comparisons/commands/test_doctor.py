@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import shutil
 import subprocess
 import sys
 
@@ -12,6 +13,7 @@ from rich.console import Console
 from comparisons.cli import main
 from comparisons.commands import doctor
 from comparisons.commands.doctor import Finding, attempt, findings_table, trials
+from comparisons.common import provenance
 from comparisons.common.provenance import PROJECT, revision
 
 # A module that each trial cannot do without.
@@ -55,12 +57,14 @@ def test_mpi_takes_two_processes(monkeypatch):
     assert attempt("MPI", "").detail == "no-such-mpirun: No such file or directory"
 
 
-def test_findings_in_order_as_a_table_and_as_json(monkeypatch, capsys):
+@pytest.mark.parametrize(("known", "shown"), [("6b1b4b3", "6b1b4b3"), (None, "no revision")])
+def test_findings_in_order_as_a_table_and_as_json(known, shown, monkeypatch, capsys):
+    monkeypatch.setattr(provenance, "revision", lambda: known)
     monkeypatch.setattr(doctor, "trials", lambda: {"slow": "a", "fast": "b"})
     monkeypatch.setattr(doctor, "attempt", lambda name, program: Finding(name, True, program))
     assert main(["doctor", "--json"]) == 0
     python, own, *others = json.loads(capsys.readouterr().out)
-    assert own == {"name": "crosscheck", "ok": True, "detail": f"{revision()}, {PROJECT}"}
+    assert own == {"name": "crosscheck", "ok": True, "detail": f"{shown}, {PROJECT}"}
     assert python["name"] == "Python" and sys.executable in python["detail"]
     assert others == [{"name": n, "ok": True, "detail": p} for n, p in doctor.trials().items()]
     monkeypatch.setattr(doctor, "attempt", lambda name, program: Finding(name, False, "torn"))
@@ -70,17 +74,30 @@ def test_findings_in_order_as_a_table_and_as_json(monkeypatch, capsys):
 
 
 def test_the_revision_is_of_this_checkout_and_of_no_other(monkeypatch, tmp_path):
-    """Whatever repository the working folder or the environment names."""
-    git = ("git", "-C", str(PROJECT), "rev-parse", "HEAD")
-    head = subprocess.run(git, capture_output=True, text=True, check=True).stdout
-    monkeypatch.chdir(tmp_path)
+    """Whatever repository the environment names or lies around it; by a program in git's place."""
+    git, checkout = tmp_path / "git", tmp_path / "checkout"
+    git.write_text('#!/bin/sh\n[ -z "$GIT_DIR" ] && echo "$2"\n')
+    git.chmod(0o755)
+    checkout.mkdir()
+    monkeypatch.setattr(provenance, "PROJECT", checkout)
     monkeypatch.setenv("GIT_DIR", str(tmp_path))
-    revision.cache_clear()
-    assert head.startswith(revision().removesuffix("+changes"))
-    monkeypatch.setenv("PATH", "/nowhere")
-    revision.cache_clear()
-    assert revision() is None
-    revision.cache_clear()
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert revision.__wrapped__() is None  # files of a tarball
+    (checkout / ".git").mkdir()
+    assert revision.__wrapped__() == str(checkout)
+    git.write_text("#!/bin/sh\nexit 128\n")
+    assert revision.__wrapped__() is None
+    git.unlink()
+    assert revision.__wrapped__() is None
+
+
+def test_git_knows_the_revision():
+    git, head = ("git", "-C", str(PROJECT), "rev-parse", "HEAD"), ""
+    if shutil.which("git") and (PROJECT / ".git").exists():
+        head = subprocess.run(git, capture_output=True, text=True).stdout
+    if not head:
+        pytest.skip("a revision: git clone")
+    assert head.startswith(revision.__wrapped__().removesuffix("+changes"))
 
 
 def test_the_table_shows_every_word_as_it_is():
