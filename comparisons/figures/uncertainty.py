@@ -4,11 +4,14 @@ Causes: iteration, by what is left of the contact conditions; discretisation, by
 levels (`comparisons.figures.convergence`); domain, by what halving the distance of the far
 boundary changes. That is as many times smaller than what is left of the boundary's effect as a step
 of refinement of order 1/2 would be: stresses below a held block's contact were seen to go with
-order 0.5 to 1 of its size.
+order 0.5 to 1 of its size; increments of a load under which a body flows, by the coarsest level
+solved again with increments twice and four times as long. An increment is as long as an edge of
+contact travels over a pressure element, so that refinement of the mesh leaves its error as it is.
 
 One rule composes them: every part bounds an error of unknown sign, and bounds add linearly,
 
-    U(figure) = iteration + discretisation + domain          U(sum of c f) = sum of |c| U(f)
+    U(figure) = iteration + discretisation + domain + increments
+    U(sum of c f) = sum of |c| U(f)
 
 Roots of sums of squares would need errors that are independent of each other. These are not: both
 models have the same pressure elements, all levels the same solver and block, and an error that
@@ -22,6 +25,7 @@ times the error; by the sum of both models' own discretisations, 18 times.
 
 No figure has an uncertainty of discretisation below the resolution that it is read with."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -29,7 +33,7 @@ import numpy as np
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from comparisons.figures.convergence import Convergence
+from comparisons.figures.convergence import TWO_GRIDS, Convergence
 
 COVERAGE = 0.95  # of true errors by stated uncertainties: what `verify` demands and measures
 DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
@@ -50,11 +54,12 @@ class Uncertainty:
     discretisation: float
     domain: float
     convergence: Convergence
+    increments: float = 0.0  # of the load, where a body flows
 
     @property
     def total(self) -> float:
         """Sum of the parts: they are bounds, not random."""
-        return self.iteration + self.discretisation + self.domain
+        return self.iteration + self.discretisation + self.domain + self.increments
 
 
 class SolvedLevel(Protocol):
@@ -76,6 +81,14 @@ def far_boundary(moved: float, first: float = 0.0) -> float:
     """In the figure's unit, by its values on the coarsest level with a block of half the size and
     with the whole one. For a norm of their difference `moved` is that norm."""
     return DOMAIN * abs(moved - first)
+
+
+def of_increments(values: Sequence[float]) -> float:
+    """In the figure's unit, by its values on the coarsest level with increments of the load that
+    halve, the last as on all levels. The error is of order one in their length; each change shows
+    how large, and the largest counts with the factor of safety of two grids."""
+    changes = np.abs(np.diff(values)) / 2.0 ** np.arange(len(values) - 2, -1, -1)
+    return TWO_GRIDS * float(changes.max(initial=0.0))
 
 
 def length_resolution(pitch: float, patches: int) -> float:

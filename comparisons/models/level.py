@@ -181,6 +181,8 @@ class ModelRun:
     levels: tuple[Level, ...]
     # the coarsest level again on a block of half the size, where it is checked
     far_boundary_check: Level | None = None
+    # where a body flows: the coarsest level again by longer increments, the longest first
+    longer_increments: tuple[Level, ...] = ()
 
     @property
     def finest(self) -> Level:
@@ -194,7 +196,8 @@ class ModelRun:
     def seconds(self) -> dict[str, float]:
         """By stage, all levels together."""
         total: dict[str, float] = {}
-        for level in filter(None, (*self.levels, self.far_boundary_check)):
+        again = self.far_boundary_check, *self.longer_increments
+        for level in filter(None, (*self.levels, *again)):
             for stage, seconds in level.seconds.items():
                 total[stage] = total.get(stage, 0.0) + seconds
         return total

@@ -30,6 +30,7 @@ class Plan:
     coupling: bool  # solve the half-plane with and without normal-tangential coupling
     effects: bool  # compute effects beside the scene's own where their estimates ask for it
     domain_check: bool  # repeat the coarsest finite-element level on a block of half the size
+    increments_check: bool  # repeat that level with longer increments of plastic flow
     skipped: tuple[Skipped, ...]  # steps, each with its reason
     assumptions: tuple[str, ...]  # of the models of this run
 
@@ -51,6 +52,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     coupling = "half_plane" in models and not all(uncoupled)
     unbounded = scene.thickness is None or scene.width is None or scene.roller is not None
     domain_check = finite_elements and unbounded
+    increments_check = finite_elements and scene.finite_element.plastic
     effects = set(models) == set(MODELS) and bool(scene.budget.effects) and bool(scene.tolerance)
     skipped = [
         Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
@@ -78,11 +80,12 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         why = "not asked for (budget.effects)" if scene.tolerance else "no quantity is judged"
         skip(not effects, "effects beside the scene's own finite elements", why)
         skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
+        skip(not increments_check, "check of the increments of flow", "no body flows")
         leans = no_check(scene)
         skip(leans is not None, "check of the compliance before contact", leans)
     if set(models) != set(MODELS):
         skipped.append(Skipped("comparison", "it takes both models"))
-    steps = stress, shared, coupling, effects, domain_check
+    steps = stress, shared, coupling, effects, domain_check, increments_check
     return Plan(models, *steps, tuple(skipped), assumptions_of(problem))
 
 

@@ -86,7 +86,8 @@ def _shown(outcome: Outcome) -> Outcome:
         shown = [level is run.finest or any(level is d for d in drawn) for level in run.levels]
         levels = tuple(map(_reduced, run.levels, shown))
         check = None if run.far_boundary_check is None else _reduced(run.far_boundary_check)
-        runs[name] = ModelRun(name, levels, check)
+        longer = tuple(map(_reduced, run.longer_increments))
+        runs[name] = ModelRun(name, levels, check, longer)
     budget = outcome.budget
     if budget is not None:
         shown = {friction: _reduced(level, True) for friction, level in wholes.items()}

@@ -116,6 +116,7 @@ def _model(
                 "iteration": u.iteration,
                 "discretisation": u.discretisation if len(run.levels) > 2 else None,
                 "domain": u.domain,
+                "increments": u.increments,
                 "total": u.total if len(run.levels) > 2 else None,
             }
             for name, u in uncertainties(run, problem, friction).items()
@@ -316,6 +317,7 @@ def _numerical(uncertainty: Uncertainty) -> dict:
         "iteration": uncertainty.iteration,
         "discretisation": _known(uncertainty.discretisation),
         "domain": uncertainty.domain,
+        "increments": uncertainty.increments,
         "convergence": convergence.behaviour,
         "formal_order": convergence.formal_order,
         "order": convergence.order,

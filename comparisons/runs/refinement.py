@@ -20,6 +20,8 @@ from comparisons.studies.contact import discretisations
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 FAR_BOUNDARY_CHECK = "finite_element-far_boundary_check"
+# the same with increments of plastic flow that are so many times as long
+LONGER_INCREMENTS = {f"finite_element-increments_{times}": times for times in (4, 2)}
 
 
 def refined(
@@ -44,24 +46,29 @@ def refined(
         pitch = problem.pitches[0] / 2.0 ** (number - 1)
         return expected_level(name, problem, plan, pitch, patches)
 
-    def add(name: str, number: int, key: str | None = None) -> str:
-        key, half_block = key or f"{name}-{number}", key is not None
+    def add(name: str, number: int, key: str | None = None, times: float = 1.0) -> str:
+        half_block = key == FAR_BOUNDARY_CHECK
+        key = key or f"{name}-{number}"
         # the finest level that is asked for lasts longest of all
         is_first = name == "half_plane" or number == len(problem.pitches)
         cost, urgency = expected(name, number), FIRST if is_first else NEEDED
         if (name, number) == ("half_plane", 1):  # for which the others wait
             urgency = AT_ONCE
-        given = cache, key, name, problem, plan, window, number, half_block
+        given = cache, key, name, problem, plan, window, number, half_block, times
         size = {"seconds": cost.seconds, "memory": cost.memory}
         shares = None if name == "half_plane" else problem.pitches[0] / 2.0 ** (number - 1)
         tasks.add(key, _level, *given, **size, urgency=urgency, shares=shares)
         return key
 
     def checked(runs: dict[str, ModelRun]) -> dict[str, ModelRun]:
-        """The runs with the far boundary at half the distance."""
+        """The runs with the far boundary at half the distance, and by longer increments."""
+        again = {}
         if plan.domain_check:
-            check = tasks.result(FAR_BOUNDARY_CHECK)
-            runs["finite_element"] = replace(runs["finite_element"], far_boundary_check=check)
+            again["far_boundary_check"] = tasks.result(FAR_BOUNDARY_CHECK)
+        if plan.increments_check:
+            again["longer_increments"] = tuple(map(tasks.result, LONGER_INCREMENTS))
+        if again:
+            runs["finite_element"] = replace(runs["finite_element"], **again)
         return runs
 
     asked = range(1, len(problem.pitches) + 1)
@@ -81,6 +88,9 @@ def refined(
             add("finite_element", number)
         if plan.domain_check:
             add("finite_element", 1, FAR_BOUNDARY_CHECK)
+        if plan.increments_check:
+            for key, times in LONGER_INCREMENTS.items():
+                add("finite_element", 1, key, times)
     if "half_plane" in levels:
         levels["half_plane"] += [tasks.result(key) for key in keys[1:]]
         if after_half_plane is not None:
@@ -157,6 +167,7 @@ def _level(
     window: Window | None,
     number: int,
     half_block: bool,
+    times: float,
 ) -> Level:
     """One level of one model, from the cache or into it; imports what this model needs alone."""
     found, pitch = cache.load(key), problem.pitches[0] / 2.0 ** (number - 1)
@@ -164,6 +175,9 @@ def _level(
         return found
     if half_block:
         here.callback("finite elements: far boundary at half the distance")
+        stages = Stages(no_progress)
+    elif times != 1.0:
+        here.callback(f"finite elements: increments of flow {times:g} times as long")
         stages = Stages(no_progress)
     else:
         stages = Stages(lambda stage: here.callback(f"{stage}, level {number}"))
@@ -175,10 +189,13 @@ def _level(
         from comparisons.models.finite_element.bodies import BodyCache
         from comparisons.models.finite_element.level import finite_element_level
         from comparisons.models.finite_element.mesh import Refinement
+        from fem.nonlinear.press_plastic import TRAVEL
 
-        refinement, bodies = Refinement(pitch, half_block), here.held("bodies", pitch, BodyCache)
+        refinement = Refinement(pitch, half_block, times * TRAVEL)
+        bodies = here.held("bodies", pitch, BodyCache)
         given = problem, plan, refinement, window, stages
-        how = {"check": not half_block, "fields": not half_block}
+        alone = not half_block and times == 1.0
+        how = {"check": alone, "fields": not half_block}
         found = finite_element_level(*given, body_cache=bodies, **how)
     cache.save(key, found)
     return found

@@ -100,7 +100,7 @@ def resolve_tables(
         plain["body"].setdefault("base", "bonded")
     ratios = [table.poissons_ratio for table in (scene.roller, scene.body, scene.coating) if table]
     largest = max(ratio for ratio in ratios if ratio is not None)
-    settings = settings_of(scene.finite_element, scene.load.coupled, largest)
+    settings = settings_of(scene.finite_element, scene.load, largest)
     plain["finite_element"] = asdict(settings)
     profile = info = None
     position = scene.load.position or 0.0

@@ -21,7 +21,7 @@ from scipy.interpolate import griddata
 
 from analytic.statistics.penetration import contact_kind, relative_penetration
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.uncertainty import far_boundary, iteration
+from comparisons.figures.uncertainty import far_boundary, iteration, of_increments
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -175,10 +175,12 @@ def _excess(
     (n,) [m] on the finest level, and the tilt of the surface that the far boundary makes: the step
     is constant to infinity, and held there it falls evenly on the way. None: from the farthest s,
     where bulges have ended; 0 of a body with its own base or sides."""
-    curves, excesses = [], []
-    for level, centre in zip(run.levels, centres, strict=True):
-        curves.append(_across(centre, s, *_rise(level, friction)))
-        excesses.append(curves[-1] - half_plane_rise(problem, level, friction, s, centre))
+
+    def of_level(level: Level, centre: float) -> tuple[np.ndarray, np.ndarray]:
+        curve = _across(centre, s, *_rise(level, friction))
+        return curve, curve - half_plane_rise(problem, level, friction, s, centre)
+
+    curves, excesses = zip(*map(of_level, run.levels, centres), strict=True)
     curve, excess = curves[-1], excesses[-1]
     if tilt is None:
         own = problem.scene.thickness is not None or problem.scene.width is not None
@@ -188,6 +190,8 @@ def _excess(
     settled = None if None in ends else grid_convergence(ends, ORDER).uncertainty
     uncertainty = grid_convergence([each[top] for each in excesses], ORDER).uncertainty
     uncertainty += iteration(run.finest) * abs(curve[top]) + tilt * s[top]
+    longer = [of_level(level, centres[0])[1] for level in run.longer_increments]
+    uncertainty += of_increments([each[top] for each in (*longer, excesses[0])])
     found = {
         "height": float(excess[top]),
         "uncertainty": _finite(uncertainty),

@@ -1,5 +1,6 @@
 """From the levels of both models to figures with uncertainties, and to verdicts."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from comparisons.figures.uncertainty import (
     far_boundary,
     iteration,
     length_resolution,
+    of_increments,
     relative_resolution,
 )
 from comparisons.figures.verdict import Comparison, judge
@@ -103,7 +105,7 @@ def field_norms(
 def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
     """Of every figure that the model has by itself."""
     history = [figures(level, problem, friction) for level in run.levels]
-    moved = figures(run.far_boundary_check or run.levels[0], problem, friction)
+    repeated = by_repetition(run, lambda level: figures(level, problem, friction))
     found = {}
     for name, value in history[-1].items():
         values = [of_level[name] for of_level in history]
@@ -116,10 +118,28 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
         found[name] = Uncertainty(
             iteration=iteration(run.finest),
             discretisation=convergence.uncertainty / scale,
-            domain=far_boundary(moved[name], history[0][name]) / scale,
+            domain=repeated[name][0] / scale,
             convergence=convergence,
+            increments=repeated[name][1] / scale,
         )
     return found
+
+
+def by_repetition(
+    run: ModelRun, read: Callable[[Level], dict[str, float]]
+) -> dict[str, tuple[float, float]]:
+    """Uncertainties by the far boundary and by the increments of flow of what is read off a level,
+    in its units: by the coarsest level and what it was repeated with."""
+    first, check = read(run.levels[0]), run.far_boundary_check
+    moved = first if check is None else read(check)
+    increments = [*map(read, run.longer_increments), first]
+    return {
+        name: (
+            far_boundary(moved.get(name, value), value),
+            of_increments([each.get(name, value) for each in increments]),
+        )
+        for name, value in first.items()
+    }
 
 
 def differences(
@@ -155,27 +175,28 @@ def pair_history(
     what these leave out, is in both."""
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
     history = [differences(one, other, problem, friction, window) for one, other in pairs]
-    first, check = finite_element.levels[0], finite_element.far_boundary_check
-    moved, moved_norms = history[0], {}
-    if check is not None:
-        moved = differences(half_plane.levels[0], check, problem, friction, window)
-        moved_norms = norms(check, first, problem, friction, window)
+    first, coarsest = finite_element.levels[0], half_plane.levels[0]
+    repeated = by_repetition(
+        finite_element, lambda level: differences(coarsest, level, problem, friction, window)
+    )
+    # two norms may be equal by chance: theirs is the norm of what the repetition changes
+    repeated |= by_repetition(
+        finite_element, lambda level: norms(level, first, problem, friction, window)
+    )
     finest = half_plane.finest, finite_element.finest
     found = {}
     for name, difference in history[-1].items():
         resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
         values = [of_level[name] for of_level in history]
         convergence = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
-        if QUANTITIES[name].of_pair:  # two norms may be equal by chance
-            ratio, domain = 1.0, far_boundary(moved_norms.get(name, 0.0))
-        else:
-            ratio = max(1.0, abs(1.0 + difference))
-            domain = far_boundary(moved[name], history[0][name])
+        ratio = 1.0 if QUANTITIES[name].of_pair else max(1.0, abs(1.0 + difference))
+        domain, increments = repeated[name]
         found[name] = Uncertainty(
             iteration=ratio * iteration(*finest),
             discretisation=convergence.uncertainty,
             domain=domain,
             convergence=convergence,
+            increments=increments,
         )
     return PairHistory(friction, tuple(history), found)
 

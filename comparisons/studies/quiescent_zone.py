@@ -29,11 +29,11 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.uncertainty import far_boundary, iteration
+from comparisons.figures.uncertainty import iteration
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import DEEP
+from comparisons.studies.contact import DEEP, by_repetition
 
 QUIET = 0.75
 QUIESCENT, BRIDGED, SMOOTH, UNCLEAR = "quiescent", "bridged", "no asperity zone", "inconclusive"
@@ -175,14 +175,16 @@ def quiescent_zone(
     what reading every second row and column of the window changes, added."""
     levels = [zone_of(problem, level, window, friction) for level in run.levels]
     coarse = zone_of(problem, run.finest, window, friction, every=2)
-    check = run.far_boundary_check
-    moved = levels[0] if check is None else zone_of(problem, check, window, friction)
+    repeated = by_repetition(
+        run,
+        lambda level: {k: getattr(zone_of(problem, level, window, friction), k) for k in FIGURES},
+    )
     found = {}
     for name in FIGURES:
         values = [getattr(each, name) for each in levels]
         size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else nan
         size += iteration(run.finest) * abs(values[-1]) + abs(getattr(coarse, name) - values[-1])
-        found[name] = float(size + far_boundary(getattr(moved, name), values[0]))
+        found[name] = float(size + sum(repeated[name]))
     asperities = tuple(asperity_dips(problem, run.finest, window, friction))
     return QuiescentZone(friction, levels[-1], found, asperities)
 

@@ -1,7 +1,7 @@
 """Contact of bodies with a nonlinear response: Newton's method with an active set.
 
     F_b(u_b) - T_b(u_b) p             = 0    for each body b
-    g = G - w d + sum_b g_b(u_b)     >= 0,   0 <= p <= H,   complementary
+    g = G - w d + C p + sum_b g_b(u_b) >= 0,   0 <= p <= H,   complementary
     P - w'p                           = 0    or the approach d prescribed
 
 A hat is open (p = 0), in contact (g = 0) or at the hardness (p = H). Each iteration is a Newton
@@ -14,6 +14,7 @@ Nomenclature
     p, H   hat pressures, hardness [Pa]       T      nodal forces of unit hats [m]
     d      approach [m]                       g, G   weighted gap [m^2], its constant part
     P      load [N/m]                         w      weights [m], integrals of the hats
+    C      compliance [m^2/Pa] of linear bodies whose displacements are not wanted
     k      mean stiffness [Pa], which makes all unknowns lengths"""
 
 from collections.abc import Callable, Sequence
@@ -131,6 +132,7 @@ class ContactProblem:
     constant: np.ndarray
     weights: np.ndarray
     hardness: float
+    flexible: np.ndarray | None = None  # C (count, count); None: zero
 
     @cached_property
     def free(self) -> list[np.ndarray]:
@@ -168,6 +170,8 @@ class ContactProblem:
     def weighted_gap(self, point: ContactPoint) -> np.ndarray:
         """g (count,) [m^2]."""
         parts = sum(terms.gap for _, _, terms in point.bodies)
+        if self.flexible is not None:
+            parts = parts + self.flexible @ point.state.pressure
         return self.constant + parts - point.state.approach * self.weights
 
     def residual(self, point: ContactPoint, load: float | None) -> float:
@@ -259,8 +263,12 @@ def _step(
         rows[place][-2] = -terms.force[free][:, hats] / width
         rows[-2][place] = -terms.gradient[free][:, hats].T / width
         right.append((terms.force @ fixed - force)[free] / stiff)
-    rows[-2][-2] = csr_matrix((len(hats), len(hats)))
-    right.append(gap[hats] / width)
+    # what hats that open lose in pressure closes the gap of the others no longer
+    rows[-2][-2], closed = csr_matrix((len(hats), len(hats))), 0.0
+    if problem.flexible is not None:
+        rows[-2][-2] = csr_matrix(problem.flexible[np.ix_(hats, hats)] * (-stiff / width**2))
+        closed = problem.flexible[hats] @ (fixed - pressure)
+    right.append((gap[hats] + closed) / width)
     if load is not None:
         share = csr_matrix(weights[hats, None] / width)
         rows[-2][-1], rows[-1][-2], rows[-1][-1] = share, share.T, csr_matrix((1, 1))
@@ -312,6 +320,7 @@ def solve_nonlinear_contact(
     approach: float | None = None,
     hardness: float = np.inf,
     begin: Callable[[float], ContactState] | None = None,
+    flexible: np.ndarray | None = None,
 ) -> NonlinearSolution:
     """Contact under a `load` P [N/m], or at an `approach` d [m], from a given state.
 
@@ -324,6 +333,7 @@ def solve_nonlinear_contact(
     hardness   H [Pa], cap on the pressure
     begin      guess of the solution under a part of the load, for bodies at rest that `start` in
                proportion does not lead on
+    flexible   C (count, count) [m^2/Pa] of further bodies, linear, as a dense matrix
 
     The load is the sum of the pressures; the vertical part of the friction's tractions, of the
     order of friction times slope, is neglected as in the linear theory. On one process. Raises
@@ -333,7 +343,7 @@ def solve_nonlinear_contact(
         raise ValueError("give either the load or the approach")
     if load is not None and not 0.0 < load < hardness * weights.sum():
         raise ValueError(f"a load of {load:g} N/m is not between zero and what the hats can bear")
-    problem = ContactProblem(bodies, gap, weights, hardness)
+    problem = ContactProblem(bodies, gap, weights, hardness, flexible)
     first, goal = (start.load, load) if approach is None else (start.approach, approach)
     at_rest = start.load == 0.0
     state, done, step, histories, cuts = start, 0.0, 1.0, [], 0

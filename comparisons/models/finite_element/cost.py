@@ -9,7 +9,6 @@ from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
 from comparisons.models.level import ExpectedCost
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
-from fem.nonlinear.press_plastic import INCREMENTS
 from fem.solver.mumps import factorisation_seconds
 
 # Peak of the process: without unknowns, and of each (1.9 to 3 kB from 38 000 to 170 000 unknowns).
@@ -19,10 +18,10 @@ MESH_SECONDS, ASSEMBLY_SECONDS, REST_SECONDS = 5e-6, 1.6e-6, 3e-6
 START_SECONDS = 0.3  # of gmsh's own process
 # Of one process at the peak, and seconds an unknown: finite deformation of two rough bodies under
 # friction, stresses included (2600 bytes; 15 to 17 us from 88 000 to 613 000 unknowns); one step
-# of plastic flow, pressed and let go (2300 bytes; 5 to 12 us from 9 000 to 79 000).
+# of plastic flow, pressed and let go (2300 bytes; 5 to 25 us from 9 000 to 79 000).
 NONLINEAR_BYTES = 3500.0
-FINITE_SECONDS, FLOW_SECONDS = 1.7e-5, 7e-6
-FEWEST_INCREMENTS = 4  # of plastic flow, on the coarsest levels
+FINITE_SECONDS, FLOW_SECONDS = 1.7e-5, 1.2e-5
+FEWEST_INCREMENTS = 4.0  # of plastic flow, however little it spreads
 
 
 def expected(
@@ -37,15 +36,16 @@ def expected(
     if settings.deformation == "finite":
         seconds, memory = seconds + FINITE_SECONDS * unknowns, NONLINEAR_BYTES
     if settings.plastic:
-        steps = flow_increments(problem, refinement.pitch)
+        steps = flow_increments(problem, refinement, patches)
         seconds, memory = seconds + FLOW_SECONDS * steps * unknowns, NONLINEAR_BYTES
     return ExpectedCost(unknowns, START_BYTES + memory * unknowns, seconds)
 
 
-def flow_increments(problem: Problem, pitch: float) -> int:
-    """Steps of the load in which a body flows; their number doubles from level to level, so that
-    what is missing belongs to the uncertainty of the discretisation."""
-    return max(FEWEST_INCREMENTS, round(INCREMENTS / 2.0 ** problem.coarser(pitch)))
+def flow_increments(problem: Problem, refinement: Refinement, patches: np.ndarray) -> float:
+    """Increments of the load in which a body flows: an edge of the widest of the `patches` (k, 2)
+    [m], at most of Hertz's contact, comes from the patch's middle."""
+    widest = min(np.ptp(patches, axis=1).max(), 2.0 * problem.hertz.half_width)
+    return max(FEWEST_INCREMENTS, 0.5 * widest / (refinement.travel * refinement.pitch))
 
 
 def refuse_too_large(problem: Problem, wanted: ExpectedCost, pitch: float) -> None:

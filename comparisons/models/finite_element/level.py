@@ -104,7 +104,7 @@ def finite_element_level(
     elif scene.finite_element.plastic:
         with stages.stage("plastic flow", "finite elements: plastic flow"):
             pressed = pressed_plastically(
-                problem, operator, grid, solution, weighted_gap, constraints
+                problem, operator, grid, solution, weighted_gap, constraints, refinement.travel
             )
     else:
         with stages.stage("contact", "finite elements: contact"):

@@ -9,6 +9,7 @@ from comparisons.common.errors import SceneError
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from fem.contact.rigid_roller import Roller, circle, parabola
+from fem.nonlinear.press_plastic import TRAVEL
 from meshes.block import BlockMesh, BlockSpec
 from meshes.real_shape import bent, roughen
 from meshes.refined_ranges import refined_ranges
@@ -37,6 +38,7 @@ class Refinement:
     pitch: float  # of the pressure elements [m]
     # support an unbounded body at half its width and depth, on the same mesh
     half_block: bool = False
+    travel: float = TRAVEL  # of plastic flow: hats that an edge of contact may move in an increment
 
 
 def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) -> BlockSpec:

@@ -14,12 +14,11 @@ from analytic.contact.problem import ContactSolution, assessed, solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ModelOperator
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
-from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
 from comparisons.models.problem import Problem
 from fem.nonlinear.finite_deformation import FiniteCompliance, FiniteContact, FiniteDeformation
 from fem.nonlinear.plasticity import ElasticPlastic
-from fem.nonlinear.press_plastic import plastic_fields, press_plastically
+from fem.nonlinear.press_plastic import averaged_pressure, plastic_fields, press_plastically
 from fem.solver.mumps import FemError
 from fem.stress.stress import at_mesh_points
 
@@ -122,23 +121,26 @@ def pressed_plastically(
     linear: ContactSolution,
     gap: np.ndarray,
     constraints: Constraints,
+    travel: float,
 ) -> LoadedBody:
-    """The body flowing where it must, under its load and when the roller is gone again.
+    """The body flowing where it must, under its load and when the roller is gone again. Where it
+    flows, pressures are means over neighbouring hats.
 
-    gap  (count,) [m^2] initial, weighted by each hat
+    gap     (count,) [m^2] initial, weighted by each hat
+    travel  hats that an edge of the contact may move in one increment of the load
 
     Raises FemError where a load is not reached, and where contact spreads to the grid's ends."""
     scene, rough, weights = problem.scene, operator.rough, grid.weights
     friction = scene.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     metal = ElasticPlastic(scene.body, scene.yielding.stress, scene.yielding.hardening)
-    loads, steps = (constraints.load, 0.0), flow_increments(problem, grid.pitch)
+    loads = constraints.load, 0.0
     given = rough, metal, gap, weights
     start = linear.pressure
-    body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, steps)
+    body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, travel)
     still = None
     if scene.stress is not None and scene.stress.bulge and scene.profile is not None:
-        _, [twin] = press_plastically(*given, loads[:1], start, 0.0, roller, steps)
+        _, [twin] = press_plastically(*given, loads[:1], start, 0.0, roller, travel)
         still = twin.displacement
     _refuse_cut_off(problem, grid, loaded.pressure, linear, "of the flowing body")
     own = rough.weighted(loaded.displacement)
@@ -159,6 +161,8 @@ def pressed_plastically(
     }
     stress = at_mesh_points(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
+    if loaded.state.equivalent.any():
+        solution = replace(solution, pressure=averaged_pressure(solution.pressure))
     return LoadedBody(
         rough.body,
         solution,

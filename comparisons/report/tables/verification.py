@@ -45,20 +45,19 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
             if row and is_shown(outcome, name):
                 scale = scale_of([v[name] for v in values], QUANTITIES[name].unit)
                 numbers = (scale.text(v[name], 5) for v in values)
-                rows.append((row, *numbers, *_parts(found[name], check is not None)))
+                rows.append((row, *numbers, *_parts(found[name], run)))
     return TextTable(LABELS[run.name].capitalize(), head, tuple(rows))
 
 
 def _of_pair(outcome: Outcome) -> TextTable:
-    run = outcome.runs["finite_element"]
-    checked, rows = run.far_boundary_check is not None, []
+    run, rows = outcome.runs["finite_element"], []
     for pair in outcome.pairs:
         for name in pair.differences[0]:
             row = row_name(outcome, name, pair.friction)
             if row and is_shown(outcome, name):
                 shown = {"digits": 3, "signed": not QUANTITIES[name].of_pair}
                 numbers = (percent(values[name], **shown) for values in pair.differences)
-                rows.append((row, *numbers, *_parts(pair.uncertainties[name], checked)))
+                rows.append((row, *numbers, *_parts(pair.uncertainties[name], run)))
     head = _head(run, with_check=False)
     return TextTable("Difference of both models", head, tuple(rows))
 
@@ -69,17 +68,20 @@ def _head(run: ModelRun, with_check: bool) -> tuple[str, ...]:
     numbered = (f"level {k + 1}" for k in range(len(run.levels)))
     check = ["level 1, block halved"] if checked and with_check else []
     far = ["far boundary"] if checked else []
-    return ("", *numbered, *check, "order", "discretisation", "iteration", *far, "total")
+    increments = ["increments"] if run.longer_increments else []
+    parts = "discretisation", "iteration", *far, *increments
+    return ("", *numbered, *check, "order", *parts, "total")
 
 
-def _parts(found: Uncertainty, checked: bool) -> tuple[str, ...]:
-    """Observed order and parts of an uncertainty; `checked`: the far boundary is one of them."""
+def _parts(found: Uncertainty, run: ModelRun) -> tuple[str, ...]:
+    """Observed order and parts of an uncertainty, those that the run has."""
     known = found.convergence
     order = significant(known.order, 2) if known.order is not None else ""
     if known.behaviour != "monotone":
         order = f"{order} {known.behaviour}".strip()
-    domain = [found.domain] if checked else []
-    parts = (found.discretisation, found.iteration, *domain, found.total)
+    domain = [] if run.far_boundary_check is None else [found.domain]
+    increments = [found.increments] if run.longer_increments else []
+    parts = (found.discretisation, found.iteration, *domain, *increments, found.total)
     return (order, *map(percent, parts))
 
 

@@ -64,8 +64,7 @@ class FiniteElementSection(SceneSection):
         """Fields of this section that do not fit the rest of the scene, and what is wrong."""
         coated, finite = coating is not None, self.deformation == "finite"
         far = self.far_field == "half-plane"
-        coupled = load.coupled if self.coupled is None else self.coupled
-        frictions, slides = len(load.friction), max(load.friction) > 0.0
+        frictions, apart = len(load.friction), max(load.friction) > 0.0 and self.coupled is False
         if self.geometry == "rough" and profile is None:
             yield "geometry", 'is "rough" for a smooth body; allowed with [profile]'
         if self.plastic and far:
@@ -92,19 +91,20 @@ class FiniteElementSection(SceneSection):
             yield "deformation", 'is "finite" for a coated body; allowed without [coating]'
         if finite and profile is not None and self.geometry == "flat":
             yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
-        if finite and slides and not coupled:
+        if finite and apart:
             yield "coupled", "is false at finite deformation with friction; allowed is true"
         if self.plastic and load.kind == "approach":
             yield "plastic", "is true with load.approach; allowed with per_length"
-        if self.plastic and slides and not coupled:
+        if self.plastic and apart:
             yield "coupled", "is false for a body that yields under friction; allowed is true"
 
 
 def settings_of(
-    table: FiniteElementSection, coupled: bool, poissons_ratio: float
+    table: FiniteElementSection, load: SceneSection, poissons_ratio: float
 ) -> FiniteElementSettings:
-    """The section with its defaults; `coupled` is what [load] says of both models."""
+    """The section with its defaults. Friction moves the contact where [load] says so of both
+    models, at finite deformation, and where a body flows."""
     given = dict(table) | table.defaults(poissons_ratio)
     if table.coupled is None:
-        given["coupled"] = coupled
+        given["coupled"] = load.coupled or (table.nonlinear and max(load.friction) > 0.0)
     return FiniteElementSettings(**given)

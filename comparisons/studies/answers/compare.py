@@ -9,7 +9,6 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import (
     LENGTHS,
-    far_boundary,
     iteration,
     length_resolution,
     peak_resolution,
@@ -24,7 +23,13 @@ from comparisons.studies.answers.answer import Answer, AnswerRow, ComparedAnswer
 from comparisons.studies.answers.conditions import balance, conditions, operators_of
 from comparisons.studies.answers.hints import hints
 from comparisons.studies.answers.validation import validation_rows
-from comparisons.studies.contact import figures, norms, pair_norms, relative_differences
+from comparisons.studies.contact import (
+    by_repetition,
+    figures,
+    norms,
+    pair_norms,
+    relative_differences,
+)
 from comparisons.studies.scatter.figures import InputScatter
 
 LEAST_RATIO = 1.2  # of the spacings of two resolutions that show how a figure converges
@@ -98,12 +103,11 @@ def _compared(
     def against(answer: Answer, level: Level) -> dict[str, float]:
         return _differences(answer, level, problem, friction, window)
 
-    finest, first, check = answers[-1], run.levels[0], run.far_boundary_check
+    finest, first = answers[-1], run.levels[0]
     history = [against(finest, level) for level in run.levels]
     of_files = [against(each, run.finest) for each in answers]
-    moved, moved_norms = history[0], {}
-    if check is not None:
-        moved, moved_norms = against(finest, check), norms(check, first, problem, friction, window)
+    repeated = by_repetition(run, lambda level: against(finest, level))
+    repeated |= by_repetition(run, lambda level: norms(level, first, problem, friction, window))
     own, reference = own_figures(finest, problem, friction), figures(run.finest, problem, friction)
     rows = []
     for name, difference in history[-1].items():
@@ -115,10 +119,7 @@ def _compared(
         values = [each[name] for each in history]
         model = grid_convergence(values, QUANTITIES[name].formal_order, resolution).uncertainty
         model += max(1.0, abs(1.0 + difference)) * iteration(run.finest)
-        if QUANTITIES[name].of_pair:
-            model += far_boundary(moved_norms.get(name, 0.0))
-        else:
-            model += far_boundary(moved.get(name, history[0][name]), history[0][name])
+        model += sum(repeated[name])
         stated = _own_uncertainty(name, [each.get(name) for each in of_files], answers, read)
         if source.scatter is not None:
             size = 1.0 if QUANTITIES[name].of_pair else abs(1.0 + difference)

@@ -180,8 +180,9 @@ def model_errors(
             norm, there = share(name, differences, at), pair.differences[number][name]
             lacking = share(name, missing, at).uncertainty
             parts = numerical, abs(there - row.difference), lacking
-            value, domain = norm.value, pair.uncertainties[name].domain
-            uncertainty = difference_of_norms(norm.uncertainty, domain, parts)
+            value, stated_norm = norm.value, pair.uncertainties[name]
+            beside = stated_norm.domain + stated_norm.increments
+            uncertainty = difference_of_norms(norm.uncertainty, beside, parts)
         else:
             value, uncertainty = row.difference, numerical
         error = ModelError(name, friction, effects, joint, value, uncertainty, jump, moved)

@@ -6,11 +6,17 @@ import pytest
 from scenes import STEEL, changed, problem, resolved
 
 from comparisons.common.errors import ExitStatus, SolverError
+from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
+from comparisons.figures.uncertainty import LENGTHS, length_resolution
 from comparisons.models.finite_element.cost import flow_increments
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import _refuse_cut_off
+from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
+from comparisons.studies.contact import figures, uncertainties
 from fem.solver.mumps import FemError
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -63,10 +69,53 @@ def test_what_is_left_is_small_and_not_nothing(mesh):
     assert np.abs(mesh.point_data["residual_sz"][surface]).max() < 0.1 * YIELD_STRESS
 
 
-def test_steps_of_the_load_double_from_level_to_level():
+def test_expected_increments_follow_the_edges_of_the_widest_patch():
+    """But no further than Hertz's contact; an edge comes from the middle of its patch."""
     posed = problem(TABLES)
-    steps = [flow_increments(posed, posed.reference_pitch * 2.0**k) for k in (3, 2, 1, 0, -1)]
-    assert steps == [4, 4, 8, 16, 32]
+    a, patches = posed.hertz.half_width, np.array([[-9.0, -8.0], [-0.1, 0.1]])
+
+    def increments(hats, width, travel=1.0):
+        refinement = Refinement(a / hats, travel=travel)
+        return flow_increments(posed, refinement, width * a * patches[1:] / 0.2)
+
+    assert increments(40, 1.0) == pytest.approx(20.0)
+    assert increments(80, 1.0) == pytest.approx(40.0)
+    assert increments(80, 1.0, travel=2.0) == pytest.approx(20.0)
+    assert increments(80, 100.0) == pytest.approx(80.0)
+    assert increments(80, 1e-3) == 4.0
+    assert flow_increments(posed, Refinement(a / 40), patches) == pytest.approx(40.0)
+
+
+def test_increments_have_an_uncertainty_of_their_own(outcome):
+    """It covers what shorter ones change, and the total contains it."""
+    posed, elements = outcome.problem, outcome.runs["finite_element"]
+    plan = make_plan(posed, ("finite_element",))
+    shorter = Refinement(elements.finest.grid.pitch, travel=0.25)
+    level = finite_element_level(posed, plan, shorter, outcome.window, Stages())
+    stated = uncertainties(elements, posed, 0.0)
+    reached = figures(elements.finest, posed, 0.0)
+    edge = length_resolution(shorter.pitch, 1) / elements.finest.contact_length
+    moved_to = figures(level, posed, 0.0)
+    # the depth of the maximum jumps on so coarse a mesh
+    for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
+        moved = abs(moved_to[name] - reached[name]) / abs(reached[name])
+        read = edge if name in LENGTHS else 0.0
+        assert moved <= stated[name].increments + read < stated[name].total, name
+    assert 1e-3 < stated["peak_pressure"].increments < 0.02
+    [of_model] = outcome.result["models"]["finite_element"]
+    shown = of_model["uncertainty"]["peak_pressure"]
+    assert shown["increments"] == stated["peak_pressure"].increments
+
+
+def test_flow_asks_for_nothing_but_a_yield_stress():
+    """With friction, which moves the contact then."""
+    tables = {name: TABLES[name] for name in ("roller", "load")} | {
+        "body": {**STEEL, "yield_stress": YIELD_STRESS},
+        "finite_element": {"plastic": True},
+    }
+    still = resolved(tables)
+    slides = resolved(changed(tables, load={"friction": 0.2}))
+    assert not still.finite_element.coupled and slides.finite_element.coupled
 
 
 def test_a_load_that_cannot_be_reached_ends_with_what_may_help(tmp_path, monkeypatch):

@@ -1,4 +1,4 @@
-"""Elastic contact on a dense compliance, and a roller that has become one."""
+"""Elastic contact on a dense compliance, and bodies of which nothing else is left."""
 
 import numpy as np
 import pytest
@@ -6,8 +6,12 @@ import pytest
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
+from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear import condensed
-from fem.nonlinear.condensed import CondensedRoller, ElasticContact
+from fem.nonlinear.condensed import ElasticContact
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
+from fem.nonlinear.press_plastic import newton_by_contacts
 from fem.solver.mumps import FemError
 
 HATS = np.linspace(-1.0, 1.0, 18)
@@ -20,6 +24,11 @@ GAP = WEIGHTS * 0.02 * X**2
 def compliance(structured_block):
     mesh = structured_block(np.linspace(-2.0, 2.0, 21), np.linspace(0.0, 2.0, 9))
     return FiniteElementCompliance(elastic_body(mesh, Material(200.0, 0.3), Support()), HATS)
+
+
+def solve(bodies, flexible=None):
+    rest = state_at_rest(bodies, np.ones(len(X)))
+    return solve_nonlinear_contact(bodies, GAP, WEIGHTS, rest, 1.0, flexible=flexible).state
 
 
 @pytest.mark.parametrize("start", [np.ones(len(X)), 1.0 * (np.abs(X) < 0.1), np.zeros(len(X))])
@@ -39,25 +48,32 @@ def test_a_contact_that_does_not_settle_is_an_error(compliance, monkeypatch):
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.2])
-def test_a_roller_on_the_hats_moves_as_the_whole_one(compliance, friction):
-    roller = CondensedRoller(compliance.matrix(friction), WEIGHTS, not friction)
-    pressure = 1.0 + X
-    moved = roller.moved(pressure)
-    terms = roller.at(moved, pressure)
-    np.testing.assert_allclose(terms.gap, compliance.apply(pressure, friction), rtol=1e-10)
-    force, _ = roller.linearised(moved)
-    np.testing.assert_allclose(force.ravel(), terms.force @ pressure, atol=1e-9)
-    assert roller.symmetric is not bool(friction)
+def test_a_compliance_closes_the_gap_as_the_whole_body_does(compliance, friction):
+    body = LinearResponse(compliance.body), LinearContact(compliance, friction)
+    roller = LinearResponse(compliance.body), LinearContact(compliance, -friction)
+    whole = solve([body, roller])
+    found = solve([body], compliance.matrix(-friction))
+    np.testing.assert_allclose(found.pressure, whole.pressure, atol=1e-9 * whole.pressure.max())
+    assert found.approach == pytest.approx(whole.approach, rel=1e-9)
+    assert 0 < np.count_nonzero(found.pressure) < len(X)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.2])
-def test_hats_between_the_nodes_of_a_coarse_mesh_do_no_harm(compliance, friction):
-    """Their compliance is singular: what it moves comes back, whatever else pressures hold."""
-    hats = np.linspace(-1.0, 1.0, 68)
-    flexible = FiniteElementCompliance(compliance.body, hats).matrix(friction)
+def test_hats_between_nodes_of_a_coarse_roller_do_no_harm(compliance, structured_block, friction):
+    """Its compliance is singular, and the contact as exact as elsewhere; with its inverse the
+    residual did not fall below 1e-9."""
+    mesh = structured_block(np.linspace(-2.0, 2.0, 7), np.linspace(0.0, 2.0, 4))
+    coarse = FiniteElementCompliance(elastic_body(mesh, Material(200.0, 0.3), Support()), HATS)
+    flexible = coarse.matrix(-friction)
     assert np.linalg.matrix_rank(flexible) < len(flexible)
-    weights = np.full(len(flexible), hats[1] - hats[0])
-    roller, pressure = CondensedRoller(flexible, weights, not friction), 1.0 + hats[1:-1]
-    moved = roller.moved(pressure)
-    again = roller.moved(roller.force(moved)[:, 0] / weights)
-    np.testing.assert_allclose(again, moved, rtol=1e-6, atol=0.0)
+    body = PlasticBody(compliance.body, ElasticPlastic(Material(200.0, 0.3), 1.0))
+    bodies = [(body, LinearContact(compliance, friction))]
+    rest = state_at_rest(bodies, np.ones(len(X)))
+    given = bodies, GAP, WEIGHTS, rest, 1.5
+    found, history = newton_by_contacts(*given, flexible=flexible)
+    assert body.step(found.displacements[0]).yields.any()
+    assert len(history) <= 6 and history[-1] <= 1e-9
+    own = compliance.weighted(found.displacements[0])
+    gap = (GAP + own + flexible @ found.pressure) / WEIGHTS - found.approach
+    on = found.pressure > 0.0
+    assert np.abs(gap[on]).max() < 1e-9 * found.approach and gap[~on].min() > 0.0

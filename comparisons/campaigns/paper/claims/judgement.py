@@ -12,9 +12,10 @@ from comparisons.campaigns.paper.claims.readings import SLIDING, LevelView, Read
 from comparisons.common.numbers import finite, plain
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.figures.uncertainty import far_boundary, iteration
+from comparisons.figures.uncertainty import iteration
 from comparisons.figures.verdict import is_within
 from comparisons.results.outcome import Outcome
+from comparisons.studies.contact import by_repetition
 
 CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
 OUTCOMES = (CONFIRMED, DENIED, INCONCLUSIVE)
@@ -146,9 +147,11 @@ def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False
     uncertainty = grid_convergence(values, ORDER).uncertainty
     uncertainty += iteration(run.finest) * abs(value)
     uncertainty += abs(reading(replace(views[-1], every=2)) - value)
-    if run.far_boundary_check is not None:
-        check = LevelView(model, outcome.problem, run.far_boundary_check, outcome.window)
-        uncertainty += far_boundary(reading(check), values[0])
+    repeated = by_repetition(
+        run,
+        lambda level: {"": reading(LevelView(model, outcome.problem, level, outcome.window))},
+    )
+    uncertainty += sum(repeated[""])
     return MeasuredNumber(value, float(uncertainty), converged)
 
 

@@ -122,7 +122,12 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
             {"profile": WAVE},
             'geometry: is "flat" at finite deformation',
         ),
-        (RIGID, {"deformation": "finite"}, {}, "coupled: is false at finite deformation"),
+        (
+            RIGID,
+            {"deformation": "finite", "coupled": False},
+            {},
+            "coupled: is false at finite deformation",
+        ),
         (ELASTIC, {"geometry": "rough"}, {}, 'geometry: is "rough" for a smooth body'),
         (
             ELASTIC,
@@ -144,7 +149,7 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
         ),
         (
             ELASTIC,
-            {"plastic": True},
+            {"plastic": True, "coupled": False},
             {"body": {"yield_stress": 1e9}},
             "coupled: is false for a body that yields",
         ),
