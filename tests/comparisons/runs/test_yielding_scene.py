@@ -165,3 +165,28 @@ def test_the_shipped_scene_is_solved_below_its_elastic_roller():
     assert level.solution.converged
     assert 0.9 * hertz < level.solution.pressure.max() < 0.94 * hertz
     assert 855e-6 < level.contact_length < 875e-6
+
+
+TURNED = {
+    "roller": {"radius": 3e-3, **STEEL},
+    "body": {
+        "youngs_modulus": 70e9,
+        "poissons_ratio": 0.33,
+        "yield_stress": 280e6,
+        "hardening_modulus": 1e9,
+    },
+    "profile": {"kind": "turned", "feed": 4e-5, "nose_radius": 4e-4, "length": 1e-3},
+    "load": {"hertz_peak_pressure": 0.4e9, "friction": 0.1},
+    "finite_element": {"plastic": True},
+}
+
+
+def test_a_turned_metal_flows_below_an_elastic_roller():
+    """Beside its refined ranges hats are denser than nodes: the roller's compliance is singular
+    there, and load and contact conditions hold to rounding all the same."""
+    posed = problem(TURNED)
+    plan = make_plan(posed, ("finite_element",))
+    coarse = Refinement(posed.pitches[0], travel=4.0)
+    solution = finite_element_level(posed, plan, coarse, None, Stages()).solution
+    assert solution.converged and solution.residuals.worst < 1e-12
+    assert 2.5 * 280e6 < solution.pressure.max() < 3.7 * 280e6
