@@ -8,7 +8,8 @@ from mutated_inputs.outcomes import Refusal, outcome, resolve
 
 from analytic.surface.readers import instrument_worker, instruments
 from comparisons.common.errors import InputError
-from comparisons.common.processes import fresh_process
+from comparisons.common.processes import ProcessWorker
+from comparisons.common.tasks import Tasks, called
 
 
 def raising(error: BaseException):
@@ -22,11 +23,12 @@ def raising(error: BaseException):
 def one_reader(monkeypatch):
     """SurfaceTopography in one process for all files; another where that one ends or fails."""
     ask = instruments._ask
-    with fresh_process() as call:
+    with Tasks(ProcessWorker) as tasks:
 
         def asked(path: Path, target: Path, channel: str | None) -> dict:
             try:
-                return call(instrument_worker.main, str(path), str(target), channel)
+                tasks.add("file", called, instrument_worker.main, str(path), str(target), channel)
+                return tasks.result("file")
             except Exception:
                 return ask(path, target, channel)
 

@@ -35,7 +35,6 @@ import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 from comparisons.api.results import CostStudy, Figures, Map, Run, Sweep
 from comparisons.common.errors import InputError
@@ -47,9 +46,6 @@ from comparisons.results.field_files import AUTOMATIC, FORMATS
 from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
 from comparisons.scenes.scene import ResolvedScene
-
-if TYPE_CHECKING:
-    from comparisons.campaigns.points import Workers
 
 __all__ = ["compare", "cost", "load", "map", "read", "report", "run", "sweep", "tables"]
 
@@ -180,7 +176,7 @@ def map(
     x: str | None = None,
     y: str | None = None,
     quantity: str = "peak_pressure",
-    workers: "Workers | int | None" = None,
+    workers: int | str | None = None,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> Map:
@@ -189,7 +185,7 @@ def map(
     scene    a name or a path
     points   along x and y, "NxM"
     x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
-    workers  processes, one a core by default
+    workers  processes, one a core by default, or a Dask scheduler's address
     It takes minutes. `out` keeps each point, and goes on from there."""
     from comparisons.campaigns.maps.make import make_map
     from comparisons.campaigns.maps.request import request_of

@@ -16,7 +16,7 @@ from comparisons.common.mpi import is_first
 from comparisons.common.numbers import finite
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, machine, versions
-from comparisons.common.tasks import Here, tasks_of_a_run
+from comparisons.common.tasks import Here, ProcessEnded, tasks_here
 from comparisons.figures.quantity import LABELS
 from comparisons.report.junit import JunitCase, check_place, junit_xml, write_junit
 
@@ -169,7 +169,7 @@ def run_cases(
     """The rows of all cases, which processes share where that pays (`comparisons.common.tasks`):
     what solves a case can be pickled then."""
     cases, rows = tuple(cases), []
-    with tasks_of_a_run(no_progress, math.inf) as tasks:
+    with tasks_here() as tasks:
         for number, case in enumerate(cases, start=1):
             tasks.add(str(number), _found, case.solve, seconds=USUAL_SECONDS.get(case.model, 0.0))
         for number, case in enumerate(cases, start=1):
@@ -177,7 +177,10 @@ def run_cases(
             name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
             name += f"{case.model}: {case.group}: {case.name}"
             callback(Step(name, (number - 1) / len(cases)))
-            rows.append(CheckedRow(case, *tasks.result(str(number))))
+            try:
+                rows.append(CheckedRow(case, *tasks.result(str(number))))
+            except ProcessEnded as ended:
+                rows.append(CheckedRow(case, Findings(()), str(ended), 0.0))
     return tuple(rows)
 
 

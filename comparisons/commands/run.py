@@ -76,10 +76,9 @@ def run(
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
         _say_first_answer(resolved)
-    with progress() as callback, cluster(workers) if workers else nullcontext() as pool:
+    with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
         try:
-            executor = pool and pool.executor
-            outcome = run_scene(resolved, directory, chosen, callback, fields, executor)
+            outcome = run_scene(resolved, directory, chosen, callback, fields, opens)
         except SceneError as error:
             raise SceneError("; ".join([str(error), *warnings])) from error
         if pdf and is_first():

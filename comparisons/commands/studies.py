@@ -83,7 +83,7 @@ def map_of(
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""
     from comparisons.campaigns.maps.content import map_table
-    from comparisons.campaigns.maps.make import exit_status, make_map_by, show_finished
+    from comparisons.campaigns.maps.make import exit_status, make_map, show_finished
     from comparisons.campaigns.maps.place import finished_map, finished_names, problem_named
     from comparisons.campaigns.maps.request import SIZE, request_of
 
@@ -98,7 +98,7 @@ def map_of(
         request = from_first(lambda: request_of(scene, points or SIZE, x, y, quantity))
         directory = out or RESULTS / request.name
         with progress() as callback:
-            content = make_map_by(workers, request, directory, callback, marked)
+            content = make_map(request, directory, workers, callback, marked)
     if content is None:  # it worked for the first process
         return ExitStatus.DONE
     show_either(as_json, content, lambda: map_table(content, directory))

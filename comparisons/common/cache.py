@@ -79,6 +79,9 @@ class Cache:
             return None
 
 
+NO_CACHE = Cache(None, "", {})
+
+
 def kinds_of(*roots: type) -> dict[str, type]:
     """Every dataclass that values of these types and their fields may be made of, by name."""
     found: dict[str, type] = {}

@@ -1,50 +1,62 @@
-"""Tasks of a run: side by side in a process for each core, or one after the other in this one.
+"""One way to have work done: tasks by key, side by side in workers, or one after the other here.
 
-The processes begin once, where what is known to do is worth them. They are forked from this one
-with all that it has loaded, as long as it has no MPI, which survives no fork, and its libraries are
-on one thread; else they are fresh. The answers are those of one process, in any order of work.
+A level, an effect, some samples, a point of a map, a case, a setting of a cost study and a picture
+are tasks. Their answers are those of one process, in any order of work, and what is kept of them
+is not computed again. A process that ends puts its task back, which is tried again while nothing
+else runs: the process that ends then was ended by its task (`ProcessEnded`)."""
 
-Whoever waits may prepare what it will need: imports take as long as a small run's solution."""
-
+import math
 import multiprocessing
-import os
 import sys
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
-from multiprocessing.connection import Connection, wait
-from typing import TypeVar
+from multiprocessing.connection import Connection
+from typing import TYPE_CHECKING, TypeVar
 
+from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.mpi import from_first, is_several
 from comparisons.common.processes import (
-    ONE_THREAD,
-    Worker,
-    answered,
+    ProcessWorker,
+    cores,
     interrupts_later,
+    is_forkable,
     return_freed_memory,
     uncollected,
 )
 from comparisons.common.progress import ProgressCallback, Step, machine_memory, no_progress
+
+if TYPE_CHECKING:
+    from comparisons.common.executors import ExecutorWorker
+
+    Worker = ProcessWorker | ExecutorWorker
 
 Held = TypeVar("Held")
 
 # Seconds of work that are worth a process: one forked and a fresh one, which imports for itself.
 WORTH_A_FORK, WORTH_A_START = 0.1, 10.0
 SOON = 0.02  # seconds in which a task comes that is already known
-PREPARATION = 0.2  # seconds that forked processes save where they have something to prepare
+PREPARATION = 0.2  # seconds that processes save where they have something to prepare
 SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
 # Urgencies: others wait for the first kind, nothing for the fifth, and the last may turn out to be
 # for nothing.
 AT_ONCE, FIRST, NEEDED, LATER, LAST, PERHAPS = range(6)
 
 
-class Here:
-    """The process that a task runs in: how it tells its stage, and what it holds for the next."""
+class ProcessEnded(Exception):
+    """A process ended amid a task that it had for itself."""
 
-    def __init__(self, callback: ProgressCallback) -> None:
-        self.callback = callback
+
+class Here:
+    """The process that a task runs in.
+
+    callback  gets the task's stages
+    shared    what all tasks may read, without pickle; None unless the process was forked for it"""
+
+    def __init__(self, callback: ProgressCallback = no_progress, shared: object = None) -> None:
+        self.callback, self.shared = callback, shared
         self._held: dict[str, tuple[object, object]] = {}
 
     def held(self, kind: str, key: object, make: Callable[[], Held]) -> Held:
@@ -55,172 +67,233 @@ class Here:
         return self._held[kind][1]
 
 
-Work = Callable[..., object]  # work(here, *given)
+Work = Callable[..., object]  # work(here, *args)
 Preparation = Callable[[], object]  # what it raises comes again where it is needed
+Opens = Callable[[Callable[[Connection], None]], "Worker"]  # opens(serve)
 
 
 @dataclass
 class _Task:
     work: Work
-    given: tuple
+    args: tuple
     seconds: float
     memory: float
     urgency: int
     shares: object
+    losses: int = 0  # processes that have ended with it in hand
 
 
 @dataclass
 class Tasks:
-    """What a run has to compute, by key; `result` gives it."""
+    """What there is to compute, by key; `result` gives it.
 
+    >>> with Tasks() as tasks:
+    ...     tasks.add("eight", called, pow, 2, 3)
+    ...     tasks.result("eight")
+    8"""
+
+    opens: Opens | None = None  # opens a worker; None: all is done in this process
+    at_once: float = 1  # workers beside this process, which then only hands out
+    kept: Cache = NO_CACHE  # has answers from before, and gets the new ones
     # gets the stages of all tasks, with the share of the expected seconds that is done
     callback: ProgressCallback = no_progress
-    # that may work beside this one, which then only hands out; none: all is done here
-    processes: int = 0
-    memory: float = float("inf")  # [bytes] that tasks side by side may expect together
+    # seconds that tasks last beside the longest where workers begin; None: with the first task
+    worth: float | None = None
+    memory: float = math.inf  # [bytes] that tasks side by side may expect together
+    shared: object = None  # that `Here` gives to the tasks
     # preparations for what follows the tasks, while this process waits
     here: Sequence[Preparation] = ()
-    # preparations of forked processes for their tasks, which are worth them then
+    # preparations of workers for their tasks
     there: Sequence[Preparation] = ()
-    # [bytes] that the machine had to give at the start
-    machine: float = field(default_factory=lambda: from_first(machine_memory))
     _waiting: dict[str, _Task] = field(default_factory=dict)
-    _running: dict[Connection, str] = field(default_factory=dict)
+    _running: dict["Worker", str] = field(default_factory=dict)
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
     _tasks: dict[str, _Task] = field(default_factory=dict)
-    _workers: dict[Connection, Worker] = field(default_factory=dict)
-    _held: dict[Connection, object] = field(default_factory=dict)
+    _workers: dict["Worker", object] = field(default_factory=dict)  # with what their tasks share
+    _has_begun: bool = False
     _done: float = 0.0
     _share: float = 0.0
 
     def __post_init__(self) -> None:
-        self._here = Here(self._tell)
+        self._here = Here(self._tell, self.shared)
         self._left = list(self.here)
-        self.memory = min(self.memory, SHARE_OF_MEMORY * self.machine)
+
+    def __enter__(self) -> "Tasks":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._end()
+
+    def _end(self) -> None:
+        """End the workers at once, whatever they do."""
+        for worker in self._workers:
+            worker.kill()
+        self._workers, self._running = {}, {}
 
     def add(
         self,
         key: str,
         work: Work,
-        *given: object,
+        *args: object,
         seconds: float = 0.0,
         memory: float = 0.0,
         urgency: int = NEEDED,
         shares: object = None,
     ) -> None:
-        """Make a task known: `work(here, *given)`, of expected seconds and bytes. The lower its
-        urgency, the sooner it begins; of equal ones first what `shares` nothing with the last task
-        of another process, then the longest, where a process stays with what shares the same for as
-        long as all of that takes longer. Known keys may become urgent."""
+        """Make a task known: `work(here, *args)`, of expected seconds and bytes. The most urgent
+        begins first. Of equally urgent ones a process takes the longest, but
+
+        - stays with what `shares` the same as its last one, while all of that takes longer;
+        - takes what shares its own with another process's last one after all else.
+
+        A known task may become more urgent."""
         if key not in self._tasks:
-            task = _Task(work, given, seconds, memory, urgency, shares)
+            task = _Task(work, args, seconds, memory, urgency, shares)
             self._tasks[key] = self._waiting[key] = task
+            kept = self.kept.load(key)
+            if kept is not None:
+                self._answer(key, True, kept)
+            elif self.worth is None:
+                self._begin()
             self._hand_out()
         self._tasks[key].urgency = min(self._tasks[key].urgency, urgency)
 
     def result(self, key: str) -> object:
-        """The answer of a known task, waited for, then forgotten; raises what its work raised."""
-        task = self._tasks[key]
-        task.urgency = min(task.urgency, LATER)
+        """The answer of a known task, waited for, then forgotten; raises what its work raised, and
+        ProcessEnded."""
+        self._tasks[key].urgency = min(self._tasks[key].urgency, LATER)
         while key not in self._answers:
-            self._begin()
-            self._hand_out()
-            if self._running:
-                self._collect()
-            else:
-                self._answer(key, *answered(task.work, self._here, *task.given))
+            self._turn(key)
         good, answer = self._answers.pop(key)
         del self._tasks[key]
         if good:
             return answer
         raise answer
 
-    def end(self) -> None:
-        """End the processes at once, whatever they do."""
-        for worker in self._workers.values():
-            worker.kill()
-        self._workers, self._running = {}, {}
+    def as_done(self, keys: Iterable[str]) -> Iterator[str]:
+        """Known keys in the order in which they are done."""
+        left = dict.fromkeys(keys)
+        while left:
+            for key in [key for key in left if key in self._answers]:
+                del left[key]
+                yield key
+            if left:
+                self._turn(next(iter(left)))
+
+    def _turn(self, key: str) -> None:
+        """Wait for the workers to say something; without any work on a task here."""
+        self._begin()
+        self._hand_out()
+        if self._running:
+            self._collect()
+        else:
+            task = self._tasks[key]
+            self._answer(key, *_answered(task.work, self._here, *task.args))
+            self._keep(key)
 
     def _begin(self) -> None:
-        """Begin the processes, where there are to be any and the tasks are worth them."""
-        forked = "mpi4py.MPI" not in sys.modules and sys.platform == "linux"
-        forked = forked and os.environ.get("OMP_NUM_THREADS") == ONE_THREAD["OMP_NUM_THREADS"]
-        worth = WORTH_A_FORK if forked else WORTH_A_START
-        needed = [task for task in self._waiting.values() if task.urgency < PERHAPS]
+        """Let workers begin, where there are to be any and the tasks are worth them."""
+        if self.opens is None or self._has_begun:
+            return
+        needed = [task.seconds for task in self._waiting.values() if task.urgency < PERHAPS]
         # what lies beyond the longest can be done beside it
-        beside = sum(task.seconds for task in needed) - max((t.seconds for t in needed), default=0)
-        beside += PREPARATION if forked and self.there else 0.0
-        if self.processes and beside >= worth:
-            serve = partial(_serve, self.there)
-            for _ in range(self.processes):
-                others, worker = list(self._workers.values()), Worker(serve, forked)
-                self._workers[worker.pipe] = worker
-                worker.start(others)
-            self.processes = 0
+        beside = sum(needed) - max(needed, default=0.0) + (PREPARATION if self.there else 0.0)
+        self._has_begun = self.worth is None or beside >= self.worth
+
+    def _open(self, wanted: float) -> None:
+        """Let there be so many workers, as far as there may be."""
+        serve = partial(_serve, self.there, self.shared)
+        while self._has_begun and len(self._workers) < min(wanted, self.at_once):
+            with interrupts_later():  # none may begin unknown
+                self._workers[self.opens(serve)] = None
 
     def _hand_out(self) -> None:
-        """Give each idle process the next task that there is memory for."""
+        """Give each idle worker the next task that there is memory for. A task that has lost its
+        process waits until nothing runs; others then hold no memory either."""
+        if len(self._running) >= self.at_once:
+            return
+        lost = [k for k in (*self._running.values(), *self._waiting) if self._tasks[k].losses]
+        if lost and self._running:
+            return
+        if lost:
+            self._end()
+        tasks = len(self._running) + len(self._waiting)
+        self._open(1 if lost else self.at_once if self.there else tasks)
         shared = {task.shares for task in self._waiting.values()}
-        idle = [pipe for pipe in self._workers if pipe not in self._running]
-        for pipe in sorted(idle, key=lambda pipe: self._held.get(pipe) not in shared):
+        idle = [worker for worker in self._workers if worker not in self._running]
+        for worker in sorted(idle, key=lambda worker: self._workers[worker] not in shared):
             taken = sum(self._tasks[key].memory for key in self._running.values())
-            for key, task in self._order(pipe):
+            for key in lost[:1] or self._order(worker):
+                task = self._tasks[key]
                 if self._running and taken + task.memory > self.memory:
                     continue
-                try:
-                    pipe.send((task.work, task.given))
-                except OSError:
-                    self._lose(pipe)
-                else:
-                    del self._waiting[key]
-                    self._running[pipe], self._held[pipe] = key, task.shares or self._held.get(pipe)
+                del self._waiting[key]
+                self._running[worker] = key
+                self._workers[worker] = task.shares or self._workers[worker]
+                with suppress(ConnectionError):  # an end that is heard of when it is waited for
+                    worker.send(task.work, *task.args)
                 break
 
-    def _order(self, pipe: Connection) -> list[tuple[str, _Task]]:
-        """The queue of a process."""
-        own = self._held.get(pipe)
-        others = {held for other, held in self._held.items() if other is not pipe}
+    def _order(self, worker: "Worker") -> list[str]:
+        """The queue of a worker."""
+        last = self._workers[worker]
+        others = {shares for other, shares in self._workers.items() if other is not worker}
         together = defaultdict(list)
         for task in self._waiting.values():
             together[task.urgency, task.shares].append(task.seconds)
 
-        def place(item: tuple[str, _Task]) -> tuple:
-            task = item[1]
-            sharing = together[task.urgency, task.shares]
-            length = sum(sharing) if task.shares == own else max(sharing)
+        def place(key: str) -> tuple:
+            task = self._waiting[key]
             if task.shares is None:
                 return task.urgency, False, -task.seconds, 0.0
+            sharing = together[task.urgency, task.shares]
+            length = sum(sharing) if task.shares == last else max(sharing)
             return task.urgency, task.shares in others, -length, -task.seconds
 
-        return sorted(self._waiting.items(), key=place)
+        return sorted(self._waiting, key=place)
 
     def _collect(self) -> None:
-        """Wait for what the processes have to say."""
+        """Wait for what the workers have to say."""
+        ready = partial(next(iter(self._running)).ready, list(self._running))
         if all(self._tasks[key].urgency > AT_ONCE for key in self._running.values()):
-            _prepare(self._left, lambda: wait(list(self._running), 0.0))
-        for pipe in wait(list(self._running)):
+            _prepare(self._left, lambda: ready(0.0))
+        answered = []
+        for worker in ready():
             try:
-                kind, content = pipe.recv()
-            except (EOFError, OSError):
-                self._lose(pipe)
+                kind, content = worker.receive()
+            except (EOFError, ConnectionError):
+                self._lose(worker)
                 continue
             if kind == "stage":
                 self._tell(content)
             else:
-                self._answer(self._running.pop(pipe), *content)
+                answered.append(self._running.pop(worker))
+                self._answer(answered[-1], *content)
+        self._hand_out()  # nobody waits for the disk
+        for key in answered:
+            self._keep(key)
 
-    def _lose(self, pipe: Connection) -> None:
-        """A process has ended: what it had in hand waits again."""
-        key = self._running.pop(pipe, None)
-        if key is not None:
-            self._waiting[key] = self._tasks[key]
-        self._held.pop(pipe, None)
-        self._workers.pop(pipe).kill()
+    def _lose(self, worker: "Worker") -> None:
+        """A process has ended: what it had in hand waits again, once."""
+        key = self._running.pop(worker)
+        del self._workers[worker]
+        worker.kill()
+        task = self._waiting[key] = self._tasks[key]
+        task.losses += 1
+        if task.losses > 1:
+            self._answer(
+                key, False, ProcessEnded(f"{key}: two processes that worked on it have ended")
+            )
 
     def _answer(self, key: str, good: bool, answer: object) -> None:
         self._waiting.pop(key, None)
         self._answers[key] = good, answer
         self._done += self._tasks[key].seconds
+
+    def _keep(self, key: str) -> None:
+        good, answer = self._answers[key]
+        if good:
+            self.kept.save(key, answer)
 
     def _tell(self, stage: str) -> None:
         left = sum(
@@ -233,22 +306,49 @@ class Tasks:
         self.callback(Step(stage, self._share))
 
 
-@contextmanager
-def tasks_of_a_run(
-    callback: ProgressCallback,
-    memory: float,
+def tasks_here(
+    callback: ProgressCallback = no_progress,
+    memory: float = math.inf,
+    kept: Cache = NO_CACHE,
     here: Sequence[Preparation] = (),
     there: Sequence[Preparation] = (),
-) -> Iterator[Tasks]:
-    """Tasks on all cores within `memory` [bytes]; in this process alone where it is one of several.
-    What ends the block ends all of them."""
-    alone = not is_several() and multiprocessing.parent_process() is None
-    cores = len(os.sched_getaffinity(0)) if alone else 1
-    tasks = Tasks(callback, cores if cores > 1 else 0, memory, here, there)
-    try:
-        yield tasks
-    finally:
-        tasks.end()
+) -> Tasks:
+    """Tasks on all cores within `memory` [bytes], and within the machine's; in this process alone
+    where it is one of several. The processes begin where the tasks are worth them."""
+    memory = min(memory, SHARE_OF_MEMORY * from_first(machine_memory))
+    opens, worth = None if _places() < 2 else _process, WORTH_A_FORK if _forks() else WORTH_A_START
+    return Tasks(opens, _places(), kept, callback, worth, memory, here=here, there=there)
+
+
+def tasks_of_copies(shared: object) -> Tasks:
+    """Tasks on copies of this process, one a core, that have `shared` in memory; in this process
+    where there can be none. They use no MPI, which survives no fork."""
+    opens = partial(ProcessWorker, forked=True) if _places() > 1 and is_forkable() else None
+    return Tasks(opens, _places(), shared=shared)
+
+
+def called(here: Here, work: Callable[..., object], *args: object) -> object:
+    """A task that asks nothing of the process that it runs in."""
+    return work(*args)
+
+
+def carried_out(work: Work, *args: object) -> tuple[bool, object]:
+    """A task in a place that says nothing before it is done."""
+    return _answered(work, Here(), *args)
+
+
+def _places() -> int:
+    """How many processes may work for this one, which may be one of several itself."""
+    return 1 if is_several() or multiprocessing.parent_process() is not None else cores()
+
+
+def _forks() -> bool:
+    """Whether processes are forked from this one; MPI survives no fork."""
+    return is_forkable() and "mpi4py.MPI" not in sys.modules
+
+
+def _process(serve: Callable[[Connection], None]) -> ProcessWorker:
+    return ProcessWorker(serve, _forks())
 
 
 def _prepare(steps: list[Preparation], is_wanted: Callable[[], object]) -> None:
@@ -258,13 +358,21 @@ def _prepare(steps: list[Preparation], is_wanted: Callable[[], object]) -> None:
             steps.pop(0)()
 
 
-def _serve(preparations: Sequence[Preparation], pipe: Connection) -> None:
+def _answered(work: Work, here: Here, *args: object) -> tuple[bool, object]:
+    """Whether the work raised nothing, and what it returned or raised."""
+    try:
+        return True, work(here, *args)
+    except Exception as error:
+        return False, error
+
+
+def _serve(preparations: Sequence[Preparation], shared: object, pipe: Connection) -> None:
     """Work on what comes through the pipe, until it closes."""
-    here = Here(lambda stage: pipe.send(("stage", str(stage))))
+    here = Here(lambda stage: pipe.send(("stage", str(stage))), shared)
     left = list(preparations)
     while True:
         _prepare(left, lambda: pipe.poll(SOON))
-        work, given = pipe.recv()
-        answer = answered(work, here, *given)
+        work, *args = pipe.recv()
+        answer = _answered(work, here, *args)
         return_freed_memory()
         pipe.send(("answer", answer))

@@ -5,22 +5,26 @@ ended. The key covers all that shapes a level: scene, profile, plan, versions, a
 
 from pathlib import Path
 
-from comparisons.common.cache import Cache, kinds_of
+from comparisons.common.cache import NO_CACHE, Cache, kinds_of
 from comparisons.common.files import unfinished
 from comparisons.common.provenance import LEVEL_CODE, digest, key_of, program_code, versions
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan
 from comparisons.scenes.scene import ResolvedScene
 
-CODE = (*LEVEL_CODE, "comparisons/studies/model_error")  # whose variants of the body are cached too
+CODE = (  # of studies those whose answers are cached, too
+    *LEVEL_CODE,
+    *(f"comparisons/studies/{name}" for name in ("model_error", "scatter", "statistics")),
+)
 
 
-def level_cache(out: Path | None, scene: ResolvedScene, plan: Plan) -> Cache:
-    """Levels of the run of `plan` for `scene` that writes `out`; None writes and caches nothing."""
+def level_cache(out: Path | None, scene: ResolvedScene, plan: Plan, *kinds: type) -> Cache:
+    """Levels of the run of `plan` for `scene` that writes `out`, and dataclasses of other `kinds`;
+    None writes and caches nothing."""
     if out is None:
-        return Cache(None, "", {})
+        return NO_CACHE
     key = key_of(scene_key(scene), repr(plan), versions(), program_code(*CODE))
-    return Cache(unfinished(out), key, kinds_of(Level), by_all=True)
+    return Cache(unfinished(out), key, kinds_of(Level, *kinds), by_all=True)
 
 
 def scene_key(scene: ResolvedScene) -> list:

@@ -1,10 +1,10 @@
 """The report: one page that opens without a network and prints without loss."""
 
 from collections.abc import Callable
-from functools import partial
+from contextlib import nullcontext
 from importlib import import_module
 
-from comparisons.common.processes import side_by_side
+from comparisons.common.tasks import Here, Tasks, tasks_of_copies
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.report.field_values import field_explorer
 from comparisons.report.figures.answers import answer_pictures
@@ -68,8 +68,8 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
 }
 
 
-def render(outcome: Outcome) -> str:
-    """The page of a finished run; equal outcomes give equal text."""
+def render(outcome: Outcome, tasks: Tasks | None = None) -> str:
+    """The page of a finished run, drawn by `report_tasks`; equal outcomes give equal text."""
     script, policy = inline("field_values.js")
     errors = [] if outcome.budget is None else model_error_rows(outcome)
     return rendered(
@@ -110,18 +110,25 @@ def render(outcome: Outcome) -> str:
         cost=cost_table(outcome),
         record=record_rows(outcome),
         commands=commands(outcome),
-        pictures=draw(outcome),
+        pictures=draw(outcome, tasks),
     )
 
 
-def draw(outcome: Outcome) -> dict[str, object]:
-    """What each of PICTURES gives, drawn side by side."""
+def report_tasks(outcome: Outcome) -> Tasks:
+    """For the pictures and files of a run, side by side; `Here.shared` is the outcome."""
     for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
         import_module(name)  # once for all copies
-    works = [partial(_drawn, name, outcome) for name in PICTURES]
-    return dict(zip(PICTURES, side_by_side(works), strict=True))
+    return tasks_of_copies(outcome)
 
 
-def _drawn(name: str, outcome: Outcome) -> object:
+def draw(outcome: Outcome, tasks: Tasks | None = None) -> dict[str, object]:
+    """What each of PICTURES gives."""
+    with report_tasks(outcome) if tasks is None else nullcontext(tasks) as tasks:
+        for name in PICTURES:
+            tasks.add(name, _drawn, name)
+        return {name: tasks.result(name) for name in PICTURES}
+
+
+def _drawn(here: Here, name: str) -> object:
     with drawing():
-        return PICTURES[name](outcome)
+        return PICTURES[name](here.shared)

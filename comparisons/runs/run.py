@@ -1,18 +1,17 @@
 """One scene from start to end: plan, both models level by level, comparison, files."""
 
+import math
 from collections.abc import Callable, Mapping
-from concurrent.futures import Executor
 from functools import lru_cache, partial
 from importlib import import_module
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
-from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError, address_space
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest, revision
-from comparisons.common.tasks import Preparation, Tasks, tasks_of_a_run
+from comparisons.common.tasks import Opens, Preparation, ProcessEnded, Tasks, tasks_here
 from comparisons.figures.verdict import Comparison
 from comparisons.models.forecast import forecast
 from comparisons.models.level import Level, ModelRun
@@ -35,6 +34,7 @@ from comparisons.studies.coupling import Coupling, couplings
 from comparisons.studies.model_error.error_budget import ErrorBudget, announce_effects, error_budget
 from comparisons.studies.quiescent_zone import quiescent_zones
 from comparisons.studies.scatter.figures import InputScatter
+from comparisons.studies.statistics.figures import LoadRow
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -55,7 +55,7 @@ def run(
     models: tuple[str, ...],
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
-    executor: Executor | None = None,
+    opens: Opens | None = None,
     answers: Answers | None = None,
 ) -> Outcome:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
@@ -63,11 +63,11 @@ def run(
     models    of half_plane, finite_element
     callback  gets each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
-    executor  solves the samples of the scene's [scatter]; None: this machine's cores
+    opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     answers   from outside, read before; by default the scene's are read from their files
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
-    SolverError where the finite elements find no solution, MemoryError where the process may not
-    have what they take; nothing is written then."""
+    SolverError where the finite elements find no solution or a process ends amid a task,
+    MemoryError where the process may not have what they take; nothing is written then."""
     stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)
@@ -79,9 +79,12 @@ def run(
             problem = _problem(scene, models, callback)
         plan = make_plan(problem, models)
         callback(forecast(problem, plan).text)
-        return solve(problem, plan, out, callback, fields, executor, answers)
+        return solve(problem, plan, out, callback, fields, opens, answers)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
+    except ProcessEnded as error:
+        left = "" if out is None else f"; {GOES_ON}"
+        raise SolverError(f"{scene.source}: {error}{left}") from error
     except FemError as error:
         remedy = "a lighter load"
         if scene.finite_element.plastic:
@@ -131,7 +134,7 @@ def solve(
     out: Path | None,
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
-    executor: Executor | None = None,
+    opens: Opens | None = None,
     answers: Answers | None = None,
 ) -> Outcome:
     """Carry out a plan, as `run` does with the plan that suits the problem."""
@@ -140,19 +143,20 @@ def solve(
         from comparisons.studies.answers.readers.files import read_answers
 
         answers = read_answers(problem, window)
-    cache = level_cache(out, problem.scene, plan)
+    cache = level_cache(out, problem.scene, plan, LoadRow)
     try:
         told, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
         there = _for_finite_elements() if "finite_element" in plan.models else ()
         here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
-        with tasks_of_a_run(told, memory, here, there) as tasks:
-            scattered = _announce_scatter(problem, plan, cache, tasks, executor)
+        with tasks_here(told, memory, cache, here, there) as tasks:
+            by_others = tasks if opens is None else Tasks(opens, math.inf, cache)
+            scattered = _announce_scatter(problem, plan, by_others)
             counted = None
             if problem.scene.statistics is not None and "half_plane" in plan.models:
                 from comparisons.studies.statistics.study import announce_statistics
 
                 counted = announce_statistics(problem, tasks)
-            runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
+            runs, stop, moved, rows, budget = solved(problem, plan, window, tasks)
             scatter = scattered and scattered(runs["half_plane"].finest)
             statistics = counted and counted(runs)
     except KeyboardInterrupt:
@@ -209,14 +213,14 @@ def solve(
 
 
 def _announce_scatter(
-    problem: Problem, plan: Plan, cache: Cache, tasks: Tasks, executor: Executor | None
+    problem: Problem, plan: Plan, tasks: Tasks
 ) -> Callable[[Level], InputScatter] | None:
     """Begin with the samples of uncertain inputs; what is returned waits. None without any."""
     if problem.scene.scatter is None or "half_plane" not in plan.models:
         return None
     from comparisons.studies.scatter.study import announce_scatter
 
-    return announce_scatter(problem, cache, tasks, executor)
+    return announce_scatter(problem, tasks)
 
 
 def _for_finite_elements() -> list[Preparation]:
@@ -228,7 +232,7 @@ def _for_finite_elements() -> list[Preparation]:
 
 
 def solved(
-    problem: Problem, plan: Plan, window: Window | None, cache: Cache, tasks: Tasks
+    problem: Problem, plan: Plan, window: Window | None, tasks: Tasks
 ) -> tuple[
     dict[str, ModelRun], str, tuple[Coupling, ...], tuple[Comparison, ...], ErrorBudget | None
 ]:
@@ -244,17 +248,16 @@ def solved(
         return moved(len(half_plane.levels)) if plan.coupling else ()
 
     def announce(half_plane: ModelRun) -> Callable[[], None]:
-        given = problem, plan, window, half_plane, coupled(half_plane), cache, tasks
-        return announce_effects(*given)
+        return announce_effects(problem, plan, window, half_plane, coupled(half_plane), tasks)
 
     half_planes: dict[int, ModelRun] = {}
     ahead = announce if plan.compares else None
-    runs, stop = refined(problem, plan, window, cache, tasks, ahead)
+    runs, stop = refined(problem, plan, window, tasks, ahead)
     found = coupled(runs["half_plane"]) if "half_plane" in runs else ()
     if not plan.compares:
         return runs, stop, found, (), None
     rows = compared(problem, runs, window)
-    budget = error_budget(problem, plan, window, runs, rows, found, cache, tasks)
+    budget = error_budget(problem, plan, window, runs, rows, found, tasks)
     return runs, stop, found, rows, budget
 
 

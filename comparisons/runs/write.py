@@ -1,6 +1,5 @@
 """The files of a finished run: curves, fields, mesh, result, record, report."""
 
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -8,9 +7,9 @@ import numpy as np
 from comparisons.common.errors import one_line
 from comparisons.common.files import RECORD, published
 from comparisons.common.mpi import is_first
-from comparisons.common.processes import beside_next
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
+from comparisons.common.tasks import Here
 from comparisons.models.heat import HeatedContact
 from comparisons.models.level import Level, deformed_height
 from comparisons.results.field_files import AUTOMATIC, field_of, scene_text, write_field
@@ -26,45 +25,53 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
     if not is_first():
         return
     callback(Step("writing results", 0.0))
-    from comparisons.report.page import render
-    from comparisons.report.saved import FILE, save_shown
+    from comparisons.report.page import render, report_tasks
+    from comparisons.report.saved import FILE
 
-    with published(outcome.directory) as folder:
-        levels, works = _written(outcome), []
+    with published(outcome.directory) as folder, report_tasks(outcome) as tasks:
+        levels = _written(outcome)
         for name in sorted(levels, key=lambda name: levels[name].mesh is None):  # longest first
             (folder / name).mkdir(parents=True, exist_ok=True)
-            works.append(partial(_write_level, folder / name, outcome, levels[name], fields))
-        works.append(partial(save_shown, folder / FILE, outcome))
+            tasks.add(f"files of {name}", _write_level, folder, name, fields)
+        tasks.add(FILE, _save_shown, folder / FILE)
         for name, contact in outcome.heat.contacts.items() if outcome.heat else ():
             write_temperatures(folder / name / "temperature.csv", contact)
         if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
         callback("drawing the report")
-        with beside_next(works):
-            page = render(outcome)
-        (folder / "report.html").write_text(page, encoding="utf-8")
+        (folder / "report.html").write_text(render(outcome, tasks), encoding="utf-8")
+        for key in (*(f"files of {name}" for name in levels), FILE):
+            tasks.result(key)
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
         record = outcome.record | {"files": [*files, RECORD]}
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
 
 
+def _save_shown(here: Here, path: Path) -> None:
+    from comparisons.report.saved import save_shown
+
+    save_shown(path, here.shared)
+
+
 def _written(outcome: Outcome) -> dict[str, Level]:
     """Levels by their folders; whole models of further friction coefficients below the first's."""
-    found: dict[str, Level] = {}
+    levels: dict[str, Level] = {}
     for friction in outcome.problem.scene.friction:
         for name, level in outcome.levels(friction).items():
-            if all(level is not known for known in found.values()):
-                found[name if name not in found else f"{name}/friction_{friction:g}"] = level
-    return found
+            if all(level is not known for known in levels.values()):
+                levels[name if name not in levels else f"{name}/friction_{friction:g}"] = level
+    return levels
 
 
-def _write_level(folder: Path, outcome: Outcome, level: Level, fields: str) -> None:
+def _write_level(here: Here, folder: Path, name: str, fields: str) -> None:
     """The files of a model's level."""
+    outcome, folder = here.shared, folder / name
+    level = _written(outcome)[name]
     write_contact(folder / "contact.csv", outcome, level)
     if outcome.window is not None:
         write_field(folder, field_of(outcome, level), fields)
-    if folder.name in outcome.runs and level.mesh is not None:
+    if name in outcome.runs and level.mesh is not None:
         write_mesh(folder / "mesh.msh", outcome, level.mesh)
 
 

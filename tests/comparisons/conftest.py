@@ -31,7 +31,6 @@ from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window
@@ -156,12 +155,11 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
     if plan.compares:
         plan = replace(plan, effects=False)  # there are no finite elements to show any
         comparisons = compared(problem, runs, window)
-        kept = level_cache(None, scene, plan)
         rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
         with patch(
             "comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows
         ):
-            budget = error_budget(problem, plan, window, runs, comparisons, (), kept, Tasks())
+            budget = error_budget(problem, plan, window, runs, comparisons, (), Tasks())
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
     }

@@ -11,9 +11,10 @@ from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.files import check_writable, publish
 from comparisons.common.mpi import is_several
-from comparisons.common.processes import ProcessEnded, fresh_process
+from comparisons.common.processes import ProcessWorker
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
+from comparisons.common.tasks import ProcessEnded, Tasks, called
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.scene import ResolvedScene
 from meshes.block import MeshError
@@ -57,13 +58,10 @@ def _problem(scene: ResolvedScene, cache: Cache, callback: ProgressCallback) -> 
     try:
         if scene.load.kind != "approach":
             return problem_of(scene)
-        load = cache.load(LOAD)
-        if load is None:
-            callback("finite elements: load of the prescribed approach")
-            with fresh_process() as call:
-                load = call(_load_of_approach, scene)
-            cache.save(LOAD, load)
-        return problem_of(scene, load)
+        callback("finite elements: load of the prescribed approach")
+        with Tasks(ProcessWorker, 1, cache) as tasks:
+            tasks.add(LOAD, called, _load_of_approach, scene)
+            return problem_of(scene, tasks.result(LOAD))
     except ProcessEnded as error:
         raise SolverError(
             f"{scene.source}: load.approach: the process that sought its load ended; allowed "

@@ -54,12 +54,12 @@ class MeasuredRun:
     spent: float  # seconds that measuring took in all
 
 
-@dataclass(frozen=True)
-class RefusedRun:
+class RefusedError(Exception):
     """Why a setting has no solution: `skipped` as too large, or failed."""
 
-    because: str
-    skipped: bool
+    def __init__(self, because: str, skipped: bool) -> None:
+        super().__init__(because, skipped)
+        self.because, self.skipped = because, skipped
 
 
 class ProcessorStages(Stages):
@@ -74,7 +74,8 @@ class ProcessorStages(Stages):
             self.seconds[name] = self.seconds.get(name, 0.0) + processor_seconds() - begin
 
 
-def measure(task: CostTask) -> MeasuredRun | RefusedRun:
+def measure(task: CostTask) -> MeasuredRun:
+    """Raises RefusedError."""
     method = next(m for m in METHODS if m.name == task.method)
     first = processor_seconds()
     try:
@@ -87,9 +88,9 @@ def measure(task: CostTask) -> MeasuredRun | RefusedRun:
             contact, seconds, wall = _timed(method, problem, task, window)
             runs.append((seconds, wall))
     except InputError as error:  # of the budget, before anything was meshed
-        return RefusedRun(str(error), skipped=True)
+        raise RefusedError(str(error), skipped=True) from error
     except Exception as error:
-        return RefusedRun(f"{type(error).__name__}: {error}", skipped=False)
+        raise RefusedError(f"{type(error).__name__}: {error}", skipped=False) from error
     totals = [sum(seconds.values()) for seconds, _ in runs]
     return MeasuredRun(
         solved=contact,

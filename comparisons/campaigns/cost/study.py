@@ -4,10 +4,12 @@ A setting that was measured is not measured again unless scene, program, version
 number of repeats differ; the time it took counts as before."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from comparisons.campaigns.cost.measure import CostTask, MeasuredRun, RefusedRun, measure
+from comparisons.campaigns.cost.measure import CostTask, MeasuredRun, RefusedError, measure
 from comparisons.campaigns.cost.methods import (
     METHODS,
     SolutionMethod,
@@ -16,9 +18,10 @@ from comparisons.campaigns.cost.methods import (
 )
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.numbers import with_unit
-from comparisons.common.processes import Call, ProcessEnded, fresh_process
+from comparisons.common.processes import ProcessWorker
 from comparisons.common.progress import ProgressCallback, Step, within
 from comparisons.common.provenance import LEVEL_CODE, key_of, machine, program_code, versions
+from comparisons.common.tasks import ProcessEnded, Tasks, called
 from comparisons.models.level_cache import scene_key
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import ResolvedScene
@@ -37,8 +40,7 @@ SHARES = (0.08, 0.2, 0.55, 0.75, 0.9)
 MOST_OF_REST = 0.25  # share of what is left of it beyond which a setting is not repeated
 OK, FAILED, SKIPPED = "ok", "failed", "skipped"
 
-# What a task results in; None where its process ended.
-Measure = Callable[[CostTask], MeasuredRun | RefusedRun | None]
+Measure = Callable[[CostTask], MeasuredRun]  # raises RefusedError and ProcessEnded
 
 
 @dataclass(frozen=True)
@@ -103,17 +105,16 @@ def measured_study(
             rows.append(CostRow(method, None, SKIPPED, because))
             continue
         left = share * problem.scene.budget.time - spent
-        with fresh_process() as call:
-            run = _cached(cache, call)
+        with Tasks(ProcessWorker, 1, cache) as tasks:
+            run = partial(_measured, tasks)
             part = within(callback, number / len(methods), (number + 1) / len(methods))
-            found = _series(method, problem, repeats, left, run, part)
-            if _wants_far_boundary_check(method, problem) and found[0].status == OK:
-                task = _task(problem, method, found[0].setting, half_block=True)
-                again = run(task)
-                if isinstance(again, MeasuredRun):
-                    check[method.name] = again
-        rows += found
-        spent += sum(row.measured.spent for row in found if row.measured is not None)
+            series = _series(method, problem, repeats, left, run, part)
+            if _wants_far_boundary_check(method, problem) and series[0].status == OK:
+                task = _task(problem, method, series[0].setting, half_block=True)
+                with suppress(RefusedError, ProcessEnded):
+                    check[method.name] = run(task)
+        rows += series
+        spent += sum(row.measured.spent for row in series if row.measured is not None)
     return Study(tuple(rows), check)
 
 
@@ -142,48 +143,33 @@ def _series(
             rows.append(CostRow(method, setting, SKIPPED, because))
             continue
         limit = MOST_OF_REST * max(left, 0.0)
-        found = run(_task(problem, method, setting, repeats=repeats, limit=limit))
-        rows.append(_row(method, setting, found))
-        if found is None:
+        try:
+            measured = run(_task(problem, method, setting, repeats=repeats, limit=limit))
+        except RefusedError as refused:
+            status = SKIPPED if refused.skipped else FAILED
+            rows.append(CostRow(method, setting, status, refused.because))
+        except ProcessEnded:
             ended = "the process that measured had ended"
-        elif isinstance(found, MeasuredRun):
-            left -= found.spent
-            expected = growth * found.total
+            rows.append(CostRow(method, setting, FAILED, "the process that measured it ended"))
+        else:
+            good = measured.solved.converged
+            because = None if good else "did not converge"
+            rows.append(CostRow(method, setting, OK if good else FAILED, because, measured))
+            left -= measured.spent
+            expected = growth * measured.total
     return rows
 
 
-def _row(method: SolutionMethod, setting: float, found: MeasuredRun | RefusedRun | None) -> CostRow:
-    if found is None:
-        return CostRow(method, setting, FAILED, "the process that measured it ended")
-    if isinstance(found, RefusedRun):
-        return CostRow(method, setting, SKIPPED if found.skipped else FAILED, found.because)
-    if not found.solved.converged:
-        return CostRow(method, setting, FAILED, "did not converge", found)
-    return CostRow(method, setting, OK, None, found)
+def _measured(tasks: Tasks, task: CostTask) -> MeasuredRun:
+    tasks.add(task.name, called, measure, task)
+    return tasks.result(task.name)
 
 
-def _cached(cache: Cache, call: Call) -> Measure:
-    """Measures by the process that is called what the cache does not have, and saves it."""
-
-    def measured(task: CostTask) -> MeasuredRun | RefusedRun | None:
-        found = cache.load(task.name)
-        if found is None:
-            try:
-                found = call(measure, task)
-            except ProcessEnded:
-                return None
-            if isinstance(found, MeasuredRun):
-                cache.save(task.name, found)
-        return found
-
-    return measured
-
-
-def _task(problem: Problem, method: SolutionMethod, setting: float, **given: float) -> CostTask:
-    """`given`: repeats, limit, half_block."""
+def _task(problem: Problem, method: SolutionMethod, setting: float, **how: float) -> CostTask:
+    """`how`: repeats, limit, half_block."""
     prescribed = problem.scene.load.kind == "approach"
     load = problem.hertz.load_per_length if prescribed else None
-    return CostTask(problem.scene, load, method.name, setting, **given)
+    return CostTask(problem.scene, load, method.name, setting, **how)
 
 
 def _wants_far_boundary_check(method: SolutionMethod, problem: Problem) -> bool:

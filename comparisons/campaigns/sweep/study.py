@@ -1,6 +1,5 @@
 """A sweep from its request to its files: every point solved, the figures, and how they scatter."""
 
-import os
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
@@ -9,15 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.points import FAILED, SOLVED, failed, solve_points
+from comparisons.campaigns.points import FAILED, SOLVED, failed, finish
 from comparisons.campaigns.sweep.request import SweepPoint, SweepRequest
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.files import check_writable, publish
 from comparisons.common.numbers import percent, with_unit
-from comparisons.common.processes import processes
+from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json, versions
+from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.results.flat_table import COLUMNS, csv_text, harmless, rows_of
 from comparisons.scenes.resolve import resolve_tables
@@ -50,9 +50,9 @@ def make_sweep(
     cache = Cache(out / FOLDER, "", {})
     cache.remove_leftovers()
     try:
-        solve = partial(solved, name=request.name)
-        count = workers or os.cpu_count() or 1
-        solve_points(request.points, solve, cache, processes, count, callback, "sweep")
+        with Tasks(ProcessWorker, workers or cores(), cache) as tasks:
+            solve = partial(solved, name=request.name)
+            finish(request.points, solve, tasks, callback, "sweep")
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     content = sweep_content(request, cache)

@@ -35,7 +35,6 @@ from comparisons.figures.convergence import Convergence
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
@@ -242,7 +241,7 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
         runs, budget = outcome.runs, outcome.budget
     else:
         window = window_of(problem) if plan.stress else None
-        runs, _ = refined(problem, plan, window, level_cache(None, resolved, plan), Tasks())
+        runs, _ = refined(problem, plan, window, Tasks())
     run = runs[model]
     stated = uncertainties(run, problem, friction)
     history = [figures(level, problem, friction) for level in run.levels]

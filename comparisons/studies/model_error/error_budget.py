@@ -18,7 +18,6 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from analytic.profile import Profile
-from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
@@ -88,7 +87,6 @@ def error_budget(
     runs: dict[str, ModelRun],
     rows: tuple[Comparison, ...],
     couplings: tuple[Coupling, ...],
-    cache: Cache,
     tasks: Tasks,
 ) -> ErrorBudget:
     """Select the effects that may matter, solve them, and split the difference of the models. An
@@ -99,7 +97,7 @@ def error_budget(
     if is_frugal and selection.added and _is_decided(rows, selection):
         selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
     patches, unsplit = half_plane.levels[0].patches, None
-    solved = SolvedVariants(problem, window, runs["finite_element"], cache, tasks, patches)
+    solved = SolvedVariants(problem, window, runs["finite_element"], tasks, patches)
     while True:
         splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
         solved.keep(split.whole for split in splits.values())
@@ -128,7 +126,6 @@ def announce_effects(
     window: Window | None,
     half_plane: ModelRun,
     couplings: tuple[Coupling, ...],
-    cache: Cache,
     tasks: Tasks,
 ) -> Callable[[], None]:
     """Make known to the tasks what `error_budget` will ask for, as far as the half-plane alone, on
@@ -140,7 +137,7 @@ def announce_effects(
     then stays with the bodies of one level."""
     selection = _selected(problem, plan, half_plane, couplings)
     patches = half_plane.levels[0].patches
-    solved = SolvedVariants(problem, window, None, cache, tasks, patches)
+    solved = SolvedVariants(problem, window, None, tasks, patches)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.friction]
     solved.keep(split.whole for split in splits)
     wholes = [each for split in splits for each in split.wholes]
@@ -204,11 +201,11 @@ def _refined(
             history[mu][number - 1 : number] = [parts]
 
     def errors() -> list[ModelError]:
-        by_friction = {mu: [row for row in rows if row.friction == mu] for mu in history}
-        given = problem, solved.window, runs
-        return [
-            e for mu, there in by_friction.items() for e in model_errors(*given, there, history[mu])
-        ]
+        errors = []
+        for mu, parts in history.items():
+            there = [row for row in rows if row.friction == mu]
+            errors += model_errors(problem, solved.window, runs, there, parts)
+        return errors
 
     for number in range(1, LEAST_LEVELS + 1):
         solved.announce(every, number, LAST)
@@ -230,13 +227,13 @@ def _refined(
                 left_out = f"level {number + 1} of the whole model: cannot change a verdict"
                 left_out += f" ({ASKED})"
                 break
-    for number in range(1, len(next(iter(history.values()))) + 1):
+    levels = len(next(iter(history.values())))
+    for number in range(1, levels + 1):
         if number <= LEAST_LEVELS or not any(solved.is_open(each, number) for each in every):
             take(number, alone=False)
     own = errors()
-    found = [parts.unsplit for of_friction in history.values() for parts in of_friction]
-    unsplit = next(filter(None, found), None)
-    return len(next(iter(history.values()))), own, unsplit, left_out
+    why = (parts.unsplit for of_friction in history.values() for parts in of_friction)
+    return levels, own, next(filter(None, why), None), left_out
 
 
 def _is_decided(rows: tuple[Comparison, ...], selection: EffectSelection) -> bool:
@@ -342,9 +339,9 @@ def _announce_sampling(
     number = min(SAMPLED, len(levels))
     keys, grid = [f"sampling-{first}-{number}" for first in (0, 1)], levels[number - 1].grid
     cost = expected_of(grid.count)
+    size = {"seconds": cost.seconds, "memory": cost.memory}
     for first, key in enumerate(keys):
-        given = problem, first, grid.pitch, window
-        tasks.add(key, _sampled, *given, seconds=cost.seconds, memory=cost.memory, urgency=LAST)
+        tasks.add(key, _sampled, problem, first, grid.pitch, window, **size, urgency=LAST)
     return keys
 
 

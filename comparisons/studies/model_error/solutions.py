@@ -3,11 +3,11 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
 from analytic.contact.problem import ContactError
-from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LATER, Here, Tasks
@@ -37,7 +37,6 @@ class SolvedVariants:
     problem: Problem
     window: Window | None
     own: ModelRun | None  # the scene's own finite elements; None while they are not solved yet
-    cache: Cache  # of levels
     tasks: Tasks  # that solve the variants
     # (k, 2) [m] of the half-plane's contact: what the variants' tasks will take
     patches: np.ndarray
@@ -116,10 +115,10 @@ class SolvedVariants:
         key = f"{'whole' if whole else 'part'}-{variant.name}-{number}"
         plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
         cost = expected_level("finite_element", problem, plan, pitch, self.patches)
-        given = self.cache, key, problem, plan, self.window, variant, number, whole
-        size = {"seconds": cost.seconds, "memory": cost.memory}
         self.expected.setdefault((variant, number), cost.seconds)
-        self.tasks.add(key, _level, *given, **size, urgency=urgency, shares=pitch)
+        work = partial(_solved, problem=problem, plan=plan, window=self.window, fields=whole)
+        size = {"seconds": cost.seconds, "memory": cost.memory}
+        self.tasks.add(key, work, variant, number, **size, urgency=urgency, shares=pitch)
         return key
 
     def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
@@ -133,22 +132,13 @@ class SolvedVariants:
             self.solved[variant, number, each] = quantities_of(level, problem, each)
 
 
-def _level(here: Here, cache: Cache, key: str, *given: object) -> Level:
-    """What `_solved` finds with what is `given`, from the cache or into it."""
-    level = cache.load(key)
-    if level is None:
-        level = _solved(here, *given)
-        cache.save(key, level)
-    return level
-
-
 def _solved(
     here: Here,
+    variant: ModelVariant,
+    number: int,
     problem: Problem,
     plan: Plan,
     window: Window | None,
-    variant: ModelVariant,
-    number: int,
     fields: bool,
 ) -> Level:
     """A variant's `problem` on a level, with its mesh's `fields` where asked; raises
@@ -161,9 +151,11 @@ def _solved(
     here.callback(f"error budget: finite elements with {words}, level {number}")
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    wanted = problem, plan, Refinement(pitch), window, Stages()
+    refinement, stages = Refinement(pitch), Stages()
     try:
-        level = finite_element_level(*wanted, body_cache=body_cache, fields=fields)
+        level = finite_element_level(
+            problem, plan, refinement, window, stages, body_cache=body_cache, fields=fields
+        )
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error
     if not level.solution.converged:

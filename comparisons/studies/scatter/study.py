@@ -1,17 +1,15 @@
 """What a scene's uncertain inputs do to the half-plane's figures."""
 
 from collections.abc import Callable
-from concurrent.futures import Executor
 from dataclasses import asdict
-from functools import partial
 
 import numpy as np
 
-from comparisons.common.cache import Cache
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.contact import figures as compared_figures
 from comparisons.studies.scatter.figures import InputScatter, ScatteredFigure
 from comparisons.studies.scatter.samples import solve_samples, solved, values_at
@@ -20,35 +18,26 @@ from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
 TOGETHER = 16  # samples of a task: what an interrupted run may lose
 
 
-def announce_scatter(
-    problem: Problem, cache: Cache, tasks: Tasks, executor: Executor | None = None
-) -> Callable[[Level], InputScatter]:
-    """Make the samples known to the tasks of a run, or give them to an executor; what is returned
-    waits for them, and takes the half-plane's finest level."""
+def announce_scatter(problem: Problem, tasks: Tasks) -> Callable[[Level], InputScatter]:
+    """Make the samples known to tasks; what is returned waits for them, and takes the half-plane's
+    finest level."""
     scene, wanted = problem.scene, problem.scene.scatter
     points = designs(wanted.samples, len(wanted.inputs), wanted.seed)
     x = problem.grid(problem.pitches[0]).x
     cost = expected_of(len(x)).seconds * TOGETHER
-    waits = []
+    keys = []
     for start in range(0, points[..., 0].size, TOGETHER):
         batch = points.reshape(-1, len(wanted.inputs))[start : start + TOGETHER]
-        key, given = f"scatter-{start}", (scene, batch, x)
-        if executor is None:
-            tasks.add(key, _batch, cache, key, *given, seconds=cost, urgency=LATER)
-            waits.append(partial(tasks.result, key))
-        else:
-            waits.append(executor.submit(solve_samples, *given).result)
-    return lambda finest: _gathered(problem, finest, points, [wait() for wait in waits])
+        keys.append(f"scatter-{start}")
+        tasks.add(keys[-1], _batch, scene, batch, x, seconds=cost, urgency=LATER)
+    return lambda finest: _gathered(problem, finest, points, [tasks.result(key) for key in keys])
 
 
-def _batch(here: Here, cache: Cache, key: str, *given: object) -> dict[str, object]:
-    """Some samples, from the cache or into it."""
-    found = cache.load(key)
-    if found is None:
-        here.callback("half-plane: uncertain inputs")
-        found = solve_samples(*given)
-        cache.save(key, found)
-    return found
+def _batch(
+    here: Here, scene: ResolvedScene, points: np.ndarray, places: np.ndarray
+) -> dict[str, object]:
+    here.callback("half-plane: uncertain inputs")
+    return solve_samples(scene, points, places)
 
 
 def _gathered(

@@ -66,7 +66,7 @@ def test_the_same_scene_from_python_and_from_the_command_line(
     tables, tmp_path, capsys, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")  # takes the longest
+    monkeypatch.setattr("comparisons.report.page.render", lambda *_: "")  # takes the longest
     Path("scene.toml").write_text(toml(tables))
     status = main(["run", "scene.toml", "--out", "out", "--json"])
     told = without_cost(json.loads(capsys.readouterr().out))

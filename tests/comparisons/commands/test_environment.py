@@ -22,17 +22,16 @@ stress = {points = [12, 6]}
 # The mesher and a process beside, as a run starts them.
 PROGRAM = """
 import numpy as np
-from comparisons.common.processes import fresh_process, processes
+from comparisons.common.processes import ProcessWorker
+from comparisons.common.tasks import Tasks, called
 from meshes.block import BlockSpec
 from meshes.build import build_block
 
 if __name__ == "__main__":
     build_block(BlockSpec(1.0, 1.0, np.array([[-0.5, 0.5]]), 0.25))
-    with fresh_process() as call:
-        call(len, "abc")
-    with processes(1) as pool:
-        pool.submit(len, "abc").result()
-    print("done")
+    with Tasks(ProcessWorker) as tasks:
+        tasks.add("length", called, len, "abc")
+        print("done" if tasks.result("length") == 3 else "")
 """
 
 

@@ -27,7 +27,7 @@ load = {per_length = "1 N/um"}
 COMMAND = """
 import sys
 import comparisons.report.page
-comparisons.report.page.render = lambda outcome: ""
+comparisons.report.page.render = lambda *_: ""
 from comparisons.cli import main
 sys.exit(main(["run", "scene.toml", "--models", "half-plane"]))
 """

@@ -27,7 +27,7 @@ budget = {effects = false}
 COMMAND = """
 import os, pathlib, signal, sys, time
 import comparisons.report.page
-comparisons.report.page.render = lambda outcome: ""
+comparisons.report.page.render = lambda *_: ""
 from comparisons.cli import main
 there = pathlib.Path("there")
 {replaced}
@@ -74,7 +74,7 @@ ALONE = "os.sched_getaffinity = lambda process: {0}\n"
 SIDE_BY_SIDE = "os.sched_getaffinity = lambda process: {0, 1}\n"
 CRASH = """
 from fem.solver import mumps
-mumps.factorised = lambda *given: os.kill(os.getpid(), signal.SIGSEGV)
+mumps.factorised = lambda *args: os.kill(os.getpid(), signal.SIG{name})
 """
 
 
@@ -168,7 +168,7 @@ def test_in_the_middle_of_meshing(folder, beside):
 
 
 def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
-    def interrupted(outcome: object) -> str:
+    def interrupted(*_: object) -> str:
         raise KeyboardInterrupt
 
     monkeypatch.chdir(folder)
@@ -180,11 +180,24 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
     assert (folder / ".out.unfinished" / "half_plane-1.npz").exists()
 
 
-@pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
-def test_a_crash_stays_a_crash(folder, beside):
-    process = started(folder, beside + CRASH)
+def test_a_crash_of_the_only_process_stays_a_crash(folder):
+    process = started(folder, ALONE + CRASH.format(name="SEGV"))
     process.communicate(timeout=PATIENT)
     assert process.returncode == -signal.SIGSEGV
+
+
+def test_the_end_of_the_process_of_a_level_is_one_line(folder):
+    """The system kills it where memory is short."""
+    process = started(folder, SIDE_BY_SIDE + CRASH.format(name="KILL"))
+    out, err = process.communicate(timeout=PATIENT)
+    assert (process.returncode, out) == (ExitStatus.NOT_CONVERGED, "")
+    assert err.startswith("crosscheck: scene.toml: finite_element-") and err.count("\n") == 1
+    assert "two processes that worked on it have ended; finished levels are kept" in err
+    assert {path.name for path in (folder / ".out.unfinished").iterdir()} == {
+        "half_plane-1.npz",
+        "half_plane-2.npz",
+    }
+    assert not (folder / "out").exists()
 
 
 @pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
@@ -198,7 +211,7 @@ def test_nothing_outlives_the_command(folder, sent, beside):
 
 
 def test_an_ignored_interrupt_stays_ignored(folder):
-    process = started(folder, "signal.signal(signal.SIGINT, signal.SIG_IGN)\n" + WAITS)
+    process = started(folder, f"{ALONE}signal.signal(signal.SIGINT, signal.SIG_IGN)\n{WAITS}")
     reached(folder, process)
     process.send_signal(signal.SIGINT)
     (folder / "go on").touch()

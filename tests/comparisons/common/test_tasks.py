@@ -1,38 +1,53 @@
-"""Tasks of a run: the same answers in any number of processes, in the order of what is asked."""
+"""Tasks: the same answers in any number of processes, in the order of what is asked."""
 
+import itertools
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import BrokenExecutor, Executor, ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import pytest
 from scenes import PROJECT
 
 from comparisons.common import tasks as module
-from comparisons.common.processes import fresh_process
-from comparisons.common.tasks import AT_ONCE, FIRST, LATER, PERHAPS, Here, Tasks, tasks_of_a_run
+from comparisons.common.cache import Cache
+from comparisons.common.executors import ExecutorWorker
+from comparisons.common.processes import ProcessWorker
+from comparisons.common.tasks import (
+    AT_ONCE,
+    FIRST,
+    LATER,
+    PERHAPS,
+    Here,
+    ProcessEnded,
+    Tasks,
+    called,
+    tasks_here,
+    tasks_of_copies,
+)
 
-GIGABYTES = 1e12
+LATE = {"worth": 0.0}  # processes begin when the first answer is asked for
 
 
 @pytest.fixture
-def worth(monkeypatch):
-    """Processes begin, whatever there is to do."""
-    monkeypatch.setattr(module, "WORTH_A_START", 0.0)
-    monkeypatch.setattr(module, "WORTH_A_FORK", 0.0)
-
-
-@pytest.fixture
-def beside(worth):
-    """Tasks of two processes."""
-    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
-        tasks.processes = 2
+def one():
+    with Tasks(ProcessWorker, **LATE) as tasks:
         yield tasks
 
 
-def number(here: Here, *given: object) -> int:
+@pytest.fixture
+def beside():
+    """Tasks of two processes."""
+    with Tasks(ProcessWorker, 2, **LATE) as tasks:
+        yield tasks
+
+
+def number(here: Here) -> int:
     return os.getpid()
 
 
@@ -49,9 +64,9 @@ def noted(here: Here, path: Path, name: str) -> str:
     return name
 
 
-def together(here: Here, folder: Path, own: str, other: str) -> bool:
+def together(here: Here, folder: Path, name: str, other: str) -> bool:
     """Whether the other one begins while this one works."""
-    (folder / own).touch()
+    (folder / name).touch()
     end = time.monotonic() + 60.0
     while not (folder / other).exists() and time.monotonic() < end:
         time.sleep(0.01)
@@ -62,140 +77,235 @@ def divided(here: Here) -> float:
     return 1 / 0
 
 
-def dies_elsewhere(here: Here, home: int) -> str:
-    if os.getpid() != home:
+def dies(here: Here, path: Path, lives: int = 0) -> str:
+    """Takes its process along, but for the `lives`th time."""
+    with path.open("a") as file:
+        file.write("x")
+    if len(path.read_text()) != lives:
         os._exit(3)
-    return "here"
+    return "alive"
 
 
-def test_alone_they_run_when_they_are_asked_for(tmp_path):
-    told, path = [], tmp_path / "order"
-    tasks = Tasks(told.append)
-    for name in "abc":
-        tasks.add(name, noted, path, name, seconds=1.0)
-    assert [tasks.result(name) for name in "cab"] == ["c", "a", "b"]
-    assert path.read_text() == "cab"
-    assert [stage.done for stage in told] == [0.0, pytest.approx(1 / 3), pytest.approx(2 / 3)]
+def outlasts(here: Here, path: Path) -> None:
+    """What writes a file and then dies."""
+    while not path.exists():
+        time.sleep(0.01)
+    time.sleep(1.0)
 
 
-def test_two_work_side_by_side_and_not_in_this_process(beside, tmp_path):
-    for one, other in ("ab", "ba"):
-        beside.add(one, together, tmp_path, one, other)
-    assert beside.result("a") and beside.result("b")
-    beside.add("c", number)
-    assert beside.result("c") != os.getpid()
+class TestOrder:
+    def test_alone_they_run_when_they_are_asked_for(self, tmp_path):
+        stages, path = [], tmp_path / "order"
+        tasks = Tasks(callback=stages.append)
+        for name in "abc":
+            tasks.add(name, noted, path, name, seconds=1.0)
+        assert [tasks.result(name) for name in "cab"] == ["c", "a", "b"]
+        assert path.read_text() == "cab"
+        assert [s.done for s in stages] == [0.0, pytest.approx(1 / 3), pytest.approx(2 / 3)]
 
+    def test_two_work_side_by_side_and_not_in_this_process(self, beside, tmp_path):
+        for name, other in ("ab", "ba"):
+            beside.add(name, together, tmp_path, name, other)
+        assert beside.result("a") and beside.result("b")
+        beside.add("c", number)
+        assert beside.result("c") != os.getpid()
 
-def test_the_urgent_come_first_then_the_long(worth, tmp_path):
-    path = tmp_path / "order"
-    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
-        tasks.processes = 1
-        tasks.add("p", noted, path, "p", seconds=9.0, urgency=PERHAPS)
-        tasks.add("s", noted, path, "s", seconds=1.0, urgency=LATER)
-        tasks.add("l", noted, path, "l", seconds=2.0, urgency=LATER)
-        tasks.add("f", noted, path, "f", urgency=FIRST)
+    def test_the_urgent_come_first_then_the_long(self, one, tmp_path):
+        path = tmp_path / "order"
+        one.add("p", noted, path, "p", seconds=9.0, urgency=PERHAPS)
+        one.add("s", noted, path, "s", seconds=1.0, urgency=LATER)
+        one.add("l", noted, path, "l", seconds=2.0, urgency=LATER)
+        one.add("f", noted, path, "f", urgency=FIRST)
         for name in "slfp":
-            tasks.result(name)
-    assert path.read_text() == "flsp"
+            one.result(name)
+        assert path.read_text() == "flsp"
 
+    @pytest.mark.parametrize(("other", "order"), [(2.5, "fsbt"), (4.0, "fbst")])
+    def test_a_process_stays_with_what_shares_while_that_takes_longer(
+        self, one, tmp_path, other, order
+    ):
+        path = tmp_path / "order"
+        sizes = {"f": (9.0, 1), "b": (other, 2), "s": (2.0, 1), "t": (1.0, 1)}
+        for name, (seconds, shares) in sizes.items():
+            one.add(name, noted, path, name, seconds=seconds, shares=shares)
+        for name in sizes:
+            one.result(name)
+        assert path.read_text() == order
 
-@pytest.mark.parametrize(("other", "order"), [(2.5, "fsbt"), (4.0, "fbst")])
-def test_a_process_stays_with_what_shares_while_that_takes_longer(worth, tmp_path, other, order):
-    path = tmp_path / "order"
-    given = {"f": (9.0, 1), "b": (other, 2), "s": (2.0, 1), "t": (1.0, 1)}
-    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
-        tasks.processes = 1
-        for name, (seconds, shares) in given.items():
-            tasks.add(name, noted, path, name, seconds=seconds, shares=shares)
-        for name in given:
-            tasks.result(name)
-    assert path.read_text() == order
+    def test_processes_share_different_things(self, beside):
+        """Four tasks in pairs that share: each process has one pair."""
+        for name in ("a1", "a2", "b1", "b2"):
+            beside.add(name, home, seconds=1.0, shares=name[0])
+        a1, a2, b1, b2 = (beside.result(name) for name in ("a1", "a2", "b1", "b2"))
+        assert a1 == a2 != b1 == b2
 
-
-def test_processes_share_different_things(beside):
-    """Four tasks in pairs that share: each process has one pair."""
-    for name in "aabb":
-        beside.add(f"{name}{len(beside._tasks)}", home, seconds=1.0, shares=name)
-    found = {key: beside.result(key) for key in list(beside._tasks)}
-    assert len({found[key] for key in found if key[0] == "a"}) == 1
-    assert {found[key] for key in found if key[0] == "a"}.isdisjoint(
-        found[key] for key in found if key[0] == "b"
-    )
-
-
-def test_a_known_task_becomes_more_urgent_and_not_less(worth, tmp_path):
-    path = tmp_path / "order"
-    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
-        tasks.processes = 1
+    def test_a_known_task_becomes_more_urgent_and_not_less(self, one, tmp_path):
+        path = tmp_path / "order"
         for name, urgency in (("f", FIRST), ("b", LATER), ("s", PERHAPS), ("s", FIRST), ("s", 9)):
-            tasks.add(name, noted, path, name, seconds=1.0 + (name == "f"), urgency=urgency)
+            one.add(name, noted, path, name, seconds=1.0 + (name == "f"), urgency=urgency)
         for name in "fbs":
-            tasks.result(name)
-    assert path.read_text() == "fsb"
+            one.result(name)
+        assert path.read_text() == "fsb"
+
+    def test_what_has_no_memory_beside_the_others_waits(self, beside, tmp_path):
+        beside.memory = 10.0
+        for name in "ab":
+            beside.add(name, noted, tmp_path / "order", name, memory=6.0, seconds=1.0)
+        running = []
+        hand_out = beside._hand_out
+        beside._hand_out = lambda: (hand_out(), running.append(len(beside._running)))
+        assert [beside.result(name) for name in "ab"] == ["a", "b"]
+        assert max(running) == 1
+
+    def test_keys_come_as_they_are_done(self, one, tmp_path):
+        for name, seconds in (("a", 1.0), ("b", 3.0), ("c", 2.0)):
+            one.add(name, noted, tmp_path / "order", name, seconds=seconds)
+        assert list(one.as_done("abc")) == ["b", "c", "a"]
 
 
-def test_what_has_no_memory_beside_the_others_waits(beside, tmp_path):
-    beside.memory = 10.0
-    for name in "ab":
-        beside.add(name, noted, tmp_path / "order", name, memory=6.0, seconds=1.0)
-    running = []
-    hand_out = beside._hand_out
-    beside._hand_out = lambda: (hand_out(), running.append(len(beside._running)))
-    assert [beside.result(name) for name in "ab"] == ["a", "b"]
-    assert max(running) == 1
+class TestProcesses:
+    def test_few_tasks_begin_none(self, beside):
+        beside.worth = 1.0
+        beside.add("a", number, seconds=1e9)  # nothing to do beside it
+        beside.add("b", number, seconds=0.5)
+        beside.add("c", number, seconds=1e9, urgency=PERHAPS)
+        assert beside.result("a") == os.getpid()
+
+    def test_one_of_several_processes_begins_none(self, one, monkeypatch):
+        monkeypatch.setattr(module, "cores", lambda: 2)
+        monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+        assert places() == (2, True, False)
+        monkeypatch.setenv("OMP_NUM_THREADS", "1")
+        assert places() == (2, True, True)
+        one.add("there", called, places)
+        assert one.result("there") == (1, False, False)
+        monkeypatch.setattr(module, "is_several", lambda: True)
+        assert places() == (1, False, False)
+
+    def test_nothing_is_prepared_while_others_wait_for_a_task(self):
+        done = []
+        with Tasks(ProcessWorker, 2, here=[lambda: done.append(1)]) as tasks:
+            tasks.add("first", home, urgency=AT_ONCE)
+            tasks.result("first")
+            assert done == []
+            tasks.add("next", home)
+            tasks.result("next")
+            assert done == [1]
+
+    def test_one_prepares_between_its_tasks(self, one, tmp_path):
+        mark, end = tmp_path / "prepared", time.monotonic() + 60.0
+        one.there = [mark.touch]
+        one.add("first", number)
+        one.result("first")
+        while not mark.exists():
+            assert time.monotonic() < end
+            time.sleep(0.02)
+
+    def test_copies_have_what_is_in_memory(self, monkeypatch):
+        monkeypatch.setenv("OMP_NUM_THREADS", "1")
+        monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1})
+        with tasks_of_copies(lambda: "no pickle takes this") as tasks:
+            for name in "ab":
+                tasks.add(name, lookup)
+            found = [tasks.result(name) for name in "ab"]
+        assert {said for said, _ in found} == {"no pickle takes this"}
+        assert os.getpid() not in {process for _, process in found}
+
+    def test_errors_are_raised_where_they_are_asked_for(self, beside):
+        beside.add("bad", divided, urgency=FIRST)
+        beside.add("good", number)
+        assert beside.result("good")
+        with pytest.raises(ZeroDivisionError):
+            beside.result("bad")
 
 
-def test_errors_are_raised_where_they_are_asked_for(beside):
-    beside.add("bad", divided, urgency=FIRST)
-    beside.add("good", number)
-    assert beside.result("good")
-    with pytest.raises(ZeroDivisionError):
-        beside.result("bad")
+def places() -> tuple[float, bool, bool]:
+    """How many workers there may be, whether there are any, and any copies."""
+    tasks = tasks_here()
+    return tasks.at_once, tasks.opens is not None, tasks_of_copies(None).opens is not None
 
 
-def test_what_its_process_did_not_finish_is_done_here(beside):
-    beside.add("a", dies_elsewhere, os.getpid())
-    assert beside.result("a") == "here"
+def lookup(here: Here) -> tuple[str, int]:
+    time.sleep(0.3)
+    return here.shared(), os.getpid()
 
 
-def test_few_tasks_begin_no_process(monkeypatch):
-    monkeypatch.setattr(module, "WORTH_A_START", 1.0)
-    monkeypatch.setattr(module, "WORTH_A_FORK", 1.0)
-    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
-        tasks.processes = 2
-        tasks.add("a", number, seconds=1e9)  # nothing to do beside it
-        tasks.add("b", number, seconds=0.5)
-        tasks.add("c", number, seconds=1e9, urgency=PERHAPS)
-        assert tasks.result("a") == os.getpid()
+class TestKept:
+    def test_what_is_done_is_not_done_again(self, tmp_path):
+        kept, path = Cache(tmp_path / "kept", "key", {}), tmp_path / "order"
+        for _ in range(2):
+            tasks = Tasks(ProcessWorker, kept=kept)
+            with tasks:
+                tasks.add("a", noted, path, "a")
+                assert tasks.result("a") == "a"
+        assert path.read_text() == "a" and not tasks._has_begun
+        tasks.add("bad", divided)
+        with pytest.raises(ZeroDivisionError), tasks:
+            tasks.result("bad")
+        assert [path.name for path in kept.folder.iterdir()] == ["a.npz"]
+        other = Tasks(kept=Cache(tmp_path / "kept", "another", {}))
+        other.add("a", noted, path, "a")
+        assert other.result("a") == "a" and path.read_text() == "aa"
 
 
-def test_one_of_several_processes_begins_none(monkeypatch):
-    cores = len(os.sched_getaffinity(0))
-    assert _processes() == (cores if cores > 1 else 0)
-    with fresh_process() as call:
-        assert call(_processes) == 0
-    monkeypatch.setattr(module, "is_several", lambda: True)
-    assert _processes() == 0
+class TestEnds:
+    def test_a_task_that_ends_every_process_ends_not_this_one(self, beside, tmp_path):
+        """Others are done all the same, and it is tried twice."""
+        for name in "abcd":
+            beside.add(name, home, seconds=1.0)
+        beside.add("dies", dies, tmp_path / "tried", seconds=2.0)
+        with pytest.raises(ProcessEnded, match="dies: two processes that worked on it have ended"):
+            beside.result("dies")
+        assert len({beside.result(name) for name in "abcd"} - {os.getpid()}) >= 1
+        assert (tmp_path / "tried").read_text() == "xx"
+        beside.add("after", number)
+        assert beside.result("after") != os.getpid()
 
+    def test_a_task_that_lost_its_process_is_tried_alone(self, beside, tmp_path):
+        beside.add("dies", dies, tmp_path / "tried", 2, seconds=3.0)
+        beside.add("beside", outlasts, tmp_path / "tried", seconds=1.0)
+        running, hand_out = [], beside._hand_out
+        beside._hand_out = lambda: (hand_out(), running.append(sorted(beside._running.values())))
+        assert beside.result("dies") == "alive"
+        steps = [[], ["beside", "dies"], ["beside"], ["dies"], []]
+        assert [step for step, _ in itertools.groupby([[], *running, []])] == steps
 
-def _processes() -> int:
-    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
-        return tasks.processes
+    def test_one_that_hears_nothing_ends_at_an_interrupt(self, one):
+        """It sleeps with Python's lock held, as in a factorisation."""
+        asleep = "__import__('ctypes').PyDLL(None).sleep(300)"
+        begin = time.monotonic()
+        with pytest.raises(KeyboardInterrupt), one:
+            one.add("process", number)
+            process = one.result("process")
+            one.add("asleep", called, eval, asleep)
+            threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+            one.result("asleep")
+        assert time.monotonic() - begin < 100.0
+        with pytest.raises(ProcessLookupError):
+            os.kill(process, 0)
+
+    def test_one_that_is_stopped_before_it_has_read_a_large_task(self, one):
+        """Nobody waits for it."""
+        with pytest.raises(KeyboardInterrupt), one:
+            one.add("process", number)
+            os.kill(one.result("process"), signal.SIGSTOP)
+            threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+            one.add("large", called, len, b"1" * 10**7)
+            one.result("large")
 
 
 FORKED = """
 import os, pathlib, sys, time
 from comparisons.common import tasks as module
-from comparisons.common.tasks import tasks_of_a_run
 module.WORTH_A_FORK = 0.0
+module.cores = lambda: 2
 loaded = os.getpid()
 
 def stuck(here, name):
     pathlib.Path(name).write_text(f"{os.getpid()} {loaded}")
     sum(range(10**12))  # hears no signal
 
-with tasks_of_a_run(print, 1e12) as tasks:
-    tasks.processes = 2
+with module.tasks_here() as tasks:
     tasks.add("a", stuck, "a")
     tasks.add("b", stuck, "b")
     try:
@@ -221,32 +331,29 @@ def test_forked_ones_end_with_this_one(tmp_path, sent):
     while not all(path.exists() and path.read_text() for path in there):
         assert process.poll() is None and time.monotonic() < end
         time.sleep(0.02)
-    assert {int(path.read_text().split()[1]) for path in there} == {
-        process.pid
-    }  # not imported anew
+    loaded = {int(path.read_text().split()[1]) for path in there}
+    assert loaded == {process.pid}  # not imported anew
     process.send_signal(sent)
     out, _ = process.communicate(timeout=60.0)  # returns when none of them holds the output
     assert out == ("ended\n" if sent == signal.SIGINT else "")
 
 
-def test_nothing_is_prepared_while_others_wait_for_a_task(worth):
-    done = []
-    with tasks_of_a_run(lambda stage: None, GIGABYTES, [lambda: done.append(1)]) as tasks:
-        tasks.processes = 2
-        tasks.add("first", home, urgency=AT_ONCE)
-        tasks.result("first")
-        assert done == []
-        tasks.add("next", home)
-        tasks.result("next")
-        assert done == [1]
+class TestExecutor:
+    def test_tasks_are_submitted_as_they_become_known(self, tmp_path):
+        with ThreadPoolExecutor(2) as pool, Tasks(partial(ExecutorWorker, pool), 9) as tasks:
+            for name, other in ("ab", "ba"):
+                tasks.add(name, together, tmp_path, name, other)
+            while not all((tmp_path / name).exists() for name in "ab"):
+                time.sleep(0.01)  # with nobody waiting for a result
+            assert tasks.result("a") and tasks.result("b")
+            tasks.add("bad", divided)
+            with pytest.raises(ZeroDivisionError):
+                tasks.result("bad")
 
+    def test_one_that_takes_nothing_ends_the_work(self):
+        class Broken(Executor):
+            def submit(self, work, *args):
+                raise BrokenExecutor("broken")
 
-def test_a_process_prepares_between_its_tasks(worth, tmp_path):
-    mark, end = tmp_path / "prepared", time.monotonic() + 60.0
-    with tasks_of_a_run(lambda stage: None, GIGABYTES, (), [mark.touch]) as tasks:
-        tasks.processes = 1
-        tasks.add("first", number)
-        tasks.result("first")
-        while not mark.exists():
-            assert time.monotonic() < end
-            time.sleep(0.02)
+        with pytest.raises(BrokenExecutor), Tasks(partial(ExecutorWorker, Broken())) as tasks:
+            tasks.add("a", number)

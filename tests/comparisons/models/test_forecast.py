@@ -8,7 +8,6 @@ from scenes import STEEL, changed, problem
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
 
@@ -33,8 +32,7 @@ def test_as_many_levels_as_the_run_then_has(count):
     _, _, whole = planned(budget={"time": 60.0, "effects": False})
     time = 1.15 * sum(level.seconds for level in whole.levels[:count])
     posed, plan, found = planned(budget={"time": time, "effects": False})
-    cache = level_cache(None, posed.scene, plan)
-    runs, stop = refined(posed, plan, None, cache, Tasks())
+    runs, stop = refined(posed, plan, None, Tasks())
     levels = runs["finite_element"].levels
     assert len(levels) == len(found.levels) == count
     assert "budget.time" in stop and "budget.time" in found.ends

@@ -27,7 +27,7 @@ def written(
     def folder_of(outcome: Outcome) -> Path:
         if id(outcome) not in folders:
             folder = tmp_path_factory.mktemp("runs") / "run"
-            with patch("comparisons.report.page.render", lambda _: rendered(outcome)):
+            with patch("comparisons.report.page.render", lambda *_: rendered(outcome)):
                 write_files(replace(outcome, directory=folder), no_progress)
             folders[id(outcome)] = folder
         return folders[id(outcome)]

@@ -31,7 +31,7 @@ LAYER = {
 def outcome(tmp_path_factory):
     coarse = resolved(LAYER)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("comparisons.report.page.render", lambda outcome: "")
+        patch.setattr("comparisons.report.page.render", lambda *_: "")
         return run(coarse, tmp_path_factory.mktemp("run") / "out", ("finite_element",))
 
 

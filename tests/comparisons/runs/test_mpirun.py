@@ -45,7 +45,7 @@ UNDRAWN = """
 import sys
 import comparisons.report.page
 from comparisons.cli import main
-comparisons.report.page.render = lambda outcome: "page"
+comparisons.report.page.render = lambda *_: "page"
 sys.exit(main())
 """
 
@@ -81,7 +81,7 @@ def test_two_processes_report_what_one_reports(tmp_path, launch, capsys, monkeyp
     end = launch(2, "-c", UNDRAWN, "run", scene, "--out", outs[1])
     # two levels state no uncertainty
     assert end.returncode == ExitStatus.INCONCLUSIVE, end.stderr
-    monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "page")
+    monkeypatch.setattr("comparisons.report.page.render", lambda *_: "page")
     assert main(["run", str(scene), "--out", str(outs[0])]) == ExitStatus.INCONCLUSIVE
     assert table(end.stdout) == table(capsys.readouterr().out)
     assert files(outs[0]) == files(outs[1])

@@ -7,7 +7,6 @@ import pytest
 from scenes import SMOOTH, problem
 
 from comparisons.common.tasks import Tasks
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
 
@@ -16,8 +15,7 @@ def half_plane(**budget):
     """The half-plane on ever finer levels, and why they ended: none is fine enough."""
     made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}, "budget": budget})
     plan = make_plan(made, ("half_plane",))
-    cache = level_cache(None, made.scene, plan)
-    runs, why = refined(made, plan, None, cache, Tasks())
+    runs, why = refined(made, plan, None, Tasks())
     return runs["half_plane"], why
 
 

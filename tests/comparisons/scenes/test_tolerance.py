@@ -26,7 +26,7 @@ class TestTolerance:
         assert "--tolerance: is " in capsys.readouterr().err
 
     def test_refinement_stops_where_it_is_met(self, tmp_path, monkeypatch):
-        monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")
+        monkeypatch.setattr("comparisons.report.page.render", lambda *_: "")
         coarse = resolved(changed(SMOOTH, resolution={"pitch": 1e-4}))
         levels = {}
         for tolerance in (0.2, 2e-3):

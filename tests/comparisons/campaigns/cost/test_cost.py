@@ -57,7 +57,7 @@ class TestWholeStudy:
 
     def test_the_recommendation_followed_meets_the_tolerance(self, small, tmp_path, monkeypatch):
         """By what `run` makes of it: at that level, and where it ends."""
-        monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")
+        monkeypatch.setattr("comparisons.report.page.render", lambda *_: "")
         found, _ = small
         choice = found.recommendations[-1]
         assert choice.quantity == "all" and choice.finite_element is not None

@@ -4,7 +4,6 @@ import json
 import os
 import signal
 import sys
-from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -50,8 +49,7 @@ class Here:
     def __init__(self) -> None:
         self.asked, self.stop_at = [], 0
 
-    def call(self, function, task: CostTask) -> MeasuredRun:
-        assert function is measure
+    def measure(self, task: CostTask) -> MeasuredRun:
         self.asked.append((task.method, task.setting))
         if self.stop_at == len(self.asked):
             raise KeyboardInterrupt
@@ -63,7 +61,8 @@ def here(monkeypatch) -> Here:
     found = Here()
     monkeypatch.setattr(cost_methods, "HALF_PLANE_PITCHES", (2.0, 1.0, 0.5))
     monkeypatch.setattr(cost_methods, "FINITE_ELEMENT_PITCHES", (2.0,))
-    monkeypatch.setattr(cost_study, "fresh_process", lambda: nullcontext(found.call))
+    monkeypatch.setattr(cost_study, "ProcessWorker", None)
+    monkeypatch.setattr(cost_study, "measure", found.measure)
     monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda found: "")
     return found
 
@@ -162,14 +161,14 @@ class TestGoesOn:
     def test_what_failed_is_tried_again(self, here, tmp_path, monkeypatch):
         tried = []
 
-        def failing(function, task):
+        def failing(task):
             tried.append(task.method)
-            return cost_study.RefusedRun("MeshError: no mesh", skipped=False)
+            raise cost_study.RefusedError("MeshError: no mesh", skipped=False)
 
         cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
         for path in (tmp_path / FOLDER).glob("P2*"):
             path.unlink()
-        monkeypatch.setattr(cost_study, "fresh_process", lambda: nullcontext(failing))
+        monkeypatch.setattr(cost_study, "measure", failing)
         for _ in range(2):
             found = cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
             assert found.study.rows[-1].because == "MeshError: no mesh"
@@ -184,7 +183,7 @@ class TestGoesOn:
         }
         given = resolved(tables)
         first = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
-        monkeypatch.setattr("comparisons.campaigns.cost.cost.fresh_process", lambda: 1 / 0)
+        monkeypatch.setattr("comparisons.campaigns.cost.cost._load_of_approach", None)
         again = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
         assert again.hertz.load_per_length == first.hertz.load_per_length
         assert (

@@ -10,7 +10,7 @@ from scenes import SMOOTH, changed, problem, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.campaigns.cost import measure as cost_measure
-from comparisons.campaigns.cost.measure import CostTask, ProcessorStages, RefusedRun, measure
+from comparisons.campaigns.cost.measure import CostTask, ProcessorStages, RefusedError, measure
 from comparisons.campaigns.cost.methods import (
     FINEST,
     METHODS,
@@ -156,9 +156,13 @@ class TestMeasure:
 
         monkeypatch.setattr(cost_measure, "solved", solved)
         task = CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5)
-        assert measure(task) == RefusedRun("made.toml: budget.memory: is too small", skipped=True)
+        with pytest.raises(RefusedError) as refused:
+            measure(task)
+        assert refused.value.args == ("made.toml: budget.memory: is too small", True)
         monkeypatch.setattr(cost_measure, "solved", lambda *a: 1 / 0)
-        assert measure(task) == RefusedRun("ZeroDivisionError: division by zero", skipped=False)
+        with pytest.raises(RefusedError) as failed:
+            measure(task)
+        assert failed.value.args == ("ZeroDivisionError: division by zero", False)
 
     def test_seconds_are_processor_time(self):
         stages = ProcessorStages()

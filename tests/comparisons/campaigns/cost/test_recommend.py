@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from scenes import SMOOTH, changed, problem
 
-from comparisons.campaigns.cost.measure import MeasuredRun, RefusedRun
+from comparisons.campaigns.cost.measure import MeasuredRun, RefusedError
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.page import cells, cost_page, notes_of, refusals, shown
 from comparisons.campaigns.cost.recommend import AssessedRow, pareto, recommendations
 from comparisons.campaigns.cost.result import assess, content_of
 from comparisons.campaigns.cost.solve import SolvedContact
-from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, Study, _cached, _series
+from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, Study, _series
 from comparisons.common.errors import SceneError
-from comparisons.common.processes import ProcessEnded
 from comparisons.common.progress import no_progress
+from comparisons.common.tasks import ProcessEnded
 from comparisons.report.figures.style import Picture
 
 BY_NAME = {method.name: method for method in METHODS}
@@ -61,7 +61,7 @@ class TestRows:
         def __init__(self, *answers):
             self.answers, self.tasks = list(answers), []
 
-        def __call__(self, work, task):
+        def __call__(self, task):
             self.tasks.append(task)
             answer = self.answers.pop(0)
             if isinstance(answer, Exception):
@@ -70,15 +70,14 @@ class TestRows:
 
     def rows(self, *answers, name="P2", left=1e9):
         process = self.Process(*answers)
-        cache = types.SimpleNamespace(load=lambda task: None, save=lambda task, found: None)
-        run = _cached(cache, process)
-        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, run, no_progress)
+        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, process, no_progress)
         return found, process
 
     def test_refused_and_failed(self):
         good = row("P2", 1.0, 1.0, 0.0).measured
         wild = replace(good, solved=replace(good.solved, converged=False))
-        refused, failed = RefusedRun("budget.memory", True), RefusedRun("MeshError: no mesh", False)
+        refused = RefusedError("budget.memory", skipped=True)
+        failed = RefusedError("MeshError: no mesh", skipped=False)
         found, _ = self.rows(good, failed, wild, refused)
         assert [r.status for r in found] == [OK, FAILED, FAILED, SKIPPED]
         assert found[1].because == "MeshError: no mesh" and found[2].because == "did not converge"

@@ -5,10 +5,11 @@ import json
 import os
 import signal
 import sys
-import threading
 from concurrent.futures import BrokenExecutor, Executor, Future
-from contextlib import contextmanager, suppress
+from contextlib import nullcontext, suppress
+from functools import partial
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 from rich.console import Console
@@ -18,10 +19,14 @@ from comparisons.campaigns.maps.groups import Origin
 from comparisons.campaigns.maps.make import TIMES, exit_status, make_map
 from comparisons.campaigns.maps.point import NOT_CONVERGED, solve_point
 from comparisons.campaigns.maps.request import FOLDER, PointRequest, point_cache, request_of
-from comparisons.campaigns.points import DIED, Workers, solve_points
+from comparisons.campaigns.points import DIED, finish
 from comparisons.cli import main
+from comparisons.common.cache import NO_CACHE
 from comparisons.common.errors import ExitStatus
-from comparisons.common.processes import processes
+from comparisons.common.executors import ExecutorWorker
+from comparisons.common.processes import ProcessWorker
+from comparisons.common.progress import no_progress
+from comparisons.common.tasks import Tasks, called, carried_out
 
 SCENE = """
 title = "Small"
@@ -58,10 +63,14 @@ def scene(tmp_path_factory) -> Path:
 def made(scene, tmp_path_factory) -> tuple[Path, list[str]]:
     """A map that nothing disturbed, and what the worker that solved it had loaded."""
     out = tmp_path_factory.mktemp("undisturbed") / "out"
-    with processes(1) as pool:
-        make_map(request_of(str(scene), *ASKED[1::2]), out, Workers(pool, 1))
-        loaded = pool.submit(eval, "list(__import__('sys').modules)").result()
-    return out, loaded
+    with (
+        Tasks(ProcessWorker, 1, point_cache(out)) as tasks,
+        patch("comparisons.campaigns.maps.make.tasks_by", lambda *_: nullcontext(tasks)),
+    ):
+        make_map(request_of(str(scene), *ASKED[1::2]), out)
+        tasks.kept = NO_CACHE
+        tasks.add("loaded", called, eval, "list(__import__('sys').modules)")
+        return out, tasks.result("loaded")
 
 
 @pytest.fixture(scope="module")
@@ -142,30 +151,18 @@ def test_a_worker_loads_what_solves_and_nothing_that_shows(made):
 
 
 class Fragile(Executor):
-    """Solves at once what is submitted, but for the first point where it has several workers. At a
-    deadly point it breaks, and a moment later so does everything that was submitted before."""
+    """Solves at once what is submitted; at a deadly point it says what Dask would."""
 
-    def __init__(self, workers: int, deadly: set[float]) -> None:
-        self.deadly, self.broken = deadly, False
-        self.out = [] if workers > 1 else None
+    def __init__(self, *deadly: float) -> None:
+        self.deadly = deadly
 
-    def submit(self, work, point):
-        if self.broken:
-            raise BrokenExecutor("broken")
+    def submit(self, *task):
         future = Future()
-        if point.x in self.deadly:
-            self.broken = True
-            future.set_exception(BrokenExecutor("broken"))
-            threading.Timer(0.1, self.give_up).start()
-        elif self.out == []:
-            self.out.append(future)
+        if task[-1].x in self.deadly:
+            future.set_exception(BrokenExecutor("killed"))
         else:
-            future.set_result(work(point))
+            future.set_result(carried_out(*task[1:]))
         return future
-
-    def give_up(self) -> None:
-        for future in self.out or []:
-            future.set_exception(BrokenExecutor("broken"))
 
 
 def point_at(x: float) -> PointRequest:
@@ -180,22 +177,10 @@ class Solved(list[float]):
         return {"found": {"status": "solved", "x": point.x}, "seconds": 1.0}
 
 
-@pytest.fixture
-def solved() -> Solved:
-    return Solved()
-
-
-def fragile(*deadly: float):
-    @contextmanager
-    def opened(workers: int):
-        yield Fragile(workers, set(deadly))
-
-    return opened
-
-
-def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path, solved):
-    cache = point_cache(tmp_path)
-    solve_points([point_at(x) for x in range(8)], solved.solve, cache, fragile(2, 7), 2)
+def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path):
+    cache, solved = point_cache(tmp_path), Solved()
+    with Tasks(partial(ExecutorWorker, Fragile(2, 7)), 2, cache) as tasks:
+        finish([point_at(x) for x in range(8)], solved.solve, tasks, no_progress, "map")
     found = [cache.load(f"key{x}")["found"] for x in range(8)]
     for x in (2, 7):
         assert found[x] == {"status": "failed", "why": DIED}
@@ -203,28 +188,15 @@ def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path, 
     assert sorted(solved) == [0, 1, 3, 4, 5, 6]
 
 
-def test_a_pool_that_cannot_be_used_at_all_ends_the_work(tmp_path, solved):
-    @contextmanager
-    def opened(workers: int):
-        pool = Fragile(workers, set())
-        pool.broken = True
-        yield pool
-
-    with pytest.raises(BrokenExecutor):
-        solve_points([point_at(0), point_at(1)], solved.solve, point_cache(tmp_path), opened, 2)
-
-
-def test_what_is_kept_whole_is_not_solved_again(tmp_path, solved):
-    cache = point_cache(tmp_path)
-    solve_points([point_at(0), point_at(1), point_at(2)], solved.solve, cache, fragile(), 1)
-    path = tmp_path / FOLDER / "key1.npz"
-    path.write_bytes(path.read_bytes()[:-9])
-    solved.clear()
-    stages = []
-    points = [point_at(x) for x in (0, 1, 1, 2, 3)]
-    solve_points(points, solved.solve, cache, fragile(), 1, stages.append)
-    assert solved == [1, 3]
-    assert stages == [f"map: {done} of 4 points" for done in (2, 3, 4)]
+def test_what_is_kept_whole_is_not_solved_again(tmp_path):
+    cache, solved, stages = point_cache(tmp_path), Solved(), []
+    for points in ((0, 1, 2), (0, 1, 1, 2, 3)):
+        before = list(solved)
+        finish([point_at(x) for x in points], solved.solve, Tasks(kept=cache), stages.append, "map")
+        path = tmp_path / FOLDER / "key1.npz"
+        path.write_bytes(path.read_bytes()[:-9])
+    assert sorted(solved[len(before) :]) == [1, 3]
+    assert stages[-5:] == [f"map: {done} of 4 points" for done in range(5)]
 
 
 def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeypatch):
@@ -235,7 +207,10 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
         "comparisons.campaigns.maps.make.solve_point",
         lambda point: answer if point.why is None else solve_point(point),
     )
-    content = make_map(request, tmp_path / "out", Workers(Fragile(1, set()), 1))
+    monkeypatch.setattr(
+        "comparisons.campaigns.maps.make.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
+    )
+    content = make_map(request, tmp_path / "out")
     whys = [point["why"] for point in content["points"]]
     assert whys[:2] == ["no", "no"] and "body.poissons_ratio" in whys[2]
     assert [rule["law"] for rule in content["rules"]] == ["no simple bound"] * 4
@@ -249,17 +224,6 @@ def printed(renderable: object) -> str:
     console = Console(width=200, record=True, file=io.StringIO())
     console.print(renderable)
     return console.export_text()
-
-
-def test_workers_have_one_thread_and_leave_the_environment_as_it_was(monkeypatch):
-    monkeypatch.setenv("OMP_NUM_THREADS", "7")
-    with processes(1) as pool:
-        assert pool.submit(os.getenv, "OMP_NUM_THREADS").result() == "1"
-    assert os.environ["OMP_NUM_THREADS"] == "7"
-    monkeypatch.delenv("OMP_NUM_THREADS")
-    with processes(1):
-        pass
-    assert "OMP_NUM_THREADS" not in os.environ
 
 
 @pytest.mark.parametrize(

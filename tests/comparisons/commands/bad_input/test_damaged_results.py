@@ -20,7 +20,7 @@ CONTACT = ("models", "half_plane", 0, "contact")
 def finished(tmp_path_factory, smooth_outcome: Outcome) -> Path:
     folder = tmp_path_factory.mktemp("finished") / "run"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("comparisons.report.page.render", lambda outcome: "before")
+        patch.setattr("comparisons.report.page.render", lambda *_: "before")
         write_files(replace(smooth_outcome, directory=folder), no_progress)
     return folder
 

@@ -11,7 +11,6 @@ from scenes import STEEL, problem
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.stress import stresses_of
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
@@ -32,7 +31,7 @@ TABLES = {
 def runs():
     posed = problem(TABLES)
     plan = make_plan(posed, MODELS)
-    return refined(posed, plan, window_of(posed), level_cache(None, posed.scene, plan), Tasks())[0]
+    return refined(posed, plan, window_of(posed), Tasks())[0]
 
 
 @pytest.mark.parametrize(("model", "most"), [("half_plane", 1e-3), ("finite_element", 7e-3)])
@@ -70,7 +69,7 @@ def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
         return (), None
 
     with patch("comparisons.models.finite_element.level.stresses_of", both):
-        refined(posed, plan, window, level_cache(None, posed.scene, plan), Tasks())
+        refined(posed, plan, window, Tasks())
     for ((without,), nothing), (_, later), ((all_known,), at_once) in found:
         assert nothing is None
         for part in ("sx", "sz", "txz"):

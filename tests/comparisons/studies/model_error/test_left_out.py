@@ -47,12 +47,12 @@ def budgets(problem_with, tmp_path_factory):
         problem = problem_with(**(SMALL | SCENES[name]))
         plan = make_plan(problem, MODELS)
         cache = Cache(tmp_path_factory.mktemp("levels"), name, kinds_of(Level))
-        runs, _ = refined(problem, plan, None, cache, Tasks())
+        runs, _ = refined(problem, plan, None, Tasks(kept=cache))
         rows, found = compared(problem, runs, None), []
         for effects in (True, "all"):
             scene = replace(problem.scene, budget=replace(problem.scene.budget, effects=effects))
             posed = replace(problem, scene=scene)
-            found.append(error_budget(posed, plan, None, runs, rows, (), cache, Tasks()))
+            found.append(error_budget(posed, plan, None, runs, rows, (), Tasks(kept=cache)))
         return *found, problem.scene.tolerance
 
     return made
@@ -105,17 +105,16 @@ def test_a_difference_is_decided_where_no_effect_turns_it(difference, uncertaint
 
 @pytest.mark.parametrize(("tolerance", "urgency"), [(0.2, PERHAPS), (0.008, LATER)])
 def test_its_own_elements_say_whether_a_third_level_of_the_whole_is_likely(
-    problem_with, tmp_path, tolerance, urgency
+    problem_with, tolerance, urgency
 ):
     """It then waits for nothing: the second level of the scene's own leaves a figure open."""
     changed = {"tolerance": dict.fromkeys(JUDGED, tolerance), "budget": {"time": 20.0}}
     problem = problem_with(**SMALL, roller=RIGID, profile=WAVY, **changed)
-    plan, cache = make_plan(problem, MODELS), Cache(tmp_path, "waves", kinds_of(Level))
-    tasks = Tasks()
+    plan, tasks = make_plan(problem, MODELS), Tasks()
 
     def announced(half_plane: ModelRun):
-        return announce_effects(problem, plan, None, half_plane, (), cache, tasks)
+        return announce_effects(problem, plan, None, half_plane, (), tasks)
 
-    refined(problem, plan, None, cache, tasks, announced)
+    refined(problem, plan, None, tasks, announced)
     wholes = {key: task for key, task in tasks._tasks.items() if key.startswith("whole-")}
     assert [task.urgency for key, task in wholes.items() if key.endswith("-3")] == [urgency]

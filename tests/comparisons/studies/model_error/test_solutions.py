@@ -7,9 +7,9 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from comparisons.common.tasks import Tasks, tasks_of_a_run
+from comparisons.common.processes import ProcessWorker
+from comparisons.common.tasks import Tasks, tasks_here
 from comparisons.figures.quantity import MODELS
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
 from comparisons.studies.model_error import solutions as solve
@@ -31,12 +31,11 @@ def made(problem_with):
     """A small scene's variants, yet to be solved, by given tasks."""
     problem = problem_with(roller=RIGID)
     plan = make_plan(problem, MODELS)
-    keeps_nothing = level_cache(None, problem.scene, plan)
-    runs, _ = refined(problem, plan, None, keeps_nothing, Tasks())
+    runs, _ = refined(problem, plan, None, Tasks())
     own, patches = runs["finite_element"], runs["half_plane"].finest.patches
 
     def variants(tasks) -> SolvedVariants:
-        return SolvedVariants(problem, None, own, keeps_nothing, tasks, patches)
+        return SolvedVariants(problem, None, own, tasks, patches)
 
     return variants
 
@@ -45,8 +44,8 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
     for name in ("WORTH_A_START", "WORTH_A_FORK"):
         monkeypatch.setattr(f"comparisons.common.tasks.{name}", 0.0)
     alone, stages = made(Tasks()), []
-    with tasks_of_a_run(stages.append, 1e12) as tasks:
-        tasks.processes = 2
+    with tasks_here(stages.append) as tasks:
+        tasks.opens, tasks.at_once = ProcessWorker, 2
         shared = made(tasks)
         split = split_variants(shared.problem, SELECTION, 0.0)
         shared.keep([split.whole])

@@ -2,6 +2,7 @@
 
 import json
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,13 +12,15 @@ from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
 from comparisons.cli import main
 from comparisons.common.cache import Cache
-from comparisons.common.progress import no_progress
-from comparisons.common.tasks import Here
+from comparisons.common.executors import ExecutorWorker
+from comparisons.common.progress import Stages
+from comparisons.common.tasks import Tasks
+from comparisons.models.half_plane import half_plane_level
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Spread
 from comparisons.studies.scatter.samples import sampled, values_at
 from comparisons.studies.scatter.shares import designs
-from comparisons.studies.scatter.study import _batch
+from comparisons.studies.scatter.study import announce_scatter
 
 INPUTS = {"load": "4 %", "body_youngs_modulus": "6 %", "roller_radius": "3 %"}
 SCENE = changed(SMOOTH, scatter=INPUTS | {"samples": 64, "seed": 3})
@@ -75,7 +78,8 @@ def test_the_result_has_it_by_quantity(outcome):
 
 def test_it_is_the_same_again_and_by_any_executor(outcome):
     with ThreadPoolExecutor(1) as executor:
-        again = run(resolved(SCENE), None, ("half_plane",), executor=executor)
+        opens = partial(ExecutorWorker, executor)
+        again = run(resolved(SCENE), None, ("half_plane",), opens=opens)
     assert again.result["scatter"] == outcome.result["scatter"]
     other = run(resolved(changed(SCENE, scatter={"seed": 4})), None, ("half_plane",))
     assert other.result["scatter"] != outcome.result["scatter"]
@@ -112,12 +116,14 @@ def test_a_run_says_it(tmp_path, capsys):
     assert (out / "report.html").read_text() == page
 
 
-def test_finished_samples_are_not_solved_again(tmp_path):
-    cache = Cache(tmp_path, "key", {})
-    scene, points = resolved(SCENE), designs(8, 3, 0)[0][:2]
-    given = cache, "scatter-0", scene, points, np.linspace(-1e-4, 1e-4, 5)
-    first = _batch(Here(no_progress), *given)
-    assert _batch(Here(no_progress), *given[:2], None, None, None)["figures"] == first["figures"]
+def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
+    kept, posed = Cache(tmp_path, "key", {}), problem(changed(SCENE, scatter={"samples": 8}))
+    finest = half_plane_level(posed, posed.pitches[0], None, Stages())
+    first = announce_scatter(posed, Tasks(kept=kept))(finest)
+    monkeypatch.setattr("comparisons.studies.scatter.study.solve_samples", None)
+    again = announce_scatter(posed, Tasks(kept=kept))(finest)
+    assert again.figures == first.figures
+    np.testing.assert_array_equal(again.band, first.band)
 
 
 class TestASample:

@@ -13,10 +13,12 @@ from analytic.statistics.penetration import RIDGE
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
+from comparisons.studies.statistics.figures import LoadRow
 from comparisons.studies.statistics.patches import patch_states
 from comparisons.studies.statistics.study import summit_rows
 
@@ -39,6 +41,12 @@ def loads(outcome):
 
 def test_loads_go_down_three_decades_from_the_scenes(loads):
     assert [row.load for row in loads] == pytest.approx(2e6 * np.logspace(0, -3, 7))
+
+
+def test_a_run_that_goes_on_need_not_solve_them_again(tmp_path, outcome, loads):
+    cache = level_cache(tmp_path / "out", outcome.problem.scene, outcome.plan, LoadRow)
+    cache.save("statistics", loads)
+    assert cache.load("statistics") == loads
 
 
 def test_the_trace_under_the_scenes_load_is_the_models(outcome, loads):
