@@ -222,8 +222,8 @@ def test_an_ignored_interrupt_stays_ignored(folder):
 @pytest.mark.parametrize(
     ("command", "work"),
     [
-        ("paper", "studies.paper.reproduce.paper"),
-        ("stability", "studies.robustness.run.run_robustness"),
+        ("paper", "campaigns.paper.reproduce.paper"),
+        ("stability", "campaigns.robustness.run.run_robustness"),
     ],
 )
 def test_a_command_that_keeps_nothing_says_so(tmp_path, monkeypatch, capsys, command, work):

@@ -284,15 +284,6 @@ class TestEnds:
         with pytest.raises(ProcessLookupError):
             os.kill(process, 0)
 
-    def test_one_that_is_stopped_before_it_has_read_a_large_task(self, one):
-        """Nobody waits for it."""
-        with pytest.raises(KeyboardInterrupt), one:
-            one.add("process", number)
-            os.kill(one.result("process"), signal.SIGSTOP)
-            threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
-            one.add("large", called, len, b"1" * 10**7)
-            one.result("large")
-
 
 FORKED = """
 import os, pathlib, sys, time
