@@ -96,7 +96,7 @@ def test_git_knows_the_revision():
     if shutil.which("git") and (PROJECT / ".git").exists():
         head = subprocess.run(git, capture_output=True, text=True).stdout
     if not head:
-        pytest.skip("a revision: git clone")
+        pytest.skip("no git, or no clone: apt-get install git, git clone")
     assert head.startswith(revision.__wrapped__().removesuffix("+changes"))
 
 
