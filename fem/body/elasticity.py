@@ -156,12 +156,12 @@ class ElasticBody(MeshedBody):
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once. The
-        support bears forces on held components. Raises ValueError if the body can slide and the
-        load has a horizontal resultant, FemError if the factorisation fails."""
+        support bears forces on held components. Raises FemError if the body can slide and the
+        load has a horizontal resultant, or if the factorisation fails."""
         if self.support.can_slide:
             net = np.abs(load[..., 0].sum(axis=-1))
             if np.any(net > HORIZONTAL_BALANCE * np.abs(load).sum(axis=(-1, -2))):
-                raise ValueError(
+                raise FemError(
                     "a body on a frictionless base with free sides cannot bear a horizontal load: "
                     "bond its base or hold its sides"
                 )
