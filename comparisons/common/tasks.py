@@ -374,5 +374,6 @@ def _serve(preparations: Sequence[Preparation], shared: object, pipe: Connection
         _prepare(left, lambda: pipe.poll(SOON))
         work, *args = pipe.recv()
         answer = _answered(work, here, *args)
-        return_freed_memory()
+        if shared is None:  # copies of a process end soon
+            return_freed_memory()
         pipe.send(("answer", answer))

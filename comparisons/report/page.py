@@ -4,6 +4,7 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from importlib import import_module
 
+from comparisons.common.processes import uncollected
 from comparisons.common.tasks import Here, Tasks, tasks_of_copies
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.report.field_values import field_explorer
@@ -130,5 +131,5 @@ def draw(outcome: Outcome, tasks: Tasks | None = None) -> dict[str, object]:
 
 
 def _drawn(here: Here, name: str) -> object:
-    with drawing():
+    with drawing(), uncollected():
         return PICTURES[name](here.shared)
