@@ -65,7 +65,7 @@ def _verdict(outcome: Outcome) -> Headline:
         return Headline("not compared", _one_model(outcome))
     checks = outcome.tolerance_checks
     verdict, _ = validity_verdict(checks)
-    several = len(outcome.problem.scene.friction) > 1
+    several = len(outcome.problem.scene.load.friction) > 1
     law = law_leaned_on(outcome.budget.selection, outcome.problem.scene)
     if verdict == "holds":
         nearest = _said(_nearest(checks), several)
@@ -152,7 +152,7 @@ def _unconverged(outcome: Outcome) -> str:
         for coupling in outcome.couplings
         if not coupling.converged
     ]
-    run_in = outcome.problem.scene.run_in
+    run_in = outcome.problem.surface.run_in
     if run_in is not None and not run_in.converged:
         failed = sum(not one.converged for one in run_in.passes)
         found.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")

@@ -5,7 +5,9 @@ where it is not the scene's own finite elements. The mesh comes
 from mesh.msh, figures and record from their own files; nothing is solved or meshed."""
 
 import json
+from collections import defaultdict
 from dataclasses import dataclass, fields, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -14,13 +16,16 @@ from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import WHOLE
 from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.results.outcome import Outcome
 from comparisons.results.recorded_run import check_schema, read_table
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import SceneSurface
 
 FILE = "report.npz"
-SCHEMA = 2  # 1 had another account of convergence
+SCHEMA = 3  # 2 had the surface in the scene
 REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
 LONGEST = 200  # characters of what a library says: zipfile quotes whole headers
 MESH = Path("finite_element") / "mesh.msh"
@@ -41,7 +46,10 @@ def save_shown(path: Path, outcome: Outcome) -> None:
     arrays: dict[str, np.ndarray] = {}
     shown = _shown(outcome)
     parts = {f.name: getattr(shown, f.name) for f in fields(Outcome) if f.name not in ELSEWHERE}
+    scene = shown.problem.scene
+    said = {"tables": scene.tables, "name": scene.name, "source": scene.source}
     parts["problem"] = {f.name: getattr(shown.problem, f.name) for f in fields(Problem)}
+    parts["problem"] |= {"scene": said}
     outline = json.dumps({"schema": SCHEMA, "outcome": encoded(parts, arrays)})
     np.savez(path, outline=np.array(outline), **arrays)  # fields compress to nine tenths only
 
@@ -57,7 +65,9 @@ def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
     check_schema(folder / "result.json", result, RESULT_SCHEMA)
     parts = _read(folder / FILE)
     try:
-        parts["problem"] = Problem(**parts["problem"])
+        said = parts["problem"].pop("scene")
+        scene = Scene.of(said["tables"], Origin(said["name"], folder, said["source"]))
+        parts["problem"] = Problem(scene=scene, **parts["problem"])
         outcome = Outcome(**parts, result=result, record=record, directory=folder)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
@@ -68,8 +78,14 @@ def _read(path: Path) -> dict:
     try:
         with np.load(path, allow_pickle=False) as arrays:
             outline = json.loads(str(arrays["outline"]))
+            kinds = kinds_of(Outcome, ShownField)
             if outline["schema"] == SCHEMA:
-                return decoded(outline["outcome"], arrays, kinds_of(Outcome, ShownField))
+                return decoded(outline["outcome"], arrays, kinds)
+            if outline["schema"] == SCHEMA - 1:
+                # of kinds that are gone their fields; a plan that knew no increments checked none
+                kinds |= {"Plan": partial(Plan, increments_check=False)}
+                kinds = defaultdict(lambda: dict, kinds)
+                return _of_schema_2(decoded(outline["outcome"], arrays, kinds))
     except FileNotFoundError:
         raise InputError(f"{path.parent}: holds no {path.name}; {REMEDY}") from None
     except DAMAGED as error:
@@ -77,9 +93,18 @@ def _read(path: Path) -> dict:
     raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {REMEDY}")
 
 
+def _of_schema_2(parts: dict) -> dict:
+    """The parts as now: a scene held its surface, of classes that are gone."""
+    scene = parts["problem"]["scene"]
+    surface = SceneSurface(
+        scene["profile"], scene["profile_info"], scene["position"], run_in=scene["run_in"]
+    )
+    return parts | {"problem": parts["problem"] | {"surface": surface}}
+
+
 def _shown(outcome: Outcome) -> Outcome:
     """The outcome without what no picture and no table shows."""
-    runs, frictions = {}, outcome.problem.scene.friction
+    runs, frictions = {}, outcome.problem.scene.load.friction
     wholes = {mu: outcome.levels(mu)[WHOLE] for mu in frictions if WHOLE in outcome.levels(mu)}
     drawn = [level for mu in frictions for level in outcome.pair(mu).values()]
     for name, run in outcome.runs.items():
@@ -92,11 +117,12 @@ def _shown(outcome: Outcome) -> Outcome:
     if budget is not None:
         shown = {friction: _reduced(level, True) for friction, level in wholes.items()}
         budget = replace(budget, wholes=shown)
-    scene = outcome.problem.scene
-    if scene.profile_info is not None:
+    surface = outcome.problem.surface
+    if surface.info is not None:
         # the trace as read stands in record.json; the file that it came from is not everybody's
-        scene = replace(scene, profile_info=replace(scene.profile_info, path=None, trace=None))
-    return replace(outcome, problem=replace(outcome.problem, scene=scene), runs=runs, budget=budget)
+        surface = replace(surface, info=replace(surface.info, path=None, trace=None))
+    problem = replace(outcome.problem, surface=surface)
+    return replace(outcome, problem=problem, runs=runs, budget=budget)
 
 
 def _reduced(level: Level, with_fields: bool = False) -> Level:

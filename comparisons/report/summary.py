@@ -103,7 +103,7 @@ def _model_errors(outcome: Outcome) -> dict[str, Cell]:
     if outcome.budget is None:
         return {}
     found: dict[str, Cell] = {}
-    for name, tolerance in outcome.problem.scene.tolerance.items():
+    for name, tolerance in outcome.problem.scene.tolerances.items():
         errors = [error for error in outcome.budget.model_errors if error.quantity == name]
         if not errors:
             continue

@@ -59,7 +59,7 @@ class Outcome:
     @property
     def converged(self) -> bool:
         """Whether every level of every model met its contact conditions, and running-in did."""
-        run_in = self.problem.scene.run_in
+        run_in = self.problem.surface.run_in
         solutions = [level.solution for run in self.runs.values() for level in run.levels]
         solutions += self.couplings if run_in is None else (*self.couplings, run_in)
         return all(each.converged for each in solutions)
@@ -85,15 +85,15 @@ class Outcome:
         """The coefficient at which a judged model error exceeds its tolerance most, or comes
         nearest to it; the last one without any."""
         scene = self.problem.scene
-        checks = [] if self.budget is None else self.budget.tolerance_checks(scene.tolerance)
+        checks = [] if self.budget is None else self.budget.tolerance_checks(scene.tolerances)
         worst = max(checks, key=lambda check: abs(check.value) / check.tolerance, default=None)
-        return scene.friction[-1] if worst is None else worst.friction
+        return scene.load.friction[-1] if worst is None else worst.friction
 
     @property
     def tolerance_checks(self) -> list[ToleranceCheck]:
         """Every judged model error of the half-plane; none for one model."""
         budget = self.budget
-        return budget.tolerance_checks(self.problem.scene.tolerance) if budget else []
+        return budget.tolerance_checks(self.problem.scene.tolerances) if budget else []
 
     @property
     def exit_status(self) -> ExitStatus:

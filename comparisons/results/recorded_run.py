@@ -4,8 +4,7 @@ Everything comes from the folder itself. A profile's file may have changed or go
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from math import inf
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,12 +15,12 @@ from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import LARGEST_RECORD
 from comparisons.common.provenance import digest
 from comparisons.figures.quantity import MODELS
+from comparisons.models.problem import MOST_LEVELS, Levels
 from comparisons.results.changes import check_figures
 from comparisons.results.record import SCHEMA
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
-from comparisons.scenes.profile import KnownTrace
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import MOST_LEVELS, ResolvedScene
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import KnownTrace, SceneSurface, surface_of
 
 _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"}
 
@@ -30,10 +29,10 @@ _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"
 class Record:
     """A recorded run."""
 
-    # as resolved, with as many levels as the run and its error budget had and no end to its time
-    scene: ResolvedScene
+    scene: Scene
+    surface: SceneSurface  # as measured
     models: tuple[str, ...]  # of half_plane, finite_element
-    levels: int  # of each model
+    levels: Levels
     figures: dict  # the content of result.json
     versions: dict
     machine: dict
@@ -57,36 +56,38 @@ def read_record(folder: Path) -> Record:
     models = _part(path, content, "models", list)
     if not models or any(name not in MODELS for name in models):
         raise InputError(f"{path}: models: is {models!r}; allowed are {', '.join(MODELS)}")
-    levels = _part(path, content, "levels", int)
-    if not 1 <= levels <= MOST_LEVELS:
-        raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
+    scene, surface = _scene(path, content)
     return Record(
-        scene=_scene(path, content, levels, figures),
+        scene=scene,
+        surface=surface,
         models=tuple(name for name in MODELS if name in models),
-        levels=levels,
+        levels=_levels(path, content, figures),
         figures=figures,
         **{name: _part(path, content, name, dict) for name in ("versions", "machine", "hashes")},
     )
 
 
-def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedScene:
+def _scene(path: Path, content: dict) -> tuple[Scene, SceneSurface]:
     tables, name = _part(path, content, "scene", dict), _part(path, content, "name", str)
     name = one_line(name)
     trace = None
     if tables.get("profile") is not None:
         trace = _trace(path, _part(path, content, "profile", dict))
-    folder, source = path.parent, str(path)
-    scene = resolve_tables(tables, name=name, folder=folder, source=source, trace=trace)
+    scene = Scene.of(tables, Origin(name, path.parent, str(path)))
+    return scene, surface_of(scene, trace)
+
+
+def _levels(path: Path, content: dict, figures: dict) -> Levels:
+    """As many as the run and its error budget had."""
+    levels = _part(path, content, "levels", int)
+    if not 1 <= levels <= MOST_LEVELS:
+        raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
     budget = figures.get("error_budget") or {}
     effects = budget.get("levels") if isinstance(budget, dict) else budget
     if effects is not None and not (type(effects) is int and 0 <= effects <= MOST_LEVELS):
         where = f"{path.parent / 'result.json'}: error_budget.levels"
         raise InputError(f"{where}: is {effects!r}; allowed is from 0 to {MOST_LEVELS}")
-    return replace(
-        scene,
-        resolution=replace(scene.resolution, levels=levels, most=levels),
-        budget=replace(scene.budget, time=inf, levels=effects),
-    )
+    return Levels(levels, effects)
 
 
 def _trace(path: Path, profile: dict) -> KnownTrace:

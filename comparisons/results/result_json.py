@@ -42,7 +42,7 @@ def result_of(
     budget      of the comparison, None for one model
     scatter     of uncertain inputs"""
     hertz = problem.hertz
-    tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerance)
+    tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerances)
     flow = flow_assessment(problem, runs)
     verdict, why = validity_verdict(tolerance_checks)
     if budget is not None:
@@ -53,14 +53,14 @@ def result_of(
         figures, name = asdict(row), row.quantity
         del figures["quantity"]
         if budget is not None:
-            exceeds = _exceeds(budget, problem.scene.tolerance, name)
+            exceeds = _exceeds(budget, problem.scene.tolerances, name)
             figures["not_modelled_exceeds_tolerance"] = exceeds
         by_quantity[name].append(figures)
     return {
         "schema": SCHEMA,
-        "scene": problem.scene.as_dict(),
-        "profile": problem.scene.profile_info and problem.scene.profile_info.surface(),
-        "running_in": running_in_account(problem.scene),
+        "scene": problem.surface.as_dict(problem.scene),
+        "profile": problem.surface.info and problem.surface.info.surface(),
+        "running_in": running_in_account(problem.surface),
         "groups": _groups(problem, runs),
         "hertz": {
             "half_width": hertz.half_width,
@@ -70,7 +70,7 @@ def result_of(
             "tau1_max_depth": hertz.tau1_max_depth,
         },
         "models": {
-            name: [_model(problem, run, mu, couplings) for mu in problem.scene.friction]
+            name: [_model(problem, run, mu, couplings) for mu in problem.scene.load.friction]
             for name, run in runs.items()
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
@@ -87,17 +87,17 @@ def result_of(
 
 
 def _groups(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float | None]:
-    scene, half_width = problem.scene, problem.hertz.half_width
-    roughness = None if scene.profile_info is None else scene.profile_info.roughness
+    scene, info, half_width = problem.scene, problem.surface.info, problem.hertz.half_width
+    body, roughness = scene.body, info and info.roughness
     peak = max(float(run.finest.solution.pressure.max()) for run in runs.values())
     return {
-        "a_over_thickness": None if scene.thickness is None else half_width / scene.thickness,
-        "a_over_radius": half_width / scene.roller_radius,
-        "a_over_width": None if scene.width is None else half_width / scene.width,
+        "a_over_thickness": body.thickness and half_width / body.thickness,
+        "a_over_radius": half_width / scene.roller.radius,
+        "a_over_width": body.width and half_width / body.width,
         "rms_slope": None if roughness is None else roughness.rms_slope,
         "max_slope": None if roughness is None else roughness.max_slope,
-        "friction_dundurs": max(scene.friction) * problem.dundurs_beta,
-        "peak_pressure_over_hardness": None if scene.hardness is None else peak / scene.hardness,
+        "friction_dundurs": max(scene.load.friction) * problem.dundurs_beta,
+        "peak_pressure_over_hardness": body.hardness and peak / body.hardness,
     }
 
 
@@ -182,9 +182,9 @@ def _approach(problem: Problem, model: str, level: Level) -> tuple[float | None,
     """Approach from first touch [m], where both bodies have a datum; else why not."""
     if model == "half_plane":
         return None, "the displacement of a half-plane is known but for a constant"
-    if problem.scene.thickness is None:
+    if problem.scene.body.thickness is None:
         return None, "the body is unbounded: the value would grow with the size of its mesh"
-    if problem.scene.roller is not None:
+    if not problem.scene.roller.rigid:
         return None, "the elastic roller is unbounded: its share has no datum"
     return level.solution.approach - problem.first_touch, None
 
@@ -212,7 +212,7 @@ def model_error_content(
     problem: Problem, runs: dict[str, ModelRun], budget: ErrorBudget
 ) -> dict[str, list[dict]]:
     """By quantity and friction; relative to the whole model, None: unknown or not judged."""
-    tolerance = problem.scene.tolerance
+    tolerance = problem.scene.tolerances
     verdicts = {(c.quantity, c.friction): c.verdict for c in budget.tolerance_checks(tolerance)}
     found: dict[str, list[dict]] = {}
     for error in budget.model_errors:
@@ -263,7 +263,7 @@ def error_budget_content(
     """What became of every effect; by quantity numerical and sampling parts, relative, or None."""
     stated = {
         mu: {model: uncertainties(run, problem, mu) for model, run in runs.items()}
-        for mu in problem.scene.friction
+        for mu in problem.scene.load.friction
     }
     quantities: dict[str, list[dict]] = {}
     for row in rows:

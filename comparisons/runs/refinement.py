@@ -50,7 +50,7 @@ def refined(
         why = levels.spent(runs)
         if why is None and unresolved_now and _stuck(before, unresolved_now):
             why = "refinement no longer lowers their uncertainty"
-        if why is None and number == problem.scene.resolution.most:
+        if why is None and number == problem.most_levels:
             why = f"{number} levels are the most"
         if why is not None:
             names = ", ".join(unresolved_now) or "judged quantities"
@@ -181,7 +181,7 @@ class _Levels:
         for number in asked:
             cost = self.task("finite_element", number).expected(self.patches)
             time += cost.seconds
-            if time > budget.time or cost.memory > min(budget.memory, self.machine):
+            if time > self.problem.time or cost.memory > min(budget.memory, self.machine):
                 break
             within.append(number)
         return within
@@ -211,7 +211,7 @@ class _Levels:
             pitch, patches = 0.5 * run.finest.grid.pitch, run.finest.patches
             finer = expected_level(name, self.problem, self.plan, pitch, patches)
             time, memory = time + finer.seconds, max(memory, finer.memory)
-        if time > budget.time:
+        if time > self.problem.time:
             return f"a finer level would exceed {budget.time:g} s (budget.time)"
         if memory > budget.memory:
             return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
@@ -225,9 +225,9 @@ def unresolved(
 ) -> dict[str, float]:
     """Judged quantities whose discretisation uncertainty is above its share of the tolerance,
     with the largest of any friction coefficient."""
-    tolerance = problem.scene.tolerance
+    tolerance = problem.scene.tolerances
     sizes: dict[str, float] = {}
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         for name, size in discretisations(runs, problem, friction, window).items():
             if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:
                 sizes[name] = max(size, sizes.get(name, 0.0))

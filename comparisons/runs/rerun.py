@@ -18,7 +18,7 @@ from comparisons.report.terminal import STYLES, plain_table
 from comparisons.results.changes import ROUNDING, Moved, Movement, movement
 from comparisons.results.outcome import Outcome
 from comparisons.results.recorded_run import Record, read_record
-from comparisons.runs.run import run
+from comparisons.runs.run import Known, run
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -74,13 +74,14 @@ def rerun(
         recorded = read_outcome(folder, with_mesh=False).answers
         answers = {each.name: each.answers for each in recorded}
     with _place(folder, out) as place:
-        outcome = run(record.scene, place, record.models, callback, answers=answers)
+        known = Known(record.surface, answers, record.levels)
+        outcome = run(record.scene, place, record.models, callback, known=known)
     now = outcome.record
     return Repetition(
         record=record,
         outcome=outcome,
         movement=movement(record.figures, json.loads(as_json(outcome.result))),
-        levels=(record.levels, now["levels"]),
+        levels=(record.levels.models, now["levels"]),
         other=_unlike(record.versions, now["versions"]) | _unlike(record.machine, now["machine"]),
         bits=now["hashes"] == record.hashes,
     )

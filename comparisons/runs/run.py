@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from importlib import import_module
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError, SceneError, SolverError, address_space
-from comparisons.common.mpi import is_several
+from comparisons.common.mpi import from_first, is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest, revision
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, Tasks, tasks_here
@@ -17,8 +18,8 @@ from comparisons.models.forecast import forecast
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import Problem, problem_of
-from comparisons.models.running_in import run_in_scene
+from comparisons.models.problem import Levels, Problem, problem_of
+from comparisons.models.running_in import run_in_surface
 from comparisons.models.window import Window, window_of
 from comparisons.results.field_files import AUTOMATIC
 from comparisons.results.outcome import Outcome
@@ -26,7 +27,8 @@ from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.write import write_files
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface, surface_of
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.bulge import bulges
 from comparisons.studies.contact import compared, pair_histories
@@ -49,14 +51,23 @@ LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, an
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
 
+@dataclass(frozen=True)
+class Known:
+    """What a run need not find out: read before, or recorded."""
+
+    surface: SceneSurface | None = None  # as measured; None: read as the scene says
+    answers: Answers | None = None  # from outside; None: read from the scene's files
+    levels: Levels | None = None  # None: as many as figures take and the budget allows
+
+
 def run(
-    scene: ResolvedScene,
+    scene: Scene,
     out: Path | None,
     models: tuple[str, ...],
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
     opens: Opens | None = None,
-    answers: Answers | None = None,
+    known: Known = Known(),
 ) -> Outcome:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
@@ -64,22 +75,22 @@ def run(
     callback  gets each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
-    answers   from outside, read before; by default the scene's are read from their files
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution or a process ends amid a task,
     MemoryError where the process may not have what they take; nothing is written then."""
     stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)
+    surface = known.surface or from_first(lambda: surface_of(scene))
     try:
         if scene.running_in is not None:
             with stages.stage("running-in", "running the surface in"):
-                scene = run_in_scene(scene)
+                surface = run_in_surface(scene, surface)
         with stages.stage("set-up", "finding the reach of the contact"):
-            problem = _problem(scene, models, callback)
+            problem = _problem(scene, surface, models, known.levels, callback)
         plan = make_plan(problem, models)
         callback(forecast(problem, plan).text)
-        return solve(problem, plan, out, callback, fields, opens, answers)
+        return solve(problem, plan, out, callback, fields, opens, known.answers)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
@@ -95,7 +106,7 @@ def run(
         ) from error
 
 
-def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
+def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
     """Raise SceneError for what only one process can solve where there are several."""
     settings = scene.finite_element
     finite = settings.deformation == "finite"
@@ -115,9 +126,15 @@ def _check_address_space(models: tuple[str, ...]) -> None:
         raise MemoryError(f"finite elements take at least {least:.3g} GB of address space")
 
 
-def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCallback) -> Problem:
+def _problem(
+    scene: Scene,
+    surface: SceneSurface,
+    models: tuple[str, ...],
+    levels: Levels | None,
+    callback: ProgressCallback,
+) -> Problem:
     if scene.load.kind != "approach":
-        return problem_of(scene)
+        return problem_of(scene, surface, levels=levels)
     if "finite_element" not in models:
         raise SceneError(
             f"{scene.source}: load.approach: takes finite elements to find its load; "
@@ -125,7 +142,7 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCa
         )
     from comparisons.models.finite_element.level import problem_of_approach
 
-    return problem_of_approach(scene, callback)
+    return problem_of_approach(scene, callback, surface, levels)
 
 
 def solve(
@@ -143,7 +160,7 @@ def solve(
         from comparisons.studies.answers.readers.files import read_answers
 
         answers = read_answers(problem, window)
-    cache = level_cache(out, problem.scene, plan, LoadRow)
+    cache = level_cache(out, problem, plan, LoadRow)
     try:
         told, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
         there = _for_finite_elements() if "finite_element" in plan.models else ()
@@ -169,7 +186,7 @@ def solve(
     result["bulge"] = bulges(problem, runs, window)
     result["statistics"] = statistics and statistics.as_dict()
     hashes = {f"{n}_pressure": digest(run.finest.solution.pressure) for n, run in runs.items()}
-    run_in = problem.scene.run_in
+    run_in = problem.surface.run_in
     if run_in is not None:
         hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
     compared_answers = ()
@@ -193,7 +210,7 @@ def solve(
         runs=runs,
         comparisons=rows,
         result=result,
-        record=record_of(problem.scene, runs, hashes),
+        record=record_of(problem, runs, hashes),
         directory=out,
         couplings=moved,
         budget=budget,

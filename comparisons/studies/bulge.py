@@ -39,8 +39,8 @@ def bulges(problem: Problem, runs: dict[str, ModelRun], window: Window | None) -
     scene = problem.scene
     if scene.stress is None or not scene.stress.bulge:
         return None
-    sliding = [mu for mu in scene.friction if mu > 0.0]
-    lone = scene.profile and len(scene.friction) == 1 and not scene.finite_element.plastic
+    sliding = [mu for mu in scene.load.friction if mu > 0.0]
+    lone = scene.profile and len(scene.load.friction) == 1 and not scene.finite_element.plastic
     finite = scene.finite_element.deformation == "finite"
     for lacks, needed in (
         ("finite_element" not in runs or not sliding, "the finite elements, and friction"),
@@ -60,7 +60,7 @@ def half_plane_rise(
 ) -> np.ndarray:
     """B(s) [m] of the half-plane at distances s (n,) [m] from a centre [m] under a level's
     pressure, exact."""
-    body, x = problem.scene.body, level.grid.x
+    body, x = problem.scene.body.material, level.grid.x
     nu = body.poissons_ratio
     carried = np.append(0.0, np.cumsum(level.solution.pressure * level.grid.weights))
     edges = np.append(x, x[-1] + level.grid.pitch) - 0.5 * level.grid.pitch
@@ -73,7 +73,7 @@ def elastic_energy(
 ) -> tuple[float, float]:
     """Elastic strain energy [J/m] in the window behind and ahead of the load's centre, as far to
     both sides of it as the window reaches. In all of a half-plane it is infinite."""
-    field, centre, body = level.stress(friction).field, _centre(level), problem.scene.body
+    field, centre, body = level.stress(friction).field, _centre(level), problem.scene.body.material
     nu, mesh = body.poissons_ratio, level.field_on_mesh
     sy = nu * (field.sx + field.sz)
     if mesh is not None and "sy" in mesh.others:  # plastic strain leaves another
@@ -107,7 +107,7 @@ def _bulge(problem: Problem, runs: dict[str, ModelRun], window: Window, friction
     patches       on a profile: start, stop, kind by h/R, and the above of every patch by itself,
                   as far as the next patches and 5 of its half-widths; h = 4 P/(pi E*) of its load P
     """
-    a, radius, run = problem.hertz.half_width, problem.scene.roller_radius, runs["finite_element"]
+    a, radius, run = problem.hertz.half_width, problem.scene.roller.radius, runs["finite_element"]
     s, level, h = a * DISTANCES, run.finest, a**2 / radius
     centres = [_centre(each) for each in run.levels]
     whole, curve, tilt = _excess(problem, run, friction, s, centres, NEAR * a)
@@ -183,7 +183,7 @@ def _excess(
     curves, excesses = zip(*map(of_level, run.levels, centres), strict=True)
     curve, excess = curves[-1], excesses[-1]
     if tilt is None:
-        own = problem.scene.thickness is not None or problem.scene.width is not None
+        own = problem.scene.body.thickness is not None or problem.scene.body.width is not None
         tilt = 0.0 if own else far_boundary(excess[-1] / s[-1])
     top = int(np.argmax(excess[s <= near]))
     ends = [_end(s, each, top) for each in excesses]

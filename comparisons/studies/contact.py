@@ -60,7 +60,7 @@ def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
     scene = problem.scene
     if level.mesh is None or scene.finite_element.geometry == "flat":
         return np.zeros(np.shape(x))
-    return scene.profile.spline()(x)
+    return problem.surface.profile.spline()(x)
 
 
 def norms(
@@ -206,7 +206,7 @@ def pair_histories(
 ) -> tuple[PairHistory, ...]:
     """One a friction coefficient, of finished runs of both models."""
     pair = runs["half_plane"], runs["finite_element"]
-    return tuple(pair_history(*pair, problem, mu, window) for mu in problem.scene.friction)
+    return tuple(pair_history(*pair, problem, mu, window) for mu in problem.scene.load.friction)
 
 
 def discretisations(
@@ -236,7 +236,7 @@ def compared(
         found = [figures(runs[model].finest, problem, friction) for model in MODELS]
         for name, difference in pair.differences[-1].items():
             uncertainty = pair.uncertainties[name].total
-            tolerance = problem.scene.tolerance.get(name)
+            tolerance = problem.scene.tolerances.get(name)
             verdict = judge(difference, uncertainty, tolerance) if tolerance else None
             known = uncertainty if np.isfinite(uncertainty) else None
             values = (of_model.get(name) for of_model in found)

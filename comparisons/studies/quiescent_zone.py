@@ -201,7 +201,9 @@ def quiescent_zones(
         if end < least * problem.hertz.half_width * (1.0 - SHORT):
             return {"why": f"stress.{name} is less than {least:g} a"}
     return {
-        name: [quiescent_zone(problem, run, window, mu).as_dict() for mu in problem.scene.friction]
+        name: [
+            quiescent_zone(problem, run, window, mu).as_dict() for mu in problem.scene.load.friction
+        ]
         for name, run in runs.items()
     }
 

@@ -89,9 +89,9 @@ def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
 
 
 def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressResult, ...]:
-    hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller_radius, modulus)
+    hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller.radius, modulus)
     found = []
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         known = hertz_extremes(hertz, friction)
         txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
         field = hertz_stress(hertz, window.x, window.z[:, None], friction)
@@ -112,8 +112,10 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
     mesh_field = None
     if mesh is not None and window is not None:
         zero = np.zeros(len(mesh.points))
-        nodal = {friction: StressState(zero, zero, zero) for friction in problem.scene.friction}
-        moved = dict.fromkeys(problem.scene.friction, 0.001 * mesh.points[:, ::-1])
+        nodal = {
+            friction: StressState(zero, zero, zero) for friction in problem.scene.load.friction
+        }
+        moved = dict.fromkeys(problem.scene.load.friction, 0.001 * mesh.points[:, ::-1])
         nu = np.full(len(mesh.points), 0.3)
         mesh_field = MeshField(mesh.points, mesh.triangles, nodal, moved, nu)
     return Level(
@@ -155,7 +157,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
     if plan.compares:
         plan = replace(plan, effects=False)  # there are no finite elements to show any
         comparisons = compared(problem, runs, window)
-        rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
+        rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.load.friction}
         with patch(
             "comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows
         ):
@@ -172,7 +174,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         result=result_of(
             problem, plan, runs, comparisons, "every judged quantity is resolved", (), budget
         ),
-        record=record_of(scene, runs, hashes),
+        record=record_of(problem, runs, hashes),
         directory=Path("results/made"),
         budget=budget,
         pairs=pair_histories(problem, runs, window) if plan.compares else (),
@@ -209,7 +211,7 @@ def no_pictures() -> Callable[[Outcome], dict]:
     blank = Picture("data:image/svg+xml;base64,", "", "")
 
     def pictures(outcome: Outcome, beside: object = ()) -> dict[str, object]:
-        run_in = None if outcome.problem.scene.run_in is None else blank
+        run_in = None if outcome.problem.surface.run_in is None else blank
         budget = None if outcome.budget is None else blank
         made = dict.fromkeys(PICTURES, blank) | {"running_in": run_in, "model_error": budget}
         return made | {name: [] for name in ("answers", "fields", "near", "sections", "mesh")}

@@ -46,7 +46,7 @@ def paper_page(paper: "Paper", sections: tuple[Section, ...]) -> str:
 def _models(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
-        for friction in outcome.problem.scene.friction:
+        for friction in outcome.problem.scene.load.friction:
             compared = [c for c in outcome.comparisons if c.friction == friction]
             found = {c.quantity: _difference(c) for c in compared}
             cells = [found.get(quantity, UNKNOWN) for quantity in SHOWN]
@@ -68,7 +68,7 @@ def _difference(row: Comparison) -> str:
 def _surfaces(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
-        info = outcome.problem.scene.profile_info
+        info = outcome.problem.surface.info
         half_plane, finite_element = (run.finest for run in outcome.runs.values())
         profile = (UNKNOWN,) * 4
         if info is not None:

@@ -1,7 +1,6 @@
 """A sweep from its request to its files: every point solved, the figures, and how they scatter."""
 
 from collections.abc import Iterable
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -20,7 +19,6 @@ from comparisons.common.provenance import as_json, versions
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.results.flat_table import COLUMNS, csv_text, harmless, rows_of
-from comparisons.scenes.resolve import resolve_tables
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -51,8 +49,7 @@ def make_sweep(
     cache.remove_leftovers()
     try:
         with Tasks(ProcessWorker, workers or cores(), cache) as tasks:
-            solve = partial(solved, name=request.name)
-            finish(request.points, solve, tasks, callback, "sweep")
+            finish(request.points, solved, tasks, callback, "sweep")
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     content = sweep_content(request, cache)
@@ -72,18 +69,16 @@ def make_sweep(
     return content
 
 
-def solved(point: SweepPoint, name: str) -> dict:
+def solved(point: SweepPoint) -> dict:
     """What was `found` at a point, or why nothing was; and the `seconds` that it took."""
     from comparisons.runs.run import run
 
     began = perf_counter()
     try:
-        if point.tables is None:
+        if point.scene is None:
             raise InputError(point.why)
-        place = {"folder": point.folder, "source": point.source}
-        scene = resolve_tables(point.tables, name=name, **place)
-        outcome = run(scene, None, point.models)
-        rows = tuple(rows_of(outcome.result, name))
+        outcome = run(point.scene, None, point.models)
+        rows = tuple(rows_of(outcome.result, point.scene.name))
         found = {"status": SOLVED, "rows": rows}
         if (zones := outcome.result["quiescent_zone"]) and "why" not in zones:
             for entry in (each for entries in zones.values() for each in entries):
@@ -107,8 +102,8 @@ def sweep_content(request: SweepRequest, cache: Cache) -> dict:
     asked = " ".join(f"--over {field.text!r}" for field in request.fields)
     return {
         "schema": SCHEMA,
-        "command": f"crosscheck sweep {request.source} {asked}",
-        "scene": {"name": request.name, "title": request.title},
+        "command": f"crosscheck sweep {request.scene.source} {asked}",
+        "scene": {"name": request.scene.name, "title": request.scene.title},
         "models": list(request.models),
         "over": over,
         "points": points,

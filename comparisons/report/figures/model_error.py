@@ -60,9 +60,9 @@ def waterfalls(outcome: Outcome) -> list[Waterfall]:
     """Of what is judged, or of everything; coefficients of equal figures together."""
     scene, found = outcome.problem.scene, []
     errors = outcome.result["model_error"]
-    for quantity in [name for name in errors if name in scene.tolerance] or errors:
+    for quantity in [name for name in errors if name in scene.tolerances] or errors:
         for same in grouped(errors[quantity], lambda e: (e["value"], str(e["effects"]))):
-            some = len(same) < len(scene.friction)
+            some = len(same) < len(scene.load.friction)
             frictions = listed(error["friction"] for error in same)
             found.append(
                 Waterfall(
@@ -72,7 +72,7 @@ def waterfalls(outcome: Outcome) -> list[Waterfall]:
                     error=same[0]["value"],
                     uncertainty=same[0]["uncertainty"] or math.inf,
                     not_modelled=math.hypot(*same[0]["not_modelled"].values()),
-                    tolerance=scene.tolerance.get(quantity),
+                    tolerance=scene.tolerances.get(quantity),
                 )
             )
     return found

@@ -42,7 +42,7 @@ def section_pictures(outcome: Outcome) -> list[style.Picture]:
 
 
 def _picture(outcome: Outcome, column: int, words: str) -> style.Picture:
-    frictions, hertz = outcome.problem.scene.friction, outcome.problem.hertz
+    frictions, hertz = outcome.problem.scene.load.friction, outcome.problem.hertz
     drawn = style.figure(style.COLUMN, TOP + FOOT + (TITLE + TALL) * len(frictions))
     depths = [outcome.window.z[-1] / hertz.half_width]
     if outcome.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
@@ -117,7 +117,7 @@ def bulge_picture(outcome: Outcome) -> style.Picture | None:
     if not entries:
         return None
     a = outcome.problem.hertz.half_width
-    h = a**2 / outcome.problem.scene.roller_radius
+    h = a**2 / outcome.problem.scene.roller.radius
     drawn = style.figure(style.COLUMN, 2.6)
     [axes] = style.stacked(drawn, [(0.35, 1.75)], 0.75)
     for entry in entries:

@@ -70,7 +70,7 @@ def figure_rows(outcome: Outcome) -> list[tuple[str, ...]]:
     """Of the only model: quantity, friction, figure with unit and over Hertz's, uncertainty."""
     [run] = outcome.runs.values()
     problem, found = outcome.problem, []
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         known = uncertainties(run, problem, friction)
         for name, value in figures(run.finest, problem, friction).items():
             if is_shown(outcome, name):
@@ -116,10 +116,10 @@ def _row(outcome: Outcome, row: Comparison, frictions: str) -> ComparisonRow:
 
 def _capped(problem: Problem, row: Comparison) -> bool:
     """Whether the hardness holds the peaks of both models, which makes them equal by itself."""
-    if row.quantity != "peak_pressure" or problem.scene.hardness is None:
+    if row.quantity != "peak_pressure" or problem.scene.body.hardness is None:
         return False
     lowest = min(row.half_plane, row.finite_element)
-    return lowest >= (1.0 - AT_HARDNESS) * problem.scene.hardness
+    return lowest >= (1.0 - AT_HARDNESS) * problem.scene.body.hardness
 
 
 def _in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
@@ -154,7 +154,7 @@ def coupling_line(outcome: Outcome) -> str | None:
     coupling = max(outcome.couplings, key=lambda coupling: abs(coupling.friction))
     if not coupling.changes:
         return f"not known: {coupling.why}"
-    contained = "contained" if outcome.problem.scene.coupled else "not modelled"
+    contained = "contained" if outcome.problem.scene.load.coupled else "not modelled"
     changed = {name: _cells(name, change) for name, change in coupling.changes.items()}
     shift, of_a = with_unit(coupling.changes[SHIFT].value, "m", 3), changed[SHIFT][1]
     return (

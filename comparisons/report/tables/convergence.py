@@ -39,8 +39,8 @@ class JudgedSequence:
 def judged_sequences(outcome: Outcome) -> list[JudgedSequence]:
     """In the order of quantities, then of friction coefficients and models."""
     problem, found = outcome.problem, []
-    for name in (name for name in QUANTITIES if name in problem.scene.tolerance):
-        for friction in problem.scene.friction:
+    for name in (name for name in QUANTITIES if name in problem.scene.tolerances):
+        for friction in problem.scene.load.friction:
             figure = row_name(outcome, name, friction)
             if figure:
                 found += _sequences(outcome, name, friction, figure)
@@ -49,7 +49,7 @@ def judged_sequences(outcome: Outcome) -> list[JudgedSequence]:
 
 def row_name(outcome: Outcome, name: str, friction: float) -> str:
     """A quantity and its friction; what does not depend on that is empty but at the first."""
-    frictions = outcome.problem.scene.friction
+    frictions = outcome.problem.scene.load.friction
     if not QUANTITIES[name].needs_stress:
         return label(name) if friction == frictions[0] else ""
     return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")

@@ -31,7 +31,7 @@ class ModelErrorRow:
 
 def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorRow]:
     """In the order of quantities, then of friction coefficients; only `judged` ones, if asked."""
-    tolerance = outcome.problem.scene.tolerance
+    tolerance = outcome.problem.scene.tolerances
     rows = []
     for name in QUANTITIES:
         errors = [e for e in outcome.budget.model_errors if e.quantity == name]
@@ -63,7 +63,7 @@ def _shown(error: ModelError) -> tuple[str, str, tuple[str, ...]]:
 
 def left_out(outcome: Outcome, quantity: str) -> str:
     """That effects which no model has may exceed the tolerance of a quantity; else nothing."""
-    budget, tolerance = outcome.budget, outcome.problem.scene.tolerance
+    budget, tolerance = outcome.budget, outcome.problem.scene.tolerances
     size = None if budget is None else budget.beyond(quantity, tolerance)
     return "" if size is None else f"{percent(size)} not modelled"
 
@@ -135,5 +135,5 @@ def effects_table(outcome: Outcome) -> TextTable | None:
 
 def _largest(outcome: Outcome, estimate: dict[str, float]) -> float:
     """Of the estimates of an effect on what is judged, or on anything where nothing is."""
-    judged = set(outcome.problem.scene.tolerance) & set(estimate)
+    judged = set(outcome.problem.scene.tolerances) & set(estimate)
     return max(estimate[name] for name in judged or estimate)

@@ -50,7 +50,7 @@ def scatter_lines(outcome: Outcome) -> list[str]:
     found = []
     friction = outcome.deciding_friction
     for figure in outcome.scatter.figures if outcome.scatter else ():
-        if figure.friction == friction and figure.quantity in outcome.problem.scene.tolerance:
+        if figure.friction == friction and figure.quantity in outcome.problem.scene.tolerances:
             most = ", ".join(largest_shares(figure, 1))
             found.append(f"{label(figure.quantity)} ±{percent(figure.relative)}, most by {most}")
     return found

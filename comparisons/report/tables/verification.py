@@ -37,7 +37,7 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
         ("time", *(with_unit(sum(v.seconds.values()), "s", 3) for v in levels)),
     ]
     rows = [row + ("",) * (len(head) - len(row)) for row in rows]
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         found = uncertainties(run, problem, friction)
         values = [figures(level, problem, friction) for level in levels]
         for name in values[0]:

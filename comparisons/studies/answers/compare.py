@@ -18,7 +18,7 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.scenes.scene import AnswerSource
+from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import Answer, AnswerRow, ComparedAnswer
 from comparisons.studies.answers.conditions import balance, conditions, operators_of
 from comparisons.studies.answers.hints import hints
@@ -49,16 +49,16 @@ def compare_answers(
     scatter  of the scene's figures by uncertain inputs; None: not known"""
     run, found = list(runs.values())[-1], []
     operators = operators_of(problem, plan, runs)
-    for source in problem.scene.answers:
-        given = answers[source.name]
-        frictions = problem.scene.friction if source.friction is None else (source.friction,)
+    for name, source in problem.scene.answers.items():
+        given = answers[name]
+        frictions = problem.scene.load.friction if source.friction is None else (source.friction,)
         measured = {mu: own_figures(given[-1], problem, mu) for mu in frictions}
         rows = [
             row for mu in frictions for row in _compared(problem, run, mu, window, source, given)
         ]
         found.append(
             ComparedAnswer(
-                name=source.name,
+                name=name,
                 reference=run.name,
                 answers=given,
                 measured=source.scatter is not None,
@@ -95,7 +95,7 @@ def _compared(
     run: ModelRun,
     friction: float,
     window: Window | None,
-    source: AnswerSource,
+    source: AnswerSection,
     answers: tuple[Answer, ...],
 ) -> list[AnswerRow]:
     """At one friction coefficient, in the order of QUANTITIES."""
@@ -125,7 +125,7 @@ def _compared(
             size = 1.0 if QUANTITIES[name].of_pair else abs(1.0 + difference)
             stated = (stated or 0.0) + source.scatter * size
         total = model + (read if stated is None else stated)
-        tolerance = problem.scene.tolerance.get(name)
+        tolerance = problem.scene.tolerances.get(name)
         verdict = judge(difference, total, tolerance) if tolerance else None
         values = own.get(name), reference.get(name)
         known = total if np.isfinite(total) else None

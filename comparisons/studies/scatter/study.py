@@ -9,7 +9,8 @@ from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.contact import figures as compared_figures
 from comparisons.studies.scatter.figures import InputScatter, ScatteredFigure
 from comparisons.studies.scatter.samples import solve_samples, solved, values_at
@@ -21,7 +22,7 @@ TOGETHER = 16  # samples of a task: what an interrupted run may lose
 def announce_scatter(problem: Problem, tasks: Tasks) -> Callable[[Level], InputScatter]:
     """Make the samples known to tasks; what is returned waits for them, and takes the half-plane's
     finest level."""
-    scene, wanted = problem.scene, problem.scene.scatter
+    wanted = problem.scene.scatter
     points = designs(wanted.samples, len(wanted.inputs), wanted.seed)
     x = problem.grid(problem.pitches[0]).x
     cost = expected_of(len(x)).seconds * TOGETHER
@@ -29,15 +30,16 @@ def announce_scatter(problem: Problem, tasks: Tasks) -> Callable[[Level], InputS
     for start in range(0, points[..., 0].size, TOGETHER):
         batch = points.reshape(-1, len(wanted.inputs))[start : start + TOGETHER]
         keys.append(f"scatter-{start}")
-        tasks.add(keys[-1], _batch, scene, batch, x, seconds=cost, urgency=LATER)
+        given = problem.scene, problem.surface, batch, x
+        tasks.add(keys[-1], _batch, *given, seconds=cost, urgency=LATER)
     return lambda finest: _gathered(problem, finest, points, [tasks.result(key) for key in keys])
 
 
 def _batch(
-    here: Here, scene: ResolvedScene, points: np.ndarray, places: np.ndarray
+    here: Here, scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
 ) -> dict[str, object]:
     here.callback("half-plane: uncertain inputs")
-    return solve_samples(scene, points, places)
+    return solve_samples(scene, surface, points, places)
 
 
 def _gathered(

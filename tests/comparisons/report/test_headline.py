@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 
+from scenes import judging
+
 from comparisons.report.headline import headline
 from comparisons.results.outcome import Outcome
 from comparisons.studies.model_error.model_error import Estimate, ModelError
@@ -21,7 +23,7 @@ def judged(outcome: Outcome, *errors: ModelError, selection: EffectSelection = N
     """A run whose half-plane has these errors, all judged."""
     scene = outcome.problem.scene
     tolerance = {error.quantity: TOLERANCE for error in errors}
-    problem = replace(outcome.problem, scene=replace(scene, tolerance=tolerance))
+    problem = replace(outcome.problem, scene=judging(scene, tolerance))
     return replace(
         outcome,
         problem=problem,

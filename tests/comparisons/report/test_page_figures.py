@@ -100,7 +100,7 @@ def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Out
 
 def capped(outcome: Outcome, one: float, other: float) -> Outcome:
     """The outcome with these peaks over the hardness."""
-    hardness = outcome.problem.scene.hardness
+    hardness = outcome.problem.scene.body.hardness
     peak = replace(
         outcome.comparisons[0], half_plane=one * hardness, finite_element=other * hardness
     )

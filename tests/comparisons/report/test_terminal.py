@@ -79,7 +79,7 @@ def test_a_difference_below_its_uncertainty_is_shown_as_nothing(wavy_outcome: Ou
 
 def test_peaks_that_the_hardness_limits_are_marked(wavy_outcome: Outcome):
     assert "capped" not in printed(wavy_outcome)
-    hardness = wavy_outcome.problem.scene.hardness
+    hardness = wavy_outcome.problem.scene.body.hardness
     changed = replace(wavy_outcome.comparisons[0], half_plane=hardness, finite_element=hardness)
     outcome = replace(wavy_outcome, comparisons=(changed, *wavy_outcome.comparisons[1:]))
     text = printed(outcome)
@@ -122,6 +122,7 @@ def test_one_model_is_shown_without_a_comparison(finish: Callable[..., Outcome],
 
 
 def test_titles_are_not_taken_for_markup(smooth_outcome: Outcome):
-    scene = replace(smooth_outcome.problem.scene, title="[red]Roller[/red] [/] and more")
+    title = {"title": "[red]Roller[/red] [/] and more"}
+    scene = smooth_outcome.problem.scene.unchecked(title)
     outcome = replace(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
     assert printed(outcome).startswith("[red]Roller[/red] [/] and more\n")

@@ -53,10 +53,10 @@ def wavy(wavy_outcome: Outcome) -> dict[str, list]:
 
 @pytest.fixture(scope="session")
 def with_scene() -> Callable[..., Outcome]:
-    """`with_scene(outcome, **fields)`: a run that says so of its scene."""
+    """`with_scene(outcome, fields)`: a run that says so of its scene."""
 
-    def changed(outcome: Outcome, **fields: object) -> Outcome:
-        scene = replace(outcome.problem.scene, **fields)
+    def changed(outcome: Outcome, fields: dict[str, object]) -> Outcome:
+        scene = outcome.problem.scene.unchecked(fields)
         return replace(outcome, problem=replace(outcome.problem, scene=scene))
 
     return changed

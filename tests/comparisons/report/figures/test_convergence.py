@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import judging
 
 from comparisons.report.figures.convergence import convergence_picture
 from comparisons.report.tables.convergence import judged_sequences
@@ -67,7 +68,7 @@ def test_the_bar_is_the_stated_uncertainty(wavy_outcome: Outcome, panels):
 
 
 def test_nothing_judged_is_no_picture(wavy_outcome: Outcome, drawn_by):
-    scene = replace(wavy_outcome.problem.scene, tolerance={})
+    scene = judging(wavy_outcome.problem.scene, {})
     problem = replace(wavy_outcome.problem, scene=scene)
     figures, picture = drawn_by(convergence_picture, replace(wavy_outcome, problem=problem))
     assert figures == [] and picture is None

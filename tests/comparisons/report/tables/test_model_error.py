@@ -9,6 +9,7 @@ from itertools import pairwise
 import pytest
 from matplotlib import pyplot
 from rich.console import Console
+from scenes import judging
 
 from comparisons.report.figures.model_error import (
     NUMERICAL,
@@ -138,7 +139,7 @@ def test_one_model_has_no_budget(finish: Callable[..., Outcome], smooth_tables: 
 
 
 def judged_by(outcome: Outcome, tolerance: dict[str, float]) -> Outcome:
-    scene = replace(outcome.problem.scene, tolerance=tolerance)
+    scene = judging(outcome.problem.scene, tolerance)
     return replace(outcome, problem=replace(outcome.problem, scene=scene))
 
 

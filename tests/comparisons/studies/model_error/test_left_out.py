@@ -50,10 +50,9 @@ def budgets(problem_with, tmp_path_factory):
         runs, _ = refined(problem, plan, None, Tasks(kept=cache))
         rows, found = compared(problem, runs, None), []
         for effects in (True, "all"):
-            scene = replace(problem.scene, budget=replace(problem.scene.budget, effects=effects))
-            posed = replace(problem, scene=scene)
+            posed = replace(problem, scene=problem.scene.unchecked({"budget.effects": effects}))
             found.append(error_budget(posed, plan, None, runs, rows, (), Tasks(kept=cache)))
-        return *found, problem.scene.tolerance
+        return *found, problem.scene.tolerances
 
     return made
 
