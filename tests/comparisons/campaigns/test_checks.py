@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 from functools import partial
 from xml.etree import ElementTree
 
@@ -18,12 +19,14 @@ from comparisons.campaigns.checks import (
     relative_error,
     rows_table,
     run_case,
+    run_cases,
     study_junit,
     verdict_lines,
 )
 from comparisons.campaigns.robustness import run as robustness
 from comparisons.campaigns.robustness.run import all_cases, run_robustness
 from comparisons.cli import main
+from comparisons.common import tasks
 from comparisons.common.errors import ExitStatus
 
 
@@ -79,6 +82,16 @@ def test_an_interrupt_is_no_row():
 
     with pytest.raises(KeyboardInterrupt):
         run_case(CheckedCase("tests", "stops", "half_plane", stop))
+
+
+def test_a_case_that_ends_its_process_is_a_row(monkeypatch):
+    monkeypatch.setattr(tasks, "cores", lambda: 2)
+    monkeypatch.setattr(tasks, "WORTH_A_FORK", 0.0)
+    monkeypatch.setattr(tasks, "WORTH_A_START", 0.0)
+    deadly = CheckedCase("tests", "deadly", "half_plane", partial(os._exit, 3))
+    good = CheckedCase("tests", "good", "half_plane", partial(Findings, ()))
+    rows = run_cases([deadly, good])
+    assert [row.error for row in rows] == ["the process that solved it ended", None]
 
 
 def test_the_decisive_figure_is_the_first_or_the_one_that_fails_by_most():

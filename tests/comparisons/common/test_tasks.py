@@ -3,7 +3,6 @@
 import itertools
 import os
 import signal
-import subprocess
 import sys
 import threading
 import time
@@ -12,7 +11,6 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT
 
 from comparisons.common import tasks as module
 from comparisons.common.cache import Cache
@@ -192,14 +190,12 @@ class TestProcesses:
             tasks.result("next")
             assert done == [1]
 
-    def test_one_prepares_between_its_tasks(self, one, tmp_path):
-        mark, end = tmp_path / "prepared", time.monotonic() + 60.0
+    def test_one_prepares_between_its_tasks(self, one, tmp_path, until):
+        mark = tmp_path / "prepared"
         one.there = [mark.touch]
         one.add("first", number)
         one.result("first")
-        while not mark.exists():
-            assert time.monotonic() < end
-            time.sleep(0.02)
+        assert until(mark.exists)
 
     def test_copies_have_what_is_in_memory(self, monkeypatch):
         monkeypatch.setenv("OMP_NUM_THREADS", "1")
@@ -286,19 +282,20 @@ class TestEnds:
 
 
 FORKED = """
-import os, pathlib, sys, time
+import os, pathlib, sys
 from comparisons.common import tasks as module
+os.environ["OMP_NUM_THREADS"] = "1"
 module.WORTH_A_FORK = 0.0
 module.cores = lambda: 2
 loaded = os.getpid()
 
-def stuck(here, name):
-    pathlib.Path(name).write_text(f"{os.getpid()} {loaded}")
+def stuck(here, path):
+    path.write_text(str(loaded))
     sum(range(10**12))  # hears no signal
 
 with module.tasks_here() as tasks:
-    tasks.add("a", stuck, "a")
-    tasks.add("b", stuck, "b")
+    for path in map(pathlib.Path, sys.argv[1:]):
+        tasks.add(path.name, stuck, path)
     try:
         tasks.result("a")
     except KeyboardInterrupt:
@@ -308,34 +305,23 @@ print("ended")
 
 
 @pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
-def test_forked_ones_end_with_this_one(tmp_path, sent):
-    environment = os.environ | {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
-    process = subprocess.Popen(
-        [sys.executable, "-c", FORKED],
-        cwd=tmp_path,
-        env=environment,
-        stdout=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    there, end = [tmp_path / "a", tmp_path / "b"], time.monotonic() + 60.0
-    while not all(path.exists() and path.read_text() for path in there):
-        assert process.poll() is None and time.monotonic() < end
-        time.sleep(0.02)
-    loaded = {int(path.read_text().split()[1]) for path in there}
-    assert loaded == {process.pid}  # not imported anew
-    process.send_signal(sent)
-    out, _ = process.communicate(timeout=60.0)  # returns when none of them holds the output
+def test_forked_ones_end_with_this_one(tmp_path, started, until, sent):
+    there = [tmp_path / "a", tmp_path / "b"]
+    with started(sys.executable, "-c", FORKED, *there) as process:
+        loaded = str(process.pid)  # by it, and not anew
+        assert until(lambda: all(path.exists() and path.read_text() == loaded for path in there))
+        process.send_signal(sent)
+        out, _ = process.communicate(timeout=60.0)  # returns when none of them holds the output
     assert out == ("ended\n" if sent == signal.SIGINT else "")
 
 
 class TestExecutor:
-    def test_tasks_are_submitted_as_they_become_known(self, tmp_path):
+    def test_tasks_are_submitted_as_they_become_known(self, tmp_path, until):
         with ThreadPoolExecutor(2) as pool, Tasks(partial(ExecutorWorker, pool), 9) as tasks:
             for name, other in ("ab", "ba"):
                 tasks.add(name, together, tmp_path, name, other)
-            while not all((tmp_path / name).exists() for name in "ab"):
-                time.sleep(0.01)  # with nobody waiting for a result
+            # with nobody waiting for a result
+            assert until(lambda: all((tmp_path / name).exists() for name in "ab"))
             assert tasks.result("a") and tasks.result("b")
             tasks.add("bad", divided)
             with pytest.raises(ZeroDivisionError):
