@@ -13,7 +13,8 @@ from comparisons.common.executors import cluster, ranks
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, Step
-from comparisons.common.tasks import ProcessEnded, Tasks, called
+from comparisons.common.tasks import Here, ProcessEnded, Tasks
+from fem.solver.communicator import each_alone
 
 
 class Point(Protocol):
@@ -67,10 +68,16 @@ def finish(
     keys = dict.fromkeys(point.key for point in points)
     callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
     for point in points:
-        tasks.add(point.key, called, solve, point, seconds=1.0)
+        tasks.add(point.key, _solved, solve, point, seconds=1.0)
     for number, key in enumerate(tasks.as_done(keys), start=1):
         try:
             tasks.result(key)
         except ProcessEnded:
             tasks.kept.save(key, {"found": failed(DIED), "seconds": None})
         callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
+
+
+def _solved(here: Here, solve: Solve, point: Point) -> dict:
+    """By this process alone, though it may be one of several."""
+    with each_alone():
+        return solve(point)

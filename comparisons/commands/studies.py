@@ -28,6 +28,9 @@ Axis = Annotated[
         help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=complete_groups
     ),
 ]
+Workers = Annotated[
+    str | None, Option(help="Processes, or a Dask scheduler's address.", show_default="one a core")
+]
 MAPPED = "As for `run`, or the name of a finished map."
 
 
@@ -70,10 +73,7 @@ def map_of(
             show_default="peak_pressure, or the finished map's",
         ),
     ] = None,
-    workers: Annotated[
-        str | None,
-        Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
-    ] = None,
+    workers: Workers = None,
     mark: Annotated[
         str | None, Option(help="A scene to be marked on the map.", autocompletion=complete_scenes)
     ] = None,
@@ -116,9 +116,7 @@ def sweep(
         ),
     ],
     models: Models = "half-plane",
-    workers: Annotated[
-        int | None, Option(help="Processes.", show_default="one a core", min=1)
-    ] = None,
+    workers: Workers = None,
     out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
@@ -136,6 +134,8 @@ def sweep(
     directory = out or RESULTS / f"sweep-{name}"
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)
+    if content is None:  # it worked for the first process
+        return ExitStatus.DONE
     show_either(as_json, content, lambda: sweep_table(content, directory))
     return ExitStatus.DONE
 

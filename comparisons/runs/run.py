@@ -35,6 +35,7 @@ from comparisons.studies.model_error.error_budget import ErrorBudget, announce_e
 from comparisons.studies.quiescent_zone import quiescent_zones
 from comparisons.studies.scatter.figures import InputScatter
 from comparisons.studies.statistics.figures import LoadRow
+from fem.solver.communicator import is_alone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -97,10 +98,10 @@ def run(
 
 def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
     """Raise SceneError for what only one process can solve where there are several."""
-    settings = scene.finite_element
+    settings, several = scene.finite_element, is_several() and not is_alone()
     finite = settings.deformation == "finite"
     name = "deformation" if finite else "plastic"
-    if (finite or settings.plastic) and "finite_element" in models and is_several():
+    if several and "finite_element" in models and (finite or settings.plastic):
         raise SceneError(
             f"{scene.source}: finite_element.{name}: is solved on one process; allowed without "
             "mpirun"

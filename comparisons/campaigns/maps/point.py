@@ -25,7 +25,6 @@ from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.contact import figures, pair_history
-from fem.solver.communicator import each_alone
 from meshes.block import MeshError
 
 NOT_CONVERGED = "the contact did not converge"
@@ -76,8 +75,7 @@ def solve_point(point: PointRequest) -> dict:
         found = failed(point.why)
     else:
         try:
-            with each_alone():
-                found = _solved(point)
+            found = _solved(point)
         except (ValueError, ArithmeticError, RuntimeError) as error:
             found = failed(str(error) or type(error).__name__)
     return {"found": found, "seconds": perf_counter() - began}

@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.points import FAILED, SOLVED, failed, finish
+from comparisons.campaigns.points import FAILED, SOLVED, failed, finish, tasks_by
 from comparisons.campaigns.sweep.request import SweepPoint, SweepRequest
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.files import check_writable, publish
 from comparisons.common.numbers import percent, with_unit
-from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json, versions
-from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.results.flat_table import COLUMNS, csv_text, harmless, rows_of
 from comparisons.scenes.resolve import resolve_tables
@@ -39,18 +37,21 @@ FIGURES = ("half_plane", "finite_element", "model_error")  # whose scatter is st
 def make_sweep(
     request: SweepRequest,
     out: Path,
-    workers: int | None = None,
+    workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
-) -> dict:
-    """Solve the points that `out` does not have, write table and picture there, return the content.
+) -> dict | None:
+    """Solve the points that `out` does not have, write table and picture there, return the content;
+    None in processes that only work for the first one under mpirun.
 
-    workers  processes; None: one a core
+    workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, and where no point has an answer."""
-    check_writable(out, FILES)
     cache = Cache(out / FOLDER, "", {})
-    cache.remove_leftovers()
     try:
-        with Tasks(ProcessWorker, workers or cores(), cache) as tasks:
+        with tasks_by(workers, cache) as tasks:
+            if tasks is None:
+                return None
+            check_writable(out, FILES)
+            cache.remove_leftovers()
             solve = partial(solved, name=request.name)
             finish(request.points, solve, tasks, callback, "sweep")
     except KeyboardInterrupt:

@@ -113,7 +113,7 @@ def test_a_second_call_solves_nothing(made, monkeypatch, capsys):
     )
 
 
-def test_bulges_are_drawn_over_the_relative_penetration(tmp_path, capsys):
+def test_bulges_are_drawn_over_the_relative_penetration(tmp_path, capsys, launch):
     """On an elastic body none, whatever h/R; as many elements on a half-width at every load."""
     (tmp_path / "slides.toml").write_text(
         '[roller]\nradius = 1e-2\nrigid = true\n[body]\nyoungs_modulus = "210 GPa"\n'
@@ -133,6 +133,9 @@ def test_bulges_are_drawn_over_the_relative_penetration(tmp_path, capsys):
     assert two["over_penetration"] == pytest.approx(one["over_penetration"], abs=1e-6)
     assert abs(two["height"]) < two["uncertainty"]
     assert (out / "bulge.svg").read_text().startswith("<?xml")
+    end = launch(2, "-m", "comparisons.cli", *asked, "--out", tmp_path / "ranks")
+    assert end.returncode == 0, end.stderr
+    assert (tmp_path / "ranks/sweep.json").read_text() == (out / "sweep.json").read_text()
 
 
 def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
