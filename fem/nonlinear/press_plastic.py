@@ -54,8 +54,8 @@ SLACK = 0.5
 MOST_TRIALS = 12
 
 # Hats that an edge of the contact may travel in one increment. Peak pressures of a smooth roller at
-# 15 times the load of first yield, of a turned surface, and of a roller just beyond first yield:
-# 7, 5 and 0.4 % high with 4, 2, 2 and 0.2 % with 2, and 1, 1 and 0.1 % with 1; approach 0.1 %.
+# 15 times the load of first yield, of a turned surface, and of a roller just beyond first yield are
+# 5, 4 and 0.4 % high with 4 hats, 1, 2 and 0.3 % with 2, and 0.3, 0.4 and 0.1 % with 1.
 TRAVEL = 1.0
 # An increment is at most this part of the way to the next load for each hat of travel: contact that
 # recedes leaves no marks, but what it leaves may flow back.
