@@ -12,13 +12,13 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from comparisons.common.numbers import Scale, percent, plain, significant
+from comparisons.drawing.style import drawing, figure, stacked
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.report.figures.fields import colour_bar, cross, fill, round_bands
-from comparisons.report.figures.pressures import draw_difference, draw_pressures
-from comparisons.report.figures.style import drawing, figure, stacked
-from comparisons.report.figures.surfaces import draw_surfaces
-from comparisons.report.tables.model_error import moved_text
-from comparisons.results.outcome import Outcome
+from comparisons.output.page.pictures.fields import colour_bar, cross, fill, round_bands
+from comparisons.output.page.pictures.pressures import draw_difference, draw_pressures
+from comparisons.output.page.pictures.surfaces import draw_surfaces
+from comparisons.output.page.tables.model_error import moved_text
+from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +33,7 @@ FOOT = 0.26  # inches
 REACH = 1.15  # half-widths to either side
 
 
-def overview(outcome: Outcome) -> "Figure":
+def overview(outcome: Run) -> "Figure":
     """The picture of a run of both models with [stress]; to be called inside `drawing()`."""
     half_width, window = outcome.problem.hertz.half_width, outcome.window
     drawn = figure(WIDTH, FOOT + sum(map(sum, PANELS)))
@@ -46,7 +46,7 @@ def overview(outcome: Outcome) -> "Figure":
     pressures.legend(loc="upper right", ncols=2, **look)
     draw_difference(differences, *given)
     friction = outcome.deciding_friction
-    norm = percent(outcome.budget.of("pressure_l2", friction).value)
+    norm = percent(outcome.data("model_error").of("pressure_l2", friction).value)
     models = " − ".join(LABELS[name] for name in outcome.pair(friction))
     moved = "".join(f", {text} on average" for text in moved_text(outcome, friction))
     words = f"{models}: {norm} (relative L2 norm){moved}"
@@ -73,7 +73,7 @@ def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:
         overview(outcome).savefig(path, dpi=PIXELS, pil_kwargs={"optimize": True})
 
 
-def _shear(axes: "Axes", bar: "Axes", outcome: Outcome) -> None:
+def _shear(axes: "Axes", bar: "Axes", outcome: Run) -> None:
     hertz, window = outcome.problem.hertz, outcome.window
     friction = outcome.deciding_friction
     levels = outcome.levels(friction)

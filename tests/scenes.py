@@ -1,5 +1,6 @@
 """Scenes and materials that tests start from, and the places of the files that they read."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,6 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from comparisons.models.problem import Problem
     from comparisons.scenes.scene import ResolvedScene
+    from comparisons.studies.study import Run
 
 PROJECT = Path(__file__).resolve().parents[1]
 DATA = PROJECT / "tests/data"
@@ -48,3 +50,33 @@ def problem(tables: dict) -> "Problem":
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:
     """x (count + 2,) [m] of the nodes of equal hats at x0 + i pitch, with their outer feet."""
     return x0 + pitch * np.arange(-1, count + 1)
+
+
+def refound(run: "Run", study: str, **changes: object) -> "Run":
+    """A finished run with other findings of a study: its figures, series, statements or data."""
+    return replace(run, found={**run.found, study: replace(run.found[study], **changes)})
+
+
+def posed(run: "Run", **changes: object) -> "Run":
+    """A finished run of another problem, plan or window, with the same findings."""
+    return replace(run, solved=replace(run.solved, **changes))
+
+
+def unconverged(run: "Run", model: str) -> "Run":
+    """A finished run whose model did not converge on its finest level."""
+    from comparisons.studies import contact
+
+    own = run.runs[model]
+    solution = replace(own.finest.solution, converged=False)
+    levels = (*own.levels[:-1], replace(own.finest, solution=solution))
+    failed = posed(run, runs={**run.runs, model: replace(own, levels=levels)})
+    said = contact.solve(failed.solved, {}, None).statements
+    return refound(failed, contact.NAME, statements=said)
+
+
+def budgeted(run: "Run", budget: object) -> "Run":
+    """A finished run whose model errors are those of another error budget."""
+    from comparisons.studies.model_error.account import NAME, findings_of
+
+    found = findings_of(budget, run.problem, run.runs)
+    return replace(run, found={**run.found, NAME: found})

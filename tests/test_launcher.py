@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.report.pdf import BROWSERS
+from comparisons.output.page.pdf import BROWSERS
 
 PROJECT = Path(__file__).resolve().parents[1]
 NOBODY = 65534

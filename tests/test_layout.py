@@ -39,7 +39,7 @@ ROOMS = {
     "analytic": "running_in exact heat layers statistics contact stress operators surface "
     "grid profile stress_state material numerics",
     "fem": "heat nonlinear contact compliance stress body solver compat",
-    "comparisons": "cli commands api campaigns runs report results studies models scenes figures "
+    "comparisons": "cli commands api campaigns runs output studies drawing models scenes figures "
     "common",
 }
 MOST_ENTRIES = 16  # of a folder

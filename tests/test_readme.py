@@ -22,19 +22,19 @@ from comparisons.commands.arguments import RESULTS
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
 from comparisons.common.progress import Stages
+from comparisons.drawing.style import drawing
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
-from comparisons.report.figures.style import drawing
-from comparisons.report.terminal import SHORT
-from comparisons.results.outcome import Outcome
+from comparisons.output.terminal import SHORT
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.resolve import load_scene, resolve_tables
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.studies.contact import figures
+from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
+from comparisons.studies.study import Run
 
 PROJECT = Path(__file__).resolve().parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
@@ -82,14 +82,14 @@ class Call:
 
     status: int
     printed: str
-    outcome: Outcome | None
+    outcome: Run | None
 
 
 def call(arguments: list[str], folder: Path) -> Call:
     """`crosscheck` with these arguments, in a folder."""
     outcomes, original = [], run_module.run
 
-    def watched(scene: ResolvedScene, *given: object) -> Outcome:
+    def watched(scene: ResolvedScene, *given: object) -> Run:
         """With fewer points of the fields, which take half the time of all effects."""
         stress = replace(scene.stress, points=(150, 60))
         outcomes.append(original(replace(scene, stress=stress), *given))
@@ -127,7 +127,7 @@ def unrun() -> dict[float, dict[str, float]]:
     with which its run ends: one more than it begins with."""
     problem = problem_of(load_scene("ground-unrun"))
     level = half_plane_level(problem, problem.pitches[-1] / 2.0, window_of(problem), Stages())
-    return {friction: figures(level, problem, friction) for friction in problem.scene.friction}
+    return {friction: values_of(level, problem, friction) for friction in problem.scene.friction}
 
 
 def test_commands_are_the_two_and_the_one_for_a_profile():
@@ -141,7 +141,7 @@ def test_commands_are_the_two_and_the_one_for_a_profile():
 def test_first_command_runs_both_models_and_fills_the_folder_that_is_named(monkeypatch, tmp_path):
     calls = []
 
-    def noted(scene: object, *rest: object) -> Outcome:
+    def noted(scene: object, *rest: object) -> Run:
         calls.append((scene.name, *rest[:2]))
         raise KeyboardInterrupt
 

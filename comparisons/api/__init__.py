@@ -12,7 +12,8 @@ A scene is the name of one that comes along, the path of a TOML file, or its tab
 ...     "stress": {"points": [60, 20]},
 ... }
 >>> found = run(scene, models="half-plane")
->>> round(found.result["models"]["half_plane"][0]["contact"]["peak_pressure"] / 1e9, 4)
+>>> peak = found.figure("peak_pressure", "half_plane", friction=0.1)
+>>> round(peak.value / 1e9, 4)
 1.0
 
 Results print as the tables of the command line; in a notebook they are shown as such. All figures
@@ -36,13 +37,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from comparisons.api.results import CostStudy, Figures, Map, Run, Sweep
+from comparisons.api.results import CostStudy, FigureTable, FinishedRun, Map, Sweep
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.units import describe
 from comparisons.figures.quantity import MODELS, models_named
-from comparisons.results.field_files import AUTOMATIC, FORMATS
+from comparisons.output.field_files import AUTOMATIC, FORMATS
 from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
 from comparisons.scenes.scene import ResolvedScene
@@ -102,7 +103,7 @@ def run(
     out: str | os.PathLike | None = None,
     fields: str = AUTOMATIC,
     progress: ProgressCallback = no_progress,
-) -> Run:
+) -> FinishedRun:
     """Solve a scene, compare the models, judge: what `crosscheck run` does.
 
     models    half-plane, finite-element, or both
@@ -124,8 +125,8 @@ def run(
     >>> found = run(coarse)
     >>> found.verdict
     'holds'
-    >>> len(found.result["comparison"])
-    4"""
+    >>> [figure.verdict for figure in found.figures.of(study="comparison")]
+    ['agree', 'agree', None, None]"""
     from comparisons.runs.run import run as run_scene
 
     chosen = models_named(models, "models")
@@ -134,21 +135,21 @@ def run(
         raise InputError(f"fields: is {describe(fields)}; allowed is {', '.join(words)}")
     if place is not None:
         check_writable(place)
-    return Run(run_scene(load(scene, tolerance), place, chosen, progress, fields))
+    return FinishedRun(run_scene(load(scene, tolerance), place, chosen, progress, fields))
 
 
-def read(folder: str | os.PathLike) -> Run:
+def read(folder: str | os.PathLike) -> FinishedRun:
     """A run from the folder that it has left, without solving. InputError where there is none."""
-    from comparisons.report.saved import read_outcome
+    from comparisons.output.page.saved import read_run
 
-    return Run(read_outcome(_place(folder, "folder")))
+    return FinishedRun(read_run(_place(folder, "folder")))
 
 
-def compare(*runs: Run) -> Figures:
+def compare(*runs: FinishedRun) -> FigureTable:
     """The figures of several runs, a row for each run, friction coefficient and quantity."""
     if not runs:
         raise InputError("compare: is given no run; allowed is at least one")
-    return Figures(tuple(row for each in runs for row in each.rows))
+    return FigureTable(tuple(row for each in runs for row in each.rows))
 
 
 def cost(
@@ -239,11 +240,11 @@ def sweep(
     return Sweep(content, None if out is None else folder)
 
 
-def report(found: Run, path: str | os.PathLike) -> Path:
+def report(found: FinishedRun, path: str | os.PathLike) -> Path:
     """Write the report of a run, one page that needs no network; returns its path. Raises
     InputError where there is no folder for it."""
     from comparisons.common.files import write_whole
-    from comparisons.report.page import render
+    from comparisons.output.page.page import render
 
     path = _place(path, "path")
     if not path.parent.is_dir() or path.is_dir():

@@ -10,9 +10,12 @@ import numpy as np
 
 from comparisons.campaigns.cost.result import Cost
 from comparisons.common.errors import InputError
-from comparisons.report.plots import Plots
-from comparisons.results.flat_table import Row, rows_of
-from comparisons.results.outcome import Outcome
+from comparisons.figures.figure import Figure, Figures
+from comparisons.output.flat_csv import Row, rows_of
+from comparisons.output.headline import verdict_of
+from comparisons.output.page.plots import Plots
+from comparisons.output.result_json import content_of, result_of
+from comparisons.studies import study
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,26 +48,43 @@ class Printed(ABC):
 
 
 @dataclass(frozen=True, repr=False)
-class Run(Printed):
+class FinishedRun(Printed):
     """A finished run; `outcome` is everything that was computed."""
 
-    outcome: Outcome
+    outcome: study.Run
 
     @property
     def result(self) -> dict:
-        """Every figure, as result.json has it, SI units."""
-        return self.outcome.result
+        """As result.json has it, SI units."""
+        return content_of(self.outcome)
+
+    @property
+    def figures(self) -> Figures:
+        """Every number that is a result, with its uncertainty and verdict."""
+        return self.outcome.figures
+
+    def figure(
+        self, quantity: str, source: str, study: str = "contact", **at: float
+    ) -> Figure | None:
+        """One of them, by the model or other source that it is of; None where the run has none.
+
+        study  that found it
+        at     of several friction coefficients: friction=0.1"""
+        source, wanted = source.replace("-", "_"), {"study": study, "quantity": quantity}
+        known = self.figures.of(source=source, **wanted)
+        return next((f for f in known if at.items() <= f.at.items()), None)
 
     @property
     def verdict(self) -> str:
-        """Of the half-plane here: holds, fails or inconclusive."""
-        return self.result["validity"]["verdict"]
+        """Of the half-plane here: holds, fails or inconclusive; not compared, not converged."""
+        return verdict_of(self.outcome)[0]
 
     @property
     def rows(self) -> list[Row]:
         """The figures as records, one a friction coefficient and quantity
-        (`comparisons.results.flat_table`)."""
-        return rows_of(self.result, str(self.outcome.directory or self.outcome.problem.scene.name))
+        (`comparisons.output.flat_csv`)."""
+        name = str(self.outcome.directory or self.outcome.problem.scene.name)
+        return rows_of(result_of(self.outcome), name)
 
     @property
     def plot(self) -> Plots:
@@ -109,20 +129,20 @@ class Run(Printed):
         return levels[model]
 
     def _table(self) -> "RenderableType":
-        from comparisons.report.terminal import summary
+        from comparisons.output.terminal import summary
 
         return summary(self.outcome)
 
 
 @dataclass(frozen=True, repr=False)
-class Figures(Printed):
-    """Figures of several runs, as records (`comparisons.results.flat_table`)."""
+class FigureTable(Printed):
+    """Figures of several runs, as records (`comparisons.output.flat_csv`)."""
 
     rows: tuple[Row, ...]
 
     def _table(self) -> "RenderableType":
         from comparisons.common.numbers import percent, with_unit
-        from comparisons.report.terminal import PLAIN, SHORT, plain_table
+        from comparisons.output.terminal import PLAIN, SHORT, plain_table
 
         numbers = ("mu", "half-plane", "finite elements", "model error")
         table = plain_table("run", "quantity", numbers=numbers)
@@ -145,7 +165,7 @@ class CostStudy(Printed):
     def plot(self, quantity: str = "peak_pressure") -> "list[Axes]":
         """The diagram of a quantity."""
         from comparisons.campaigns.cost.picture import cost_picture
-        from comparisons.report.figures.style import collected_figures
+        from comparisons.drawing.style import collected_figures
 
         if quantity not in self.study.references:
             allowed = ", ".join(self.study.references)
@@ -170,7 +190,7 @@ class Map(Printed):
     def plot(self) -> "list[Axes]":
         """The map."""
         from comparisons.campaigns.maps.picture import map_figure
-        from comparisons.report.figures.style import collected_figures
+        from comparisons.drawing.style import collected_figures
 
         with collected_figures():
             return map_figure(self.content).axes
@@ -201,7 +221,7 @@ class Sweep(Printed):
     def plot(self) -> "list[Axes]":
         """Each figure over the first swept field."""
         from comparisons.campaigns.sweep.picture import sweep_figure
-        from comparisons.report.figures.style import collected_figures
+        from comparisons.drawing.style import collected_figures
 
         with collected_figures():
             return sweep_figure(self.content).axes

@@ -18,7 +18,7 @@ from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, machine, versions
 from comparisons.common.tasks import Here, ProcessEnded, tasks_here
 from comparisons.figures.quantity import LABELS
-from comparisons.report.junit import JunitCase, check_place, junit_xml, write_junit
+from comparisons.output.junit import JunitCase, check_place, junit_xml, write_junit
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -82,7 +82,7 @@ def relative_error(
 
 
 @dataclass(frozen=True)
-class Findings:
+class CaseFindings:
     """What a case found."""
 
     figures: tuple[BoundedFigure, ...]  # decide; the first is what the case is about
@@ -99,7 +99,7 @@ class CheckedCase:
     group: str
     name: str
     model: str
-    solve: Callable[[], Findings]
+    solve: Callable[[], CaseFindings]
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class CheckedRow:
     """A case with its findings; `error` is the message of what it raised, else None."""
 
     case: CheckedCase
-    findings: Findings
+    findings: CaseFindings
     error: str | None
     seconds: float
 
@@ -150,10 +150,12 @@ def run_case(case: CheckedCase) -> CheckedRow:
     return CheckedRow(case, *_found(None, case.solve))
 
 
-def _found(here: Here | None, solve: Callable[[], Findings]) -> tuple[Findings, str | None, float]:
+def _found(
+    here: Here | None, solve: Callable[[], CaseFindings]
+) -> tuple[CaseFindings, str | None, float]:
     """What a case finds or raises, and its processor seconds."""
     start = process_time()
-    findings, error = Findings(()), None
+    findings, error = CaseFindings(()), None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # an overflow shows in the figures
@@ -180,7 +182,7 @@ def run_cases(
             try:
                 rows.append(CheckedRow(case, *tasks.result(str(number))))
             except ProcessEnded as ended:
-                rows.append(CheckedRow(case, Findings(()), str(ended), 0.0))
+                rows.append(CheckedRow(case, CaseFindings(()), str(ended), 0.0))
     return tuple(rows)
 
 

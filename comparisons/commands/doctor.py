@@ -98,7 +98,7 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
 def findings_table(findings: Sequence[Finding]) -> "Table":
     from rich.text import Text
 
-    from comparisons.report.terminal import plain_table
+    from comparisons.output.terminal import plain_table
 
     table = plain_table("item", "works", "version, or what is wrong")
     for found in findings:

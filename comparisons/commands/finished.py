@@ -26,7 +26,7 @@ def report(
     as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
 ) -> int:
     """Draw reports again from result files, without solving; sum many runs up on one page."""
-    from comparisons.report.redraw import draw_again, reports_content, reports_table
+    from comparisons.output.page.redraw import draw_again, reports_content, reports_table
 
     draws = summary is None
     if draws and len(folders) > 1:
@@ -64,20 +64,23 @@ def table(
     out: Annotated[
         Path | None, Option(help="FILE.csv or FILE.parquet; without it CSV is printed.")
     ] = None,
+    long: Annotated[
+        bool, Option("--long", help="A row a figure, of every study: value, uncertainty, bounds.")
+    ] = False,
     as_json: Annotated[bool, Option("--json", help="Print the rows as JSON.")] = False,
 ) -> int:
     """Put the figures of many runs into one table: a row a run, friction and quantity."""
-    from comparisons.results.flat_table import as_csv, check_ending, tidy_rows, write_table
+    from comparisons.output import flat_csv as flat
 
     if out is not None:
-        check_ending(out)
-    rows = tidy_rows(folders)
+        flat.check_ending(out)
+    rows, columns = flat.tidy_rows(folders, long), flat.LONG_COLUMNS if long else flat.COLUMNS
     if out is not None:
-        write_table(out, rows)
+        flat.write_table(out, rows, columns)
     if as_json:
         show_json(rows)
     elif out is None:
-        print(as_csv(rows), end="")
+        print(flat.as_csv(rows, columns), end="")
     else:
         runs = len({row["run"] for row in rows})
         print(f"{len(rows)} rows of {runs} run{'s' * (runs != 1)} in {out}")

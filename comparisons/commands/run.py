@@ -58,9 +58,10 @@ def run(
 
     with uncollected():
         from comparisons.campaigns.points import cluster
-        from comparisons.report.junit import check_place, junit_xml, run_cases_of, write_junit
-        from comparisons.report.terminal import summary
-        from comparisons.results.plausibility import warnings_about, warnings_about_result
+        from comparisons.output.junit import check_place, junit_xml, run_cases_of, write_junit
+        from comparisons.output.plausibility import warnings_about, warnings_about_result
+        from comparisons.output.result_json import content_of
+        from comparisons.output.terminal import summary
         from comparisons.runs.run import run as run_scene
         from comparisons.scenes.resolve import load_scene, with_tolerance
 
@@ -87,7 +88,8 @@ def run(
     if junit is not None:
         seconds = perf_counter() - began
         write_junit(junit, junit_xml(resolved.name, run_cases_of(outcome), seconds))
-    show_either(as_json, outcome.result, lambda: summary(outcome))
+    content = content_of(outcome) if as_json else {}
+    show_either(as_json, content, lambda: summary(outcome))
     _say_warnings([*warnings, *warnings_about_result(outcome)])
     return outcome.exit_status
 
@@ -95,7 +97,7 @@ def run(
 def _say_warnings(warnings: list[str]) -> None:
     if not (warnings and is_first()):
         return
-    from comparisons.report.terminal import PLAIN
+    from comparisons.output.terminal import PLAIN
 
     for warning in warnings:
         tell(f"plausibility warning: {warning.translate(PLAIN)}")
@@ -114,7 +116,7 @@ def _say_first_answer(scene: "ResolvedScene") -> None:
 
 def _print(directory: Path) -> None:
     """Print the report; a run whose report no browser prints is as good as any other."""
-    from comparisons.report.pdf import NoPdfError, print_report
+    from comparisons.output.page.pdf import NoPdfError, print_report
 
     try:
         print_report(directory)

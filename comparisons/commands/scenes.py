@@ -79,7 +79,7 @@ def init(
     from comparisons.campaigns.init.profile_view import init_table
     from comparisons.campaigns.maps.place import first_answer
     from comparisons.models.problem import problem_of
-    from comparisons.report.terminal import PLAIN
+    from comparisons.output.terminal import PLAIN
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(made))

@@ -158,6 +158,10 @@ class Tasks:
             self._hand_out()
         self._tasks[key].urgency = min(self._tasks[key].urgency, urgency)
 
+    def held(self, kind: str, key: object, make: Callable[[], Held]) -> Held:
+        """What this process holds (`Here.held`)."""
+        return self._here.held(kind, key, make)
+
     def result(self, key: str) -> object:
         """The answer of a known task, waited for, then forgotten; raises what its work raised, and
         ProcessEnded."""

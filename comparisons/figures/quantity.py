@@ -19,47 +19,62 @@ WHOLE = "whole"  # model: the finite elements with every effect that matters
 LABELS = {"half_plane": "half-plane", "finite_element": "finite elements", WHOLE: "whole model"}
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A compared figure."""
-
-    label: str  # in words, for tables
-    unit: str  # of the figure in SI; "" for ratios
-    # of the smooth contact: what a figure that vanishes is measured by
-    scale: Callable[["HertzContact"], float]
-    # of convergence under refinement: 2 for the quadratic elements' smooth figures, 1 where the
-    # square-root edge of a contact governs, or how well it is found, and of the place of a maximum:
-    # there the slope of the stress, of order 1, is zero
-    formal_order: float
-    of_pair: bool = False  # a norm of a difference, no figure of one model
-    needs_stress: bool = False  # only with a [stress] table
+def _one(hertz: "HertzContact") -> float:
+    return 1.0
 
 
 _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")
 
 
-def _one(hertz: "HertzContact") -> float:
-    return 1.0
+@dataclass(frozen=True)
+class Quantity:
+    """What a figure is of."""
+
+    label: str  # in words, for tables
+    unit: str = ""  # of the figure in SI; "" for ratios
+    # of the smooth contact: what a figure that vanishes is measured by
+    scale: Callable[["HertzContact"], float] = _one
+    # of convergence under refinement: 2 for the quadratic elements' smooth figures, 1 where the
+    # square-root edge of a contact governs, or how well it is found, and of the place of a maximum:
+    # there the slope of the stress, of order 1, is zero
+    formal_order: float = 1.0
+    of_pair: bool = False  # a norm of a difference, no figure of one model
+    needs_stress: bool = False  # only with a [stress] table
+    short: str = ""  # enough for 80 columns of a terminal
+    # what tables show it over beside its unit: so many times `scale`, and the symbol of that
+    over: tuple[float, str] | None = None
 
 
-def _stress(label: str, unit: str, scale: Callable, formal_order: float) -> Quantity:
-    return Quantity(label, unit, scale, formal_order, needs_stress=True)
+def _stress(label: str, short: str) -> Quantity:
+    over = 1.0, "p₀"
+    return Quantity(label, "Pa", _pressure, 2.0, needs_stress=True, short=short, over=over)
 
 
-def _norm(label: str, needs_stress: bool = True) -> Quantity:
-    return Quantity(f"{label}, relative L2 difference", "", _one, 1.0, True, needs_stress)
+def _norm(label: str, short: str, needs_stress: bool = True) -> Quantity:
+    words, stress = f"{label}, relative L2 difference", needs_stress
+    return Quantity(words, of_pair=True, needs_stress=stress, short=f"{short}, L2")
 
 
+# Of every run, compared and judged.
 QUANTITIES: dict[str, Quantity] = {
-    "peak_pressure": Quantity("peak pressure", "Pa", _pressure, 2.0),
-    "contact_length": Quantity("contact length", "m", _half_width, 1.0),
-    "contact_ratio": Quantity("contact length over Hertz 2a", "", _one, 1.0),
-    "pressure_l2": _norm("pressures", needs_stress=False),
-    "tau1_max": _stress("largest principal shear stress", "Pa", _pressure, 2.0),
-    "tau1_max_depth": _stress("depth of the largest principal shear", "m", _half_width, 1.0),
-    "txz_max_abs": _stress("largest orthogonal shear stress", "Pa", _pressure, 2.0),
-    "tau1_field_near": _norm("tau1 down to 0.1 a"),
-    "tau1_field_deep": _norm("tau1 deeper than 0.5 a"),
+    "peak_pressure": Quantity(
+        "peak pressure", "Pa", _pressure, 2.0, short="peak pressure", over=(1.0, "p₀")
+    ),
+    "contact_length": Quantity(
+        "contact length", "m", _half_width, short="contact length", over=(2.0, "× 2a")
+    ),
+    "contact_ratio": Quantity("contact length over Hertz 2a", short="contact ratio"),
+    "pressure_l2": _norm("pressures", "pressure", needs_stress=False),
+    "tau1_max": _stress("largest principal shear stress", "tau1 max"),
+    "tau1_max_depth": Quantity(
+        *("depth of the largest principal shear", "m", _half_width),
+        needs_stress=True,
+        short="tau1 max depth",
+        over=(1.0, "a"),
+    ),
+    "txz_max_abs": _stress("largest orthogonal shear stress", "|txz| max"),
+    "tau1_field_near": _norm("tau1 down to 0.1 a", "tau1 near"),
+    "tau1_field_deep": _norm("tau1 deeper than 0.5 a", "tau1 deep"),
 }
 
 # Of [heat]: judged in a table of their own, and on maps.

@@ -25,8 +25,10 @@ times the error; by the sum of both models' own discretisations, 18 times.
 
 No figure has an uncertainty of discretisation below the resolution that it is read with."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import reduce
+from operator import add
 from typing import Protocol
 
 import numpy as np
@@ -48,18 +50,27 @@ LENGTHS = ("contact_length", "contact_ratio")  # quantities that are read with t
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """Relative uncertainty of a figure, by cause; `convergence` says how refinement went."""
+    """Of a figure, relative to its scale: bounds by cause, whose sum is the `total`; infinite where
+    one is unknown, and none of what is exact. `convergence` says how refinement went."""
 
-    iteration: float
-    discretisation: float
-    domain: float
-    convergence: Convergence
-    increments: float = 0.0  # of the load, where a body flows
+    parts: Mapping[str, float] = field(default_factory=dict)
+    convergence: Convergence | None = None
 
     @property
     def total(self) -> float:
-        """Sum of the parts: they are bounds, not random."""
-        return self.iteration + self.discretisation + self.domain + self.increments
+        return reduce(add, self.parts.values(), 0.0)
+
+
+def numerical(
+    iteration: float,
+    discretisation: float,
+    domain: float,
+    increments: float = 0.0,
+    convergence: Convergence | None = None,
+) -> Uncertainty:
+    """By the causes that solutions have; `increments` of the load, where a body flows."""
+    parts = {"iteration": iteration, "discretisation": discretisation, "domain": domain}
+    return Uncertainty(parts | {"increments": increments}, convergence)
 
 
 class SolvedLevel(Protocol):

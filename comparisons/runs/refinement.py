@@ -1,6 +1,8 @@
-"""Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
+"""Both models on ever finer levels, until every judged quantity is resolved or the budget spent.
 
-from collections.abc import Callable, Iterable
+In: a scene and its plan. Out: the levels of every model, and why there are no more."""
+
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count
@@ -15,49 +17,46 @@ from comparisons.models.level import ExpectedCost, Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import discretisations
+from comparisons.studies.comparison import discretisations
+from comparisons.studies.study import Solved
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 LONGER = (4, 2)  # times as long increments of plastic flow, of its check
 
-AfterHalfPlane = Callable[[ModelRun], Callable[[], None]]
-
 
 def refined(
-    problem: Problem,
-    plan: Plan,
-    window: Window | None,
-    tasks: Tasks,
-    after_half_plane: AfterHalfPlane | None = None,
-) -> tuple[dict[str, ModelRun], str]:
+    scene: Solved, tasks: Tasks, begin: Callable[[Solved], None] = lambda solved: None
+) -> Solved:
     """The runs of the plan's models, and why their refinement stopped.
 
     The levels that the scene asks for are known to `tasks` from the start, further ones when they
     are found necessary.
-    after_half_plane  called with the half-plane on the levels asked for, while others are solved;
-                      what it returns is called once levels leave a judged quantity unresolved"""
-    levels = _Levels(problem, plan, window, tasks)
-    further = levels.begin(after_half_plane)
-    asked, unresolved_now = len(problem.pitches), {}
+    scene  nothing of it is solved yet
+    begin  called with the half-plane on the levels asked for, while others are solved, and again
+           once levels of both models leave a judged quantity unresolved"""
+    levels = _Levels(scene, tasks)
+    levels.begin()
+    if "half_plane" in scene.plan.models:
+        begin(levels.solved(len(scene.problem.pitches), ["half_plane"]))
+    asked, unresolved_now, begun = len(scene.problem.pitches), {}, False
     for number in count(1):
-        levels.wait(number, plan.models)
-        runs = levels.runs(number)
+        now = levels.solved(number, scene.plan.models)
         if number >= asked:
-            before, unresolved_now = unresolved_now, unresolved(problem, runs, window)
+            before, unresolved_now = unresolved_now, unresolved(now)
             if not unresolved_now:
-                return levels.checked(runs), "every judged quantity is resolved"
-        why = levels.spent(runs)
+                return levels.checked(now, "every judged quantity is resolved")
+        why = levels.spent(now.runs)
         if why is None and unresolved_now and _stuck(before, unresolved_now):
             why = "refinement no longer lowers their uncertainty"
-        if why is None and number == problem.scene.resolution.most:
+        if why is None and number == scene.problem.scene.resolution.most:
             why = f"{number} levels are the most"
         if why is not None:
             names = ", ".join(unresolved_now) or "judged quantities"
-            return levels.checked(runs), f"{names} not resolved to a third of the tolerance: {why}"
-        if further and number > 1 and (unresolved_now or unresolved(problem, runs, window)):
-            further()
-            further = None
+            return levels.checked(now, f"{names} not resolved to a third of the tolerance: {why}")
+        if not begun and number > 1 and (unresolved_now or unresolved(now)):
+            begun = True
+            begin(now)
 
 
 @dataclass(frozen=True)
@@ -129,37 +128,32 @@ class _LevelTask:
 class _Levels:
     """The levels of a plan's models, as tasks and solved."""
 
-    def __init__(self, problem: Problem, plan: Plan, window: Window | None, tasks: Tasks) -> None:
-        self.problem, self.plan, self.tasks = problem, plan, tasks
-        self.task = partial(_LevelTask, problem, plan, window)
+    def __init__(self, scene: Solved, tasks: Tasks) -> None:
+        self.scene, self.problem, self.plan, self.tasks = scene, scene.problem, scene.plan, tasks
+        self.task = partial(_LevelTask, scene.problem, scene.plan, scene.window)
         check = partial(self.task, "finite_element", 1)
-        self.checks = [check(half_block=True)] if plan.domain_check else []
-        self.checks += [check(times=times) for times in LONGER] if plan.increments_check else []
-        self.solved: dict[str, list[Level]] = {name: [] for name in plan.models}
-        self.patches = np.array([problem.extent])  # of contact, by which costs are expected
+        self.checks = [check(half_block=True)] if self.plan.domain_check else []
+        if self.plan.increments_check:
+            self.checks += [check(times=times) for times in LONGER]
+        self.levels: dict[str, list[Level]] = {name: [] for name in self.plan.models}
+        self.patches = np.array([self.problem.extent])  # of contact, by which costs are expected
         # [bytes] that the machine has to give at the start
         self.machine = from_first(machine_memory)
 
-    def begin(self, after_half_plane: AfterHalfPlane | None) -> Callable[[], None] | None:
-        """Make known the levels that the scene asks for, wait for the half-plane's, and return what
-        `after_half_plane` does."""
+    def begin(self) -> None:
+        """Make known the levels that the scene asks for; the half-plane's first tells what the
+        others will take."""
         asked = range(1, len(self.problem.pitches) + 1)
-        if "half_plane" in self.solved:  # first, while nothing else is in memory
+        if "half_plane" in self.levels:  # first, while nothing else is in memory
             for number in asked:
                 self.add(self.task("half_plane", number))
             self.wait(1, ["half_plane"])
-            self.patches = self.solved["half_plane"][0].patches
-        if "finite_element" in self.solved:
+            self.patches = self.levels["half_plane"][0].patches
+        if "finite_element" in self.levels:
             for number in reversed(self.affordable(asked)):  # idle processes begin with the longest
                 self.add(self.task("finite_element", number))
             for task in self.checks:
                 self.add(task)
-        if "half_plane" not in self.solved:
-            return None
-        for number in asked:
-            self.wait(number, ["half_plane"])
-        run = ModelRun("half_plane", tuple(self.solved["half_plane"]))
-        return after_half_plane and after_half_plane(run)
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)
@@ -167,13 +161,17 @@ class _Levels:
         shares = None if task.name == "half_plane" else task.pitch
         self.tasks.add(task.key, task.solve, **size, urgency=task.urgency, shares=shares)
 
-    def wait(self, number: int, names: Iterable[str]) -> None:
-        """Have a level of the models, and so all coarser ones."""
-        missing = [self.task(n, number) for n in names if len(self.solved[n]) < number]
+    def wait(self, number: int, models: Iterable[str]) -> None:
+        """Have the levels of the models up to a number."""
+        missing = [
+            self.task(name, each)
+            for name in models
+            for each in range(len(self.levels[name]) + 1, number + 1)
+        ]
         for task in missing:
             self.add(task)
         for task in missing:
-            self.solved[task.name].append(self.tasks.result(task.key))
+            self.levels[task.name].append(self.tasks.result(task.key))
 
     def affordable(self, asked: Iterable[int]) -> list[int]:
         """Numbers of the finite elements' levels before the one that it may not come to."""
@@ -186,21 +184,23 @@ class _Levels:
             within.append(number)
         return within
 
-    def runs(self, number: int) -> dict[str, ModelRun]:
-        """The models on so many levels."""
-        return {name: ModelRun(name, tuple(done[:number])) for name, done in self.solved.items()}
+    def solved(self, number: int, models: Iterable[str]) -> Solved:
+        """The scene with so many levels of the models."""
+        self.wait(number, models)
+        runs = {name: ModelRun(name, tuple(self.levels[name][:number])) for name in models}
+        return replace(self.scene, runs=runs)
 
-    def checked(self, runs: dict[str, ModelRun]) -> dict[str, ModelRun]:
-        """The runs with the far boundary at half the distance, and by longer increments."""
-        again = [self.tasks.result(task.key) for task in self.checks]
-        if self.plan.domain_check:
-            far = again.pop(0)
-            runs["finite_element"] = replace(runs["finite_element"], far_boundary_check=far)
+    def checked(self, solved: Solved, why: str) -> Solved:
+        """With the far boundary at half the distance, longer increments, and why that is all."""
+        again, runs = [self.tasks.result(task.key) for task in self.checks], dict(solved.runs)
         if again:
-            runs["finite_element"] = replace(runs["finite_element"], longer_increments=tuple(again))
-        return runs
+            far = again.pop(0) if self.plan.domain_check else None
+            runs["finite_element"] = replace(
+                runs["finite_element"], far_boundary_check=far, longer_increments=tuple(again)
+            )
+        return replace(solved, runs=runs, refinement=why)
 
-    def spent(self, runs: dict[str, ModelRun]) -> str | None:
+    def spent(self, runs: Mapping[str, ModelRun]) -> str | None:
         """Why one more level of every model would exceed the budget, or the machine's memory, or
         None. Time is that of the laws by which levels are planned: by a clock, a busy machine would
         stop at other figures."""
@@ -220,18 +220,17 @@ class _Levels:
         return None
 
 
-def unresolved(
-    problem: Problem, runs: dict[str, ModelRun], window: Window | None
-) -> dict[str, float]:
+def unresolved(solved: Solved) -> dict[str, float]:
     """Judged quantities whose discretisation uncertainty is above its share of the tolerance,
     with the largest of any friction coefficient."""
+    problem, found = solved.problem, {}
     tolerance = problem.scene.tolerance
-    sizes: dict[str, float] = {}
     for friction in problem.scene.friction:
-        for name, size in discretisations(runs, problem, friction, window).items():
+        sizes = discretisations(solved.runs, problem, friction, solved.window)
+        for name, size in sizes.items():
             if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:
-                sizes[name] = max(size, sizes.get(name, 0.0))
-    return sizes
+                found[name] = max(size, found.get(name, 0.0))
+    return found
 
 
 def _stuck(before: dict[str, float], now: dict[str, float]) -> bool:

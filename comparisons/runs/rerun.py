@@ -1,6 +1,7 @@
-"""A recorded run repeated from its own record: what moved, by how much, and the table of that."""
+"""A recorded run repeated from its own record: what moved, by how much, and the table of that.
 
-import json
+In: the folder of a run. Out: the repetition, and every figure that moved."""
+
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -13,12 +14,12 @@ from comparisons.common.errors import ExitStatus, InputError, one_line
 from comparisons.common.files import check_writable
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.provenance import as_json
-from comparisons.report.terminal import STYLES, plain_table
-from comparisons.results.changes import ROUNDING, Moved, Movement, movement
-from comparisons.results.outcome import Outcome
-from comparisons.results.recorded_run import Record, read_record
+from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of, movement
+from comparisons.output.recorded_run import Record, read_record
+from comparisons.output.result_json import Result, result_of
+from comparisons.output.terminal import STYLES, plain_table
 from comparisons.runs.run import run
+from comparisons.studies.study import CONVERGED, Run
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -33,7 +34,7 @@ class Repetition:
     """A repeated run."""
 
     record: Record
-    outcome: Outcome
+    outcome: Run
     movement: Movement  # of its figures
     levels: tuple[int, int]  # of each model, recorded and repeated
     # versions and properties of the machine that are not the recorded ones, both
@@ -69,9 +70,10 @@ def rerun(
     record = from_first(lambda: read_record(folder))
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone
-        from comparisons.report.saved import read_outcome
+        from comparisons.output.page.saved import read_run
+        from comparisons.output.page.tables.answers import compared_answers
 
-        recorded = read_outcome(folder, with_mesh=False).answers
+        recorded = compared_answers(read_run(folder, with_mesh=False))
         answers = {each.name: each.answers for each in recorded}
     with _place(folder, out) as place:
         outcome = run(record.scene, place, record.models, callback, answers=answers)
@@ -79,11 +81,36 @@ def rerun(
     return Repetition(
         record=record,
         outcome=outcome,
-        movement=movement(record.figures, json.loads(as_json(outcome.result))),
+        movement=movement(_items(record.result), _items(result_of(outcome))),
         levels=(record.levels, now["levels"]),
         other=_unlike(record.versions, now["versions"]) | _unlike(record.machine, now["machine"]),
         bits=now["hashes"] == record.hashes,
     )
+
+
+def _items(result: Result) -> dict[str, Item]:
+    """All that is compared of a result: figures and series, the numbers of its scene, the verdict,
+    and what converged."""
+    said = {
+        f"{study}.{CONVERGED} {each.source} {each.at or ''}".strip(): each.text
+        for study, findings in result.found.items()
+        for each in findings.statements
+        if each.name == CONVERGED
+    }
+    numbers = dict(_numbers(result.scene, "scene"))
+    return items_of(result.found, numbers | said | {"verdict": result.verdict})
+
+
+def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:
+    """Every number and truth below a table by its path."""
+    if isinstance(table, dict | list):
+        pairs = table.items() if isinstance(table, dict) else enumerate(table)
+        for name, item in pairs:
+            yield from _numbers(
+                item, f"{path}[{name}]" if isinstance(name, int) else f"{path}.{name}"
+            )
+    elif isinstance(table, int | float):
+        yield path, table
 
 
 @contextmanager
@@ -139,11 +166,10 @@ def _table(moved: tuple[Moved, ...]) -> "Table":
 
     numbers = ("recorded", "repeated", "relative\nchange", "stated\nuncert.")
     table = plain_table("figure", numbers=numbers)
-    table.add_column("of")
     for row in moved:
         change = "" if row.change is None else f"{row.change:+.2e}"
-        stated = (f"{row.stated:.2e}", row.by) if row.by else ("", "none")
-        cells = (row.path, _value(row.recorded), _value(row.repeated), change, *stated)
+        stated = f"{row.stated:.2e}" if row.stated else "none"
+        cells = (row.name, _value(row.recorded), _value(row.repeated), change, stated)
         style = STYLES["differ"] if row.beyond else ""
         table.add_row(*(Text(cell, style=style) for cell in cells))
     return table
@@ -152,8 +178,8 @@ def _table(moved: tuple[Moved, ...]) -> "Table":
 def _value(value: object) -> str:
     if value is None:
         return "absent"
-    if isinstance(value, list):
-        return f"{len(value)} patch{'es' * (len(value) != 1)}"
+    if isinstance(value, tuple):
+        return f"{len(value)} value{'s' * (len(value) != 1)}"
     return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
 
 
@@ -164,7 +190,7 @@ def _verdict(repetition: Repetition) -> str:
     if beyond:
         return (
             f"MOVED  {_count(len(beyond), 'figure')} moved by more than the stated uncertainty: "
-            f"{', '.join(row.path for row in beyond[:3])}{', …' if len(beyond) > 3 else ''}."
+            f"{', '.join(row.name for row in beyond[:3])}{', …' if len(beyond) > 3 else ''}."
         )
     if moved:
         return f"REPEATED  {_count(len(moved), 'figure')} moved, within the stated uncertainty."
@@ -180,7 +206,7 @@ def _lines(repetition: Repetition) -> list[str]:
     if movement.new:
         lines.append(f"{_count(movement.new, 'figure')} that the record does not have.")
     if before != now:
-        refinement = repetition.outcome.result["refinement"]
+        refinement = repetition.outcome.solved.refinement
         lines.append(f"Recorded on {before} levels, repeated on {now}: {refinement}.")
     if repetition.other:
         known = {n: ["unknown" if v is None else v for v in p] for n, p in repetition.other.items()}

@@ -1,8 +1,10 @@
-"""One scene from start to end: plan, both models level by level, comparison, files."""
+"""One scene from start to end: plan, both models level by level, studies, files.
 
-import math
-from collections.abc import Callable, Mapping
-from functools import lru_cache, partial
+In: a scene. Out: a finished run, and its folder."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -11,37 +13,28 @@ from comparisons.common.errors import InputError, SceneError, SolverError, addre
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest, revision
-from comparisons.common.tasks import Opens, Preparation, ProcessEnded, Tasks, tasks_here
-from comparisons.figures.verdict import Comparison
+from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
+from comparisons.figures.figure import Findings
 from comparisons.models.forecast import forecast
-from comparisons.models.level import Level, ModelRun
 from comparisons.models.level_cache import level_cache
-from comparisons.models.plan import Plan, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.running_in import run_in_scene
-from comparisons.models.window import Window, window_of
-from comparisons.results.field_files import AUTOMATIC
-from comparisons.results.outcome import Outcome
-from comparisons.results.record import record_of
-from comparisons.results.result_json import result_of
+from comparisons.output.field_files import AUTOMATIC
+from comparisons.output.record import record_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.write import write_files
 from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
-from comparisons.studies.bulge import bulges
-from comparisons.studies.contact import compared, pair_histories
-from comparisons.studies.coupling import Coupling, couplings
-from comparisons.studies.model_error.error_budget import ErrorBudget, announce_effects, error_budget
-from comparisons.studies.quiescent_zone import quiescent_zones
-from comparisons.studies.scatter.figures import InputScatter
-from comparisons.studies.statistics.figures import LoadRow
+from comparisons.studies.study import Run, Solved, studied, unsolved
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
 # Modules that write what was solved, those first that others would import at once.
 REPORT = (
     *("PIL.Image", "pyparsing", "matplotlib.axes", "matplotlib.figure"),
-    *("matplotlib.backends.backend_svg", "jinja2", "comparisons.report.page"),
+    *("matplotlib.backends.backend_svg", "jinja2", "comparisons.output.page.page"),
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
@@ -57,7 +50,7 @@ def run(
     fields: str = AUTOMATIC,
     opens: Opens | None = None,
     answers: Answers | None = None,
-) -> Outcome:
+) -> Run:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
     models    of half_plane, finite_element
@@ -79,7 +72,8 @@ def run(
             problem = _problem(scene, models, callback)
         plan = make_plan(problem, models)
         callback(forecast(problem, plan).text)
-        return solve(problem, plan, out, callback, fields, opens, answers)
+        posed = replace(unsolved(problem, plan), answers=answers, opens=opens)
+        return solve(posed, out, callback, fields)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
@@ -129,98 +123,57 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCa
 
 
 def solve(
-    problem: Problem,
-    plan: Plan,
+    scene: Solved,
     out: Path | None,
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
-    opens: Opens | None = None,
-    answers: Answers | None = None,
-) -> Outcome:
-    """Carry out a plan, as `run` does with the plan that suits the problem."""
-    window = window_of(problem) if plan.stress else None
-    if problem.scene.answers and answers is None:
-        from comparisons.studies.answers.readers.files import read_answers
-
-        answers = read_answers(problem, window)
-    cache = level_cache(out, problem.scene, plan, LoadRow)
+) -> Run:
+    """Solve a scene by its plan and answer its studies, as `run` does; nothing is solved yet."""
+    problem, plan = scene.problem, scene.plan
+    kinds = (study.data for study in STUDIES if study.data is not None)
+    cache = level_cache(out, problem.scene, plan, *kinds)
+    chosen = [each for each in STUDIES if each.applies(scene) and each.needs(scene) is None]
+    there = _for_finite_elements() if "finite_element" in plan.models else ()
+    here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
+    solving, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
     try:
-        told, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
-        there = _for_finite_elements() if "finite_element" in plan.models else ()
-        here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
-        with tasks_here(told, memory, cache, here, there) as tasks:
-            by_others = tasks if opens is None else Tasks(opens, math.inf, cache)
-            scattered = _announce_scatter(problem, plan, by_others)
-            counted = None
-            if problem.scene.statistics is not None and "half_plane" in plan.models:
-                from comparisons.studies.statistics.study import announce_statistics
+        with tasks_here(solving, memory, cache, here, there) as tasks:
 
-                counted = announce_statistics(problem, tasks)
-            runs, stop, moved, rows, budget = solved(problem, plan, window, tasks)
-            scatter = scattered and scattered(runs["half_plane"].finest)
-            statistics = counted and counted(runs)
+            def begin(solved: Solved) -> None:
+                for study in chosen:
+                    study.begin(solved, tasks)
+
+            begin(scene)
+            solved = refined(scene, tasks, begin)
+            found = studied(STUDIES, solved, {}, tasks)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
         cache.discard()
         raise
-    result = result_of(problem, plan, runs, rows, stop, moved, budget, scatter)
-    result["quiescent_zone"] = quiescent_zones(problem, runs, window)
-    result["bulge"] = bulges(problem, runs, window)
-    result["statistics"] = statistics and statistics.as_dict()
-    hashes = {f"{n}_pressure": digest(run.finest.solution.pressure) for n, run in runs.items()}
-    run_in = problem.scene.run_in
-    if run_in is not None:
-        hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
-    compared_answers = ()
-    if answers:
-        from comparisons.studies.answers.compare import compare_answers
-
-        given = problem, plan, runs, window, answers, scatter
-        compared_answers = compare_answers(*given)
-        result["answers"] = {each.name: each.as_dict() for each in compared_answers}
-        hashes |= {f"answer_{n}": [each.sha256 for each in a] for n, a in answers.items()}
-    heat = None
-    if problem.scene.heat is not None:
-        from comparisons.studies.heat.study import heat_study
-
-        heat = heat_study(problem, runs, window, told)
-        result["heat"] = heat.as_dict()
-    outcome = Outcome(
-        problem=problem,
-        plan=plan,
-        window=window,
-        runs=runs,
-        comparisons=rows,
-        result=result,
-        record=record_of(problem.scene, runs, hashes),
-        directory=out,
-        couplings=moved,
-        budget=budget,
-        pairs=pair_histories(problem, runs, window) if plan.compares else (),
-        scatter=scatter,
-        statistics=statistics,
-        answers=compared_answers,
-        heat=heat,
-    )
+    run = Run(solved, found, record_of(problem.scene, solved.runs, _hashes(solved, found)), out)
     try:
         if out is not None:
-            write_files(outcome, within(callback, SOLVED, 1.0), fields)
+            write_files(run, within(callback, SOLVED, 1.0), fields)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     cache.discard()
-    return outcome
+    return run
 
 
-def _announce_scatter(
-    problem: Problem, plan: Plan, tasks: Tasks
-) -> Callable[[Level], InputScatter] | None:
-    """Begin with the samples of uncertain inputs; what is returned waits. None without any."""
-    if problem.scene.scatter is None or "half_plane" not in plan.models:
-        return None
-    from comparisons.studies.scatter.study import announce_scatter
-
-    return announce_scatter(problem, tasks)
+def _hashes(solved: Solved, found: Mapping[str, Findings]) -> dict[str, object]:
+    """Of pressures, of the run-in surface, and of the files of answers."""
+    hashes: dict[str, object] = {
+        f"{name}_pressure": digest(run.finest.solution.pressure)
+        for name, run in solved.runs.items()
+    }
+    run_in = solved.problem.scene.run_in
+    if run_in is not None:
+        hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
+    for files in found["answers"].series if "answers" in found else ():
+        if files.name == "files":
+            hashes[f"answer_{files.source}"] = list(files.columns["sha256"].values)
+    return hashes
 
 
 def _for_finite_elements() -> list[Preparation]:
@@ -229,36 +182,6 @@ def _for_finite_elements() -> list[Preparation]:
 
     level = partial(import_module, "comparisons.models.finite_element.level")
     return [start_worker, load_dolfinx, level]
-
-
-def solved(
-    problem: Problem, plan: Plan, window: Window | None, tasks: Tasks
-) -> tuple[
-    dict[str, ModelRun], str, tuple[Coupling, ...], tuple[Comparison, ...], ErrorBudget | None
-]:
-    """The runs of a plan's models and why their refinement stopped, the half-plane's couplings, the
-    comparison, and the error budget; of the last three what the plan asks for."""
-
-    @lru_cache
-    def moved(levels: int) -> tuple[Coupling, ...]:
-        return couplings(problem, half_planes[levels], window, tasks.callback)
-
-    def coupled(half_plane: ModelRun) -> tuple[Coupling, ...]:
-        half_planes[len(half_plane.levels)] = half_plane
-        return moved(len(half_plane.levels)) if plan.coupling else ()
-
-    def announce(half_plane: ModelRun) -> Callable[[], None]:
-        return announce_effects(problem, plan, window, half_plane, coupled(half_plane), tasks)
-
-    half_planes: dict[int, ModelRun] = {}
-    ahead = announce if plan.compares else None
-    runs, stop = refined(problem, plan, window, tasks, ahead)
-    found = coupled(runs["half_plane"]) if "half_plane" in runs else ()
-    if not plan.compares:
-        return runs, stop, found, (), None
-    rows = compared(problem, runs, window)
-    budget = error_budget(problem, plan, window, runs, rows, found, tasks)
-    return runs, stop, found, rows, budget
 
 
 def _interrupted(out: Path | None) -> KeyboardInterrupt:

@@ -12,21 +12,22 @@ from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here
 from comparisons.models.heat import HeatedContact
 from comparisons.models.level import Level, deformed_height
-from comparisons.results.field_files import AUTOMATIC, field_of, scene_text, write_field
-from comparisons.results.outcome import Outcome
+from comparisons.output.field_files import AUTOMATIC, field_of, scene_text, write_field
+from comparisons.output.result_json import content_of
 from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
 
-def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTOMATIC) -> None:
+def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATIC) -> None:
     """Write everything into the run's folder; whole files, all at the end, by one process.
 
-    fields   format of the stress fields, of `comparisons.results.field_files`, or by their size"""
+    fields   format of the stress fields, of `comparisons.output.field_files`, or by their size"""
     if not is_first():
         return
     callback(Step("writing results", 0.0))
-    from comparisons.report.page import render, report_tasks
-    from comparisons.report.saved import FILE
+    from comparisons.output.page.page import render, report_tasks
+    from comparisons.output.page.saved import FILE
 
     with published(outcome.directory) as folder, report_tasks(outcome) as tasks:
         levels = _written(outcome)
@@ -34,11 +35,12 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
             (folder / name).mkdir(parents=True, exist_ok=True)
             tasks.add(f"files of {name}", _write_level, folder, name, fields)
         tasks.add(FILE, _save_shown, folder / FILE)
-        for name, contact in outcome.heat.contacts.items() if outcome.heat else ():
+        heat = outcome.data("heat")
+        for name, contact in heat.contacts.items() if heat else ():
             write_temperatures(folder / name / "temperature.csv", contact)
         if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
-        (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
+        (folder / "result.json").write_text(as_json(content_of(outcome)), encoding="utf-8")
         callback("drawing the report")
         (folder / "report.html").write_text(render(outcome, tasks), encoding="utf-8")
         for key in (*(f"files of {name}" for name in levels), FILE):
@@ -49,12 +51,12 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
 
 
 def _save_shown(here: Here, path: Path) -> None:
-    from comparisons.report.saved import save_shown
+    from comparisons.output.page.saved import save_shown
 
     save_shown(path, here.shared)
 
 
-def _written(outcome: Outcome) -> dict[str, Level]:
+def _written(outcome: Run) -> dict[str, Level]:
     """Levels by their folders; whole models of further friction coefficients below the first's."""
     levels: dict[str, Level] = {}
     for friction in outcome.problem.scene.friction:
@@ -75,7 +77,7 @@ def _write_level(here: Here, folder: Path, name: str, fields: str) -> None:
         write_mesh(folder / "mesh.msh", outcome, level.mesh)
 
 
-def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
+def write_mesh(path: Path, outcome: Run, mesh: BlockMesh) -> None:
     """mesh.msh: what was solved on, and the scene that it was made for."""
     from meshes.msh_file import append_comment, write_msh
 
@@ -84,7 +86,7 @@ def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
     append_comment(path, {"title": scene.title, "units": "m", "scene": scene_text(scene)})
 
 
-def write_contact(path: Path, outcome: Outcome, level: Level) -> None:
+def write_contact(path: Path, outcome: Run, level: Level) -> None:
     """contact.csv: a row for each pressure element, below what made it and of which scene."""
     problem, record = outcome.problem, outcome.record
     program = f"crosscheck {record['versions']['crosscheck']}"

@@ -1,5 +1,8 @@
 """What a sliding contact raises ahead of itself, against what it leaves behind.
 
+In: the finite elements' levels and the fields in the window. Out: height, place, extent and energy
+of the bulge by friction coefficient, its curve, and the same of every patch.
+
     v(x)    how far the traction q = mu p, in +x on the body, raises the surface [m]
     c       centre of the load       s   distance from it
     B(s)    v(c + s) - v(c - s): no datum enters, and no sinking by the pressure
@@ -15,44 +18,91 @@ pressure, for its kernel is odd: int p v dx = 0. The bulge is what B exceeds thi
 a base below, flow, or slopes of a boundary that is meshed as it is. The same holds about the centre
 of any patch's load, as far as the next patches: B and the step there are those of the patch."""
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.integrate import cumulative_trapezoid, trapezoid
 from scipy.interpolate import griddata
 
 from analytic.statistics.penetration import contact_kind, relative_penetration
+from comparisons.common.numbers import percent, plain, significant, with_unit
+from comparisons.drawing import style
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.uncertainty import far_boundary, iteration, of_increments
+from comparisons.figures.figure import Column, Figure, Figures, Findings, Series, figures_of
+from comparisons.figures.quantity import Quantity
+from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration, of_increments
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+from comparisons.studies import contact
 from comparisons.studies.statistics.patches import STRAIN, patch_loads
+from comparisons.studies.study import WHY_NOT, Block, Run, Solved, Study, TextTable
 
+NAME, MODEL = "bulge", "finite_element"
+QUANTITIES = {
+    "height": Quantity("bulge ahead of the load's centre", "m"),
+    "half_plane": Quantity("the half-plane's step there", "m"),
+    "at": Quantity("distance of the bulge from the centre", "m"),
+    "end": Quantity("distance from which it is below half its height", "m"),
+    "penetration": Quantity("penetration h", "m"),
+    "over_penetration": Quantity("bulge over h"),
+    "relative_penetration": Quantity("h/R"),
+    "contact": Quantity("half of the contact length", "m"),
+    "work_scale": Quantity("P h", "J/m"),
+    "plastic_strain": Quantity("largest plastic strain"),
+    "work": Quantity("work of the pressure on what the traction raises, over that without signs"),
+    "energy": Quantity("elastic energy ahead less behind", "J/m"),
+    "energy_ahead": Quantity("share of the elastic energy that is ahead"),
+}
+CURVE, PATCHES = "curve", "patches"
 DISTANCES = np.geomspace(0.02, 20.0, 121)  # a
 NEAR = 5.0  # a: within which the largest excess is looked for
 ORDER = 1.0  # formal
 HALF = 0.5  # of its height: where a bulge ends
+FARTHEST = 5.0  # a, of the picture
+BULGE = {"color": "#222222", "marker": "_", "linewidth": 0.8}
+NOTE = """By how much the sliding traction leaves the surface ahead of the load's centre higher than
+as far behind it. Half-plane: lower by a step, exact for the same pressure. Bulge: what the finite
+elements exceed that by; h = a²/R. Work: that of the pressure on what the traction raises, over the
+same without signs. Energy: elastic, ahead less behind in the field, and by model the share ahead.
+Patches: about the centre of each one's own load, as far as the next, over its own h; class by h/R.
+"""
 
 
-def bulges(problem: Problem, runs: dict[str, ModelRun], window: Window | None) -> dict | None:
-    """The content of result.json: `why` there are no figures, or one entry a friction coefficient
-    above 0. None where the scene does not ask for it."""
-    scene = problem.scene
-    if scene.stress is None or not scene.stress.bulge:
-        return None
-    sliding = [mu for mu in scene.friction if mu > 0.0]
+@dataclass(frozen=True)
+class Excess:
+    """The largest excess of B over the half-plane's; lengths in m."""
+
+    height: float
+    uncertainty: float  # of it: discretisation, iteration and, of an unbounded body, its boundary
+    at: float  # s there
+    spacing: float  # of the distances next to it
+    end: float | None  # from where it is below half of that; None: not within 20 a
+    end_uncertainty: float  # by the levels; infinite where one has no end
+    half_plane: float  # B of the half-plane there, exact for its pressure
+
+
+def needs(solved: Solved) -> str | None:
+    """What it takes and the scene does not have."""
+    scene = solved.problem.scene
     lone = scene.profile and len(scene.friction) == 1 and not scene.finite_element.plastic
-    finite = scene.finite_element.deformation == "finite"
-    for lacks, needed in (
-        ("finite_element" not in runs or not sliding, "the finite elements, and friction"),
-        (
-            lone and finite,
-            "small strains: at finite ones a profile is solved at one friction alone",
-        ),
-        (lone, "a second friction coefficient, such as 0"),
-    ):
-        if lacks:
-            return {"why": f"it takes {needed}"}
-    return {"why": None, "by_friction": [_bulge(problem, runs, window, mu) for mu in sliding]}
+    if MODEL not in solved.plan.models or not any(scene.friction):
+        return "it takes the finite elements, and friction"
+    if lone and scene.finite_element.deformation == "finite":
+        return "it takes small strains: at finite ones a profile is solved at one friction alone"
+    return "it takes a second friction coefficient, such as 0" if lone else None
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+    """At every friction coefficient above 0; `before` has the models' figures."""
+    figures, series = [], []
+    for friction in solved.problem.scene.friction:
+        if friction > 0.0:
+            own, tables = _bulge(solved, before[contact.NAME], friction)
+            figures += own
+            series += tables
+    return Findings(tuple(figures), tuple(series))
 
 
 def half_plane_rise(
@@ -87,64 +137,106 @@ def elastic_energy(
     return float(middle - back), float(front - middle)
 
 
-def _bulge(problem: Problem, runs: dict[str, ModelRun], window: Window, friction: float) -> dict:
-    """Of the finite elements at one friction coefficient, lengths in m.
+def _bulge(solved: Solved, known: Findings, friction: float) -> tuple[list[Figure], list[Series]]:
+    """Figures of the finite elements at one friction coefficient, the curve B(s), and the patches.
 
-    height        largest excess of B over the half-plane's, within 5 a
-    uncertainty   of it: discretisation, iteration and, of an unbounded body, its far boundary
-    at, end       s there, and from where the excess is below half of it; None: not within 20 a
-    end_uncertainty  by the levels; None where one has no end
-    half_plane    B of the half-plane there, exact for its pressure
+    height, at, end   as of an Excess, within 5 a
     penetration, over_penetration, relative_penetration   h, height / h and h / R
     contact       half its length: over R the slope of the roller at its edges
     work_scale    P h [J/m]
-    plastic_strain   the largest, None without flow
-    work          int p v dx over the same of |v|: what the traction's rise stores or releases; None
+    plastic_strain   the largest, where the body flows
+    work          int p v dx over the same of |v|: what the traction's rise stores or releases; not
                   of one friction coefficient, where v is not known by itself
-    energy, energy_uncertainty   [J/m] elastic energy ahead of c less that behind it, in the window
+    energy        [J/m] elastic energy ahead of c less that behind it, in the window
     energy_ahead  by model: the share ahead
-    distance, rise   the curve B(s) itself
     patches       on a profile: start, stop, kind by h/R, and the above of every patch by itself,
                   as far as the next patches and 5 of its half-widths; h = 4 P/(pi E*) of its load P
     """
-    a, radius, run = problem.hertz.half_width, problem.scene.roller_radius, runs["finite_element"]
-    s, level, h = a * DISTANCES, run.finest, a**2 / radius
+    problem, run = solved.problem, solved.runs[MODEL]
+    a, level = problem.hertz.half_width, run.finest
+    s, h, at = a * DISTANCES, a**2 / problem.scene.roller_radius, {"friction": friction}
     centres = [_centre(each) for each in run.levels]
     whole, curve, tilt = _excess(problem, run, friction, s, centres, NEAR * a)
-    load = level.solution.pressure * level.grid.weights
-    field, (x, rise) = level.field_on_mesh, _rise(level, friction)
-    moved, several = np.interp(level.grid.x, x, rise), len(field.displacement) > 1
-    beside = centres[-1] + whole["at"] * np.array([-1.0, 1.0])
-    moved -= 0.5 * np.sum(np.interp(beside, x, rise))
-    stored = [elastic_energy(problem, each, window, friction) for each in run.levels]
-    finest = {n: elastic_energy(problem, r.finest, window, friction) for n, r in runs.items()}
-    ahead = [front - back for back, front in stored]
-    unsure = grid_convergence(ahead, ORDER).uncertainty + iteration(level) * abs(ahead[-1])
-    return {
-        "friction": friction,
-        **whole,
+    figures = _figures_of(whole, at)
+    figures += figures_of(
+        NAME, MODEL, {"over_penetration": whole.height / h}, figures[0].uncertainty, at
+    )
+    exact = {
         "penetration": h,
-        "over_penetration": whole["height"] / h,
-        "relative_penetration": (a / radius) ** 2,
-        "contact": 0.5 * level.contact_length,
+        "relative_penetration": (a / problem.scene.roller_radius) ** 2,
         "work_scale": problem.hertz.load_per_length * h,
-        "plastic_strain": float(field.others[STRAIN].max()) if STRAIN in field.others else None,
-        "work": float(load @ moved / (load @ np.abs(moved))) if several else None,
-        "energy": ahead[-1],
-        "energy_uncertainty": _finite(unsure),
-        "energy_ahead": {name: front / (back + front) for name, (back, front) in finest.items()},
-        "distance": s.tolist(),
-        "rise": curve.tolist(),
-        "patches": _by_patch(problem, run, friction, tilt) if problem.scene.profile else [],
     }
+    figures += figures_of(NAME, MODEL, exact, None, at)
+    length = Figures(known.figures).one(quantity="contact_length", source=MODEL)
+    stated = Uncertainty(length.uncertainty.parts)
+    figures += figures_of(NAME, MODEL, {"contact": 0.5 * level.contact_length}, stated, at)
+    sequences = {}
+    if STRAIN in level.field_on_mesh.others:
+        strains = [float(each.field_on_mesh.others[STRAIN].max()) for each in run.levels]
+        sequences["plastic_strain"] = strains
+    if len(level.field_on_mesh.displacement) > 1:
+        places = zip(run.levels, centres, strict=True)
+        sequences["work"] = [_work(each, friction, c, whole.at) for each, c in places]
+    for name, values in sequences.items():
+        figures += figures_of(NAME, MODEL, {name: values[-1]}, _settled(values, level), at)
+    figures += _energies(solved, friction)
+    columns = {
+        "distance": Column(tuple(s.tolist()), "m"),
+        "rise": Column(tuple(curve.tolist()), "m", (whole.uncertainty,) * len(s)),
+    }
+    tables = [Series(CURVE, columns, MODEL, at)]
+    if problem.scene.profile:
+        tables.append(_by_patch(problem, run, friction, tilt))
+    return figures, tables
 
 
-def _by_patch(problem: Problem, run: ModelRun, friction: float, tilt: float) -> list[dict]:
+def _figures_of(excess: Excess, at: Mapping[str, float]) -> list[Figure]:
+    """What is read at the same place is as uncertain as the height."""
+    sizes = {"height": excess.uncertainty, "half_plane": excess.uncertainty}
+    sizes |= {"at": excess.spacing, "end": excess.end_uncertainty}
+    figures = []
+    for name, size in sizes.items():
+        value = getattr(excess, name)
+        stated = Uncertainty({"numerical": float(size / (abs(value or 0.0) or 1.0))})
+        figures += figures_of(NAME, MODEL, {name: value}, stated, at)
+    return figures
+
+
+def _settled(values: Sequence[float], level: Level) -> Uncertainty:
+    """Of the last of values on all levels, by these and by the iteration."""
+    size = grid_convergence(values, ORDER).uncertainty + iteration(level) * abs(values[-1])
+    return Uncertainty({"numerical": float(size / (abs(values[-1]) or 1.0))})
+
+
+def _work(level: Level, friction: float, centre: float, s: float) -> float:
+    """The traction's rise counts from its mean at the distance s on both sides [m]."""
+    load, (x, rise) = level.solution.pressure * level.grid.weights, _rise(level, friction)
+    moved = np.interp(level.grid.x, x, rise)
+    moved -= 0.5 * np.sum(np.interp(centre + s * np.array([-1.0, 1.0]), x, rise))
+    return float(load @ moved / (load @ np.abs(moved)))
+
+
+def _energies(solved: Solved, friction: float) -> list[Figure]:
+    """The finite elements' energy ahead less that behind, and each model's share ahead."""
+    figures, at = [], {"friction": friction}
+    for name, run in solved.runs.items():
+        stored = [
+            elastic_energy(solved.problem, each, solved.window, friction) for each in run.levels
+        ]
+        shares = [front / (back + front) for back, front in stored]
+        ahead = {"energy": [front - back for back, front in stored]} if name == MODEL else {}
+        for quantity, values in (ahead | {"energy_ahead": shares}).items():
+            stated = _settled(values, run.finest)
+            figures += figures_of(NAME, name, {quantity: values[-1]}, stated, at)
+    return figures
+
+
+def _by_patch(problem: Problem, run: ModelRun, friction: float, tilt: float) -> Series:
     level, wanted = run.finest, problem.scene.statistics
     ends, (loads, centres, peaks) = level.patches, patch_loads(level)
     depth = relative_penetration(peaks, problem.modulus)
     rule = (wanted.metal, wanted.lubricated) if wanted else ("ferrous", False)
-    kinds, found = contact_kind(depth["sphere"], depth["ridge"], *rule), []
+    kinds, rows, unsure = contact_kind(depth["sphere"], depth["ridge"], *rule), [], []
     before, after = np.append(-np.inf, ends[:-1, 1]), np.append(ends[1:, 0], np.inf)
     for k, (start, stop) in enumerate(ends):
         reach = min(centres[k] - before[k], after[k] - centres[k], NEAR * 0.5 * (stop - start))
@@ -152,14 +244,32 @@ def _by_patch(problem: Problem, run: ModelRun, friction: float, tilt: float) -> 
         here = [centres[k]] * len(run.levels)
         own, _, _ = _excess(problem, run, friction, s, here, reach, tilt)
         h = 4.0 * loads[k] / (np.pi * problem.modulus)
-        of_patch = {"start": start, "stop": stop, "penetration": h}
-        of_patch |= {
-            "over_penetration": own["height"] / h,
-            "relative_penetration": depth["ridge"][k],
-        }
-        of_patch = {name: float(value) for name, value in of_patch.items()}
-        found.append({**of_patch, "kind": str(kinds[k]), **own})
-    return found
+        rows.append(
+            {
+                "start": float(start),
+                "stop": float(stop),
+                "penetration": float(h),
+                "over_penetration": float(own.height / h),
+                "relative_penetration": float(depth["ridge"][k]),
+                "kind": str(kinds[k]),
+                "height": own.height,
+                "half_plane": own.half_plane,
+                "at": own.at,
+                "end": own.end,
+            }
+        )
+        size, far = own.uncertainty, own.end_uncertainty
+        unsure.append(
+            {"over_penetration": float(size / h), "height": size, "half_plane": size}
+            | {"at": own.spacing, "end": far}
+        )
+    columns = {}
+    for name in rows[0]:
+        values = tuple(row[name] for row in rows)
+        sizes = tuple(row[name] for row in unsure) if name in unsure[0] else None
+        unit = "m" if name in ("start", "stop") else ""
+        columns[name] = Column(values, QUANTITIES[name].unit if name in QUANTITIES else unit, sizes)
+    return Series(PATCHES, columns, MODEL, {"friction": friction})
 
 
 def _excess(
@@ -170,7 +280,7 @@ def _excess(
     centres: list[float],
     near: float,
     tilt: float | None = None,
-) -> tuple[dict, np.ndarray, float]:
+) -> tuple[Excess, np.ndarray, float]:
     """Height, place and end of the largest excess within `near` [m] of each level's centre [m], B
     (n,) [m] on the finest level, and the tilt of the surface that the far boundary makes: the step
     is constant to infinity, and held there it falls evenly on the way. None: from the farthest s,
@@ -187,20 +297,21 @@ def _excess(
         tilt = 0.0 if own else far_boundary(excess[-1] / s[-1])
     top = int(np.argmax(excess[s <= near]))
     ends = [_end(s, each, top) for each in excesses]
-    settled = None if None in ends else grid_convergence(ends, ORDER).uncertainty
+    settled = np.inf if None in ends else float(grid_convergence(ends, ORDER).uncertainty)
     uncertainty = grid_convergence([each[top] for each in excesses], ORDER).uncertainty
     uncertainty += iteration(run.finest) * abs(curve[top]) + tilt * s[top]
     longer = [of_level(level, centres[0])[1] for level in run.longer_increments]
     uncertainty += of_increments([each[top] for each in (*longer, excesses[0])])
-    found = {
-        "height": float(excess[top]),
-        "uncertainty": _finite(uncertainty),
-        "at": float(s[top]),
-        "end": ends[-1],
-        "end_uncertainty": _finite(settled),
-        "half_plane": float(curve[top] - excess[top]),
-    }
-    return found, curve, tilt
+    excess_of = Excess(
+        height=float(excess[top]),
+        uncertainty=float(uncertainty),
+        at=float(s[top]),
+        spacing=float(np.diff(s)[min(top, len(s) - 2)]),
+        end=ends[-1],
+        end_uncertainty=settled,
+        half_plane=float(curve[top] - excess[top]),
+    )
+    return excess_of, curve, tilt
 
 
 def _end(s: np.ndarray, excess: np.ndarray, top: int) -> float | None:
@@ -211,10 +322,6 @@ def _end(s: np.ndarray, excess: np.ndarray, top: int) -> float | None:
         return None
     (far,) = below
     return float(np.interp(half, excess[[far, far - 1]], s[[far, far - 1]]))
-
-
-def _finite(size: float | None) -> float | None:
-    return float(size) if size is not None and np.isfinite(size) else None
 
 
 def _rise(level: Level, friction: float) -> tuple[np.ndarray, np.ndarray]:
@@ -236,3 +343,110 @@ def _across(centre: float, s: np.ndarray, x: np.ndarray, values: np.ndarray) -> 
 def _centre(level: Level) -> float:
     load = level.solution.pressure * level.grid.weights
     return float(load @ level.grid.x / load.sum())
+
+
+@dataclass(frozen=True)
+class Bulge:
+    """At one friction coefficient, for whoever shows it: values [SI] by quantity."""
+
+    friction: float
+    figures: Mapping[str, Figure]
+    energy_ahead: tuple[float, ...]  # by model
+    curve: Series
+    patches: Series | None
+
+    def value(self, name: str) -> float | None:
+        return self.figures[name].value if name in self.figures else None
+
+
+def bulges_of(findings: Findings | None) -> list[Bulge]:
+    """By friction coefficient; none where it was not measured."""
+    found = []
+    for curve in findings.series if findings else ():
+        if curve.name == CURVE:
+            own = [f for f in findings.figures if f.at == curve.at]
+            shares = tuple(f.value for f in own if f.quantity == "energy_ahead")
+            figures = {f.quantity: f for f in own if f.source == MODEL}
+            patches = findings.table(PATCHES, **curve.at)
+            found.append(Bulge(curve.at["friction"], figures, shares, curve, patches))
+    return found
+
+
+def blocks(run: Run) -> list[Block]:
+    """A row for each friction coefficient above 0 and each patch."""
+    heading, findings = "Bulge ahead of the sliding contact", run.found[NAME]
+    if (why := findings.said(WHY_NOT)) is not None:
+        table = TextTable("Not measured", ("because",), ((why,),))
+        return [Block(heading, (table,), NOTE, "stresses")]
+    a, rows = run.problem.hertz.half_width, []
+    for bulge in bulges_of(findings):
+        end, work = bulge.value("end"), significant(bulge.value("work"), 1)
+        end = "beyond 20 a" if end is None else significant(end / a, 3)
+        over = significant(bulge.value("energy") / bulge.value("work_scale"), 3)
+        energy = f"{over} ({', '.join(map(percent, bulge.energy_ahead))})"
+        values = {name: figure.value for name, figure in bulge.figures.items()}
+        height = bulge.figures["height"]
+        raised = _raised(values, height.numerical * height.scale, a)
+        rows.append((plain(bulge.friction), *raised, end, work, energy))
+        patches = bulge.patches.rows() if bulge.patches else []
+        for k, patch in enumerate(patches, 1):
+            size = bulge.patches.columns["height"].uncertainty[k - 1]
+            rows.append((f"patch {k}, {patch['kind']}", *_raised(patch, size, a), "", "", ""))
+    head = ("friction", "bulge", "half-plane's step", "bulge over h", "h/R", "at s/a")
+    head += ("half of it at s/a", "work", "energy over P h (share ahead)")
+    table = TextTable("Finite elements", head, tuple(rows))
+    return [Block(heading, (table,), NOTE, "stresses", ("bulge",))]
+
+
+def _raised(values: Mapping[str, float], uncertainty: float, a: float) -> tuple[str, ...]:
+    """Bulge, step, both ratios and the place, of a whole contact or of a patch."""
+    stated = f" ± {with_unit(uncertainty, 'm', 1)}" if np.isfinite(uncertainty) else ""
+    height, step = (with_unit(values[name], "m", 3) for name in ("height", "half_plane"))
+    ratios = (values["over_penetration"], values["relative_penetration"], values["at"] / a)
+    return height + stated, step, *(significant(ratio, 3) for ratio in ratios)
+
+
+def bulge_picture(run: Run) -> style.Picture | None:
+    """The surface ahead over the distance from it; None where the run has no bulge."""
+    bulges = bulges_of(run.found.get(NAME))
+    if not bulges:
+        return None
+    a = run.problem.hertz.half_width
+    h = a**2 / run.problem.scene.roller_radius
+    drawn = style.figure(style.COLUMN, 2.6)
+    [axes] = style.stacked(drawn, [(0.35, 1.75)], 0.75)
+    for bulge in bulges:
+        s = np.array(bulge.curve.columns["distance"].values) / a
+        rise = np.array(bulge.curve.columns["rise"].values)
+        look = {"label": f"friction {plain(bulge.friction)}", "linewidth": 1.3}
+        axes.plot(s[s <= FARTHEST], rise[s <= FARTHEST] / h, **look)
+        step = bulge.value("half_plane")
+        ends = np.array([step, step + bulge.value("height")]) / h
+        axes.plot(np.full(2, bulge.value("at") / a), ends, **BULGE)
+    axes.axhline(0.0, color="#222222", linewidth=0.7)
+    axes.set(xlim=(0.0, FARTHEST), xlabel="s/a", ylabel="ahead − behind, over h")
+    axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.1)
+    largest = "; ".join(
+        f"friction {plain(each.friction)}: {significant(each.value('over_penetration'), 3)} h"
+        for each in bulges
+    )
+    words = "Surface ahead of the sliding contact less that as far behind it, raised by the "
+    words += f"traction alone, over the distance from the load's centre. Bulge: {largest}."
+    caption = f"{words} Bars: it, from the half-plane's exact step up; h = a²/R."
+    return style.Picture(style.data_uri(drawn), words, caption, data=style.csv_link(drawn))
+
+
+def _applies(solved: Solved) -> bool:
+    stress = solved.problem.scene.stress
+    return stress is not None and stress.bulge
+
+
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=_applies,
+    needs=needs,
+    blocks=blocks,
+    pictures={"bulge": bulge_picture},
+)

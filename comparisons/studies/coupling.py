@@ -2,23 +2,37 @@
 
 Sliding traction on bodies of different elastic constants also moves their surfaces normally, by
 friction times Dundurs' beta (`analytic.operators.tangential`). The published method neglects this.
-The half-plane is solved with and without it on its finest pressure elements."""
+The half-plane is solved with and without it on its finest pressure elements.
 
-from dataclasses import asdict, dataclass, replace
+In: the half-plane's levels. Out: its figures with coupling, and their differences from those
+without, by friction coefficient."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from analytic.contact.patches import CLEAR
 from analytic.grid import HatGrid
 from comparisons.common.progress import ProgressCallback, Stages
+from comparisons.common.tasks import Tasks
+from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.quantity import Quantity
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import no_coupling
 from comparisons.models.problem import Problem, surface_ends
 from comparisons.models.window import Window
-from comparisons.studies.contact import figures, norms
+from comparisons.studies import contact
+from comparisons.studies.comparison import norms
+from comparisons.studies.contact import values_of
+from comparisons.studies.study import CONVERGED, WHY_NOT, Solved, Study
 
+NAME = "coupling"
 SHIFT = "contact_shift"
+QUANTITIES = contact.QUANTITIES | {SHIFT: Quantity("shift of the pressure's centroid", "m")}
+UNCOUPLED = "uncoupled"  # the half-plane without it
 BEYOND_THE_END = "moved by friction, the contact reaches the end of the body"
 
 
@@ -44,18 +58,67 @@ class Coupling:
     seconds: float = 0.0
     why: str | None = None  # why there are no changes, None where there are
 
-    def as_dict(self) -> dict | None:
-        """For result.json; None without changes."""
-        if not self.changes:
-            return None
-        own = asdict(self)
-        return own["changes"] | {n: own[n] for n in ("converged", "iterations", "seconds")}
+
+@dataclass(frozen=True)
+class Couplings:
+    """One for each friction coefficient, in the order of the scene."""
+
+    changes: tuple[Coupling, ...]
+
+
+def coupled(solved: Solved, tasks: Tasks) -> Couplings:
+    """Of the half-plane as far as it is refined, computed once."""
+    run, given = solved.runs["half_plane"], (solved.problem, solved.window, tasks.callback)
+    return tasks.held(NAME, len(run.levels), lambda: couplings(run, *given))
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    """Of every friction coefficient. A change is as uncertain as the half-plane's figure that
+    changes, a shift as the contact's length, a norm as the worst."""
+    found, problem, known = coupled(solved, tasks), solved.problem, before[contact.NAME]
+    figures, series, said = [], [], []
+    for each in found.changes:
+        at = {"friction": each.friction}
+        figures += figures_of_changes(each, problem, known.figures)
+        if each.why is not None:
+            said.append(Statement(WHY_NOT, each.why, "half_plane", at))
+            continue
+        said.append(Statement(CONVERGED, "yes" if each.converged else "no", "half_plane", at))
+        counts = each.iterations | {"seconds": each.seconds}
+        columns = {name: Column((count,)) for name, count in counts.items()}
+        series.append(Series("cost", columns, "half_plane", at, is_account=True))
+    return Findings(tuple(figures), tuple(series), tuple(said), found)
+
+
+def figures_of_changes(
+    coupling: Coupling, problem: Problem, known: Iterable[Figure]
+) -> Iterator[Figure]:
+    """Each figure with coupling and its change; `known` are the models' own."""
+    at = {"friction": coupling.friction}
+    own = (f for f in known if f.source == "half_plane" and f.at == at and f.levels)
+    stated = {figure.quantity: figure for figure in own}
+    worst = max(stated.values(), key=lambda f: f.numerical)
+    for name, change in coupling.changes.items():
+        owner = stated.get("contact_length" if name == SHIFT else name, worst)
+        scale = problem.hertz.half_width if name == SHIFT else abs(change.value or 0.0) or 1.0
+        common = {
+            "study": NAME,
+            "quantity": name,
+            "source": "half_plane",
+            "at": at,
+            "scale": scale,
+            "uncertainty": Uncertainty(owner.uncertainty.parts),
+        }
+        if change.value is not None:
+            yield Figure(value=change.value, **common)
+        if change.difference is not None:
+            yield Figure(value=change.difference, against=UNCOUPLED, **common)
 
 
 def couplings(
-    problem: Problem, run: ModelRun, window: Window | None, callback: ProgressCallback
-) -> tuple[Coupling, ...]:
-    """One for each friction coefficient, from the finished half-plane."""
+    run: ModelRun, problem: Problem, window: Window | None, callback: ProgressCallback
+) -> Couplings:
+    """From the finished half-plane."""
     found = []
     for friction in problem.scene.friction:
         why = no_coupling(problem, friction)
@@ -63,7 +126,7 @@ def couplings(
             found.append(_coupling(problem, run.finest, friction, window, callback))
         else:
             found.append(Coupling(friction, {}, why=why))
-    return tuple(found)
+    return Couplings(tuple(found))
 
 
 def _coupling(
@@ -115,7 +178,7 @@ def _spread(level: Level, grid: HatGrid) -> Level:
 def _changes(
     problem: Problem, moved: Level, still: Level, friction: float, window: Window | None
 ) -> dict[str, Change]:
-    one, other = figures(moved, problem, friction), figures(still, problem, friction)
+    one, other = values_of(moved, problem, friction), values_of(still, problem, friction)
     found = {name: Change(one[name], _relative(one[name], other[name])) for name in one}
     shift = _centroid(moved) - _centroid(still)
     found[SHIFT] = Change(shift, shift / problem.hertz.half_width)
@@ -132,3 +195,10 @@ def _relative(value: float, before: float) -> float | None:
 def _centroid(level: Level) -> float:
     pressure = level.solution.pressure
     return float(level.grid.x @ pressure / pressure.sum())
+
+
+def _applies(solved: Solved) -> bool:
+    return solved.plan.coupling
+
+
+STUDY = Study(NAME, QUANTITIES, solve, _applies, data=Couplings)

@@ -1,5 +1,8 @@
 """The quiescent zone: a layer of low shear between the asperities' zone and the Hertz zone.
 
+In: the fields of a solved scene with a rough surface. Out: the dip's figures by model and friction,
+its state, and the asperities that bridge it.
+
     f(z)    root mean square of tau1 over |x| <= a at the depth z: f^2 is the mean density of the
             shear energy in the plane times 2 G
     f_H     largest f from DEEP a on: the Hertz zone
@@ -22,19 +25,43 @@ asperity tells which of them bridge the zone.
 QUIET is three quarters: by Lundberg and Palmgren, life goes with tau^-9.3 (c/e = 31/3 : 10/9), and
 a quarter less shear lasts an order of magnitude longer."""
 
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import dataclass
 from math import inf, isfinite, nan
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from comparisons.common.numbers import plain, significant
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.uncertainty import iteration
+from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.quantity import LABELS, Quantity
+from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import DEEP, by_repetition
+from comparisons.studies.comparison import DEEP
+from comparisons.studies.contact import by_repetition
+from comparisons.studies.study import WHY_NOT, Block, Run, Solved, Study, TextTable
 
+NAME = "quiescent_zone"
+QUANTITIES = {  # the figures of a ShearDip
+    "level": Quantity("least shear over the Hertz zone's"),
+    "ratio": Quantity("least shear over the smaller maximum"),
+    "depth": Quantity("depth of the least shear", "m"),
+    "start": Quantity("where the quiescent zone starts", "m"),
+    "stop": Quantity("where the quiescent zone stops", "m"),
+    "asperity": Quantity("largest shear of the asperities' zone", "Pa"),
+    "asperity_depth": Quantity("its depth", "m"),
+    "hertz": Quantity("largest shear of the Hertz zone", "Pa"),
+    "hertz_depth": Quantity("its depth", "m"),
+}
+STATE, ASPERITIES = "state", "asperities"
+NOTE = """The layer of low shear between the asperities' stresses and those of the Hertz
+contact, where the root mean square of τ₁ over |x| ≤ a is less than three quarters of its maxima
+above and below; shaded in the sections. Bridged: it is less nowhere on the way down. No asperity
+zone: it grows with depth as below smooth bodies. An asperity bridges the zone where the largest τ₁
+below it does not fall so far."""
 QUIET = 0.75
 QUIESCENT, BRIDGED, SMOOTH, UNCLEAR = "quiescent", "bridged", "no asperity zone", "inconclusive"
 FINE = 16  # points to an interval of depth, between which the spline through it is searched
@@ -57,9 +84,6 @@ class ShearDip:
     hertz: float
     hertz_depth: float
     status: str  # quiescent | bridged | no asperity zone
-
-
-FIGURES = tuple(each.name for each in fields(ShearDip) if each.type is float)
 
 
 def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
@@ -85,8 +109,8 @@ def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
         above, below = loud[loud < low][-1], loud[loud > low][0]
         pairs = [above + 1, above], [below - 1, below]
         ends = tuple(np.interp(QUIET * least, shear[pair], z[pair]) for pair in pairs)
-    figures = (level, ratio, z[low], *ends, shear[top], z[top], hertz, z[-1])
-    return ShearDip(*map(float, figures), status)
+    numbers = (level, ratio, z[low], *ends, shear[top], z[top], hertz, z[-1])
+    return ShearDip(*map(float, numbers), status)
 
 
 def mean_shear(problem: Problem, window: Window, tau1: np.ndarray, every: int = 1) -> np.ndarray:
@@ -138,73 +162,146 @@ def asperity_dips(
     return found
 
 
-@dataclass(frozen=True)
-class QuiescentZone:
-    """Of one model at one friction: the dip on its finest level, what numerical error may account
-    for in each of its figures, and the dips below single asperities."""
-
-    friction: float
-    dip: ShearDip
-    uncertainty: dict[str, float]
-    asperities: tuple[AsperityDip, ...]
-
-    @property
-    def status(self) -> str:
-        across = abs(self.dip.ratio - QUIET) <= self.uncertainty["ratio"]
-        return UNCLEAR if across else self.dip.status
-
-    def as_dict(self) -> dict:
-        """For result.json: SI, None for what is unknown or not there."""
-        figures = {
-            name: {"value": _known(getattr(self.dip, name)), "uncertainty": _known(size)}
-            for name, size in self.uncertainty.items()
-        }
-        below = [
-            {"x": each.x, "length": each.length, "level": each.dip.level, "status": each.dip.status}
-            for each in self.asperities
-        ]
-        bridged = sum(each["status"] == BRIDGED for each in below)
-        account = {"bridged": bridged, "asperities": below}
-        return {"friction": self.friction, "status": self.status, **figures, **account}
-
-
-def quiescent_zone(
+def zone_figures(
     problem: Problem, run: ModelRun, window: Window, friction: float
-) -> QuiescentZone:
-    """Of a finished run of one model. Uncertainty: discretisation, far boundary, iteration, and
-    what reading every second row and column of the window changes, added."""
-    levels = [zone_of(problem, level, window, friction) for level in run.levels]
+) -> tuple[tuple[Figure, ...], str]:
+    """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
+    boundary, iteration, and what reading every second row and column of the window changes."""
+
+    def read(level: Level) -> dict[str, float]:
+        dip = zone_of(problem, level, window, friction)
+        return {name: getattr(dip, name) for name in QUANTITIES}
+
+    levels, repeated = [read(level) for level in run.levels], by_repetition(run, read)
+    dip = zone_of(problem, run.finest, window, friction)
     coarse = zone_of(problem, run.finest, window, friction, every=2)
-    repeated = by_repetition(
-        run,
-        lambda level: {k: getattr(zone_of(problem, level, window, friction), k) for k in FIGURES},
-    )
-    found = {}
-    for name in FIGURES:
-        values = [getattr(each, name) for each in levels]
-        size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else nan
+    figures = []
+    for name in QUANTITIES:
+        values = tuple(each[name] for each in levels)
+        size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else inf
         size += iteration(run.finest) * abs(values[-1]) + abs(getattr(coarse, name) - values[-1])
-        found[name] = float(size + sum(repeated[name]))
-    asperities = tuple(asperity_dips(problem, run.finest, window, friction))
-    return QuiescentZone(friction, levels[-1], found, asperities)
+        size = float(size + sum(repeated[name]))
+        if isfinite(values[-1]):
+            scale = abs(values[-1]) or 1.0
+            stated = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
+            named = NAME, name, run.name, values[-1], {"friction": friction}
+            figures.append(Figure(*named, scale=scale, uncertainty=stated, levels=values))
+        if name == "ratio":
+            across = abs(dip.ratio - QUIET) <= size
+    return tuple(figures), UNCLEAR if across else dip.status
 
 
-def quiescent_zones(
-    problem: Problem, runs: dict[str, ModelRun], window: Window | None
-) -> dict | None:
-    """The content of result.json: by model, one entry a friction coefficient. None without a rough
-    profile or fields; `why` in place of the models where the field does not reach far enough."""
-    if problem.scene.profile is None or window is None:
-        return None
+def needs(solved: Solved) -> str | None:
+    """Why the field does not show a zone, None where it does."""
+    window, half_width = solved.window, solved.problem.hertz.half_width
     ends = min(window.x[-1], -window.x[0]), window.z[-1]
     for name, end, least in zip(("half_range", "depth"), ends, (1.0, DEEPEST), strict=True):
-        if end < least * problem.hertz.half_width * (1.0 - SHORT):
-            return {"why": f"stress.{name} is less than {least:g} a"}
-    return {
-        name: [quiescent_zone(problem, run, window, mu).as_dict() for mu in problem.scene.friction]
-        for name, run in runs.items()
-    }
+        if end < least * half_width * (1.0 - SHORT):
+            return f"stress.{name} is less than {least:g} a"
+    return None
 
 
-def _known(value: float) -> float | None:
-    return value if isfinite(value) else None
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+    """Of every model at every friction coefficient: the dip, and those below single asperities."""
+    problem, window, figures, series, states = solved.problem, solved.window, [], [], []
+    for name, run in solved.runs.items():
+        for friction in problem.scene.friction:
+            found, state = zone_figures(problem, run, window, friction)
+            figures += found
+            at = {"friction": friction}
+            states.append(Statement(STATE, state, name, at))
+            dips = asperity_dips(problem, run.finest, window, friction)
+            columns = {
+                "x": Column(tuple(each.x for each in dips), "m"),
+                "length": Column(tuple(each.length for each in dips), "m"),
+                "level": Column(tuple(each.dip.level for each in dips)),
+                "state": Column(tuple(each.dip.status for each in dips)),
+            }
+            series.append(Series(ASPERITIES, columns, name, at))
+    return Findings(tuple(figures), tuple(series), tuple(states))
+
+
+@dataclass(frozen=True)
+class Zone:
+    """One model's zone at one friction coefficient, for whoever shows it."""
+
+    model: str
+    friction: float
+    state: str
+    figures: dict[str, Figure]  # by quantity, as far as there are any
+    bridged: int  # so many of the asperities
+    asperities: int
+
+
+def zones_of(findings: Findings | None) -> list[Zone]:
+    """By model, then by friction coefficient."""
+    zones = []
+    for said in findings.statements if findings else ():
+        if said.name == STATE:
+            own = [f for f in findings.figures if (f.source, f.at) == (said.source, said.at)]
+            states = findings.table(ASPERITIES, said.source, **said.at).columns["state"].values
+            named = said.source, said.at["friction"], said.text, {f.quantity: f for f in own}
+            zones.append(Zone(*named, states.count(BRIDGED), len(states)))
+    return zones
+
+
+def blocks(run: Run) -> list[Block]:
+    """A table with a row for each friction coefficient and model."""
+    findings, a = run.found[NAME], run.problem.hertz.half_width
+    if (why := findings.said(WHY_NOT)) is not None:
+        table = TextTable("Not measured", ("because",), ((why,),))
+    else:
+        rows = [
+            (
+                *(plain(zone.friction), LABELS[zone.model], zone.state),
+                *(_text(zone, name, a) for name in ("start", "stop", "depth")),
+                *(_text(zone, name) for name in ("level", "ratio")),
+                f"{zone.bridged} of {zone.asperities}",
+            )
+            for zone in sorted(zones_of(findings), key=lambda zone: zone.friction)
+        ]
+        head = ("friction", "model", "", "from, z/a", "to, z/a", "least shear at, z/a")
+        head += ("least over Hertz zone's", "over the smaller maximum", "asperities that bridge it")
+        title = "Mean shear between asperities and Hertz zone"
+        table = TextTable(title, head, tuple(rows))
+    return [Block("Quiescent zone", (table,), NOTE, "stresses")]
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """The first model's zone at every friction coefficient."""
+    zones, a = zones_of(run.found[NAME]), run.problem.hertz.half_width
+    said = "; ".join(_said(zone, a) for zone in zones if zone.model == zones[0].model)
+    return [("quiescent zone", said)] if said else []
+
+
+def _said(zone: Zone, a: float) -> str:
+    words = zone.state
+    if words == QUIESCENT:
+        ends = (_text(zone, name, a, uncertain=False) for name in ("start", "stop"))
+        words = f"{' a to '.join(ends)} a deep"
+    if words != BRIDGED and zone.bridged:
+        words += f", bridged under {zone.bridged} of {zone.asperities} asperities"
+    level = _text(zone, "level", uncertain=False)
+    return f"friction {plain(zone.friction)}: {words}, least shear {level} of the Hertz zone's"
+
+
+def _text(zone: Zone, name: str, unit: float = 1.0, uncertain: bool = True) -> str:
+    """A figure in a unit [SI] with its uncertainty, empty where there is none."""
+    figure = zone.figures.get(name)
+    if figure is None:
+        return ""
+    text = significant(figure.value / unit, 3)
+    if not uncertain or not isfinite(figure.numerical):
+        return text
+    return f"{text} ± {significant(figure.numerical * figure.scale / unit, 1)}"
+
+
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    applies=lambda solved: solved.problem.scene.profile is not None and solved.window is not None,
+    needs=needs,
+    solve=solve,
+    blocks=blocks,
+    lines=lines,
+)

@@ -1,9 +1,13 @@
 """Where the body would begin to flow, and whether an elastic half-plane can stand for it.
 
+In: the half-plane's levels, or the finite elements' without it. Out: figures by friction, against
+first flow, and what an elastic body exceeds beyond doubt.
+
 Nomenclature: Y yield stress in tension, k in shear (Tresca: Y/2), H hardness, tau1 principal shear
 in the plane, mu friction coefficient, G shear modulus, E* combined modulus."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from math import inf, pi
 from typing import Literal
 
@@ -13,13 +17,32 @@ from analytic.exact.hertz import hertz_extremes
 from analytic.exact.shakedown import UNIT, shakedown_limit
 from analytic.surface.roughness import summits
 from comparisons.common.numbers import with_unit
-from comparisons.figures.verdict import Validity
+from comparisons.figures.figure import Findings, Statement, figures_of
+from comparisons.figures.quantity import Quantity
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
-from comparisons.studies.contact import uncertainties
+from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.estimates import TABOR
+from comparisons.studies.study import Solved, Study
 
-AT_CAP = 1.0 - 1e-9  # times the hardness: held there
+NAME = "yield"
+FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
+BEYOND_DOUBT = "beyond doubt"  # name of what is said of flow
+QUANTITIES = {
+    "yield_stress": Quantity("yield stress", "Pa"),
+    "hardness": Quantity("hardness", "Pa"),
+    "ideal_strength": Quantity("ideal strength of a crystal", "Pa"),
+    "plasticity_index_summits": Quantity("plasticity index, summits"),
+    "plasticity_index_slope": Quantity("plasticity index, slope"),
+    "tau1_max": Quantity("largest principal shear stress τ₁", "Pa"),
+    "von_mises_max": Quantity("von Mises", "Pa"),
+    "over_first_flow_tresca": Quantity("over first flow, Tresca"),
+    "over_first_flow_von_mises": Quantity("over first flow, von Mises"),
+    "share_at_hardness": Quantity("contact at the hardness or above"),
+    "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/2"),
+    "shakedown_limit": Quantity("elastic shakedown up to"),
+}
 DOES_NOT_APPLY = "the elastic half-plane does not apply"
 # Without [stress]: the largest shear is that of Hertz's contact of the same peak pressure. That of
 # the scenes that come along is 0.72 to 1.11 of it (friction 0 to 0.6; run in, up to 1.6).
@@ -86,57 +109,63 @@ class FlowAssessment:
     def beyond_doubt(self) -> str:
         """What an elastic body exceeds for certain, less the uncertainty, where nothing in the
         scene stands for its flow: a sentence without its full stop, empty if nothing."""
-        worst = self.worst
-        least = worst.tau1 * (1.0 - worst.uncertainty)
-        if self.flow != "elastic":
+        if self.exceeded is None:
             return ""
-        said = f"{DOES_NOT_APPLY}: its largest shear stress, {with_unit(worst.tau1, 'Pa', 2)}, "
-        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
-        if self.yield_stress is not None and least > self.yield_stress / 3.0**0.5:
-            flow = with_unit(0.5 * self.yield_stress, "Pa", 2)
-            return f"{said}exceeds the shear yield stress, Y/2 = {flow}"
-        if least > self.ideal_strength:
+        shear = with_unit(self.worst.tau1, "Pa", 2)
+        said = f"{DOES_NOT_APPLY}: its largest shear stress, {shear}, exceeds the"
+        if self.exceeded == self.ideal_strength:
             strength = with_unit(self.ideal_strength, "Pa", 2)
-            return f"{said}exceeds the ideal strength of a crystal, G/2π = {strength}"
-        return ""
+            return f"{said} ideal strength of a crystal, G/2π = {strength}"
+        flow = with_unit(0.5 * self.yield_stress, "Pa", 2)
+        return f"{said} shear yield stress, Y/2 = {flow}"
 
-    def judged(self, verdict: Validity, why: str) -> tuple[Validity, str]:
-        """A verdict on the half-plane and its reason; it fails where flow is beyond doubt."""
-        flows = self.beyond_doubt
-        return ("fails", f"{flows}; {why}") if flows else (verdict, why)
-
-    def as_dict(self) -> dict:
-        """For JSON, SI units; None for what is unknown."""
-        return {
-            "flow": self.flow,
-            "yield_stress": self.yield_stress,
-            "hardness": self.hardness,
-            "ideal_strength": None if self.ideal_strength == inf else self.ideal_strength,
-            "plasticity_index_summits": self.summit_index,
-            "plasticity_index_slope": self.slope_index,
-            "beyond_doubt": self.beyond_doubt or None,
-            "by_friction": [self._entry(check) for check in self.checks],
-        }
-
-    def _entry(self, check: FlowCheck) -> dict:
-        tresca = mises = ratio = None
-        if self.yield_stress is not None:
-            tresca, mises = check.over_first_flow(self.yield_stress)
-            ratio = 2.0 * check.peak / self.yield_stress
-        return {
-            "friction": check.friction,
-            "tau1_max": check.tau1,
-            "von_mises_max": check.von_mises,
-            "from": "field" if check.from_field else "peak pressure",
-            "over_first_flow_tresca": tresca,
-            "over_first_flow_von_mises": mises,
-            "share_at_hardness": check.at_hardness,
-            "peak_pressure_over_shear_yield": ratio,
-            "shakedown_limit": check.shakedown,
-        }
+    @property
+    def exceeded(self) -> float | None:
+        """The limit [Pa] that the largest tau1 of an elastic body exceeds for certain, if any."""
+        least = self.worst.tau1 * (1.0 - self.worst.uncertainty)
+        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
+        shear = inf if self.yield_stress is None else self.yield_stress / 3.0**0.5
+        limits = (shear, self.ideal_strength) if self.flow == "elastic" else ()
+        return next((limit for limit in limits if least > limit), None)
 
 
-def flow_assessment(problem: Problem, runs: dict[str, ModelRun]) -> FlowAssessment:
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+    """Figures by friction coefficient, of the scene, and what flows in words. What an elastic body
+    exceeds for certain is judged where the models are compared."""
+    flow = flow_assessment(solved.problem, solved.runs)
+    source = "half_plane" if "half_plane" in solved.runs else "finite_element"
+    of_scene = {
+        "yield_stress": flow.yield_stress,
+        "hardness": flow.hardness,
+        "ideal_strength": flow.ideal_strength,
+        "plasticity_index_summits": flow.summit_index,
+        "plasticity_index_slope": flow.slope_index,
+    }
+    figures, said = figures_of(NAME, "scene", of_scene), [Statement("flow", flow.flow)]
+    limit = flow.exceeded if solved.plan.compares else None
+    for check in flow.checks:
+        at = {"friction": check.friction}
+        unsure = Uncertainty({"numerical": check.uncertainty})
+        values = {"tau1_max": check.tau1, "von_mises_max": check.von_mises}
+        if flow.yield_stress is not None:
+            tresca, mises = check.over_first_flow(flow.yield_stress)
+            values |= {"over_first_flow_tresca": tresca, "over_first_flow_von_mises": mises}
+            values["peak_pressure_over_shear_yield"] = 2.0 * check.peak / flow.yield_stress
+        values["share_at_hardness"] = check.at_hardness
+        for figure in figures_of(NAME, source, values, unsure, at):
+            if figure.quantity == "share_at_hardness":
+                figure = replace(figure, scale=1.0)
+            if figure.quantity == "tau1_max" and limit is not None and check is flow.worst:
+                figure = replace(figure, bounds=(0.0, limit / figure.scale))
+            figures.append(figure)
+        figures += figures_of(NAME, "scene", {"shakedown_limit": check.shakedown}, None, at)
+        said.append(Statement("read", FIELD if check.from_field else PEAK, source, at))
+    if flow.beyond_doubt:
+        said.append(Statement(BEYOND_DOUBT, flow.beyond_doubt, source))
+    return Findings(tuple(figures), statements=tuple(said), data=flow)
+
+
+def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAssessment:
     """Of the half-plane where it was solved, else of the finite elements."""
     scene, run = problem.scene, runs.get("half_plane") or next(iter(runs.values()))
     plastic, given = scene.finite_element.plastic, scene.yielding and scene.yielding.stress
@@ -177,7 +206,7 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
     share = None
     if hardness is not None:
         touching = weights[pressure > 0.0].sum()
-        share = float(weights[pressure >= AT_CAP * hardness].sum() / touching)
+        share = float(weights[pressure >= AT_HARDNESS * hardness].sum() / touching)
     return FlowCheck(
         friction=friction,
         tau1=tau1,
@@ -188,3 +217,6 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
         at_hardness=share,
         shakedown=None if hardness is None else shakedown_limit(friction)[0],
     )
+
+
+STUDY = Study(NAME, QUANTITIES, solve, data=FlowAssessment)

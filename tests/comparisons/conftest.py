@@ -29,18 +29,16 @@ from analytic.stress_state import Extremum, StressState
 from comparisons.common import tasks
 from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
-from comparisons.figures.quantity import MODELS
+from comparisons.drawing.style import Picture
+from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window
-from comparisons.report.figures.style import Picture
-from comparisons.report.page import PICTURES
-from comparisons.results.outcome import Outcome
-from comparisons.results.record import record_of
-from comparisons.results.result_json import result_of
-from comparisons.studies.contact import compared, pair_histories
-from comparisons.studies.model_error.error_budget import error_budget
+from comparisons.output.page.page import PICTURES
+from comparisons.output.record import record_of
+from comparisons.studies import STUDIES
+from comparisons.studies.study import Run, Solved, studied
 from meshes.block import BlockMesh, BlockSpec
 
 # Tests count and replace what is done in their own process; those of several processes say so.
@@ -131,7 +129,7 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
     )
 
 
-def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
+def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     """The outcome of a scene given as tables."""
     scene = resolved(tables)
     problem = problem_of(scene)
@@ -151,36 +149,21 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         )
         for name in models
     }
-    comparisons, budget = (), None
-    if plan.compares:
-        plan = replace(plan, effects=False)  # there are no finite elements to show any
-        comparisons = compared(problem, runs, window)
-        rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
-        with patch(
-            "comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows
-        ):
-            budget = error_budget(problem, plan, window, runs, comparisons, (), Tasks())
+    # there are no finite elements to show effects, and no other contact that friction makes
+    plan = replace(plan, effects=False, coupling=False)
+    resolved_all = "every judged quantity is resolved"
+    solved = Solved(problem, plan, window, runs, resolved_all)
+    rows = {mu: dict.fromkeys(QUANTITIES, SAMPLING) for mu in scene.friction}
+    with patch("comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows):
+        found = studied(STUDIES, solved, {}, Tasks())
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
     }
-    return Outcome(
-        problem=problem,
-        plan=plan,
-        window=window,
-        runs=runs,
-        comparisons=comparisons,
-        result=result_of(
-            problem, plan, runs, comparisons, "every judged quantity is resolved", (), budget
-        ),
-        record=record_of(scene, runs, hashes),
-        directory=Path("results/made"),
-        budget=budget,
-        pairs=pair_histories(problem, runs, window) if plan.compares else (),
-    )
+    return Run(solved, found, record_of(scene, runs, hashes), Path("results/made"))
 
 
 @pytest.fixture(scope="session")
-def finish() -> Callable[..., Outcome]:
+def finish() -> Callable[..., Run]:
     """`finish(tables, models)`: the outcome of a scene given as tables."""
     return finished_run
 
@@ -192,25 +175,25 @@ def smooth_tables() -> dict:
 
 
 @pytest.fixture(scope="session")
-def smooth_outcome() -> Outcome:
+def smooth_outcome() -> Run:
     return finished_run(SMOOTH)
 
 
 @pytest.fixture(scope="session")
-def wavy_outcome() -> Outcome:
+def wavy_outcome() -> Run:
     """Rough, with a hardness and two friction coefficients."""
     return finished_run(WAVY)
 
 
 @pytest.fixture(scope="session")
-def no_pictures() -> Callable[[Outcome], dict]:
-    """Stands in for `comparisons.report.page.draw`, which takes longer than all the rest of a run:
-    the page has all its words, and nothing to look at."""
+def no_pictures() -> Callable[[Run], dict]:
+    """Stands in for `comparisons.output.page.page.draw`, which takes longer than all the rest of a
+    run: the page has all its words, and nothing to look at."""
     blank = Picture("data:image/svg+xml;base64,", "", "")
 
-    def pictures(outcome: Outcome, beside: object = ()) -> dict[str, object]:
+    def pictures(outcome: Run, beside: object = ()) -> dict[str, object]:
         run_in = None if outcome.problem.scene.run_in is None else blank
-        budget = None if outcome.budget is None else blank
+        budget = blank if outcome.plan.compares else None
         made = dict.fromkeys(PICTURES, blank) | {"running_in": run_in, "model_error": budget}
         return made | {name: [] for name in ("answers", "fields", "near", "sections", "mesh")}
 
@@ -218,9 +201,9 @@ def no_pictures() -> Callable[[Outcome], dict]:
 
 
 @pytest.fixture(scope="module")
-def undrawn(no_pictures: Callable[[Outcome], dict]) -> Iterator[None]:
+def undrawn(no_pictures: Callable[[Run], dict]) -> Iterator[None]:
     """The reports of a whole module without pictures."""
-    with patch("comparisons.report.page.draw", no_pictures):
+    with patch("comparisons.output.page.page.draw", no_pictures):
         yield
 
 

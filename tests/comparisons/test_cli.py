@@ -53,10 +53,9 @@ def solver(monkeypatch, tmp_path):
     run = Run()
     monkeypatch.setitem(sys.modules, "comparisons.runs.run", run)
     table = types.SimpleNamespace(summary=lambda outcome: "peak pressure agree")
-    monkeypatch.setitem(sys.modules, "comparisons.report.terminal", table)
-    monkeypatch.setattr(
-        "comparisons.results.plausibility.warnings_about_result", lambda outcome: []
-    )
+    monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
+    monkeypatch.setattr("comparisons.output.result_json.content_of", lambda run: run.result)
+    monkeypatch.setattr("comparisons.output.plausibility.warnings_about_result", lambda outcome: [])
     monkeypatch.chdir(tmp_path)
     return run
 

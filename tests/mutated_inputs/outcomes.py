@@ -18,12 +18,12 @@ from comparisons.campaigns.maps.place import first_answer
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.progress import no_progress
 from comparisons.models.problem import problem_of
-from comparisons.report.redraw import draw_again
-from comparisons.report.saved import read_outcome
-from comparisons.report.terminal import summary
-from comparisons.results.flat_table import as_csv, tidy_rows
-from comparisons.results.plausibility import warnings_about, warnings_about_result
-from comparisons.results.recorded_run import read_record
+from comparisons.output.flat_csv import as_csv, tidy_rows
+from comparisons.output.page.redraw import draw_again
+from comparisons.output.page.saved import read_run
+from comparisons.output.plausibility import warnings_about, warnings_about_result
+from comparisons.output.recorded_run import read_record
+from comparisons.output.terminal import summary
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
 
@@ -134,4 +134,4 @@ def read_and_show(path: Path) -> None:
     if is_tenth(path / "result.json"):
         draw_again([path], None, False, no_progress)
     else:
-        read_outcome(path)
+        read_run(path)

@@ -10,11 +10,11 @@ from comparisons.campaigns.cost.recommend import AssessedRow, Recommendation, sc
 from comparisons.campaigns.cost.result import Cost
 from comparisons.campaigns.cost.study import FAILED, OK
 from comparisons.common.numbers import integer, percent, with_unit
+from comparisons.drawing.style import drawing
 from comparisons.figures.quantity import label
-from comparisons.report.figures.style import drawing
-from comparisons.report.html import STYLES as POLICY
-from comparisons.report.html import rendered
-from comparisons.report.terminal import PLAIN, SHORT, STYLES, plain_table
+from comparisons.output.page.html import STYLES as POLICY
+from comparisons.output.page.html import rendered
+from comparisons.output.terminal import PLAIN, SHORT, STYLES, plain_table
 
 if TYPE_CHECKING:
     from rich.console import Console, ConsoleOptions, RenderableType

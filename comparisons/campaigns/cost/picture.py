@@ -7,8 +7,8 @@ from comparisons.campaigns.cost.recommend import needs_stress
 from comparisons.campaigns.cost.result import Cost
 from comparisons.campaigns.cost.study import OK
 from comparisons.common.numbers import given_percent, percent, with_unit
+from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, figure
 from comparisons.figures.quantity import label
-from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
 
 # Okabe and Ito's colours, a line style and a mark of its own for each.
 DASHED = (0, (4, 1.6))

@@ -14,12 +14,13 @@ import numpy as np
 from analytic.exact.hertz import hertz_extremes, hertz_stress
 from comparisons.campaigns.cost.methods import FINEST, is_half_plane_problem
 from comparisons.campaigns.cost.solve import SolvedContact
-from comparisons.campaigns.cost.study import CostRow, Study
+from comparisons.campaigns.cost.study import CostRow, CostRun
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import field_norms, relative_l2, uncertainties
+from comparisons.studies.comparison import field_norms, relative_l2
+from comparisons.studies.contact import uncertainties
 
 EXACT_POINTS = 20_001
 FLOOR = 1e-12  # of exact values: rounding
@@ -39,7 +40,7 @@ class Reference:
     row: CostRow | None  # that it is, None where it is exact
 
 
-def references(problem: Problem, study: Study, window: Window | None) -> dict[str, Reference]:
+def references(problem: Problem, study: CostRun, window: Window | None) -> dict[str, Reference]:
     """By quantity; without those that no solved row has."""
     if is_exact(problem):
         return _exact(problem, window)
@@ -115,7 +116,7 @@ def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
 
 
 def _finest(
-    problem: Problem, study: Study, name: str, window: Window | None
+    problem: Problem, study: CostRun, name: str, window: Window | None
 ) -> dict[str, Reference]:
     """References by the finest row of a method, with the uncertainty that its levels show."""
     rows = study.of(name)

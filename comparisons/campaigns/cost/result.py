@@ -10,7 +10,7 @@ from comparisons.campaigns.cost.recommend import (
     scene_sections,
 )
 from comparisons.campaigns.cost.reference import Reference, error_of, references
-from comparisons.campaigns.cost.study import CostRow, Study, measuring_machine
+from comparisons.campaigns.cost.study import CostRow, CostRun, measuring_machine
 from comparisons.common.errors import SceneError
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import QUANTITIES
@@ -25,7 +25,7 @@ class Cost:
     """A finished study."""
 
     problem: Problem
-    study: Study
+    study: CostRun
     references: dict[str, Reference]  # by quantity
     assessed: list[AssessedRow]  # every row with its errors
     # the rows on the Pareto front by quantity, the cheapest first
@@ -35,7 +35,7 @@ class Cost:
     machine: dict
 
 
-def assess(problem: Problem, study: Study) -> Cost:
+def assess(problem: Problem, study: CostRun) -> Cost:
     """Errors, Pareto fronts and recommendations of what was measured. Raises SceneError without a
     reference."""
     scene = problem.scene

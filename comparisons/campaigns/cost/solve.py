@@ -18,7 +18,7 @@ from comparisons.models.level import Level, StressResult
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, search_window
-from comparisons.studies.contact import figures
+from comparisons.studies.contact import values_of
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def solved(
 def _of_level(level: Level, problem: Problem) -> SolvedContact:
     pressure = level.solution.pressure
     return SolvedContact(
-        figures=tuple(figures(level, problem, friction) for friction in problem.scene.friction),
+        figures=tuple(values_of(level, problem, friction) for friction in problem.scene.friction),
         x=level.grid.pitch * np.arange(level.grid.first - 1, level.grid.last + 2),
         pressure=np.concatenate([[0.0], pressure, [0.0]]),
         stresses=level.stresses,

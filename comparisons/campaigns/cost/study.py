@@ -66,7 +66,7 @@ class CostRow:
 
 
 @dataclass(frozen=True)
-class Study:
+class CostRun:
     """What was measured."""
 
     rows: tuple[CostRow, ...]  # by method, from coarse to fine
@@ -94,7 +94,7 @@ def measured_study(
     cache: Cache,
     callback: ProgressCallback,
     methods: tuple[SolutionMethod, ...] = METHODS,
-) -> Study:
+) -> CostRun:
     """Measure what the cache does not have, and save it there. Each method has a process of its
     own, so that memory is its own, on one thread."""
     spent, rows, check = 0.0, [], {}
@@ -115,7 +115,7 @@ def measured_study(
                     check[method.name] = run(task)
         rows += series
         spent += sum(row.measured.spent for row in series if row.measured is not None)
-    return Study(tuple(rows), check)
+    return CostRun(tuple(rows), check)
 
 
 def _series(

@@ -7,7 +7,7 @@ import numpy as np
 from comparisons.campaigns.decks import TEMPLATES
 from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem
 from comparisons.common.errors import SceneError
-from comparisons.report.html import rendered
+from comparisons.output.page.html import rendered
 
 GAP_POINTS = 8  # an edge, of the sampled gap
 SAME = 1e-6  # of an edge: places that are one

@@ -11,7 +11,7 @@ from analytic.material import Material
 from comparisons.campaigns.decks import TEMPLATES
 from comparisons.campaigns.decks.problem import MPA, DeckProblem
 from comparisons.common.errors import SceneError
-from comparisons.report.html import rendered
+from comparisons.output.page.html import rendered
 
 # CalculiX: pressure over penetration, in E over an edge, so that finer meshes penetrate less. Of
 # Hertz's peak pressure it takes 1e-4 at twenty edges to a half-width.

@@ -8,7 +8,7 @@ from comparisons.campaigns.decks.problem import MM, DeckProblem, deck_problem
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, publish
 from comparisons.models.problem import Problem, problem_of
-from comparisons.report.html import rendered
+from comparisons.output.page.html import rendered
 from comparisons.scenes.scene import ResolvedScene
 
 FILES = ("README.md", "answer.toml", "job.inp", "mesh.inp", "solve.py", "mesh.npz")

@@ -7,7 +7,7 @@ import numpy as np
 from analytic.profile import Profile
 from analytic.surface.roughness import bearing_curve, power_spectrum
 from comparisons.common.numbers import scale_of
-from comparisons.report.figures.style import WIDE, drawing, figure, svg
+from comparisons.drawing.style import WIDE, drawing, figure, svg
 from comparisons.scenes.scene import ResolvedScene
 
 if TYPE_CHECKING:

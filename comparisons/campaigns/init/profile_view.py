@@ -7,9 +7,9 @@ import numpy as np
 from analytic.surface.roughness_standard import SECTIONS
 from comparisons.campaigns.init.first_scene import FirstScene
 from comparisons.common.numbers import significant, with_unit
-from comparisons.report.tables.problem import in_mm, sections_text, standard_text
-from comparisons.report.terminal import PLAIN, plain_table
-from comparisons.results.plausibility import warnings_about_surface
+from comparisons.output.page.tables.problem import in_mm, sections_text, standard_text
+from comparisons.output.plausibility import warnings_about_surface
+from comparisons.output.terminal import PLAIN, plain_table
 from comparisons.scenes.scene import ProfileInfo
 
 if TYPE_CHECKING:

@@ -18,8 +18,8 @@ from comparisons.campaigns.maps.content import (
     scaled,
 )
 from comparisons.campaigns.points import FAILED
+from comparisons.drawing.style import drawing, figure, svg
 from comparisons.figures.quantity import label
-from comparisons.report.figures.style import drawing, figure, svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -24,7 +24,8 @@ from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.contact import figures, pair_history
+from comparisons.studies.comparison import differences_of
+from comparisons.studies.contact import values_of
 from fem.solver.communicator import each_alone
 from meshes.block import MeshError
 
@@ -174,14 +175,16 @@ def model_errors(
     friction: float,
     window: Window | None,
 ) -> dict[str, PointError]:
-    history = pair_history(half_plane, finite_element, problem, friction, window)
-    one, other = (figures(run.finest, problem, friction) for run in (half_plane, finite_element))
-    found = {}
-    for name, difference in history.differences[-1].items():
-        total = history.uncertainties[name].total
-        known = float(total) if np.isfinite(total) else None
-        found[name] = PointError(one.get(name), other.get(name), difference, known)
-    return found
+    values = [values_of(run.finest, problem, friction) for run in (half_plane, finite_element)]
+    errors = differences_of(half_plane, finite_element, problem, friction, window)
+    return {
+        name: PointError(
+            *(of_model.get(name) for of_model in values),
+            error.value,
+            error.numerical if np.isfinite(error.numerical) else None,
+        )
+        for name, error in errors.items()
+    }
 
 
 def _significant(value: float | None) -> float | None:

@@ -14,8 +14,8 @@ from comparisons.campaigns.paper.claims.judgement import (
 )
 from comparisons.common.numbers import MINUS, UNKNOWN, percent, significant
 from comparisons.figures.quantity import LABELS, MODELS, label
-from comparisons.report.tables.text import error_text
-from comparisons.report.terminal import PLAIN, STYLES, plain_table
+from comparisons.output.page.tables.text import error_text
+from comparisons.output.terminal import PLAIN, STYLES, plain_table
 from comparisons.studies.model_error.catalogue import EFFECTS
 
 if TYPE_CHECKING:

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 from comparisons.campaigns.paper.claim_table import claim_row, summary
 from comparisons.campaigns.paper.sections import Section
 from comparisons.common.numbers import UNKNOWN, given, integer, percent, significant, with_unit
-from comparisons.figures.verdict import Comparison
-from comparisons.report.html import STYLES, rendered
-from comparisons.report.tables.problem import load_text
-from comparisons.report.tables.text import TextTable
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.output.page.html import STYLES, rendered
+from comparisons.output.page.tables.problem import load_text
+from comparisons.studies.study import TextTable
 
 if TYPE_CHECKING:
     from comparisons.campaigns.paper.reproduce import Paper
@@ -47,8 +48,8 @@ def _models(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
         for friction in outcome.problem.scene.friction:
-            compared = [c for c in outcome.comparisons if c.friction == friction]
-            found = {c.quantity: _difference(c) for c in compared}
+            compared = outcome.figures.of(study="comparison", friction=friction)
+            found = {figure.quantity: _difference(figure) for figure in compared}
             cells = [found.get(quantity, UNKNOWN) for quantity in SHOWN]
             rows.append((_short(name), f"{friction:g}", *cells))
     head = ("surface", "friction", *SHOWN.values())
@@ -59,10 +60,10 @@ def _short(scene: str) -> str:
     return scene.removeprefix("ground-").replace("-", " ")
 
 
-def _difference(row: Comparison) -> str:
-    signed = row.half_plane is not None
-    found = percent(row.difference, signed=signed, uncertainty=row.uncertainty)
-    return f"{found} ({percent(row.uncertainty, digits=1)})"
+def _difference(figure: Figure) -> str:
+    signed = not QUANTITIES[figure.quantity].of_pair
+    found = percent(figure.value, signed=signed, uncertainty=figure.numerical)
+    return f"{found} ({percent(figure.numerical, digits=1)})"
 
 
 def _surfaces(paper: "Paper") -> TextTable:

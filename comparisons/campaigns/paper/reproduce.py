@@ -19,13 +19,17 @@ from comparisons.common.provenance import as_json, versions
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.results.outcome import Outcome
+from comparisons.output.result_json import content_of
 from comparisons.runs.run import solve
 from comparisons.scenes.resolve import load_scene
+from comparisons.studies import comparison, contact, quiescent_zone
+from comparisons.studies import problem as asked
+from comparisons.studies.study import Run, unsolved
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-SCHEMA = 2
+SCHEMA = 3  # 2 had the surfaces' figures by model and quantity
+SHOWN = (contact.NAME, comparison.NAME, asked.NAME)  # studies whose figures are kept
 SOLVING = 0.8  # share of the progress that solving takes
 PAGE, NUMBERS = "paper.html", "paper.json"
 SOURCE = "Bailey and Sayles 1991"
@@ -45,7 +49,7 @@ class Fineness:
 class Paper:
     """The paper computed anew."""
 
-    outcomes: dict[str, Outcome]  # of every surface, by its scene's name
+    outcomes: dict[str, Run]  # of every surface, by its scene's name
     judged: tuple[JudgedClaim, ...]  # in the order of the figures, and Seireg's after
     seconds: float  # that it took, without drawing
     directory: Path  # where the files are
@@ -69,13 +73,18 @@ class Paper:
             "claims": [each.as_dict() for each in self.judged],
             "outcomes": {kind: sum(j.outcome == kind for j in self.judged) for kind in OUTCOMES},
             "surfaces": {
-                name: {"surface": SURFACES[name]}
-                | {part: outcome.result[part] for part in ("profile", "models", "comparison")}
+                name: {"surface": SURFACES[name], "figures": _figures(outcome)}
                 for name, outcome in self.outcomes.items()
             },
             "seconds": self.seconds,
             "versions": versions(),
         }
+
+
+def _figures(run: Run) -> list[dict]:
+    """As result.json has them."""
+    content = content_of(run)
+    return [figure for figure in content["figures"] if figure["study"] in SHOWN]
 
 
 def paper(
@@ -106,7 +115,7 @@ def paper(
 
 def solve_surfaces(
     fineness: Fineness, callback: ProgressCallback = no_progress, effects: bool = False
-) -> dict[str, Outcome]:
+) -> dict[str, Run]:
     """By the scene's name. Raises SolverError where a model finds no solution."""
     found = {}
     for number, name in enumerate(SCENES, start=1):
@@ -122,8 +131,10 @@ def solve_surfaces(
             part = _prefixed(part, f"{number} of {len(SCENES)}, {name}")
             problem = problem_of(scene)
             plan = replace(make_plan(problem, MODELS), effects=effects)
-            found[name] = solve(problem, plan, None, part)
-            found[name].result.pop("quiescent_zone", None)  # figure 11 is drawn as the paper's
+            solved = solve(unsolved(problem, plan), None, part)
+            # figure 11 is drawn as the paper's, without the quiescent zone
+            shown = {n: each for n, each in solved.found.items() if n != quiescent_zone.NAME}
+            found[name] = replace(solved, found=shown)
         except (ContactError, FemError, MeshError) as error:
             raise SolverError(f"{name}: no solution was found: {error}") from error
     return found

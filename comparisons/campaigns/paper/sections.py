@@ -22,16 +22,16 @@ from comparisons.campaigns.paper.pictures.rough_spheres import (
 from comparisons.campaigns.paper.pictures.scales import scales_of
 from comparisons.campaigns.paper.pictures.shear import contour_picture
 from comparisons.common.progress import ProgressCallback
-from comparisons.report.figures.fields import COMPONENTS
-from comparisons.report.figures.sections import section_pictures
-from comparisons.report.figures.style import Picture, drawing
-from comparisons.results.outcome import Outcome
+from comparisons.drawing.style import Picture, drawing
+from comparisons.output.page.pictures.fields import COMPONENTS
+from comparisons.output.page.pictures.sections import section_pictures
+from comparisons.studies.study import Run
 
 LETTERS = {"txz": "bcd", "tau1": "efg"}
 
 
 @dataclass(frozen=True)
-class Block:
+class PaperBlock:
     """Pictures with the claims that rest on them."""
 
     heading: str
@@ -43,11 +43,11 @@ class Block:
 class Section:
     number: str
     title: str
-    blocks: tuple[Block, ...]
+    blocks: tuple[PaperBlock, ...]
 
 
 def sections_of(
-    outcomes: dict[str, Outcome], judged: tuple[JudgedClaim, ...], callback: ProgressCallback
+    outcomes: dict[str, Run], judged: tuple[JudgedClaim, ...], callback: ProgressCallback
 ) -> tuple[Section, ...]:
     """Draw every figure."""
 
@@ -56,17 +56,17 @@ def sections_of(
         names = {f"{number}({letter})" for letter in letters} or {number}
         return tuple(claim_row(each) for each in judged if each.claim.figure in names)
 
-    def lettered(number: str, *pictures: tuple[str, Sequence[Picture]]) -> tuple[Block, ...]:
+    def lettered(number: str, *pictures: tuple[str, Sequence[Picture]]) -> tuple[PaperBlock, ...]:
         """A block a letter, from (a) on."""
         return tuple(
-            Block(f"Figure {number}({letter}): {words}", tuple(drawn), claims(number, letter))
+            PaperBlock(f"Figure {number}({letter}): {words}", tuple(drawn), claims(number, letter))
             for letter, (words, drawn) in zip("ab", pictures, strict=False)
         )
 
     with drawing():
         scales = scales_of(outcomes)
         callback("drawing figure 1")
-        trace = Block(
+        trace = PaperBlock(
             "Pressures over the trace", (trace_picture(outcomes[UNRUN], scales),), claims("1")
         )
         found = [Section("1", "Figure 1: pressure on a ground surface", (trace,))]
@@ -86,7 +86,7 @@ def sections_of(
                 heading = f"Figure {number}({letters[0]}) to ({letters[-1]}): "
                 heading += f"{component.words} {component.symbol}"
                 picture = contour_picture(outcomes[scene], component, scales, surface)
-                blocks += (Block(heading, (picture,), claims(number, letters)),)
+                blocks += (PaperBlock(heading, (picture,), claims(number, letters)),)
             found.append(Section(number, f"Figure {number}: {surface}", blocks))
         callback("drawing figure 11")
         blocks = lettered(
@@ -97,18 +97,18 @@ def sections_of(
         found.append(Section("11", "Figure 11: principal shear over depth", blocks))
         callback("drawing Seireg's figures")
         blocks = (
-            Block("Figure 4.5: mean real pressure", (real_pressure_picture(),), claims("4.5")),
-            Block("Figure 4.6: rough and smooth spheres", (spheres_picture(),), claims("4.6")),
-            Block("Section 4.8: relative penetration", (), claims("4.9")),
+            PaperBlock("Figure 4.5: mean real pressure", (real_pressure_picture(),), claims("4.5")),
+            PaperBlock("Figure 4.6: rough and smooth spheres", (spheres_picture(),), claims("4.6")),
+            PaperBlock("Section 4.8: relative penetration", (), claims("4.9")),
         )
         found.append(Section("seireg", "Seireg, chapter 4: rough contact", blocks))
         heat = sum((claims(number) for number in ("5.2", "5.3", "5.5", "ch. 5")), ())
-        block = Block("Short formulas, and the partition", (), heat)
+        block = PaperBlock("Short formulas, and the partition", (), heat)
         found.append(Section("seireg-heat", "Seireg, chapter 5: heat", (block,)))
     return tuple(found)
 
 
-def _depths(outcomes: dict[str, Outcome], place: int, *scenes: str) -> list[Picture]:
+def _depths(outcomes: dict[str, Run], place: int, *scenes: str) -> list[Picture]:
     """Principal shear over depth on one of the verticals that a report shows, by surface."""
     found = []
     for scene in scenes:

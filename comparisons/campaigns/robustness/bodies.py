@@ -16,7 +16,7 @@ from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.campaigns.checks import BoundedFigure, Findings
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings
 from comparisons.campaigns.robustness.backward_error import (
     EPS,
     THRESHOLD,
@@ -82,7 +82,7 @@ def body_on(
     return elastic_body(mesh_named(mesh), Material(*material), held, degree=degree, coating=layer)
 
 
-def factor_findings(mesh: str = "plain", **given: object) -> Findings:
+def factor_findings(mesh: str = "plain", **given: object) -> CaseFindings:
     """Random forces, and the forces of a hat: residual against rounding, and the condition."""
     body = body_on(mesh, **given)
     matrix = csr_matrix(body.stiffness())
@@ -108,10 +108,10 @@ def factor_findings(mesh: str = "plain", **given: object) -> Findings:
 
     condition = condition_estimate(matrix[free][:, free], inverse)
     asymmetry = float(abs(matrix - matrix.T).max() / abs(matrix).max())
-    return Findings((*figures, BoundedFigure("asymmetry", asymmetry, 1e-14, "none")), condition)
+    return CaseFindings((*figures, BoundedFigure("asymmetry", asymmetry, 1e-14, "none")), condition)
 
 
-def even_findings(mesh: str = "plain", **given: object) -> Findings:
+def even_findings(mesh: str = "plain", **given: object) -> CaseFindings:
     """Even compression, which elements of any shape represent, below a rough boundary, too. uz =
     depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu)."""
     body = body_on(mesh, support="even", **given)
@@ -130,7 +130,7 @@ def even_findings(mesh: str = "plain", **given: object) -> Findings:
     load = np.zeros_like(force)
     load[top] = force[top]
     error = np.abs(body.solve(load) - moved).max() / np.abs(moved).max()
-    return Findings(
+    return CaseFindings(
         (
             BoundedFigure("displacement", float(error), GIVEN_BACK, "even compression, exact"),
             BoundedFigure("forces inside", float(ratio), THRESHOLD, "none, as LAPACK's test ratio"),
@@ -150,7 +150,7 @@ def pressed(
     return compliance, solve_with_model(compliance, model, gap, grid.weights, constraints)
 
 
-def closed_findings() -> Findings:
+def closed_findings() -> CaseFindings:
     """A load that closes all gaps of a rough line: every node touches."""
     grid, load = HatGrid(0.1, -14, 14), 10.0
     height = 1e-3 * np.random.default_rng(8).standard_normal(grid.count)
@@ -169,7 +169,7 @@ def closed_findings() -> Findings:
     )
 
 
-def slope_findings() -> Findings:
+def slope_findings() -> CaseFindings:
     """A rough boundary of rms slope 1: quadratic against cubic displacements on one mesh."""
     grid = HatGrid(0.1, -12, 12)
     given = -(grid.x**2) / 20.0, 0.05, grid, "rough"
@@ -185,9 +185,9 @@ def finite_element_findings(
     condition: float | None = None,
     most: int = MOST_STEPS,
     ordinary: int = ORDINARY_STEPS,
-) -> Findings:
+) -> CaseFindings:
     """The figures, the contact conditions, and steps of the outer iteration, `most` at most."""
     steps = float(solution.iterations["steps"])
     limit = BoundedFigure("steps", steps, float(most), "the most of an outer iteration")
     cost = iterations(solution, steps / ordinary)
-    return Findings((*figures, *residual_figures(solution), limit), condition, cost)
+    return CaseFindings((*figures, *residual_figures(solution), limit), condition, cost)

@@ -6,7 +6,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.exact.sliding import sliding_from_load
 from analytic.material import Material, combined_modulus, dundurs_constants
 from analytic.operators.tangential import CoupledHalfPlane
-from comparisons.campaigns.checks import BoundedFigure, Findings, relative_error
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
 from comparisons.campaigns.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
     Constants,
@@ -23,7 +23,7 @@ SOFT = (1e5, 0.0)  # of the largest Dundurs' constant under a rigid roller
 
 def sliding_findings(
     body: Constants = SOFT, roller: Constants | None = None, friction: float = 1.0
-) -> Findings:
+) -> CaseFindings:
     """A cylinder that slides (`roller` None: rigid) against the exact one."""
     materials = Material(*body), Material(*roller) if roller else None
     modulus, beta = combined_modulus(*materials), dundurs_constants(*materials)[1]
@@ -46,7 +46,7 @@ def sliding_findings(
     )
 
 
-def rough_findings(friction_dundurs: float) -> Findings:
+def rough_findings(friction_dundurs: float) -> CaseFindings:
     operator = CoupledHalfPlane(COUNT, 1.0, 1.0, friction_dundurs)
     contact = load_line(operator, rough(COUNT), Constraints(load=LOAD))
     return contact.findings(dense_violation(contact, 1.0, friction_dundurs))

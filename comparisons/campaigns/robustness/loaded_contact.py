@@ -14,7 +14,7 @@ from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.elements import hat_galerkin
 from analytic.operators.half_plane import HalfPlane, ModelOperator
-from comparisons.campaigns.checks import BoundedFigure, Findings, relative_error
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 
@@ -55,7 +55,7 @@ class LoadedContact:
         """Sum of the patches [m]."""
         return float(np.ptp(self.patches, axis=1).sum())
 
-    def findings(self, *figures: BoundedFigure) -> Findings:
+    def findings(self, *figures: BoundedFigure) -> CaseFindings:
         """The figures, the contact conditions, and the operator's applications; with the condition
         number of the compliance of few nodes in contact."""
         spent = float(self.solution.iterations["applications"])
@@ -68,7 +68,7 @@ class LoadedContact:
         touching, condition = np.flatnonzero(self.pressure > 0.0), None
         if len(touching) <= MOST_NODES:
             condition = float(np.linalg.cond(self.operator.block(touching)))
-        return Findings((*figures, *residual_figures(self.solution), *limits), condition, cost)
+        return CaseFindings((*figures, *residual_figures(self.solution), *limits), condition, cost)
 
 
 def load_contact(

@@ -8,7 +8,7 @@ import numpy as np
 from analytic.contact.equilibrium import Constraints
 from analytic.operators.half_plane import HalfPlane
 from analytic.surface.synthetic import self_affine
-from comparisons.campaigns.checks import BoundedFigure, Findings, relative_error
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
 from comparisons.campaigns.robustness.loaded_contact import (
     SAME,
     LoadedContact,
@@ -38,7 +38,7 @@ def pressed(
     return load_line(HalfPlane(len(height), pitch, modulus), height, Constraints(load=load))
 
 
-def vanishing_findings(load: float) -> Findings:
+def vanishing_findings(load: float) -> CaseFindings:
     """Under next to no load one node alone carries it, and the gap is as it was."""
     height = rough(COUNT)
     contact = pressed(height, load)
@@ -51,7 +51,7 @@ def vanishing_findings(load: float) -> Findings:
     )
 
 
-def shape_findings(shape: str, load: float) -> Findings:
+def shape_findings(shape: str, load: float) -> CaseFindings:
     """Few nodes against bounded least squares, which needs no iteration of ours."""
     contact = pressed(SHAPES[shape](FEW), load)
     return contact.findings(least_squares_deviation(contact, 1.0), dense_violation(contact, 1.0))
@@ -79,7 +79,7 @@ SHAPES = {"plateau": plateau, "spike": spike, "steps": steps, "flat": np.zeros}
 
 def scaled_findings(
     metre: float = TRACE, pascal: float = 1.0, same: float = SAME, amplitude: float | None = None
-) -> Findings:
+) -> CaseFindings:
     """All lengths times `metre`, all stresses times `pascal`, and heights, to which pressures are
     in proportion, up to an `amplitude` [m]; `same` is how well figures agree."""
     usual = pressed(rough(COUNT), LOAD)

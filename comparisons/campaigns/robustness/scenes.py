@@ -14,7 +14,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.sliding import sliding_from_load
 from analytic.material import dundurs_constants
-from comparisons.campaigns.checks import BoundedFigure, Findings, relative_error
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
 from comparisons.campaigns.robustness.bodies import MOST_STEPS, finite_element_findings
 from comparisons.campaigns.robustness.loaded_contact import deviation, peak_and_length
 from comparisons.campaigns.robustness.smooth import flowed_figure
@@ -67,20 +67,20 @@ def ordinary_level() -> Level:
     return finite_element_solution(ORDINARY)[1]
 
 
-def findings(level: Level, *figures: BoundedFigure, most: int = MOST_STEPS) -> Findings:
-    """Findings of a level, its steps beside those of the ordinary scene."""
+def findings(level: Level, *figures: BoundedFigure, most: int = MOST_STEPS) -> CaseFindings:
+    """CaseFindings of a level, its steps beside those of the ordinary scene."""
     ordinary = ordinary_level().solution.iterations["steps"]
     return finite_element_findings(level.solution, *figures, most=most, ordinary=ordinary)
 
 
-def hertz_findings(peak: float = PEAK, **tables: dict) -> Findings:
+def hertz_findings(peak: float = PEAK, **tables: dict) -> CaseFindings:
     """Of the ordinary scene with other fields; `peak`, what its relative error may be."""
     problem, level = finite_element_solution(changed(tables))
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
     return findings(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
 
 
-def shear_findings(**tables: dict) -> Findings:
+def shear_findings(**tables: dict) -> CaseFindings:
     problem, level = finite_element_solution(changed(tables | {"stress": {"points": [40, 20]}}))
     hertz, found = problem.hertz, level.stresses[0].extremes["tau1"]
     depth, reference = hertz.tau1_max_depth, "Hertz, exact"
@@ -91,7 +91,7 @@ def shear_findings(**tables: dict) -> Findings:
     )
 
 
-def sliding_findings(**tables: dict) -> Findings:
+def sliding_findings(**tables: dict) -> CaseFindings:
     """A rigid roller that slides, its traction moving the surface."""
     problem, level = finite_element_solution(changed(tables))
     hertz, (friction,) = problem.hertz, problem.scene.friction
@@ -107,7 +107,7 @@ def sliding_findings(**tables: dict) -> Findings:
     )
 
 
-def hardness_findings(share: float) -> Findings:
+def hardness_findings(share: float) -> CaseFindings:
     hardness = share * float(ordinary_level().solution.pressure.max())
     if share >= 1.0:
         return hertz_findings(body={"hardness": hardness})
@@ -132,7 +132,7 @@ def in_units(metre: float, pascal: float) -> Tables:
     }
 
 
-def unit_findings(metre: float, pascal: float) -> Findings:
+def unit_findings(metre: float, pascal: float) -> CaseFindings:
     """In other units the same triangles and the same figures."""
     usual = ordinary_level()
     _, level = finite_element_solution(in_units(metre, pascal))
@@ -147,21 +147,21 @@ def unit_findings(metre: float, pascal: float) -> Findings:
     )
 
 
-def layer_findings(a_over_t: float, high: float = THICK, **tables: dict) -> Findings:
+def layer_findings(a_over_t: float, high: float = THICK, **tables: dict) -> CaseFindings:
     """A layer of thickness t on a rigid base against the analytic one on the same hats."""
     thickness = problem_from(ORDINARY).hertz.half_width / a_over_t
     body = tables.get("body", {}) | {"thickness": thickness}
     return analytic_findings(tables | {"body": body}, high)
 
 
-def coating_findings(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> Findings:
+def coating_findings(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> CaseFindings:
     """A coating against the analytic one on the same hats."""
     coating = {"youngs_modulus": times_as_stiff * STEEL["youngs_modulus"], "poissons_ratio": 0.25}
     coating["thickness"] = problem_from(ORDINARY).hertz.half_width / a_over_t
     return analytic_findings({"coating": coating}, THICK, refinement)
 
 
-def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> Findings:
+def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> CaseFindings:
     problem, level = finite_element_solution(changed(tables), refinement)
     grid, pressure = level.grid, level.solution.pressure
     expected = solve_contact(

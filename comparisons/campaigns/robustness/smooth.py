@@ -12,7 +12,7 @@ from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.material import Material, combined_modulus
 from analytic.operators.half_plane import HalfPlane
-from comparisons.campaigns.checks import BoundedFigure, Findings, relative_error
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
 from comparisons.campaigns.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
     SAME,
@@ -52,7 +52,7 @@ def hertz_findings(
     roller: Constants | None = None,
     radius: float = 8.2e-3,
     load: float = 1e6,
-) -> Findings:
+) -> CaseFindings:
     hertz, contact = smooth_contact(body, roller, radius, load)
     peak, half_width = hertz.peak_pressure, hertz.half_width
     (shape, length), reference = ordinary_shape(), "the ordinary case"
@@ -65,7 +65,7 @@ def hertz_findings(
     )
 
 
-def sized_findings(points: int) -> Findings:
+def sized_findings(points: int) -> CaseFindings:
     """Hertz on so many hats, a third of which touch; few of them by least squares, too."""
     half_width = points / 6.0 + 0.3
     hertz = hertz_from_peak_pressure(1.0, 0.5 * half_width, 1.0)
@@ -81,7 +81,7 @@ def sized_findings(points: int) -> Findings:
     return contact.findings(*figures)
 
 
-def hardness_findings(over_peak: float) -> Findings:
+def hardness_findings(over_peak: float) -> CaseFindings:
     """Hardness just above or below the peak: 1 + `over_peak` of the highest pressure found."""
     pitch = 1.0 / HATS_PER_HALF_WIDTH
     operator = HalfPlane(COUNT, pitch, 1.0)

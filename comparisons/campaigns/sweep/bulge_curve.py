@@ -2,7 +2,7 @@
 against the relative penetration."""
 
 from comparisons.common.numbers import plain
-from comparisons.report.figures import style
+from comparisons.drawing import style
 
 # by the figure's name: its uncertainty's, what it is drawn over, and the axis' words
 PANELS = {

@@ -8,8 +8,8 @@ import numpy as np
 from comparisons.campaigns.sweep.request import POSITION
 from comparisons.common.numbers import scale_of
 from comparisons.common.units import DIMENSIONS, UnitError, to_si
+from comparisons.drawing import style
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.report.figures import style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -21,7 +21,7 @@ SHORT = {"position": POSITION, "friction": "load.friction"}  # beside "load", wh
 LOADS = ("per_length", "hertz_peak_pressure", "approach")
 MOST = 10_000  # points
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
-STUDIES = "comparisons/figures", "comparisons/studies", "comparisons/results"
+STUDIES = "comparisons/figures", "comparisons/studies", "comparisons/output"
 CODE = (*LEVEL_CODE, *STUDIES, __file__)
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -18,9 +19,16 @@ from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json, versions
 from comparisons.common.tasks import Tasks
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.results.flat_table import COLUMNS, csv_text, harmless, rows_of
+from comparisons.output.flat_csv import COLUMNS, csv_text, harmless, rows_of
+from comparisons.output.result_json import result_of
 from comparisons.scenes.resolve import resolve_tables
+from comparisons.studies.bulge import QUANTITIES as BULGE_QUANTITIES
+from comparisons.studies.bulge import Bulge, bulges_of
+from comparisons.studies.quiescent_zone import QUANTITIES as ZONE_QUANTITIES
+from comparisons.studies.quiescent_zone import zones_of
+from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -28,7 +36,6 @@ if TYPE_CHECKING:
 SWEEP, TABLE, PICTURE = "sweep.json", "sweep.csv", "sweep.svg"
 ZONE, ZONE_MAP = "quiescent_zone", "quiescent_zone.svg"
 BULGE, BULGE_CURVE = "bulge", "bulge.svg"
-LONG = ("distance", "rise", "patches")  # of a bulge's entries: left out
 FILES = (TABLE, PICTURE, ZONE_MAP, BULGE_CURVE, SWEEP)
 FOLDER = "sweep_points"
 SCHEMA = 1
@@ -83,17 +90,40 @@ def solved(point: SweepPoint, name: str) -> dict:
         place = {"folder": point.folder, "source": point.source}
         scene = resolve_tables(point.tables, name=name, **place)
         outcome = run(scene, None, point.models)
-        rows = tuple(rows_of(outcome.result, name))
-        found = {"status": SOLVED, "rows": rows}
-        if (zones := outcome.result["quiescent_zone"]) and "why" not in zones:
-            for entry in (each for entries in zones.values() for each in entries):
-                entry["asperities"] = len(entry["asperities"])
+        found = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), name))}
+        if zones := _zones(outcome):
             found[ZONE] = zones
-        if entries := (outcome.result["bulge"] or {}).get("by_friction"):
-            found[BULGE] = [{k: v for k, v in e.items() if k not in LONG} for e in entries]
+        if bulges := bulges_of(outcome.found.get(BULGE)):
+            found[BULGE] = [_bulge(each) for each in bulges]
     except (InputError, SolverError, ArithmeticError) as error:
         found = failed(str(error) or type(error).__name__)
     return {"found": found, "seconds": perf_counter() - began}
+
+
+def _zones(run: Run) -> dict[str, list[dict]]:
+    """The quiescent zones by model, then by friction coefficient."""
+    by_model: dict[str, list[dict]] = {}
+    for zone in zones_of(run.found.get(ZONE)):
+        figures = {name: _stated(zone.figures.get(name)) for name in ZONE_QUANTITIES}
+        counts = {"bridged": zone.bridged, "asperities": zone.asperities}
+        entry = {"friction": zone.friction, "status": zone.state, **figures, **counts}
+        by_model.setdefault(zone.model, []).append(entry)
+    return by_model
+
+
+def _stated(figure: Figure | None) -> dict[str, float | None]:
+    if figure is None:
+        return {"value": None, "uncertainty": None}
+    size = figure.numerical * figure.scale
+    return {"value": figure.value, "uncertainty": size if isfinite(size) else None}
+
+
+def _bulge(bulge: Bulge) -> dict:
+    """Its figures by name, with the uncertainty of three of them."""
+    stated = {"height": "uncertainty", "end": "end_uncertainty", "energy": "energy_uncertainty"}
+    sizes = {word: _stated(bulge.figures.get(n))["uncertainty"] for n, word in stated.items()}
+    values = {name: bulge.value(name) for name in BULGE_QUANTITIES}
+    return {"friction": bulge.friction} | values | sizes | {"energy_ahead": bulge.energy_ahead}
 
 
 def sweep_content(request: SweepRequest, cache: Cache) -> dict:
@@ -147,7 +177,7 @@ def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
 
 def sweep_csv(content: dict) -> str:
     """A row for each point, friction coefficient and quantity: the swept fields, and the columns of
-    `comparisons.results.flat_table`."""
+    `comparisons.output.flat_csv`."""
     fields = [each["field"] for each in content["over"]]
     rows = (
         map(harmless, [*point["values"], *(row[name] for name in COLUMNS)])
@@ -161,7 +191,7 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
     from rich.console import Group
     from rich.text import Text
 
-    from comparisons.report.terminal import PLAIN, SHORT, plain_table
+    from comparisons.output.terminal import PLAIN, SHORT, plain_table
 
     table = plain_table("quantity", "", numbers=("mu", "mean", "std", "smallest", "largest"))
     for row in content["scatter"]:

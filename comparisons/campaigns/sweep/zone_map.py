@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import plain
+from comparisons.drawing import style
 from comparisons.figures.quantity import LABELS
-from comparisons.report.figures import style
 from comparisons.studies.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
 
 if TYPE_CHECKING:

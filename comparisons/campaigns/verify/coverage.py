@@ -11,10 +11,10 @@ import numpy as np
 
 from comparisons.campaigns.checks import (
     BoundedFigure,
+    CaseFindings,
     CheckedCase,
     CheckedRow,
     CheckedStudy,
-    Findings,
     order_figure,
     run_case,
 )
@@ -136,8 +136,8 @@ class Pair:
 
 
 @dataclass(frozen=True)
-class ExactFindings(Findings):
-    """Findings of a case with an exact answer."""
+class ExactFindings(CaseFindings):
+    """CaseFindings of a case with an exact answer."""
 
     pairs: tuple[Pair, ...] = ()
     # relative L2 errors of the pressures on all levels, where these are known
@@ -189,9 +189,9 @@ def coverage_cases(
     ]
 
 
-def _covered(found: Coverage, most: float, fewest: int) -> Findings:
+def _covered(found: Coverage, most: float, fewest: int) -> CaseFindings:
     ratio, uncertainties = found.median_overestimation, "the stated uncertainties"
-    return Findings(
+    return CaseFindings(
         (
             BoundedFigure("share covered", found.covered, 1.0, uncertainties, LEAST_COVERAGE),
             BoundedFigure("median overestimation ratio", ratio, most, uncertainties),
@@ -225,7 +225,7 @@ def order_cases(rows: Iterable[CheckedRow]) -> list[CheckedCase]:
             order = observed_order(found), *ORDERS[model, name]
             figures = (order_figure("observed order", *order, "the exact contacts"),)
             words = f"{name}, {len(found)} contacts"
-            cases.append(CheckedCase("order", words, model, partial(Findings, figures)))
+            cases.append(CheckedCase("order", words, model, partial(CaseFindings, figures)))
     return cases
 
 

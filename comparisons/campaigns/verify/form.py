@@ -25,8 +25,8 @@ from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import publish
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.verdict import Verdict, judge
-from comparisons.report.html import rendered
-from comparisons.results.flat_table import csv_text
+from comparisons.output.flat_csv import csv_text
+from comparisons.output.page.html import rendered
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -152,7 +152,7 @@ def judged_form(path: Path) -> JudgedForm:
 def form_table(judged: JudgedForm) -> "Group":
     from rich.console import Group
 
-    from comparisons.report.terminal import plain_table
+    from comparisons.output.terminal import plain_table
 
     numbers = "expected", "answer", "error, %", "uncert., %", "tol., %", "verdict", "covered"
     table = plain_table("case", "quantity", numbers=numbers)

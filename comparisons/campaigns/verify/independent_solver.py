@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.campaigns.checks import BoundedFigure, CheckedCase, Findings
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings, CheckedCase
 from comparisons.common.progress import Stages
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
@@ -25,7 +25,7 @@ def independent_cases(names: Iterable[str] = SCENES) -> list[CheckedCase]:
     return [CheckedCase(group, n, model, partial(independent_findings, n)) for n in names]
 
 
-def independent_findings(name: str) -> Findings:
+def independent_findings(name: str) -> CaseFindings:
     """Largest difference of the pressures under one load, over the largest pressure; and relative
     difference of the loads at one approach."""
     from comparisons.models.finite_element.bodies import BodyCache, bodies_of
@@ -59,7 +59,7 @@ def independent_findings(name: str) -> Findings:
     if not all(mesh is level.mesh for mesh in (bodies.rough.mesh, again.mesh)):
         raise RuntimeError(f"{name}: the solvers were on different meshes")
     reference = "PETSc's vinewtonrsls on the whole system"
-    return Findings(
+    return CaseFindings(
         (
             BoundedFigure("pressure", difference, AGREE, reference),
             BoundedFigure("load", loads, AGREE, reference),

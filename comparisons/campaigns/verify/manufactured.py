@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from analytic.material import Material
-from comparisons.campaigns.checks import BoundedFigure, CheckedCase, Findings, order_figure
+from comparisons.campaigns.checks import BoundedFigure, CaseFindings, CheckedCase, order_figure
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
 from fem.body.exact_load import AREA, AREA_WEIGHT, forces_of
 from fem.body.triangle import gradients, jacobians, shapes
@@ -164,7 +164,7 @@ def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[CheckedCase]:
     return [CheckedCase(group, f"{k}, P{d}", model, partial(solve, k, d)) for k, d in bodies]
 
 
-def manufactured_findings(kind: str, degree: int) -> Findings:
+def manufactured_findings(kind: str, degree: int) -> CaseFindings:
     coarse, fine = (np.array(errors_of(kind, cells, degree)) for cells in CELLS[degree])
     orders, reference = np.log2(coarse / fine), "manufactured displacement"
     figures = []
@@ -174,4 +174,4 @@ def manufactured_findings(kind: str, degree: int) -> Findings:
             order_figure(f"{norm}: order", orders[k], expected, MARGIN, reference),
             BoundedFigure(f"{norm}: error", error, high, reference),
         ]
-    return Findings(tuple(figures))
+    return CaseFindings(tuple(figures))

@@ -28,7 +28,7 @@ from comparisons.campaigns.verify.scenes import (
 )
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, Uncertainty, length_resolution
+from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, length_resolution, numerical
 
 LEVELS = 3
 FULL = 1.0 - 1e-12  # of a period: contact without an edge
@@ -100,7 +100,7 @@ def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
                 levels=tuple(values),
                 exact=float(exact),
                 scale=scale,
-                uncertainty=Uncertainty(iteration, error, 0.0, convergence),
+                uncertainty=numerical(iteration, error, 0.0, convergence=convergence),
                 converged=all(s.converged for _, s in levels),
             )
         )

@@ -13,8 +13,8 @@ from comparisons.campaigns.verify.coverage import (
     Pair,
     Verification,
 )
-from comparisons.report.html import STYLES, rendered
-from comparisons.report.terminal import plain_table
+from comparisons.output.page.html import STYLES, rendered
+from comparisons.output.terminal import plain_table
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -32,8 +32,8 @@ from comparisons.campaigns.verify.coverage import MODEL_ERROR, ExactFindings, Pa
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import Convergence
-from comparisons.figures.quantity import MODELS, QUANTITIES
-from comparisons.figures.uncertainty import Uncertainty
+from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
+from comparisons.figures.uncertainty import numerical
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
@@ -42,7 +42,9 @@ from comparisons.runs.refinement import refined
 from comparisons.runs.run import solve
 from comparisons.scenes.profile import KnownTrace
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.contact import figures, relative_l2, uncertainties
+from comparisons.studies.comparison import relative_l2
+from comparisons.studies.contact import uncertainties, values_of
+from comparisons.studies.study import unsolved
 
 FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
@@ -235,16 +237,12 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
         trace=scene.trace,
     )
     problem, (friction,) = problem_of(resolved), resolved.friction
-    plan, budget = make_plan(problem, MODELS if scene.half_plane else (model,)), None
-    if scene.half_plane:
-        outcome = solve(problem, plan, None)
-        runs, budget = outcome.runs, outcome.budget
-    else:
-        window = window_of(problem) if plan.stress else None
-        runs, _ = refined(problem, plan, window, Tasks())
+    posed = unsolved(problem, make_plan(problem, MODELS if scene.half_plane else (model,)))
+    solved = solve(posed, None) if scene.half_plane else refined(posed, Tasks())
+    runs = solved.runs
     run = runs[model]
     stated = uncertainties(run, problem, friction)
-    history = [figures(level, problem, friction) for level in run.levels]
+    history = [values_of(level, problem, friction) for level in run.levels]
     converged = all(level.solution.converged for each in runs.values() for level in each.levels)
     common = {"case": scene.name, "source": scene.source, "kind": scene.kind}
     pairs = [
@@ -260,11 +258,11 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
         )
         for quantity, exact in scene.exact.items()
     ]
-    if budget is not None:
+    if scene.half_plane:
         half_plane = scene.half_plane(problem)
         for quantity, exact in scene.exact.items():
-            found = budget.of(quantity, friction)
-            value, stated = found.value, found.uncertainty  # one number for all causes
+            error = solved.figures.one(against=WHOLE, quantity=quantity, friction=friction)
+            value, stated = error.value, error.numerical  # one number for all causes
             known = Convergence(value, value, stated, 1.0, None, "too few levels")
             pairs.append(
                 Pair(
@@ -274,15 +272,15 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
                     levels=(value,),
                     exact=half_plane[quantity] / exact - 1.0,
                     scale=1.0,
-                    uncertainty=Uncertainty(0.0, stated, 0.0, known),
+                    uncertainty=numerical(0.0, stated, 0.0, convergence=known),
                     converged=converged,
                     table=MODEL_ERROR,
                 )
             )
     if scene.pressure is None:
         return ExactFindings.of(pairs)
-    solved = ((level.grid.x, level.solution.pressure) for level in run.levels)
-    return ExactFindings.of(pairs, tuple(relative_l2(p, scene.pressure(x)) for x, p in solved))
+    pressures = ((level.grid.x, level.solution.pressure) for level in run.levels)
+    return ExactFindings.of(pairs, tuple(relative_l2(p, scene.pressure(x)) for x, p in pressures))
 
 
 def smooth_half_plane(problem: Problem) -> dict[str, float]:
@@ -295,7 +293,7 @@ def fine_half_plane(problem: Problem) -> dict[str, float]:
     """Figures of the half-plane on pressure elements FINER times as small as the third level's."""
     pitch, (friction,) = problem.reference_pitch / FINER, problem.scene.friction
     level = half_plane_level(problem, pitch, window_of(problem), Stages(no_progress))
-    return figures(level, problem, friction)
+    return values_of(level, problem, friction)
 
 
 def elastic_table(material: Material | None) -> dict:

@@ -47,7 +47,7 @@ NEXT = 4  # elements on either side of a column's load that feel how it is meshe
 
 
 @dataclass(frozen=True)
-class Column:
+class ComplianceColumn:
     """Under the pressure element at x [m]: the L2 norm of the difference over the column's own,
     and the part of it `beyond` the elements next to x."""
 
@@ -70,7 +70,7 @@ class Wave:
 class Differences:
     """Of the finite elements from an analytic surface."""
 
-    columns: tuple[Column, ...]
+    columns: tuple[ComplianceColumn, ...]
     waves: tuple[Wave, ...]
 
 
@@ -204,7 +204,7 @@ def _differences(
     number = np.arange(grid.count)
     return Differences(
         tuple(
-            Column(
+            ComplianceColumn(
                 x=float(grid.x[column]),
                 difference=float(np.linalg.norm(off[:, k]) / size[k]),
                 beyond=float(np.linalg.norm(off[np.abs(number - column) > NEXT, k]) / size[k]),

@@ -26,7 +26,7 @@ Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
-class Part:
+class BodyShare:
     """One body's share of the mutual displacement."""
 
     compliance: FiniteElementCompliance
@@ -39,7 +39,7 @@ class MutualCompliance:
     """Weighted displacements of both surfaces (n,) [m^2] under pressures (n,) [Pa], and under the
     sliding traction that they drag along where friction is `coupled`."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[BodyShare, ...]
 
     @property
     def rough(self) -> FiniteElementCompliance:
@@ -81,12 +81,18 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
     rough, share = compliance(bodies.rough, down), bodies.roller_share
     if bodies.roller is not None:
         roller = compliance(bodies.roller, up)
-        return MutualCompliance((Part(rough, 1.0, friction), Part(roller, 1.0, -friction)))
+        return MutualCompliance(
+            (BodyShare(rough, 1.0, friction), BodyShare(roller, 1.0, -friction))
+        )
     if share and settings.gap == "displaced":
         roller = compliance(bodies.rough, up)
-        return MutualCompliance((Part(rough, 1.0, friction), Part(roller, share, -friction)))
+        return MutualCompliance(
+            (BodyShare(rough, 1.0, friction), BodyShare(roller, share, -friction))
+        )
     # the roller's traction is the opposite one
-    return MutualCompliance((Part(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share)),))
+    return MutualCompliance(
+        (BodyShare(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share)),)
+    )
 
 
 def roller_normal(problem: Problem, mirrored: bool = False) -> Direction:

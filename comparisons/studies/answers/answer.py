@@ -1,13 +1,23 @@
 """An answer from outside as data: in the project's axes and signs, in SI units."""
 
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
 from analytic.numerics import runs_of
 from analytic.stress_state import Extremum, StressState
-from comparisons.figures.verdict import Verdict
+from comparisons.figures.figure import Column, Figure, Findings, Series, figures_of
+from comparisons.figures.quantity import QUANTITIES as COMPARED
+from comparisons.figures.quantity import Quantity
+from comparisons.figures.uncertainty import Uncertainty
 
+NAME = "answers"
+CONDITIONS = "contact conditions"
+QUANTITIES = COMPARED | {
+    "load_balance": Quantity("load off the scene's"),
+    "spacing": Quantity("distance from point to point in contact", "m"),
+}
 TOUCHING = 0.02  # of the largest pressure: what stresses of a mesh leave beside a contact is less
 
 
@@ -90,11 +100,35 @@ class AnswerRow:
     answer: float | None  # None for a norm of the difference, as the reference
     reference: float | None
     difference: float  # (answer - reference) / reference, or the norm
-    # of the difference: the model's, and the answer's own as far as it is known
-    uncertainty: float | None
-    own_uncertainty: float | None  # the answer's, None where it states none
+    # of the difference: the model's, and how finely the answer's points are read
+    model: float
+    reading: float
+    own_uncertainty: float | None  # the answer's, in place of its reading; None: it states none
     tolerance: float | None  # None: not judged
-    verdict: Verdict | None  # None: not judged
+
+    @property
+    def stated(self) -> Uncertainty:
+        """Of the difference: the model's, and the answer's own, or else how it is read."""
+        if self.own_uncertainty is None:
+            return Uncertainty({"model": self.model, "reading": self.reading})
+        return Uncertainty({"model": self.model, "own": self.own_uncertainty})
+
+    def figures(self, source: str, against: str) -> Iterator[Figure]:
+        """The answer's figure, where it has one, and its difference from a model."""
+        at, own = {"friction": self.friction}, self.own_uncertainty
+        common = {"study": NAME, "quantity": self.quantity, "source": source, "at": at}
+        if self.answer is not None:
+            stated = None if own is None else Uncertainty({"own": own})
+            scale = abs(self.answer) or 1.0
+            yield Figure(value=self.answer, scale=scale, uncertainty=stated, **common)
+        yield Figure(
+            value=self.difference,
+            against=against,
+            scale=abs(self.reference or 0.0) or 1.0,
+            uncertainty=self.stated,
+            bounds=(-self.tolerance, self.tolerance) if self.tolerance else None,
+            **common,
+        )
 
 
 @dataclass(frozen=True)
@@ -128,19 +162,35 @@ class ComparedAnswer:
     def finest(self) -> Answer:
         return self.answers[-1]
 
-    def as_dict(self) -> dict:
-        """For result.json."""
-        comparison: dict[str, list] = {}
-        for row in self.rows:
-            entry = asdict(row)
-            comparison.setdefault(entry.pop("quantity"), []).append(entry)
-        return {
-            "files": [{"file": each.file, "sha256": each.sha256} for each in self.answers],
-            "reference": self.reference,
-            "spacing": self.finest.spacing,
-            "comparison": comparison,
-            "balance": self.balance,
-            "conditions": self.conditions,
+    def findings(self) -> Findings:
+        """Figures and differences; load, contact conditions, files, hints and validation."""
+        figures = [f for row in self.rows for f in row.figures(self.name, self.reference)]
+        itself = Uncertainty({"itself": 1.0})  # an error is as sure as its order of size
+        figures += figures_of(NAME, self.name, {"load_balance": self.balance}, itself)
+        figures += figures_of(NAME, self.name, {"spacing": self.finest.spacing})
+        of_models = [{"model": name} | found for name, found in self.conditions.items()]
+        measured = [
+            {"quantity": name} | row for name, rows in self.validation.items() for row in rows
+        ]
+        tables = {
+            CONDITIONS: of_models,
             "hints": [asdict(hint) for hint in self.hints],
-            "validation": self.validation,
+            "validation": measured,
         }
+        series = [_table(name, rows, self.name) for name, rows in tables.items() if rows]
+        files = {
+            "file": Column(tuple(each.file for each in self.answers)),
+            "sha256": Column(tuple(each.sha256 for each in self.answers)),
+        }
+        series.append(Series("files", files, self.name, is_account=True))
+        return Findings(tuple(figures), tuple(series))
+
+
+def _table(name: str, rows: list[dict], source: str) -> Series:
+    """Columns of rows; numbers are errors, as sure as their order of size."""
+    columns = {}
+    for key in rows[0]:
+        values = tuple(row[key] for row in rows)
+        is_error = all(isinstance(value, float) for value in values) and key != "friction"
+        columns[key] = Column(values, "", tuple(map(abs, values)) if is_error else None)
+    return Series(name, columns, source)

@@ -13,9 +13,7 @@ from comparisons.figures.uncertainty import (
     length_resolution,
     peak_resolution,
 )
-from comparisons.figures.verdict import judge
 from comparisons.models.level import Level, ModelRun
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.scenes.scene import AnswerSource
@@ -23,59 +21,49 @@ from comparisons.studies.answers.answer import Answer, AnswerRow, ComparedAnswer
 from comparisons.studies.answers.conditions import balance, conditions, operators_of
 from comparisons.studies.answers.hints import hints
 from comparisons.studies.answers.validation import validation_rows
-from comparisons.studies.contact import (
-    by_repetition,
-    figures,
-    norms,
-    pair_norms,
-    relative_differences,
-)
+from comparisons.studies.comparison import norms, pair_norms, relative_differences
+from comparisons.studies.contact import by_repetition, values_of
 from comparisons.studies.scatter.figures import InputScatter
+from comparisons.studies.study import Solved
 
 LEAST_RATIO = 1.2  # of the spacings of two resolutions that show how a figure converges
 COVERED = 0.5  # of the window: on less of it two fields are not compared
 
 
 def compare_answers(
-    problem: Problem,
-    plan: Plan,
-    runs: Mapping[str, ModelRun],
-    window: Window | None,
-    answers: Mapping[str, tuple[Answer, ...]],
-    scatter: InputScatter | None,
+    solved: Solved, answers: Mapping[str, tuple[Answer, ...]], scatter: InputScatter | None
 ) -> tuple[ComparedAnswer, ...]:
     """Every answer of the scene; `answers` are its resolutions by its name.
 
     scatter  of the scene's figures by uncertain inputs; None: not known"""
-    run, found = list(runs.values())[-1], []
-    operators = operators_of(problem, plan, runs)
+    problem, run = solved.problem, list(solved.runs.values())[-1]
+    operators, compared = operators_of(problem, solved.plan, solved.runs), []
     for source in problem.scene.answers:
-        given = answers[source.name]
+        levels = answers[source.name]
+        finest, validation = levels[-1], {}
         frictions = problem.scene.friction if source.friction is None else (source.friction,)
-        measured = {mu: own_figures(given[-1], problem, mu) for mu in frictions}
-        rows = [
-            row for mu in frictions for row in _compared(problem, run, mu, window, source, given)
-        ]
-        found.append(
+        rows = [row for mu in frictions for row in _compared(solved, run, mu, source, levels)]
+        if source.scatter is not None:
+            measured = {mu: own_figures(finest, problem, mu) for mu in frictions}
+            validation = validation_rows(problem, solved.runs, measured, source.scatter, scatter)
+        compared.append(
             ComparedAnswer(
                 name=source.name,
                 reference=run.name,
-                answers=given,
+                answers=levels,
                 measured=source.scatter is not None,
                 rows=tuple(rows),
-                balance=balance(given[-1], problem),
-                conditions=conditions(given[-1], problem, operators),
-                hints=hints(given[-1], problem, run.finest),
-                validation={}
-                if source.scatter is None
-                else validation_rows(problem, runs, measured, source.scatter, scatter),
+                balance=balance(finest, problem),
+                conditions=conditions(finest, problem, operators),
+                hints=hints(finest, problem, run.finest),
+                validation=validation,
             )
         )
-    return tuple(found)
+    return tuple(compared)
 
 
 def own_figures(answer: Answer, problem: Problem, friction: float) -> dict[str, float]:
-    """The compared quantities of an answer, as `figures` has those of a model."""
+    """The compared quantities of an answer, as `values_of` has those of a model."""
     length = float(np.ptp(answer.patches, axis=1).sum())
     found = {
         "peak_pressure": float(answer.pressure.max()),
@@ -91,14 +79,14 @@ def own_figures(answer: Answer, problem: Problem, friction: float) -> dict[str, 
 
 
 def _compared(
-    problem: Problem,
+    solved: Solved,
     run: ModelRun,
     friction: float,
-    window: Window | None,
     source: AnswerSource,
     answers: tuple[Answer, ...],
 ) -> list[AnswerRow]:
     """At one friction coefficient, in the order of QUANTITIES."""
+    problem, window = solved.problem, solved.window
 
     def against(answer: Answer, level: Level) -> dict[str, float]:
         return _differences(answer, level, problem, friction, window)
@@ -108,7 +96,8 @@ def _compared(
     of_files = [against(each, run.finest) for each in answers]
     repeated = by_repetition(run, lambda level: against(finest, level))
     repeated |= by_repetition(run, lambda level: norms(level, first, problem, friction, window))
-    own, reference = own_figures(finest, problem, friction), figures(run.finest, problem, friction)
+    own = own_figures(finest, problem, friction)
+    reference = values_of(run.finest, problem, friction)
     rows = []
     for name, difference in history[-1].items():
         resolution, read = 0.0, _read_off(finest, name) / abs(reference.get(name) or 1.0)
@@ -124,14 +113,10 @@ def _compared(
         if source.scatter is not None:
             size = 1.0 if QUANTITIES[name].of_pair else abs(1.0 + difference)
             stated = (stated or 0.0) + source.scatter * size
-        total = model + (read if stated is None else stated)
-        tolerance = problem.scene.tolerance.get(name)
-        verdict = judge(difference, total, tolerance) if tolerance else None
         values = own.get(name), reference.get(name)
-        known = total if np.isfinite(total) else None
-        rows.append(
-            AnswerRow(name, friction, *values, difference, known, stated, tolerance, verdict)
-        )
+        unsure = model, read, stated
+        tolerance = problem.scene.tolerance.get(name)
+        rows.append(AnswerRow(name, friction, *values, difference, *unsure, tolerance))
     return rows
 
 
@@ -174,7 +159,7 @@ def _differences(
         problem,
         window,
     )
-    reference = figures(level, problem, friction)
+    reference = values_of(level, problem, friction)
     own = own_figures(answer, problem, friction)
     both = {name: value for name, value in own.items() if name in reference}
     found |= relative_differences(both, reference, problem)

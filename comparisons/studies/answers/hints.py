@@ -19,7 +19,7 @@ from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer, Hint
-from comparisons.studies.contact import relative_l2
+from comparisons.studies.comparison import relative_l2
 
 DISTINCT = 0.02  # relative L2 norm of a difference that asks for an explanation
 EXPLAINS = 0.25  # of it: what an explanation may leave

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
-from comparisons.studies.contact import figures, uncertainties
+from comparisons.studies.contact import uncertainties, values_of
 from comparisons.studies.scatter.figures import InputScatter
 
 
@@ -29,7 +29,7 @@ def validation_rows(
     for friction, data in measured.items():
         for name, run in runs.items():
             stated = uncertainties(run, problem, friction)
-            for quantity, value in figures(run.finest, problem, friction).items():
+            for quantity, value in values_of(run.finest, problem, friction).items():
                 if not data.get(quantity):
                     continue
                 ratio = value / data[quantity]

@@ -4,16 +4,17 @@ The half-space takes the half-plane's pressures, the finite elements their own, 
 difference has what both theories leave out: `by_pressure` is the part of it that the half-space
 finds under the finite elements' pressures. One rule judges it, as everything else."""
 
-from collections.abc import Iterable, Set
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import replace
 
 import numpy as np
 
-from analytic.heat.partition import layered_fraction, one_fraction
 from comparisons.common.progress import ProgressCallback
+from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import HEAT_QUANTITIES
 from comparisons.figures.uncertainty import far_boundary, iteration
-from comparisons.figures.verdict import judge
 from comparisons.models.heat import (
     HeatedContact,
     friction_of,
@@ -26,7 +27,8 @@ from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.thermal_stress import HeatedStress, half_plane_stress
 from comparisons.models.window import Window
-from comparisons.studies.heat.figures import HEATED, HeatFigure, HeatStudy
+from comparisons.studies.heat.figures import HEATED, NAME, QUANTITIES, HeatFigure, HeatStudy
+from comparisons.studies.study import Solved, Study
 
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
@@ -121,14 +123,14 @@ def _figure(
         own[model] = left / size + iteration(runs[model].finest)
     effects = {feature: _effect(pairs, name) for feature, pairs in dropped.items()}
     if len(values) < 2:
-        return HeatFigure(name, shown, own, effects=effects, elastic=elastic)
+        return HeatFigure(name, shown, own, size, effects=effects, elastic=elastic)
     difference, by_pressure = (shown["half_plane"] - shown["finite_element"]) / size, None
     if not elastic:
         under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
         by_pressure = (shown["half_plane"] - under_theirs) / size
     judged = sum(own.values()), problem.scene.heat.tolerance
-    found = by_pressure, effects, *judged, judge(difference, *judged), elastic
-    return HeatFigure(name, shown, own, difference, *found)
+    found = by_pressure, effects, *judged, elastic
+    return HeatFigure(name, shown, own, size, difference, *found)
 
 
 def _effect(pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> dict[str, float]:
@@ -140,6 +142,8 @@ def _effect(pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> dict
 
 def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, float]]:
     """Older rules on the half-spaces, under the heat of a solved contact."""
+    from analytic.heat.partition import layered_fraction, one_fraction
+
     heat, pitch = contact.heat, float(contact.x[1] - contact.x[0])
     bodies, own = half_spaces(problem, len(heat), pitch), problem.scene.heat
     body = own.body.conductivity, (own.coating or own.body).conductivity
@@ -170,3 +174,17 @@ def _subsurface(
     shown = slice(None, None, max(1, len(x) // COLUMNS))
     fields = [body.field(flux, z)[:, shown] for body, flux in zip(bodies, fluxes, strict=True)]
     return x[shown], z, np.array(fields)
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    study = heat_study(solved.problem, solved.runs, solved.window, tasks.callback)
+    return replace(study.findings(), data=study)
+
+
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=lambda solved: solved.problem.scene.heat is not None,
+    data=HeatStudy,
+)

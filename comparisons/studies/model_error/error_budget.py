@@ -21,13 +21,14 @@ from analytic.profile import Profile
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
-from comparisons.figures.verdict import Comparison, ToleranceCheck, is_decided
+from comparisons.figures.figure import Figure
+from comparisons.figures.verdict import is_decided
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.coupling import Coupling
+from comparisons.studies.model_error.account import figure_of
 from comparisons.studies.model_error.contributions import (
     EffectContributions,
     NotComputedError,
@@ -40,6 +41,7 @@ from comparisons.studies.model_error.quantities_of_interest import quantities_of
 from comparisons.studies.model_error.selection import EffectSelection, select_effects
 from comparisons.studies.model_error.solutions import SolvedVariants
 from comparisons.studies.model_error.variants import ModelVariant
+from comparisons.studies.study import Solved
 
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
@@ -69,77 +71,65 @@ class ErrorBudget:
         wanted = quantity, friction
         return next(e for e in self.model_errors if (e.quantity, e.friction) == wanted)
 
-    def beyond(self, quantity: str, tolerance: Mapping[str, float]) -> float | None:
-        """Root of the sum of squares of what is estimated and not modelled, where it exceeds the
-        tolerance of a quantity: the figure then says little, whatever it is; else None."""
-        size = math.hypot(*self.selection.not_modelled(quantity).values())
-        return size if size > tolerance.get(quantity, math.inf) else None
-
-    def tolerance_checks(self, tolerance: Mapping[str, float]) -> list[ToleranceCheck]:
-        """Of every model error that has a tolerance."""
-        return _tolerance_checks(self.model_errors, self.selection, tolerance)
+    def figures(self, tolerance: Mapping[str, float]) -> list[Figure]:
+        """Every model error, judged where it has a tolerance."""
+        return [
+            figure_of(error, self.selection, tolerance, self.sampling)
+            for error in self.model_errors
+        ]
 
 
 def error_budget(
-    problem: Problem,
-    plan: Plan,
-    window: Window | None,
-    runs: dict[str, ModelRun],
-    rows: tuple[Comparison, ...],
-    couplings: tuple[Coupling, ...],
-    tasks: Tasks,
+    solved: Solved, rows: tuple[Figure, ...], couplings: tuple[Coupling, ...], tasks: Tasks
 ) -> ErrorBudget:
     """Select the effects that may matter, solve them, and split the difference of the models. An
-    effect that cannot be solved is not modelled: its estimate and the reason are kept."""
-    half_plane = runs["half_plane"]
-    selection = _selected(problem, plan, half_plane, couplings)
+    effect that cannot be solved is not modelled: its estimate and the reason are kept.
+
+    rows       the comparison of the solved models
+    couplings  of the half-plane, one a friction coefficient"""
+    problem, half_plane = solved.problem, solved.runs["half_plane"]
+    selection = _selected(solved, couplings)
     is_frugal = problem.scene.budget.effects != "all"
     if is_frugal and selection.added and _is_decided(rows, selection):
         selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
-    patches, unsplit = half_plane.levels[0].patches, None
-    solved = SolvedVariants(problem, window, runs["finite_element"], tasks, patches)
+    variants = _variants(solved, tasks, solved.runs["finite_element"])
+    unsplit = None
     while True:
         splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
-        solved.keep(split.whole for split in splits.values())
+        variants.keep(split.whole for split in splits.values())
         try:
             frugal = selection if is_frugal else None
-            levels, own, unsplit, left_out = _refined(half_plane, rows, splits, solved, frugal)
-            wholes = {mu: solved.finest(split.whole) for mu, split in splits.items()}
+            levels, own, unsplit, left_out = _refined(half_plane, rows, splits, variants, frugal)
+            wholes = {mu: variants.finest(split.whole) for mu, split in splits.items()}
             break
         except NotComputedError as error:
-            dropped = _given_up(selection, splits, solved)
+            dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
                 levels, own, unsplit, left_out = 0, _unsplit(rows), str(error), None
-                wholes = dict.fromkeys(splits, runs["finite_element"].finest)
+                wholes = dict.fromkeys(splits, solved.runs["finite_element"].finest)
                 break
             selection = selection.without(dropped, str(error))
     sampling = {}
     if problem.scene.profile is not None:
-        sampling = sampling_changes(problem, window, half_plane.levels, tasks)
-    own, seconds = tuple(own), solved.seconds
+        sampling = sampling_changes(problem, solved.window, half_plane.levels, tasks)
+    own, seconds = tuple(own), variants.seconds
     return ErrorBudget(selection, levels, unsplit, own, sampling, seconds, wholes, left_out)
 
 
 def announce_effects(
-    problem: Problem,
-    plan: Plan,
-    window: Window | None,
-    half_plane: ModelRun,
-    couplings: tuple[Coupling, ...],
-    tasks: Tasks,
+    solved: Solved, couplings: tuple[Coupling, ...], tasks: Tasks
 ) -> Callable[[], None]:
     """Make known to the tasks what `error_budget` will ask for, as far as the half-plane alone, on
     the levels that the scene asks for, can tell: they may begin before the finite elements are
     done. Should the half-plane's finest level select other effects, these are solved then.
 
-    To be called where the scene's own finite elements leave a figure open on the least levels is
-    what is returned: so will the whole, whose further level need not wait until it does. A process
-    then stays with the bodies of one level."""
-    selection = _selected(problem, plan, half_plane, couplings)
-    patches = half_plane.levels[0].patches
-    solved = SolvedVariants(problem, window, None, tasks, patches)
+    Call what is returned once the scene's own finite elements leave a figure open on the least
+    levels: the whole will leave it open, too, and its further level need not wait until it does. A
+    process then stays with the bodies of one level."""
+    problem, half_plane = solved.problem, solved.runs["half_plane"]
+    selection, variants = _selected(solved, couplings), _variants(solved, tasks, None)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.friction]
-    solved.keep(split.whole for split in splits)
+    variants.keep(split.whole for split in splits)
     wholes = [each for split in splits for each in split.wholes]
     every = [each for split in splits for each in split.all]
     most = min(_most_levels(problem), len(half_plane.levels))
@@ -147,21 +137,25 @@ def announce_effects(
     def announce(splitting: int, further: int) -> None:
         for number in range(1, most + 1):
             is_further = number > LEAST_LEVELS
-            solved.announce(wholes, number, further if is_further else LATER)
-            solved.announce(() if is_further else every, number, splitting)
+            variants.announce(wholes, number, further if is_further else LATER)
+            variants.announce(() if is_further else every, number, splitting)
 
     announce(LAST, PERHAPS)
-    _announce_sampling(problem, window, half_plane.levels, tasks)
+    _announce_sampling(problem, solved.window, half_plane.levels, tasks)
     return partial(announce, LATER, LATER)
 
 
-def _selected(
-    problem: Problem, plan: Plan, half_plane: ModelRun, couplings: tuple[Coupling, ...]
-) -> EffectSelection:
-    pressure = half_plane.finest.solution.pressure
+def _variants(solved: Solved, tasks: Tasks, own: ModelRun | None) -> SolvedVariants:
+    """None of them solved yet; `own` are the scene's finite elements."""
+    patches = solved.runs["half_plane"].levels[0].patches
+    return SolvedVariants(solved.problem, solved.window, own, tasks, patches)
+
+
+def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelection:
+    pressure = solved.runs["half_plane"].finest.solution.pressure
     mean = float(pressure @ pressure / pressure.sum())
-    selection = select_effects(problem, float(pressure.max()), couplings, mean)
-    if plan.effects:
+    selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
+    if solved.plan.effects:
         return selection
     asked = selection.added | set(selection.impossible) - {"law_of_elasticity"}
     return selection.without(asked, "not asked for (budget.effects)")
@@ -173,7 +167,7 @@ def _most_levels(problem: Problem) -> int:
 
 def _refined(
     half_plane: ModelRun,
-    rows: tuple[Comparison, ...],
+    rows: tuple[Figure, ...],
     splits: dict[float, SplitVariants],
     solved: SolvedVariants,
     frugal: EffectSelection | None,
@@ -222,8 +216,8 @@ def _refined(
         if number >= LEAST_LEVELS and _settled(rows, own):
             break
         if LEAST_LEVELS <= number < most and frugal:
-            checks = _tolerance_checks(own, frugal, tolerance)
-            if all(check.is_fixed for check in checks):
+            errors_so_far = (figure_of(error, frugal, tolerance) for error in own)
+            if all(figure.is_fixed for figure in errors_so_far if figure.bounds):
                 left_out = f"level {number + 1} of the whole model: cannot change a verdict"
                 left_out += f" ({ASKED})"
                 break
@@ -236,33 +230,20 @@ def _refined(
     return levels, own, next(filter(None, why), None), left_out
 
 
-def _is_decided(rows: tuple[Comparison, ...], selection: EffectSelection) -> bool:
+def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
     """Whether every judged row agrees or differs whatever the effects do that its finite elements
     do not have."""
     missing = [sizes for n, sizes in selection.estimates.items() if n not in selection.contained]
     return all(
-        row.uncertainty is not None
-        and is_decided(
-            row.difference,
-            row.uncertainty,
+        is_decided(
+            row.value,
+            row.numerical,
             sum(sizes.get(row.quantity, 0.0) for sizes in missing),
             row.tolerance,
         )
         for row in rows
         if row.tolerance is not None
     )
-
-
-def _tolerance_checks(
-    errors: Iterable[ModelError], selection: EffectSelection, tolerance: Mapping[str, float]
-) -> list[ToleranceCheck]:
-    found = []
-    for error in errors:
-        name, value, uncertainty = error.quantity, error.value, error.uncertainty
-        if name in tolerance:
-            left = selection.not_modelled(name), tolerance[name]
-            found.append(ToleranceCheck(name, error.friction, value, uncertainty, *left))
-    return found
 
 
 def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant]) -> bool:
@@ -274,21 +255,21 @@ def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant
     return spent + finer > solved.problem.scene.budget.time
 
 
-def _unsplit(rows: tuple[Comparison, ...]) -> list[ModelError]:
+def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:
     """The models' differences as they are."""
-    found = []
-    for row in rows:
-        uncertainty = math.inf if row.uncertainty is None else row.uncertainty
-        found.append(ModelError(row.quantity, row.friction, {}, 0.0, row.difference, uncertainty))
-    return found
+    return [
+        ModelError(row.quantity, row.friction, {}, 0.0, row.value, row.numerical, row.scale)
+        for row in rows
+    ]
 
 
-def _settled(rows: tuple[Comparison, ...], own: list[ModelError]) -> bool:
+def _settled(rows: tuple[Figure, ...], own: list[ModelError]) -> bool:
     """Whether the effects add little to the uncertainty of every judged figure."""
     found = {(e.quantity, e.friction): e.uncertainty for e in own}
     return all(
         found[row.quantity, row.friction]
-        <= (row.uncertainty or 0.0) + SHARE_OF_TOLERANCE * row.tolerance
+        <= (row.numerical if math.isfinite(row.numerical) else 0.0)
+        + SHARE_OF_TOLERANCE * row.tolerance
         for row in rows
         if row.tolerance is not None
     )

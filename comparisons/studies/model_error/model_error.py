@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import (
     LENGTHS,
@@ -24,11 +25,10 @@ from comparisons.figures.uncertainty import (
     peak_resolution,
     relative_resolution,
 )
-from comparisons.figures.verdict import Comparison
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import pair_history, uncertainties
+from comparisons.studies.contact import uncertainties, values_of
 from comparisons.studies.model_error.contributions import EffectContributions
 from comparisons.studies.model_error.quantities_of_interest import (
     LARGEST,
@@ -60,6 +60,7 @@ class ModelError:
     interaction: float  # what they change jointly beyond their sum
     value: float  # (half-plane - whole) / whole, or the norm of that difference
     uncertainty: float  # of `value`
+    scale: float = 1.0  # the whole's figure [SI], or the Hertz contact's where that vanishes
     # of a largest value: what the half-plane's own exceeds its value at the whole's asperity
     jump: float = 0.0
     # x [m] of the half-plane's largest value and of the whole's, where these are at two asperities,
@@ -77,7 +78,7 @@ def model_errors(
     problem: Problem,
     window: Window | None,
     runs: dict[str, ModelRun],
-    rows: list[Comparison],
+    rows: list[Figure],
     history: list[EffectContributions],
 ) -> list[ModelError]:
     """One for each row, all of one friction coefficient.
@@ -91,6 +92,7 @@ def model_errors(
         divided = []
     names = list(divided[-1].pairs) if divided else []
     names = [name for name in names if all(name in parts.pairs for parts in divided)]
+    values = {model: values_of(run.finest, problem, friction) for model, run in runs.items()}
     levels = {
         model: [quantities_of(level, problem, friction) for level in run.levels]
         for model, run in runs.items()
@@ -135,38 +137,38 @@ def model_errors(
         certain = with_it.max() / (1.0 + max(found.uncertainty, numerical))  # which may be infinite
         return replace(found, moves_maximum=bool(certain > with_it[np.argmax(without)]))
 
-    def of_figure(row: Comparison, numerical: float, at: int) -> tuple[float, float]:
-        """Error of a figure and its uncertainty."""
+    def of_figure(row: Figure, numerical: float, at: int) -> tuple[float, float, float]:
+        """Error of a figure, its uncertainty, and what both are relative to [SI]."""
         name, figure = row.quantity, whole.figures[row.quantity][at]
         scale = _scale(figure, name, problem)
-        numerical *= _scale(row.finite_element, name, problem) / scale
+        numerical *= _scale(values["finite_element"][name], name, problem) / scale
         if at != own[-1].leading(name):  # the comparison is at another asperity
-            values = [each.figures[name][at] / scale for each in own]
+            sequence = [each.figures[name][at] / scale for each in own]
             numerical = max(
                 numerical,
-                unsolved + grid_convergence(values, QUANTITIES[name].formal_order).uncertainty,
+                unsolved + grid_convergence(sequence, QUANTITIES[name].formal_order).uncertainty,
             )
         lacking = share(name, missing, at).uncertainty
-        uncertainty = difference_of_figures(numerical, row.half_plane / scale, lacking)
+        half_plane_value = values["half_plane"][name]
+        uncertainty = difference_of_figures(numerical, half_plane_value / scale, lacking)
         if name in LARGEST:
             largest = LARGEST[name]
             alone = stated[largest].total  # a depth does not say where it is
             alone = max(numerical, alone) if largest == name else alone
             others = _competing(whole, name, at, alone, lambda k: share(largest, missing, k))
             uncertainty += others / scale
-        return float((row.half_plane - figure) / scale), float(uncertainty)
+        return float((half_plane_value - figure) / scale), float(uncertainty), float(scale)
 
-    pair = pair_history(runs["half_plane"], runs["finite_element"], problem, friction, window)
     found = []
     for row in rows:
         name, at = row.quantity, whole.leading(row.quantity)
-        numerical = np.inf if row.uncertainty is None else row.uncertainty
+        numerical, scale = row.numerical, 1.0
         effects = {effect: of_effect(name, effect, at, numerical) for effect in names}
         jump, moved, joint = 0.0, None, 0.0
         if divided:
             joint = share(name, [parts.interaction(names) for parts in divided], at).value
         if not QUANTITIES[name].of_pair:
-            value, uncertainty = of_figure(row, numerical, at)
+            value, uncertainty, scale = of_figure(row, numerical, at)
             before = half_plane[-1].leading(name)
             if before != at:
                 largest, figure = LARGEST[name], half_plane[-1].figures
@@ -177,16 +179,16 @@ def model_errors(
                     moved = float(places[0]), float(places[1])
         elif not contains_all:
             differences = [a - b for a, b in zip(half_plane[: len(wholes)], wholes, strict=True)]
-            norm, there = share(name, differences, at), pair.differences[number][name]
+            norm, there = share(name, differences, at), row.levels[number]
             lacking = share(name, missing, at).uncertainty
-            parts = numerical, abs(there - row.difference), lacking
-            value, stated_norm = norm.value, pair.uncertainties[name]
-            beside = stated_norm.domain + stated_norm.increments
+            parts = numerical, abs(there - row.value), lacking
+            value, known = norm.value, row.uncertainty.parts
+            beside = known["domain"] + known["increments"]
             uncertainty = difference_of_norms(norm.uncertainty, beside, parts)
         else:
-            value, uncertainty = row.difference, numerical
-        error = ModelError(name, friction, effects, joint, value, uncertainty, jump, moved)
-        found.append(error)
+            value, uncertainty = row.value, numerical
+        of_row = effects, joint, value, uncertainty, scale, jump, moved
+        found.append(ModelError(name, friction, *of_row))
     return found
 
 

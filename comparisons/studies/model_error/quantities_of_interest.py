@@ -14,7 +14,8 @@ from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import boundary_rise, pair_norms
+from comparisons.studies.comparison import pair_norms
+from comparisons.studies.contact import boundary_rise
 
 # By figure, the one whose largest value it is or belongs to.
 LARGEST = {

@@ -15,7 +15,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 from scipy.optimize import minimize
 
 from analytic.grid import HatGrid
-from comparisons.studies.contact import relative_l2
+from comparisons.studies.comparison import relative_l2
 
 FARTHEST = 0.05  # of the contact's extent: the largest shift, and the largest stretch, searched
 APART = 2.0  # pitches that the contact's ends move from one searched stretch to the next

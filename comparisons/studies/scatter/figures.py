@@ -1,8 +1,14 @@
 """What uncertain inputs do to the half-plane's figures, as a run keeps it."""
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 
 import numpy as np
+
+from comparisons.figures.figure import Column, Figure, Findings, SampleSpread, Series, Statement
+from comparisons.figures.uncertainty import Uncertainty
+
+NAME = "scatter"
+DESIGN, SHARES = "Sobol, scrambled", "Saltelli et al. 2010"
 
 
 @dataclass(frozen=True)
@@ -44,16 +50,28 @@ class InputScatter:
         wanted = quantity, friction
         return next((f for f in self.figures if (f.quantity, f.friction) == wanted), None)
 
-    def counts(self) -> dict:
-        """Of the samples, for JSON."""
-        names = ("samples", "solutions", "failed", "why", "pitch")
-        how = {"design": "Sobol, scrambled", "shares": "Saltelli et al. 2010"}
-        return {name: getattr(self, name) for name in names} | how
-
-    def by_quantity(self) -> dict[str, list[dict]]:
-        """For JSON."""
-        found: dict[str, list[dict]] = {}
-        for figure in self.figures:
-            entry = asdict(figure) | {"relative": figure.relative}
-            found.setdefault(entry.pop("quantity"), []).append(entry)
-        return found
+    def findings(self) -> Findings:
+        """The half-plane's figures with their spread, and the samples that these are of. A mean
+        of n samples is as sure as their deviation over the root of n."""
+        figures = []
+        for each in self.figures:
+            spread = SampleSpread(each.mean, each.standard_deviation, each.interval, each.shares)
+            scale = abs(each.nominal) or 1.0
+            error = each.standard_deviation / max(1, self.solutions - self.failed) ** 0.5
+            figures.append(
+                Figure(
+                    study=NAME,
+                    quantity=each.quantity,
+                    source="half_plane",
+                    value=each.nominal,
+                    at={"friction": each.friction},
+                    scale=scale,
+                    uncertainty=Uncertainty({"sampling": error / scale}),
+                    spread=spread,
+                )
+            )
+        names = ("samples", "solutions", "failed", "pitch")
+        columns = {n: Column((getattr(self, n),), "m" if n == "pitch" else "") for n in names}
+        said = [Statement("design", DESIGN), Statement("shares", SHARES)]
+        said += [Statement("first failure", self.why)] if self.why else []
+        return Findings(tuple(figures), (Series("samples", columns),), tuple(said))

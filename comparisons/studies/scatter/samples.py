@@ -14,7 +14,7 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import CUT_OFF, ResolvedScene, Spread
-from comparisons.studies.contact import figures
+from comparisons.studies.contact import values_of
 
 Found = dict[float, dict[str, float]]  # by friction coefficient of the scene, and by quantity
 
@@ -71,7 +71,7 @@ def solved(problem: Problem) -> tuple[Found, np.ndarray]:
     window = None if scene.stress is None else window_of(problem)
     stages = Stages(no_progress)
     level = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
-    return {mu: figures(level, problem, mu) for mu in scene.friction}, level.solution.pressure
+    return {mu: values_of(level, problem, mu) for mu in scene.friction}, level.solution.pressure
 
 
 def solve_samples(

@@ -1,36 +1,66 @@
 """What a scene's uncertain inputs do to the half-plane's figures."""
 
-from collections.abc import Callable
-from dataclasses import asdict
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, replace
 
 import numpy as np
 
 from comparisons.common.tasks import LATER, Here, Tasks
+from comparisons.figures.figure import Findings
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.studies.contact import figures as compared_figures
-from comparisons.studies.scatter.figures import InputScatter, ScatteredFigure
+from comparisons.studies.contact import values_of
+from comparisons.studies.scatter.figures import NAME, InputScatter, ScatteredFigure
 from comparisons.studies.scatter.samples import solve_samples, solved, values_at
 from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
+from comparisons.studies.study import Solved, Study
 
 TOGETHER = 16  # samples of a task: what an interrupted run may lose
 
 
-def announce_scatter(problem: Problem, tasks: Tasks) -> Callable[[Level], InputScatter]:
-    """Make the samples known to tasks; what is returned waits for them, and takes the half-plane's
-    finest level."""
-    scene, wanted = problem.scene, problem.scene.scatter
-    points = designs(wanted.samples, len(wanted.inputs), wanted.seed)
-    x = problem.grid(problem.pitches[0]).x
+def begin(solved: Solved, tasks: Tasks) -> None:
+    """Make the samples known, before anything is solved."""
+    if solved.runs:
+        return
+    scene, points = solved.problem.scene, _points(solved.problem)
+    x = solved.problem.grid(solved.problem.pitches[0]).x
     cost = expected_of(len(x)).seconds * TOGETHER
-    keys = []
-    for start in range(0, points[..., 0].size, TOGETHER):
-        batch = points.reshape(-1, len(wanted.inputs))[start : start + TOGETHER]
-        keys.append(f"scatter-{start}")
-        tasks.add(keys[-1], _batch, scene, batch, x, seconds=cost, urgency=LATER)
-    return lambda finest: _gathered(problem, finest, points, [tasks.result(key) for key in keys])
+    for start in _starts(points):
+        batch = points.reshape(-1, len(scene.scatter.inputs))[start : start + TOGETHER]
+        by = _by(solved, tasks)
+        by.add(_key(start), _batch, scene, batch, x, seconds=cost, urgency=LATER)
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    points, by = _points(solved.problem), _by(solved, tasks)
+    batches = [by.result(_key(start)) for start in _starts(points)]
+    found = _gathered(solved.problem, solved.runs["half_plane"].finest, points, batches)
+    return replace(found.findings(), data=found)
+
+
+def _points(problem: Problem) -> np.ndarray:
+    wanted = problem.scene.scatter
+    return designs(wanted.samples, len(wanted.inputs), wanted.seed)
+
+
+def _starts(points: np.ndarray) -> range:
+    """Of the batches of samples."""
+    return range(0, points[..., 0].size, TOGETHER)
+
+
+def _key(start: int) -> str:
+    return f"{NAME}-{start}"
+
+
+def _by(solved: Solved, tasks: Tasks) -> Tasks:
+    """Tasks that solve samples: those of the run, or by workers from outside."""
+    if solved.opens is None:
+        return tasks
+    return tasks.held(NAME, NAME, lambda: Tasks(solved.opens, math.inf, tasks.kept))
 
 
 def _batch(
@@ -52,7 +82,7 @@ def _gathered(
     columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
     scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
     for number, (friction, coarse) in enumerate(nominal.items()):
-        for quantity, value in compared_figures(finest, problem, friction).items():
+        for quantity, value in values_of(finest, problem, friction).items():
             values = [np.nan if isinstance(f, str) else f[number][quantity] for f in found]
             values = np.array(values).reshape(len(points), -1)
             if coarse[quantity]:
@@ -84,3 +114,10 @@ def _by_input(found: Shares | None, inputs: tuple[str, ...]) -> dict | None:
     return {
         name: {kind: values[i] for kind, values in columns.items()} for i, name in enumerate(inputs)
     }
+
+
+def _applies(solved: Solved) -> bool:
+    return solved.problem.scene.scatter is not None and "half_plane" in solved.plan.models
+
+
+STUDY = Study(NAME, QUANTITIES, solve, _applies, begin=begin, data=InputScatter)

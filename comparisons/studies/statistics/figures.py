@@ -1,9 +1,18 @@
 """What the theories of rough contact say of a scene, as a run keeps it."""
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from math import prod
 
 from analytic.statistics.nominally_flat import Summits
+from comparisons.figures.figure import Column, Findings, Series
+
+NAME = "statistics"
+UNITS = dict.fromkeys(("size", "radius", "deviation", "start", "stop", "half_width"), "m")
+UNITS |= dict.fromkeys(("real_length", "effective_half_width"), "m")
+UNITS |= dict.fromkeys(("mean_real_pressure", "peak", "even", "isotropic", "ridges"), "Pa")
+UNITS |= {"load": "N/m"}
+RATIOS = ("causes", "depth")  # tables without a unit
 
 
 @dataclass(frozen=True)
@@ -87,10 +96,63 @@ class RoughContactStatistics:
     traces: int
     patches: dict[str, tuple[PatchState, ...]]
 
-    def as_dict(self) -> dict:
-        """For JSON."""
-        found = asdict(self)
-        for row, content in zip(self.loads, found["loads"], strict=True):
-            difference, uncertainty = row.difference
-            content |= {"causes": row.causes, "difference": difference, "uncertainty": uncertainty}
-        return found
+    def findings(self, known: Findings) -> Findings:
+        """As tables; patches are as uncertain as the worst of their model's `known` figures."""
+        series = [
+            Series("summits", columns_of([flat(asdict(row)) for row in self.summits], {})),
+            _of_loads(self.loads),
+        ]
+        for name, patches in self.patches.items():
+            own = [f for f in known.figures if f.source == name and f.levels]
+            worst = max(figure.numerical for figure in own)
+            rows = [flat(asdict(patch)) for patch in patches]
+            sizes = {
+                key: [worst * abs(row[key]) for row in rows]
+                for key, value in rows[0].items()
+                if isinstance(value, float)
+            }
+            series.append(Series("patches", columns_of(rows, sizes), name))
+        series.append(Series("traces", {"traces": Column((self.traces,))}))
+        return Findings(series=tuple(series))
+
+
+def _of_loads(loads: tuple[LoadRow, ...]) -> Series:
+    """Of the solved ones: by the scatter of the random traces, and by the pressure elements."""
+    rows, sizes = [], {}
+    for load in loads:
+        difference, uncertainty = load.difference
+        content = asdict(load) | {"causes": load.causes, "difference": difference}
+        del content["grid"], content["scatter"]  # they are uncertainties
+        rows.append(flat(content))
+        unsure = {"random": load.scatter, "trace": load.grid}
+        for source, found in unsure.items():
+            for name, share in asdict(found).items():
+                value = getattr(load.figures[source], name)
+                sizes.setdefault(f"figures.{source}.{name}", []).append(abs(share * value))
+        sizes.setdefault("difference", []).append(uncertainty)
+    return Series("loads", columns_of(rows, sizes))
+
+
+def flat(content: Mapping[str, object], before: str = "") -> dict[str, object]:
+    """Nested tables as one, with dots in the names; pairs are by `moments` and by `peaks`."""
+    found: dict[str, object] = {}
+    for name, value in content.items():
+        if isinstance(value, tuple):
+            value = dict(zip(("moments", "peaks"), value, strict=True))
+        if isinstance(value, dict):
+            found |= flat(value, f"{before}{name}.")
+        elif value is not None:
+            found[before + name] = value
+    return found
+
+
+def columns_of(rows: list[dict], sizes: Mapping[str, list[float]]) -> dict[str, Column]:
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {
+        name: Column(
+            tuple(row.get(name) for row in rows),
+            "" if name.startswith(RATIOS) else UNITS.get(name.rpartition(".")[2], ""),
+            tuple(sizes[name]) if name in sizes else None,
+        )
+        for name in names
+    }

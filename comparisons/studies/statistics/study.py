@@ -4,8 +4,10 @@ The theory's surfaces are random, and so are the ones it is held against: traces
 power spectrum and new phases, solved by the elastic half-plane. The scene's own trace is one more.
 """
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from contextlib import nullcontext, suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import stdtrit
@@ -18,49 +20,56 @@ from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile, surface
 from analytic.statistics.nominally_flat import persson_fraction
-from analytic.statistics.rough_bodies import RoughContact, rough_cylinder
 from analytic.statistics.summits import counted_peaks, spectral_moments, summits_of_peaks
 from analytic.surface.filters import filtered
 from analytic.surface.roughness import shortest_wavelength
 from analytic.surface.synthetic import same_spectrum
 from comparisons.common.errors import SceneError
 from comparisons.common.tasks import LATER, Here, Tasks
+from comparisons.figures.figure import Findings
 from comparisons.models.half_plane import expected_of
-from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.studies import contact
 from comparisons.studies.statistics.figures import (
+    NAME,
     ContactFigures,
     LoadRow,
     RoughContactStatistics,
     SummitRow,
 )
 from comparisons.studies.statistics.patches import patch_states
+from comparisons.studies.study import Solved, Study
+
+if TYPE_CHECKING:
+    from analytic.statistics.rough_bodies import RoughContact
 
 STEPS, PER_DECADE = 7, 2  # loads: from the scene's own down to a thousandth
 CUTOFFS, THINNED = (1.0, 2.0, 4.0, 8.0), (2, 4)  # shortest wavelengths; every so many samples
 QUANTILE = 0.975
-KEY = "statistics"
 
 
-def announce_statistics(
-    problem: Problem, tasks: Tasks
-) -> Callable[[dict[str, ModelRun]], RoughContactStatistics]:
-    """Make the random traces known to the tasks of a run; what is returned waits for them, and
-    takes the runs of the models. Raises SceneError, one line, for a profile without statistics."""
-    scene, wanted = problem.scene, problem.scene.statistics
+def begin(solved: Solved, tasks: Tasks) -> None:
+    """Make the random traces known. Raises SceneError, one line, for a profile without
+    statistics."""
+    problem, scene = solved.problem, solved.problem.scene
+    if solved.runs:
+        return
     try:
-        rows = summit_rows(scene.profile, wanted.cutoffs)
+        rows = summit_rows(scene.profile, scene.statistics.cutoffs)
         _cylinders(problem, problem.hertz.load_per_length, rows[0])
     except (ValueError, ArithmeticError) as error:
         raise SceneError(f"{scene.source}: statistics: {error}") from None
     cost = expected_of(problem.grid(problem.pitches[0]).count).seconds
-    tasks.add(KEY, _loads, problem, rows[0], seconds=STEPS * wanted.traces * cost, urgency=LATER)
+    seconds = STEPS * scene.statistics.traces * cost
+    tasks.add(NAME, _loads, problem, rows[0], seconds=seconds, urgency=LATER)
 
-    def gathered(runs: dict[str, ModelRun]) -> RoughContactStatistics:
-        patches = {name: patch_states(problem, run.finest) for name, run in runs.items()}
-        return RoughContactStatistics(rows, tasks.result(KEY), wanted.traces, patches)
 
-    return gathered
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    problem, wanted = solved.problem, solved.problem.scene.statistics
+    patches = {name: patch_states(problem, run.finest) for name, run in solved.runs.items()}
+    rows = summit_rows(problem.scene.profile, wanted.cutoffs)
+    found = RoughContactStatistics(rows, tasks.result(NAME), wanted.traces, patches)
+    return replace(found.findings(before[contact.NAME]), data=found)
 
 
 def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[SummitRow, ...]:
@@ -85,7 +94,9 @@ def _summits(profile: Profile, treatment: str, size: float, strict: bool = False
     return SummitRow(treatment, size, found.bandwidth, float(np.sqrt(found.m2)), *by_both)
 
 
-def _cylinders(problem: Problem, load: float, row: SummitRow) -> dict[str, RoughContact]:
+def _cylinders(problem: Problem, load: float, row: SummitRow) -> "dict[str, RoughContact]":
+    from analytic.statistics.rough_bodies import rough_cylinder
+
     given = load, problem.scene.roller_radius, problem.modulus
     each = (rough_cylinder(*given, summits) for summits in row.summits)
     return dict(zip(("moments", "peaks"), each, strict=True))
@@ -158,3 +169,10 @@ def _row(problem: Problem, load: float, summits: SummitRow, solved: np.ndarray) 
         persson={"isotropic": persson(np.sqrt(2.0) * slope), "ridges": persson(slope)},
         even=0.25 * np.pi * ridge.peak_pressure,
     )
+
+
+def _applies(solved: Solved) -> bool:
+    return solved.problem.scene.statistics is not None and "half_plane" in solved.plan.models
+
+
+STUDY = Study(NAME, {}, solve, _applies, begin=begin, data=RoughContactStatistics)

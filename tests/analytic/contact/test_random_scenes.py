@@ -216,7 +216,7 @@ def bounded_least_squares(case: Scene, approach: float, matrix: np.ndarray) -> n
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Run:
     """What is kept of a solved scene; `departure` from least squares, relative to the peak."""
 
     label: str
@@ -228,14 +228,14 @@ class Outcome:
 
 
 @cache
-def outcome(seed: int) -> Outcome:
+def outcome(seed: int) -> Run:
     case = scene(seed)
     solution, matrix = case.solved(), case.matrix()
     departure = None
     if case.count <= FEW and solution.pressure.any():
         expected = bounded_least_squares(case, solution.approach, matrix)
         departure = np.max(np.abs(solution.pressure - expected)) / np.max(expected)
-    return Outcome(
+    return Run(
         case.label,
         solution.converged,
         residuals(case, solution, matrix),

@@ -9,7 +9,7 @@ import matplotlib
 import pytest
 from scenes import PROJECT
 
-from comparisons.report.figures.style import collected_figures
+from comparisons.drawing.style import collected_figures
 
 NOTEBOOK = PROJECT / "comparisons/docs/tutorial.ipynb"
 SCRIPT = """from comparisons import api

@@ -11,9 +11,9 @@ from rich.console import Console
 
 from comparisons.campaigns.checks import (
     BoundedFigure,
+    CaseFindings,
     CheckedCase,
     CheckedRow,
-    Findings,
     order_figure,
     relative_error,
     rows_table,
@@ -27,15 +27,15 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 
 
-def findings(value: float, high: float = 1.0, low: float = 0.0) -> Findings:
-    return Findings((BoundedFigure("error", value, high, "the exact one", low, "a note"),))
+def findings(value: float, high: float = 1.0, low: float = 0.0) -> CaseFindings:
+    return CaseFindings((BoundedFigure("error", value, high, "the exact one", low, "a note"),))
 
 
-def case(found: Findings, name: str = "made") -> CheckedCase:
+def case(found: CaseFindings, name: str = "made") -> CheckedCase:
     return CheckedCase("tests", name, "half_plane", lambda: found)
 
 
-def failing() -> Findings:
+def failing() -> CaseFindings:
     raise ArithmeticError("no\nsolution [bold]")
 
 
@@ -43,7 +43,7 @@ RAISES = CheckedCase("tests", "raises", "finite_element", failing)
 
 
 def row(*figures: BoundedFigure) -> CheckedRow:
-    return run_case(case(Findings(figures)))
+    return run_case(case(CaseFindings(figures)))
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_a_row_without_a_figure_or_with_an_error_fails_and_says_why():
 
 
 def test_an_interrupt_is_no_row():
-    def stop() -> Findings:
+    def stop() -> CaseFindings:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -10,6 +10,7 @@ from scenes import PROJECT
 
 from comparisons.cli import main
 from comparisons.common.provenance import machine
+from comparisons.output.result_json import content_of
 
 MODULES = ("numpy", "signal", "pickle", "threading", "meshes", "analytic", "gmsh", "scipy")
 SMALL = """
@@ -85,7 +86,7 @@ def test_a_rank_that_a_shell_inherited_silences_nothing(tmp_path, variable):
 
 def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
     title = "=1+2\x1b]0;owned\x07\x9b31m"
-    result = smooth_outcome.result
+    result = content_of(smooth_outcome)
     result = result | {"scene": result["scene"] | {"title": title}}
     (tmp_path / "result.json").write_text(json.dumps(result))
     assert main(["table", str(tmp_path)]) == 0

@@ -26,8 +26,8 @@ load = {per_length = "1 N/um"}
 """
 COMMAND = """
 import sys
-import comparisons.report.page
-comparisons.report.page.render = lambda *_: ""
+import comparisons.output.page.page
+comparisons.output.page.page.render = lambda *_: ""
 from comparisons.cli import main
 sys.exit(main(["run", "scene.toml", "--models", "half-plane"]))
 """

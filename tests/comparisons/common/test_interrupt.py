@@ -26,8 +26,8 @@ budget = {effects = false}
 # The command with one function replaced by what stands for it.
 COMMAND = """
 import os, pathlib, signal, sys, time
-import comparisons.report.page
-comparisons.report.page.render = lambda *_: ""
+import comparisons.output.page.page
+comparisons.output.page.page.render = lambda *_: ""
 from comparisons.cli import main
 there = pathlib.Path("there")
 {replaced}
@@ -172,7 +172,7 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
         raise KeyboardInterrupt
 
     monkeypatch.chdir(folder)
-    monkeypatch.setattr("comparisons.report.page.render", interrupted)
+    monkeypatch.setattr("comparisons.output.page.page.render", interrupted)
     assert main(["run", "scene.toml", "--models", "half-plane", "--out", "out"]) == 130
     assert capsys.readouterr().err == (
         "crosscheck: interrupted; finished levels are kept, the same command goes on from there\n"

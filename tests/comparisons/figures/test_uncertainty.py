@@ -14,42 +14,37 @@ from comparisons.figures.uncertainty import (
     relative_resolution,
 )
 from comparisons.models.level import ModelRun
-from comparisons.results.outcome import Outcome
-from comparisons.studies.contact import (
-    SHOWN,
-    compared,
-    discretisations,
-    pair_history,
-    uncertainties,
-)
+from comparisons.studies.comparison import SHOWN, compared, differences_of, discretisations
+from comparisons.studies.contact import uncertainties
+from comparisons.studies.study import Run
 
 
-def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outcome: Outcome):
+def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outcome: Run):
     """By an order of 1/2: 2.4 times. The far-boundary level's place is taken by another level."""
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
     levels = smooth_outcome.runs["half_plane"].levels
     run = ModelRun("finite_element", levels, far_boundary_check=levels[1])
     found = uncertainties(run, smooth_outcome.problem, 0.0)["peak_pressure"]
     first, second, last = (level.solution.pressure.max() for level in levels)
-    assert found.domain == pytest.approx(DOMAIN * abs(second - first) / last)
-    assert found.total == found.iteration + found.discretisation + found.domain
+    assert found.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
+    assert found.total == sum(found.parts.values())
 
 
 def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(
-    smooth_outcome: Outcome,
+    smooth_outcome: Run,
 ):
     """A twentieth of a pitch for each of the two edges; of many patches they err by chance."""
     level = smooth_outcome.runs["half_plane"].finest
     run = ModelRun("half_plane", (level, level, level))
     found = uncertainties(run, smooth_outcome.problem, 0.0)
     expected = 0.1 * level.grid.pitch / level.contact_length
-    assert found["contact_length"].discretisation == pytest.approx(expected)
-    assert found["contact_ratio"].discretisation == pytest.approx(expected)
-    assert found["peak_pressure"].discretisation == 0.0
+    assert found["contact_length"].parts["discretisation"] == pytest.approx(expected)
+    assert found["contact_ratio"].parts["discretisation"] == pytest.approx(expected)
+    assert found["peak_pressure"].parts["discretisation"] == 0.0
     assert length_resolution(1.0, 9) == pytest.approx(3.0 * length_resolution(1.0, 1))
 
 
-def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Outcome):
+def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Run):
     """Where the half-plane's figure is three times as large, so is the uncertainty; its
     causes add up."""
     pair = smooth_outcome.runs["half_plane"], smooth_outcome.runs["finite_element"]
@@ -66,31 +61,31 @@ def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Ou
         runs = {"half_plane": replace(pair[0], levels=levels), "finite_element": pair[1]}
         row = compared(problem, runs, window)[0]
         assert row.quantity == "peak_pressure"
-        assert row.difference == pytest.approx(times - 1.0, abs=0.02)
-        stated = pair_history(*runs.values(), problem, 0.0, window).uncertainties["peak_pressure"]
-        assert row.uncertainty == stated.total
-        assert stated.total == stated.iteration + stated.discretisation + stated.domain
-        return stated
+        assert row.value == pytest.approx(times - 1.0, abs=0.02)
+        parts = row.uncertainty.parts
+        assert row.numerical == parts["iteration"] + parts["discretisation"] + parts["domain"]
+        return parts
 
     one, three, third = scaled(1.0), scaled(3.0), scaled(1.0 / 3.0)
     for part in ("discretisation", "domain"):
-        assert getattr(three, part) == pytest.approx(3.0 * getattr(one, part), rel=1e-6)
-        assert getattr(third, part) == pytest.approx(getattr(one, part) / 3.0, rel=1e-6)
-    assert three.iteration == pytest.approx(3.0 * one.iteration, rel=0.02)
-    assert third.iteration == pytest.approx(one.iteration, rel=0.02)
+        assert three[part] == pytest.approx(3.0 * one[part], rel=1e-6)
+        assert third[part] == pytest.approx(one[part] / 3.0, rel=1e-6)
+    assert three["iteration"] == pytest.approx(3.0 * one["iteration"], rel=0.02)
+    assert third["iteration"] == pytest.approx(one["iteration"], rel=0.02)
 
 
-def test_a_difference_has_its_own_sequence(smooth_outcome: Outcome):
+def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
     """Errors that both models have on each level leave none in their difference."""
     half_plane = smooth_outcome.runs["half_plane"]
     same = replace(half_plane, name="finite_element", far_boundary_check=None)
-    found = pair_history(half_plane, same, smooth_outcome.problem, 0.0, smooth_outcome.window)
+    posed = smooth_outcome.problem, 0.0, smooth_outcome.window
+    difference = differences_of(half_plane, same, *posed)["peak_pressure"]
     alone = uncertainties(half_plane, smooth_outcome.problem, 0.0)["peak_pressure"]
-    assert alone.discretisation > 1e-6
-    assert found.uncertainties["peak_pressure"].discretisation == 0.0
+    assert alone.parts["discretisation"] > 1e-6
+    assert difference.uncertainty.parts["discretisation"] == 0.0
 
 
-def test_bounds_of_several_levels_add(smooth_outcome: Outcome):
+def test_bounds_of_several_levels_add(smooth_outcome: Run):
     """Of two models by both residuals; of a difference of lengths by what is read of both."""
     one, other = (run.finest for run in smooth_outcome.runs.values())
     assert iteration(one, other) == iteration(one) + iteration(other) > 0.0
@@ -108,7 +103,7 @@ def test_a_peak_between_nodes_is_read_within_its_resolution(offset):
     assert 1.0 - nodal.max() <= resolution < 2.5 * (0.5 / 15.0) ** 2
 
 
-def test_refinement_ends_by_the_worst_of_difference_and_models(smooth_outcome: Outcome):
+def test_refinement_ends_by_the_worst_of_difference_and_models(smooth_outcome: Run):
     """What both models leave out is in both figures, once each, and not in their difference."""
     problem, window = smooth_outcome.problem, smooth_outcome.window
 

@@ -4,8 +4,10 @@ import math
 
 import pytest
 
-from comparisons.figures.verdict import ToleranceCheck, is_within, judge
-from comparisons.studies.model_error.validity import validity_verdict
+from comparisons.figures.figure import Figure
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.figures.verdict import is_within, judge
+from comparisons.output.headline import validity
 
 LITTLE = 1e-15  # more than rounding of numbers below 1 loses
 
@@ -58,7 +60,21 @@ def test_both_tables_are_judged_alike(value, uncertainty):
 def judged(
     quantity="peak_pressure", value=0.001, uncertainty=0.002, not_modelled=None, friction=0.0
 ):
-    return ToleranceCheck(quantity, friction, value, uncertainty, not_modelled or {}, 0.02)
+    return model_error(quantity, friction, value, uncertainty, not_modelled or {}, 0.02)
+
+
+def model_error(quantity, friction, value, uncertainty, not_modelled, tolerance):
+    return Figure(
+        study="model_error",
+        quantity=quantity,
+        source="half_plane",
+        value=value,
+        at={"friction": friction},
+        against="whole",
+        uncertainty=Uncertainty({"numerical": uncertainty}),
+        unknown=not_modelled,
+        bounds=(-tolerance, tolerance),
+    )
 
 
 @pytest.mark.parametrize(
@@ -75,7 +91,7 @@ def judged(
     ],
 )
 def test_only_what_no_doubt_can_move_counts(value, uncertainty, verdict):
-    assert validity_verdict([judged(value=value, uncertainty=uncertainty)])[0] == verdict
+    assert validity([judged(value=value, uncertainty=uncertainty)])[0] == verdict
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -84,8 +100,8 @@ def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
 
     def verdict(value, uncertainty):
         not_modelled = {"exact_circle": 0.0, "coating": 0.125}
-        rows = [ToleranceCheck("peak_pressure", 0.0, sign * value, uncertainty, not_modelled, 0.5)]
-        return validity_verdict(rows)[0]
+        rows = [model_error("peak_pressure", 0.0, sign * value, uncertainty, not_modelled, 0.5)]
+        return validity(rows)[0]
 
     inside, outside = 0.5 - 0.125 - 0.0625, 0.5 + 0.125 + 0.0625
     assert verdict(inside, 0.0625) == "holds"
@@ -95,7 +111,7 @@ def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
 
 
 def test_holds_names_the_quantity_nearest_to_its_tolerance():
-    verdict, why = validity_verdict([judged(), judged("tau1_max", -0.015)])
+    verdict, why = validity([judged(), judged("tau1_max", -0.015)])
     assert verdict == "holds"
     assert "tau1_max -1.50%" in why and "peak_pressure" not in why
 
@@ -106,14 +122,14 @@ def test_one_error_outside_fails_it():
         judged("contact_length", 0.04),
         judged("tau1_max", 0.01, 0.05),
     ]
-    verdict, why = validity_verdict(rows)
+    verdict, why = validity(rows)
     assert verdict == "fails"
     assert "contact_length +4.00%" in why
     assert "peak_pressure" not in why and "tau1_max" not in why
 
 
 def test_an_uncertain_error_leaves_it_open():
-    verdict, why = validity_verdict([judged(), judged("tau1_max", 0.01, 0.015)])
+    verdict, why = validity([judged(), judged("tau1_max", 0.01, 0.015)])
     assert verdict == "inconclusive"
     assert "tau1_max +1.00% +- 1.50%" in why and "peak_pressure" not in why
 
@@ -123,33 +139,29 @@ def test_what_no_model_shows_can_move_an_error_either_way():
         judged(not_modelled={"plastic_flow": 0.03}),
         judged("tau1_max", not_modelled={"finite_roller": 0.001}),
     ]
-    verdict, why = validity_verdict(rows)
+    verdict, why = validity(rows)
     assert verdict == "inconclusive"
     assert "plastic flow 3.0%" in why and "finite roller" not in why
     beyond = judged(value=-0.04, not_modelled={"plastic_flow": 0.03})
-    assert validity_verdict([beyond])[0] == "inconclusive"
-    assert (
-        validity_verdict([judged(value=-0.06, not_modelled={"plastic_flow": 0.03})])[0] == "fails"
-    )
+    assert validity([beyond])[0] == "inconclusive"
+    assert validity([judged(value=-0.06, not_modelled={"plastic_flow": 0.03})])[0] == "fails"
 
 
 def test_an_error_outside_but_for_what_no_model_shows_is_laid_to_that():
     outside = judged("tau1_max", -0.026, 0.0035, {"finite_strain": 0.046})
-    verdict, why = validity_verdict([outside])
+    verdict, why = validity([outside])
     assert verdict == "inconclusive"
     assert "finite deformation 4.6%" in why and "cannot be told" not in why
     blurred = judged("tau1_max", -0.026, 0.0065, {"finite_strain": 0.006})
-    assert "cannot be told from its tolerance" in validity_verdict([blurred])[1]
+    assert "cannot be told from its tolerance" in validity([blurred])[1]
 
 
 def test_effects_that_are_not_shown_add_as_squares():
     both = {"exact_circle": 0.012, "coating": 0.012}  # 0.024 by sum, 0.0170 by squares
-    assert judged(not_modelled=both).total_uncertainty == pytest.approx(
-        0.002 + 0.012 * math.sqrt(2.0)
-    )
-    assert validity_verdict([judged(value=0.001, not_modelled=both)])[0] == "holds"
-    assert validity_verdict([judged(value=0.0015, not_modelled=both)])[0] == "inconclusive"
+    assert judged(not_modelled=both).total == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
+    assert validity([judged(value=0.001, not_modelled=both)])[0] == "holds"
+    assert validity([judged(value=0.0015, not_modelled=both)])[0] == "inconclusive"
 
 
 def test_nothing_judged_decides_nothing():
-    assert validity_verdict([])[0] == "inconclusive"
+    assert validity([])[0] == "inconclusive"

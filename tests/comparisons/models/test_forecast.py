@@ -10,6 +10,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
+from comparisons.studies.study import Solved
 
 TABLES = {
     "roller": {"radius": 8e-3, **STEEL},
@@ -32,8 +33,8 @@ def test_as_many_levels_as_the_run_then_has(count):
     _, _, whole = planned(budget={"time": 60.0, "effects": False})
     time = 1.15 * sum(level.seconds for level in whole.levels[:count])
     posed, plan, found = planned(budget={"time": time, "effects": False})
-    runs, stop = refined(posed, plan, None, Tasks())
-    levels = runs["finite_element"].levels
+    solved = refined(Solved(posed, plan, None, {}), Tasks())
+    levels, stop = solved.runs["finite_element"].levels, solved.refinement
     assert len(levels) == len(found.levels) == count
     assert "budget.time" in stop and "budget.time" in found.ends
     for level, said in zip(levels, found.levels, strict=True):

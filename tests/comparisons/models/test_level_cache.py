@@ -36,7 +36,7 @@ def project(tmp_path, monkeypatch):
         *CODE,
         *cost_study.CODE,
         *map_request.CODE,
-        "comparisons/report",
+        "comparisons/output",
         "comparisons/cli.py",
     }
     for place in places:
@@ -64,7 +64,7 @@ def keys() -> tuple[str, str, str]:
 @pytest.mark.parametrize(
     ("place", "loses"),
     [
-        ("comparisons/report/law.py", ""),
+        ("comparisons/output/page/law.py", ""),
         ("comparisons/cli.py", ""),
         ("comparisons/models/law.py", "levels cost map"),
         ("analytic/law.py", "levels cost map"),

@@ -1,20 +1,21 @@
 """The check of the finite elements' compliance in a run: levels, result, report, repetition."""
 
-import json
+from dataclasses import replace
 
 import pytest
 from scenes import STEEL, resolved
 
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.progress import Stages
+from comparisons.figures.moved import items_of, movement
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.report.tables.verification import operator_note, operator_table
-from comparisons.results.changes import movement
+from comparisons.output.page.tables.verification import operator_note, operator_table
+from comparisons.output.recorded_run import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
 
@@ -31,7 +32,7 @@ LAYER = {
 def outcome(tmp_path_factory):
     coarse = resolved(LAYER)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("comparisons.report.page.render", lambda *_: "")
+        patch.setattr("comparisons.output.page.page.render", lambda *_: "")
         return run(coarse, tmp_path_factory.mktemp("run") / "out", ("finite_element",))
 
 
@@ -47,28 +48,28 @@ def test_every_level_but_the_far_boundary_check_is_checked(outcome):
 
 
 def test_result(outcome):
-    content = json.loads((outcome.directory / "result.json").read_text())
-    found = content["models"]["finite_element"][0]["operator"]
-    finest = outcome.runs["finite_element"].finest.operator
-    assert found["verdict"] == finest.verdict == "neither"
-    assert found["levels"] == [
-        level.operator.verdict for level in outcome.runs["finite_element"].levels
-    ]
-    assert found["columns"][2]["x"] == finest.nearest.columns[2].x
-    assert found["waves"][0]["difference"] == finest.nearest.waves[0].difference
-    assert found["body_effect"]["of"] == ["thickness"] and found["datum_removed"]
-    assert len(found["body_effect"]["columns"]) == len(found["columns"]) == 5
+    found = read_result(outcome.directory / "result.json").found["checks"]
+    levels = [level.operator for level in outcome.runs["finite_element"].levels]
+    assert found.said("compliance") == levels[-1].verdict == "neither"
+    assert found.said("compliance, by level") == ", ".join(each.verdict for each in levels)
+    columns, waves, moved = (
+        found.table(f"compliance, {name}").columns
+        for name in ("columns, nearest surface", "waves, nearest surface", "columns, half-plane")
+    )
+    assert columns["x"].values[2] == levels[-1].nearest.columns[2].x
+    assert waves["difference"].values[0] == levels[-1].nearest.waves[0].difference
+    assert found.said("compliance, finite") == "thickness"
+    assert found.said("compliance, datum") == "a constant is removed"
+    assert len(moved["x"].values) == len(columns["x"].values) == 5
 
 
 def test_a_figure_of_it_may_move_by_its_own_size(outcome):
-    recorded = json.loads((outcome.directory / "result.json").read_text())
-    repeated = json.loads(json.dumps(recorded))
-    wave = repeated["models"]["finite_element"][0]["operator"]["waves"][0]
-    wave["difference"] *= 1.5
-    assert len(movement(recorded, repeated).moved) == 1
-    assert not movement(recorded, repeated).beyond
-    wave["difference"] *= 2.0
-    assert len(movement(recorded, repeated).beyond) == 1
+    recorded = items_of(outcome.found, {})
+    [name] = [n for n in recorded if "waves, nearest surface.difference" in n]
+    for times, beyond in ((1.5, 0), (3.0, 1)):
+        values = tuple(times * value for value in recorded[name].value)
+        found = movement(recorded, recorded | {name: replace(recorded[name], value=values)})
+        assert len(found.moved) == 1 and len(found.beyond) == beyond
 
 
 def test_table_and_how_to_read_it(outcome):

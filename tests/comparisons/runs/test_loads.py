@@ -20,9 +20,10 @@ def test_approach_prescribed_on_a_layer(tmp_path):
         "budget": {"effects": False},
     }
     outcome = run(resolved(tables), tmp_path / "out", MODELS)
-    contact = outcome.result["models"]["finite_element"][0]["contact"]
-    assert contact["approach"] == pytest.approx(10e-6, rel=1e-3)
-    assert outcome.result["models"]["half_plane"][0]["contact"]["approach"] is None
+    [approach] = outcome.figures.of(study="contact", quantity="approach")
+    assert approach.source == "finite_element"
+    assert approach.value == pytest.approx(10e-6, rel=1e-3)
+    assert "known but for a constant" in outcome.found["contact"].said("no approach", "half_plane")
     assert outcome.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 
@@ -42,6 +43,7 @@ def test_a_load_that_touches_one_crest_only(tmp_path, load):
     crest = hertz_from_load(load, 1.0 / curvature, outcome.problem.modulus)
     assert outcome.exit_status == ExitStatus.DONE
     for model in MODELS:
-        contact = outcome.result["models"][model][0]["contact"]
-        assert contact["peak_pressure"] == pytest.approx(crest.peak_pressure, rel=2e-3)
-        assert contact["contact_length"] == pytest.approx(2.0 * crest.half_width, rel=5e-3)
+        known = outcome.figures.of(study="contact", source=model)
+        peak, length = (known.one(quantity=n).value for n in ("peak_pressure", "contact_length"))
+        assert peak == pytest.approx(crest.peak_pressure, rel=2e-3)
+        assert length == pytest.approx(2.0 * crest.half_width, rel=5e-3)

@@ -43,9 +43,9 @@ COMMAND = ("-m", "comparisons.cli", "run")
 # Without the pictures: while one process draws, the other one waits at a core's full cost.
 UNDRAWN = """
 import sys
-import comparisons.report.page
+import comparisons.output.page.page
 from comparisons.cli import main
-comparisons.report.page.render = lambda *_: "page"
+comparisons.output.page.page.render = lambda *_: "page"
 sys.exit(main())
 """
 
@@ -81,7 +81,7 @@ def test_two_processes_report_what_one_reports(tmp_path, launch, capsys, monkeyp
     end = launch(2, "-c", UNDRAWN, "run", scene, "--out", outs[1])
     # two levels state no uncertainty
     assert end.returncode == ExitStatus.INCONCLUSIVE, end.stderr
-    monkeypatch.setattr("comparisons.report.page.render", lambda *_: "page")
+    monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "page")
     assert main(["run", str(scene), "--out", str(outs[0])]) == ExitStatus.INCONCLUSIVE
     assert table(end.stdout) == table(capsys.readouterr().out)
     assert files(outs[0]) == files(outs[1])
@@ -129,7 +129,7 @@ from comparisons import cli
 from comparisons.common import mpi
 from comparisons.common.errors import InputError
 
-from comparisons.results import plausibility
+from comparisons.output import plausibility
 
 def run(scene):
     if mpi.from_first(lambda: mpi.from_first(lambda: MPI.COMM_WORLD.rank)) != 0:

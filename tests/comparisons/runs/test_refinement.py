@@ -9,14 +9,15 @@ from scenes import SMOOTH, problem
 from comparisons.common.tasks import Tasks
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
+from comparisons.studies.study import Solved
 
 
 def half_plane(**budget):
     """The half-plane on ever finer levels, and why they ended: none is fine enough."""
     made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}, "budget": budget})
     plan = make_plan(made, ("half_plane",))
-    runs, why = refined(made, plan, None, Tasks())
-    return runs["half_plane"], why
+    solved = refined(Solved(made, plan, None, {}), Tasks())
+    return solved.runs["half_plane"], solved.refinement
 
 
 @pytest.mark.parametrize(

@@ -44,13 +44,13 @@ class TestRefusals:
             QUICK, budget={"time": 0.01}, tolerance={"tau1_max": 1e-5, "peak_pressure": 1e-5}
         )
         outcome = run(resolved(tables), tmp_path / "out", MODELS)
-        assert "budget.time" in outcome.result["refinement"]
-        verdicts = {row.quantity: row.verdict for row in outcome.comparisons}
+        assert "budget.time" in outcome.solved.refinement
+        verdicts = {row.quantity: row.verdict for row in outcome.figures.of(study="comparison")}
         assert verdicts["peak_pressure"] == "inconclusive"
 
     def test_a_level_that_would_not_fit_is_not_begun(self, tmp_path):
         """Room for the three planned levels and none for a fourth."""
         tables = changed(QUICK, budget={"memory": 2.9e8}, tolerance={"peak_pressure": 1e-6})
         outcome = run(resolved(tables), tmp_path / "out", MODELS)
-        assert "budget.memory" in outcome.result["refinement"]
+        assert "budget.memory" in outcome.solved.refinement
         assert len(outcome.runs["finite_element"].levels) == 3

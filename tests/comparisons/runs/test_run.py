@@ -15,8 +15,12 @@ from comparisons.models.finite_element import level as finite_element
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
+from comparisons.output.headline import verdict_of
+from comparisons.output.recorded_run import read_result
+from comparisons.output.result_json import content_of
 from comparisons.runs.run import run, solve
 from comparisons.scenes.resolve import load_scene
+from comparisons.studies.study import unsolved
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -28,23 +32,26 @@ def smooth(tmp_path_factory):
 
 def figures(outcome) -> dict:
     """result.json without what may differ from run to run."""
-    result = json.loads(json.dumps(outcome.result))
-    for entries in result["models"].values():
-        for entry in entries:
-            del entry["cost"]["seconds"], entry["cost"]["peak_memory"]
-            for level in entry["cost"]["levels"]:
-                del level["seconds"]
-    if result["error_budget"]:
-        del result["error_budget"]["cost"]
+    result = json.loads(json.dumps(content_of(outcome)))
+    del result["record"]["made"]
+    result["series"] = [each for each in result["series"] if "is_account" not in each]
     return result
+
+
+def values(outcome, model, friction=0.0) -> dict[str, float]:
+    """Of a model, by quantity."""
+    known = outcome.figures.of(study="contact", source=model, friction=friction)
+    return {figure.quantity: figure.value for figure in known}
 
 
 class TestSmooth:
     def test_agrees_but_is_not_judged_without_what_it_lacks(self, smooth):
         assert smooth.exit_status == ExitStatus.INCONCLUSIVE
-        assert {row.verdict for row in smooth.comparisons if row.tolerance} == {"agree"}
-        assert smooth.result["validity"]["verdict"] == "inconclusive"
-        assert smooth.result["refinement"] == "every judged quantity is resolved"
+        assert {row.verdict for row in smooth.figures.of(study="comparison") if row.tolerance} == {
+            "agree"
+        }
+        assert verdict_of(smooth)[0] == "inconclusive"
+        assert smooth.solved.refinement == "every judged quantity is resolved"
 
     @pytest.mark.parametrize(
         ("model", "peak", "half_width", "tau1", "depth"),
@@ -55,14 +62,13 @@ class TestSmooth:
     )
     def test_meets_hertz(self, smooth, model, peak, half_width, tau1, depth):
         hertz = smooth.problem.hertz
-        entry = smooth.result["models"][model][0]
-        contact, stress = entry["contact"], entry["stress"]
-        assert contact["peak_pressure"] == pytest.approx(hertz.peak_pressure, rel=peak)
-        assert contact["contact_length"] == pytest.approx(2 * hertz.half_width, rel=half_width)
-        assert contact["contact_ratio"] == pytest.approx(1.0, rel=half_width)
-        assert stress["tau1_max"] == pytest.approx(hertz.tau1_max, rel=tau1)
-        assert stress["tau1_max_at"][1] == pytest.approx(hertz.tau1_max_depth, rel=depth)
-        assert stress["txz_max_abs"] == pytest.approx(0.25 * hertz.peak_pressure, rel=tau1)
+        found = values(smooth, model)
+        assert found["peak_pressure"] == pytest.approx(hertz.peak_pressure, rel=peak)
+        assert found["contact_length"] == pytest.approx(2 * hertz.half_width, rel=half_width)
+        assert found["contact_ratio"] == pytest.approx(1.0, rel=half_width)
+        assert found["tau1_max"] == pytest.approx(hertz.tau1_max, rel=tau1)
+        assert found["tau1_max_depth"] == pytest.approx(hertz.tau1_max_depth, rel=depth)
+        assert found["txz_max_abs"] == pytest.approx(0.25 * hertz.peak_pressure, rel=tau1)
 
     def test_stated_uncertainties_cover_the_errors(self, smooth):
         """All but one in twenty, which is by a factor of two at most."""
@@ -76,30 +82,23 @@ class TestSmooth:
         }
         over = []
         for model in MODELS:
-            entry = smooth.result["models"][model][0]
-            found = {
-                **{k: entry["contact"][k] for k in ("peak_pressure", "contact_length")},
-                "tau1_max": entry["stress"]["tau1_max"],
-                "tau1_max_depth": entry["stress"]["tau1_max_at"][1],
-                "txz_max_abs": entry["stress"]["txz_max_abs"],
-            }
             for name, value in exact.items():
-                error = abs(found[name] / value - 1.0) - 1e-6
-                over.append(error / entry["uncertainty"][name]["total"])
+                figure = smooth.figures.one(study="contact", source=model, quantity=name)
+                error = abs(figure.value / value - 1.0) - 1e-6
+                over.append(error / figure.numerical)
         assert len(over) == 10 and sorted(over)[-2] <= 1.0 and max(over) <= 2.0
 
     def test_the_true_difference_of_both_models_is_nothing(self, smooth):
         """Both solve Hertz's contact; by the sequence of their difference, not of each model."""
-        rows = {row.quantity: row for row in smooth.comparisons}
+        rows = {row.quantity: row for row in smooth.figures.of(study="comparison")}
         for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
-            assert abs(rows[name].difference) <= rows[name].uncertainty, name
+            assert abs(rows[name].value) <= rows[name].numerical, name
 
     def test_checks_and_iterations(self, smooth):
         for model in MODELS:
-            entry = smooth.result["models"][model][0]
-            assert entry["checks"]["converged"]
-            for name in ("load_balance", "complementarity", "penetration", "negative_pressure"):
-                assert entry["checks"][name] <= 1e-8
+            assert smooth.found["contact"].said("converged", model) == "yes"
+            checks = smooth.figures.of(study="checks", source=model)
+            assert len(checks) == 5 and max(figure.value for figure in checks) <= 1e-8
         steps = [
             level.solution.iterations["applications"]
             for level in smooth.runs["finite_element"].levels
@@ -108,7 +107,10 @@ class TestSmooth:
 
     def test_files(self, smooth):
         out = smooth.directory
-        assert json.loads((out / "result.json").read_text()) == smooth.result
+        assert json.loads((out / "result.json").read_text()) == content_of(smooth)
+        read = read_result(out / "result.json")
+        assert read.figures == smooth.figures
+        assert read.found == {n: replace(f, data=None) for n, f in smooth.found.items()}
         record = json.loads((out / "record.json").read_text())
         assert record["versions"]["fenics-dolfinx"]
         assert "<html" in (out / "report.html").read_text()
@@ -157,18 +159,13 @@ class TestSmooth:
 
     def test_leaving_steps_out_changes_no_figure(self, smooth, tmp_path):
         """The roller on a factorisation of its own, though the body's would do."""
-        whole = solve(smooth.problem, replace(smooth.plan, shared_factor=False), tmp_path / "out")
-        one, other = figures(smooth)["models"], figures(whole)["models"]
+        plan = replace(smooth.plan, shared_factor=False)
+        whole = solve(unsolved(smooth.problem, plan), tmp_path / "out")
         assert whole.runs["finite_element"].finest.unknowns == 2 * (
             smooth.runs["finite_element"].finest.unknowns
         )
         for model in MODELS:
-            for part in ("contact", "stress"):
-                for name, value in one[model][0][part].items():
-                    if name != "approach_why" and value is not None:
-                        assert np.array(other[model][0][part][name]) == pytest.approx(
-                            np.array(value), rel=1e-7, abs=1e-12
-                        )
+            assert values(whole, model) == pytest.approx(values(smooth, model), rel=1e-7, abs=1e-12)
 
 
 def test_one_model_alone_gives_its_own_figures(smooth, tmp_path):
@@ -189,12 +186,13 @@ def test_one_model_alone_gives_its_own_figures(smooth, tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    result = json.loads((tmp_path / "out" / "result.json").read_text())
-    assert set(result["models"]) == {"half_plane"} and result["comparison"] == {}
-    alone, beside = result["models"]["half_plane"][0], smooth.result["models"]["half_plane"][0]
-    for part in ("contact", "stress", "uncertainty"):
-        assert alone[part] == beside[part]
-    assert {"step": "finite_element model", "because": "not asked for"} in result["skipped"]
+    result = read_result(tmp_path / "out" / "result.json")
+    alone = result.figures.of(study="contact")
+    assert alone == smooth.figures.of(study="contact", source="half_plane")
+    assert {"comparison", "model_error"}.isdisjoint(result.found)
+    assert result.verdict == "not compared"
+    why = result.found["problem"].said("skipped", "finite_element model")
+    assert why == "not asked for"
     assert not (tmp_path / "out" / "finite_element").exists()
 
 
@@ -204,16 +202,14 @@ class TestSliding:
             resolved(changed(QUICK, load={"friction": [0.0, 0.1]})), tmp_path / "out", MODELS
         )
         for model in MODELS:
-            still, sliding = outcome.result["models"][model]
-            assert still["contact"] == sliding["contact"]
+            still, sliding = (values(outcome, model, friction) for friction in (0.0, 0.1))
+            for name in ("peak_pressure", "contact_length", "peak_position"):
+                assert still[name] == sliding[name]
             peak = outcome.problem.hertz.peak_pressure
-            assert sliding["stress"]["tau1_max"] / peak == pytest.approx(0.304827336, rel=0.01)
-            assert sliding["stress"]["txz_max_abs"] / peak == pytest.approx(0.280567188, rel=0.01)
+            assert sliding["tau1_max"] / peak == pytest.approx(0.304827336, rel=0.01)
+            assert sliding["txz_max_abs"] / peak == pytest.approx(0.280567188, rel=0.01)
         # what the still run alone finds, the run with both finds too
-        assert (
-            outcome.result["models"]["half_plane"][0]["stress"]
-            == smooth.result["models"]["half_plane"][0]["stress"]
-        )
+        assert values(outcome, "half_plane") == values(smooth, "half_plane")
 
 
 def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smooth, monkeypatch):

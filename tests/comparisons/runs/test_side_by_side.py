@@ -21,8 +21,8 @@ finite_element = {block = 40}
 """
 RUN = """
 import os, pathlib, sys
-import comparisons.report.page
-comparisons.report.page.render = lambda *_: ""
+import comparisons.output.page.page
+comparisons.output.page.page.render = lambda *_: ""
 from comparisons.common import tasks
 tasks.WORTH_A_FORK = 0.0
 os.sched_getaffinity = lambda process: set(range({cores}))
@@ -39,7 +39,8 @@ sys.exit(main())
 
 def test_figures_are_those_of_one_process(tmp_path):
     found = {cores: result(tmp_path / str(cores), cores) for cores in (1, 2)}
-    assert "finite_strain" in found[1]["error_budget"]["effects"]
+    [effects] = [each for each in found[1]["series"] if each["name"] == "effects"]
+    assert "finite_strain" in effects["columns"]["effect"]
     assert list(timeless(found[1])) == list(timeless(found[2]))
 
 

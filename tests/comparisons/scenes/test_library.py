@@ -17,11 +17,12 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
+from comparisons.output.headline import verdict_of
 from comparisons.runs.run import run
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.resolve import load_scene
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.studies.contact import figures
+from comparisons.studies.contact import values_of
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -42,7 +43,7 @@ def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, pe
     found = []
     for refinement in range(5):
         pitch = problem.pitches[0] / 2.0**refinement
-        found.append(figures(half_plane_level(problem, pitch, None, Stages()), problem, 0.0))
+        found.append(values_of(half_plane_level(problem, pitch, None, Stages()), problem, 0.0))
     ratios = grid_convergence([f["contact_ratio"] for f in found], 2.0)
     peaks = grid_convergence([f["peak_pressure"] for f in found], 2.0)
     assert ratios.uncertainty < 2e-3 and peaks.uncertainty < 2e-3 * peaks.value
@@ -74,13 +75,15 @@ class TestGroundUnrun:
     def test_models_agree_but_share_what_a_flat_linear_body_lacks(self, unrun):
         """At a/R = 0.07 and pressures of 0.05 E the agreement alone proves the numerics."""
         assert unrun.exit_status == ExitStatus.INCONCLUSIVE
-        validity = unrun.result["validity"]
-        assert validity["verdict"] == "inconclusive"
+        verdict, why = verdict_of(unrun)
+        assert verdict == "inconclusive"
         for effect in ("finite deformation", "law of elasticity"):
-            assert effect in validity["why"]
-        assert unrun.result["refinement"] == "every judged quantity is resolved"
+            assert effect in why
+        assert unrun.solved.refinement == "every judged quantity is resolved"
         assert len(unrun.runs["finite_element"].levels) == 3
-        assert all(row.verdict == "agree" for row in unrun.comparisons if row.tolerance)
+        assert all(
+            row.verdict == "agree" for row in unrun.figures.of(study="comparison") if row.tolerance
+        )
 
     def test_pressures_agree_on_the_same_hats(self, unrun):
         pairs = zip(*(unrun.runs[name].levels for name in MODELS), strict=True)
@@ -100,10 +103,10 @@ class TestGroundUnrun:
     def test_asperities_carry_at_least_twice_the_smooth_shear_near_the_surface(self, unrun):
         """What Bailey and Sayles found on unrun ground surfaces, by both models."""
         hertz = unrun.problem.hertz
-        for entries in unrun.result["models"].values():
-            stress = entries[0]["stress"]
-            assert stress["tau1_max"] > 2.0 * hertz.tau1_max
-            assert stress["tau1_max_at"][1] < 0.05 * hertz.half_width
+        for model in MODELS:
+            known = unrun.figures.of(study="contact", source=model)
+            assert known.one(quantity="tau1_max").value > 2.0 * hertz.tau1_max
+            assert known.one(quantity="tau1_max_depth").value < 0.05 * hertz.half_width
 
     def test_below_half_a_the_field_is_that_of_smooth_bodies(self, unrun):
         from analytic.exact.hertz import hertz_stress
@@ -158,7 +161,9 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
 def test_other_scenes_agree(name, tmp_path):
     outcome = run(quick(name, effects=False), tmp_path / "out", MODELS)
     assert outcome.exit_status == ExitStatus.INCONCLUSIVE  # no effect is computed
-    assert "agree" in {row.verdict for row in outcome.comparisons if row.tolerance}
+    assert "agree" in {
+        row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance
+    }
     assert "<html" in (tmp_path / "out" / "report.html").read_text()
 
 
@@ -174,8 +179,8 @@ def test_other_scenes_agree(name, tmp_path):
 )
 def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
     outcome = run(quick(name, effects=True), None, MODELS)
-    assert outcome.result["validity"]["verdict"] == verdict
-    found = {row.quantity: row.difference for row in outcome.comparisons}
+    assert verdict_of(outcome)[0] == verdict
+    found = {row.quantity: row.value for row in outcome.figures.of(study="comparison")}
     assert found["peak_pressure"] == pytest.approx(peak, rel=0.1)
     assert found["contact_length"] == pytest.approx(length, rel=0.1)
 
@@ -222,4 +227,6 @@ def test_measured_traces_from_a_scene_of_five_lines(trace, load, tmp_path):
     )
     outcome = run(load_scene(scene), tmp_path / "out", MODELS)
     assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.INCONCLUSIVE)
-    assert {row.verdict for row in outcome.comparisons if row.tolerance} == {"agree"}
+    assert {row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance} == {
+        "agree"
+    }

@@ -15,8 +15,8 @@ from analytic.surface.roughness import roughness
 from analytic.surface.roughness_standard import standard_roughness
 from analytic.surface.turned import turned, turned_height
 from comparisons.common.errors import SceneError
-from comparisons.report.tables.problem import filter_text, problem_sheet
-from comparisons.report.terminal import summary, surface_text
+from comparisons.output.page.tables.problem import filter_text, problem_sheet
+from comparisons.output.terminal import summary, surface_text
 
 BARE = changed(SMOOTH, roller={"radius": 8e-3}, load={"per_length": 1e6})
 ROUGH = {"kind": "self-affine", "hurst": 0.8, "rms_height": 3e-6, "samples": 2001, "length": 4e-3}
@@ -245,16 +245,17 @@ def outcome(finish):
 
 class TestResults:
     def test_result_has_the_surface_as_pressed_and_by_the_standard(self, outcome):
-        found = outcome.result["profile"]
-        info = outcome.problem.scene.profile_info
-        assert found == info.surface()
-        assert found["pressed"]["rq"] == roughness(outcome.problem.scene.profile).rq
-        assert found["standard"]["cutoff"] == found["cutoff"] == 0.8e-3
+        known = outcome.figures.of(study="problem", quantity="rq")
+        pressed, standard = (known.one(source=s).value for s in ("as pressed", "standard"))
+        assert pressed == roughness(outcome.problem.scene.profile).rq
+        assert standard == outcome.problem.scene.profile_info.standard.rq
+        cutoffs = outcome.figures.of(study="problem", quantity="cutoff")
+        assert [figure.value for figure in cutoffs] == [0.8e-3, 0.8e-3]
 
     def test_result_of_a_smooth_body_has_none(self, finish):
         tables = {**copy.deepcopy(BARE), "load": {"hertz_peak_pressure": 1e9}}
         smooth = finish(tables, ("half_plane",))
-        assert smooth.result["profile"] is None
+        assert smooth.figures.one(study="problem", source="as pressed") is None
         assert "Roughness (ISO 21920-2)" not in dict(problem_sheet(smooth))
         assert "surface " not in printed(smooth)
 

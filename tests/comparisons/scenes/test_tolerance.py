@@ -26,13 +26,13 @@ class TestTolerance:
         assert "--tolerance: is " in capsys.readouterr().err
 
     def test_refinement_stops_where_it_is_met(self, tmp_path, monkeypatch):
-        monkeypatch.setattr("comparisons.report.page.render", lambda *_: "")
+        monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
         coarse = resolved(changed(SMOOTH, resolution={"pitch": 1e-4}))
         levels = {}
         for tolerance in (0.2, 2e-3):
             given = with_tolerance(coarse, tolerance)
             outcome = run(given, tmp_path / f"{tolerance}", ("half_plane",))
-            assert outcome.result["refinement"] == "every judged quantity is resolved"
+            assert outcome.solved.refinement == "every judged quantity is resolved"
             levels[tolerance] = len(outcome.runs["half_plane"].levels)
         assert levels[0.2] == 3 < levels[2e-3]
 

@@ -2,14 +2,15 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, resolved
+from scenes import STEEL, changed, problem, resolved
 
+from comparisons.drawing.style import drawing
 from comparisons.figures.quantity import MODELS
-from comparisons.report.figures.sections import bulge_picture
-from comparisons.report.figures.style import drawing
-from comparisons.report.tables.bulge import bulge_table
+from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
-from comparisons.studies.bulge import bulges, elastic_energy
+from comparisons.studies import bulge
+from comparisons.studies.bulge import QUANTITIES, bulge_picture, bulges_of, elastic_energy
+from comparisons.studies.study import unsolved
 
 RADIUS, PRESSURE = 10e-3, 1e9
 SLIDING = {
@@ -28,6 +29,18 @@ def solved(tables, models=("finite_element",)):
     return run(resolved(tables), None, models)
 
 
+def bulge_of(outcome) -> dict:
+    """The bulge at the one friction coefficient above 0: values by name, of the height and the end
+    their uncertainties, the curve and the patches."""
+    [own] = bulges_of(outcome.found["bulge"])
+    found = {name: own.value(name) for name in QUANTITIES}
+    height = own.figures["height"]
+    found["uncertainty"] = height.numerical * height.scale
+    found |= {name: column.values for name, column in own.curve.columns.items()}
+    found["energy_ahead"] = dict(zip(outcome.runs, own.energy_ahead, strict=True))
+    return found | {"patches": own.patches.rows() if own.patches else []}
+
+
 def step(friction, load, poissons_ratio=0.3):
     """Of the surface ahead of a line load (Johnson 1985, section 2.4)."""
     slope = (1.0 - 2.0 * poissons_ratio) * (1.0 + poissons_ratio) / STEEL["youngs_modulus"]
@@ -40,7 +53,7 @@ def smooth():
 
 
 def test_an_unbounded_body_has_a_step_down_ahead_and_no_bulge(smooth):
-    [found] = smooth.result["bulge"]["by_friction"]
+    found = bulge_of(smooth)
     hertz = smooth.problem.hertz
     exact = step(0.3, hertz.load_per_length)
     assert exact < 0.0 and abs(found["height"]) < found["uncertainty"] < 0.1 * abs(exact)
@@ -55,7 +68,7 @@ def test_an_unbounded_body_has_a_step_down_ahead_and_no_bulge(smooth):
 
 
 def test_inside_the_contact_the_step_grows_with_the_load_up_to_there(smooth):
-    [found] = smooth.result["bulge"]["by_friction"]
+    found = bulge_of(smooth)
     s = np.array(found["distance"]) / smooth.problem.hertz.half_width
     inside = s < 0.8
     share = 2.0 / np.pi * (np.arcsin(s[inside]) + s[inside] * np.sqrt(1.0 - s[inside] ** 2))
@@ -64,7 +77,7 @@ def test_inside_the_contact_the_step_grows_with_the_load_up_to_there(smooth):
 
 
 def test_both_models_carry_the_same_energy_ahead(smooth):
-    [found] = smooth.result["bulge"]["by_friction"]
+    found = bulge_of(smooth)
     own, other = (found["energy_ahead"][name] for name in MODELS)
     assert own == pytest.approx(other, abs=3e-3) and own > 0.55
     level, window = smooth.runs["half_plane"].finest, smooth.window
@@ -74,7 +87,7 @@ def test_both_models_carry_the_same_energy_ahead(smooth):
 
 def test_roughness_leaves_the_step_as_it_is():
     outcome = solved(SLIDING | WAVY)
-    [found] = outcome.result["bulge"]["by_friction"]
+    found = bulge_of(outcome)
     exact = step(0.3, outcome.problem.hertz.load_per_length)
     assert len(outcome.runs["finite_element"].finest.patches) > 1
     assert found["half_plane"] == pytest.approx(exact, rel=5e-3)
@@ -83,7 +96,7 @@ def test_roughness_leaves_the_step_as_it_is():
 
 def test_an_incompressible_layer_rises_ahead_and_not_far():
     outcome = solved(changed(SLIDING, body=THIN, resolution={"pitch": 10e-6}))
-    [found] = outcome.result["bulge"]["by_friction"]
+    found = bulge_of(outcome)
     assert found["height"] > 5.0 * abs(found["half_plane"]) > 0.0
     assert found["end"] < 3.0 * outcome.problem.hertz.half_width
     assert found["uncertainty"] < 0.05 * found["height"]
@@ -101,7 +114,7 @@ def test_flow_raises_a_bulge_ahead_that_ends():
         budget={"time": 1.0},
     )
     outcome = solved(flowing)
-    [found] = outcome.result["bulge"]["by_friction"]
+    found = bulge_of(outcome)
     assert found["work"] is None and found["relative_penetration"] == pytest.approx(
         3.7e-3, rel=0.01
     )
@@ -127,7 +140,7 @@ def test_the_bulge_depends_on_penetration_over_yield_strain():
     one = solved(FLOWING)
     tables = changed(FLOWING, roller={"radius": 2.0 * RADIUS}, body={"yield_stress": 0.5e9})
     two = solved(changed(tables, load={"hertz_peak_pressure": 2.5e9}))
-    [first], [second] = (found.result["bulge"]["by_friction"] for found in (one, two))
+    first, second = (bulge_of(found) for found in (one, two))
     assert second["contact"] == pytest.approx(first["contact"], rel=1e-6)
     assert second["height"] == pytest.approx(0.5 * first["height"], rel=1e-4)
     assert second["end"] == pytest.approx(first["end"], rel=1e-4)
@@ -140,7 +153,7 @@ def test_the_bulge_depends_on_penetration_over_yield_strain():
 def test_patches_of_a_meshed_profile_have_the_step_and_no_bulge():
     """Elastic asperities of small slopes: about each centre the half-plane's step alone."""
     rough = changed(SLIDING | WAVY, finite_element={"geometry": "rough"}, resolution={"levels": 3})
-    [found] = solved(changed(rough, resolution={"pitch": 10e-6})).result["bulge"]["by_friction"]
+    found = bulge_of(solved(changed(rough, resolution={"pitch": 10e-6})))
     steps = np.array([each["half_plane"] for each in found["patches"]])
     heights = np.array([each["height"] for each in found["patches"]])
     assert len(steps) > 2 and (steps < 0.0).all()
@@ -154,14 +167,15 @@ def test_patches_that_flow_raise_bulges_of_their_own():
         FLOWING, load={"hertz_peak_pressure": 2e9}, resolution={"pitch": 20e-6, "elements": None}
     )
     outcome = solved(tables | {"profile": wavy})
-    [found] = outcome.result["bulge"]["by_friction"]
+    found = bulge_of(outcome)
     patches, level = found["patches"], outcome.runs["finite_element"].finest
     assert set(level.mesh_field.displacement) == {0.0, 0.3} and len(patches) == len(level.patches)
     deepest = max(patches, key=lambda each: each["relative_penetration"])
     assert deepest["kind"] in ("elastic", "plastic") and deepest["over_penetration"] > 0.05
     shares = sum(each["penetration"] for each in patches)
     assert shares == pytest.approx(found["penetration"], rel=1e-6)  # 4 P/(pi E*) of all loads
-    assert len(bulge_table(outcome).rows) == 1 + len(patches)
+    [block] = bulge.blocks(outcome)
+    assert len(block.tables[0].rows) == 1 + len(patches)
 
 
 @pytest.mark.parametrize(
@@ -172,19 +186,15 @@ def test_patches_that_flow_raise_bulges_of_their_own():
         (changed(SLIDING | WAVY, load={"friction": 0.3}), MODELS, "a second friction coefficient"),
     ],
 )
-def test_what_cannot_be_measured_says_why(tables, models, why, smooth):
-    from dataclasses import replace
-
-    scene = resolved(tables)
-    posed = replace(smooth.problem, scene=scene)
-    found = bulges(posed, dict.fromkeys(models), smooth.window)
-    assert why in found["why"] and list(found) == ["why"]
+def test_what_cannot_be_measured_says_why(tables, models, why):
+    posed = problem(tables)
+    assert why in bulge.needs(unsolved(posed, make_plan(posed, models)))
 
 
 def test_it_is_measured_where_it_is_asked_for(smooth, smooth_outcome):
-    assert bulges(smooth_outcome.problem, smooth_outcome.runs, smooth_outcome.window) is None
-    assert bulge_table(smooth_outcome) is None and bulge_picture(smooth_outcome) is None
-    table = bulge_table(smooth)
+    assert bulge.NAME not in smooth_outcome.found and bulge_picture(smooth_outcome) is None
+    [block] = bulge.blocks(smooth)
+    [table] = block.tables
     assert [row[0] for row in table.rows] == ["0.3"] and "beyond 20 a" in table.rows[0]
     with drawing():
         picture = bulge_picture(smooth)

@@ -7,7 +7,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 import scenes
-from scenes import DATA, STEEL, changed
+from scenes import DATA, STEEL, changed, refound
 
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import UNKNOWN
@@ -15,8 +15,7 @@ from comparisons.common.progress import Stages, no_progress
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
-from comparisons.report.tables.comparison import coupling_line, coupling_table
-from comparisons.results.outcome import Outcome
+from comparisons.output.page.tables.comparison import coupling_line, coupling_table
 from comparisons.runs.run import run
 from comparisons.studies import coupling
 from comparisons.studies.coupling import (
@@ -26,6 +25,7 @@ from comparisons.studies.coupling import (
     couplings,
 )
 from comparisons.studies.model_error.estimates import estimates
+from comparisons.studies.study import WHY_NOT, Run
 
 REFERENCES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))[
     "sliding_cylinder"
@@ -55,7 +55,7 @@ def problem_of(tables: dict, **load):
     return scenes.problem(changed(tables, load=load))
 
 
-def solved(tables: dict, **load) -> Outcome:
+def solved(tables: dict, **load) -> Run:
     return run(scene_of(tables, **load), None, HALF_PLANE)
 
 
@@ -72,19 +72,31 @@ def estimate(problem, found) -> dict | None:
     return every.get("normal_tangential_coupling")
 
 
-def entry(outcome: Outcome, number: int = 0) -> dict:
-    """The half-plane's entry of result.json for one friction coefficient."""
-    return outcome.result["models"]["half_plane"][number]
+def own(outcome: Run, friction: float) -> dict[str, float]:
+    """The half-plane's own figures at a friction coefficient."""
+    known = outcome.figures.of(study="contact", source="half_plane", friction=friction)
+    return {figure.quantity: figure.value for figure in known}
+
+
+def change(outcome: Run, friction: float) -> dict[str, tuple[float | None, float | None]]:
+    """By quantity, the figure with coupling and its change."""
+    known = outcome.figures.of(study=coupling.NAME, friction=friction)
+    found = {figure.quantity: (None, None) for figure in known}
+    for figure in known:
+        value, difference = found[figure.quantity]
+        pair = (value, figure.value) if figure.against else (figure.value, difference)
+        found[figure.quantity] = pair
+    return found
 
 
 @pytest.fixture(scope="module")
-def rigid() -> Outcome:
+def rigid() -> Run:
     """Three friction coefficients, with a field."""
     return solved(RIGID)
 
 
 @pytest.fixture(scope="module")
-def rigid_coupled() -> Outcome:
+def rigid_coupled() -> Run:
     return solved(RIGID, friction=0.3, coupled=True)
 
 
@@ -99,37 +111,42 @@ class TestFigures:
     @pytest.mark.parametrize("number", [1, 2])
     def test_changes_are_those_of_the_exact_sliding_cylinder(self, rigid, number):
         """Rigid on nu = 0.3: beta = 2/7, mu = 0.1 and 0.3."""
-        reference, model = REFERENCES[number - 1], entry(rigid, number)
-        assert model["friction"] == float(reference["mu"]) and reference["beta"] == "2/7"
-        found, hertz = model["normal_tangential_coupling"], rigid.problem.hertz
+        reference, hertz = REFERENCES[number - 1], rigid.problem.hertz
+        found = change(rigid, float(reference["mu"]))
+        assert reference["beta"] == "2/7"
         wider = float(reference["ahalf_over_aHertz_same_load"])
         peak = float(reference["peak_over_p0Hertz_same_load"])
         shift = float(reference["load_line_x_over_ahalf"]) * wider
         pressure, length = found["peak_pressure"], found["contact_length"]
-        assert pressure["difference"] == pytest.approx(peak - 1.0, abs=2e-5)
-        assert pressure["value"] / hertz.peak_pressure == pytest.approx(peak, rel=2e-5)
-        assert length["value"] / hertz.half_width == pytest.approx(2.0 * wider, rel=1e-3)
-        assert found[SHIFT]["difference"] == pytest.approx(shift, rel=1e-3)
-        assert found[SHIFT]["value"] == pytest.approx(shift * hertz.half_width, rel=1e-3)
-        assert found["converged"] is True and model["normal_tangential_coupling_why"] is None
+        assert pressure[1] == pytest.approx(peak - 1.0, abs=2e-5)
+        assert pressure[0] / hertz.peak_pressure == pytest.approx(peak, rel=2e-5)
+        assert length[0] / hertz.half_width == pytest.approx(2.0 * wider, rel=1e-3)
+        assert found[SHIFT][1] == pytest.approx(shift, rel=1e-3)
+        assert found[SHIFT][0] == pytest.approx(shift * hertz.half_width, rel=1e-3)
+        assert (
+            rigid.found[coupling.NAME].said("converged", friction=float(reference["mu"])) == "yes"
+        )
 
     def test_the_model_s_own_figures_stay_without_it(self, rigid):
-        own = [model["contact"] for model in rigid.result["models"]["half_plane"]]
-        assert own[0] == own[1] == own[2]
-        assert own[0]["peak_pressure"] == pytest.approx(rigid.problem.hertz.peak_pressure, rel=1e-4)
+        every = [own(rigid, friction) for friction in rigid.problem.scene.friction]
+        every = [{n: v for n, v in each.items() if n[0] != "t" and n[0] != "v"} for each in every]
+        assert every[0] == every[1] == every[2]
+        assert every[0]["peak_pressure"] == pytest.approx(
+            rigid.problem.hertz.peak_pressure, rel=1e-4
+        )
 
     def test_no_friction_no_change(self, rigid):
-        assert entry(rigid)["normal_tangential_coupling"] is None
-        assert entry(rigid)["normal_tangential_coupling_why"] == "there is no friction"
-        assert "coupling" not in {item["step"] for item in rigid.result["skipped"]}
+        assert change(rigid, 0.0) == {}
+        assert rigid.found[coupling.NAME].said(WHY_NOT, friction=0.0) == "there is no friction"
+        assert "coupling" not in {item.step for item in rigid.plan.skipped}
 
     def test_stresses_are_compared_too(self, rigid):
-        found = entry(rigid, 2)["normal_tangential_coupling"]
+        found = change(rigid, 0.3)
         # on the surface tau1 = mu p where sx + p is what the coupling changes most
-        assert -0.05 < found["tau1_max"]["difference"] < -0.005
-        assert found["tau1_field_near"]["value"] is None
-        near, deep = (found[f"tau1_field_{part}"]["difference"] for part in ("near", "deep"))
-        assert 0.01 < deep < near < found["pressure_l2"]["difference"]
+        assert -0.05 < found["tau1_max"][1] < -0.005
+        assert found["tau1_field_near"][0] is None
+        near, deep = (found[f"tau1_field_{part}"][1] for part in ("near", "deep"))
+        assert 0.01 < deep < near < found["pressure_l2"][1]
 
     def test_a_figure_that_is_zero_without_has_a_value_and_no_relative_change(self, rigid):
         """At friction 0.3 the largest shear stands on the surface, by a touch of the pressure."""
@@ -137,14 +154,16 @@ class TestFigures:
         still = {"tau1_max_depth": 0.0, "contact_ratio": 0.0, "peak_pressure": 2.0}
         moved = {"tau1_max_depth": 3e-5, "contact_ratio": 0.0, "peak_pressure": 3.0}
         answers = iter([moved, still])
-        with patch.object(coupling, "figures", lambda *_: next(answers)):
+        with patch.object(coupling, "values_of", lambda *_: next(answers)):
             changes = coupling._changes(problem, level, level, 0.3, rigid.window)
         assert changes["tau1_max_depth"] == Change(3e-5, None)
         assert changes["contact_ratio"] == Change(0.0, 0.0)
         assert changes["peak_pressure"].difference == pytest.approx(0.5)
-        found = replace(rigid.couplings[2], changes=changes)
-        assert found.as_dict()["tau1_max_depth"] == {"value": 3e-5, "difference": None}
-        table = coupling_table(replace(rigid, couplings=(found,)))
+        found = replace(rigid.data("coupling").changes[2], changes=changes)
+        figures = coupling.figures_of_changes(found, problem, rigid.found["contact"].figures)
+        figures = [figure for figure in figures if figure.quantity == "tau1_max_depth"]
+        assert [(figure.value, figure.against) for figure in figures] == [(3e-5, None)]
+        table = coupling_table(refound(rigid, coupling.NAME, figures=tuple(figures)))
         [row] = [row for row in table.rows if "depth" in row[0]]
         assert row[1:] == ("30.00 µm", UNKNOWN)
         effect = estimate(problem, (found,))
@@ -155,11 +174,9 @@ class TestFigures:
     @pytest.mark.parametrize(("friction", "why"), [(0.0, "no friction"), (0.3, "equal constants")])
     def test_equal_materials_skip_it(self, friction, why):
         outcome = solved(ALIKE, friction=friction)
-        skipped = {item["step"]: item["because"] for item in outcome.result["skipped"]}
-        assert entry(outcome)["normal_tangential_coupling"] is None
-        assert why in entry(outcome)["normal_tangential_coupling_why"]
-        assert skipped["coupling"] == entry(outcome)["normal_tangential_coupling_why"]
-        assert outcome.couplings == () and coupling_table(outcome) is None
+        [because] = [item.because for item in outcome.plan.skipped if item.step == "coupling"]
+        assert why in because
+        assert coupling.NAME not in outcome.found and coupling_table(outcome) is None
         assert coupling_line(outcome) is None
 
     def test_softer_roller_moves_the_contact_the_other_way(self):
@@ -167,8 +184,12 @@ class TestFigures:
         soft = {"radius": 8e-3, "youngs_modulus": 3e9, "poissons_ratio": 0.3}
         swapped = RIGID | {"roller": soft, "load": {"hertz_peak_pressure": 5e7}}
         other = solved(swapped, friction=0.3)
-        assert one.couplings[0].changes[SHIFT].value < 0.0
-        assert other.problem.dundurs_beta < 0.0 < other.couplings[0].changes[SHIFT].value
+        assert one.data("coupling").changes[0].changes[SHIFT].value < 0.0
+        assert (
+            other.problem.dundurs_beta
+            < 0.0
+            < other.data("coupling").changes[0].changes[SHIFT].value
+        )
 
 
 class TestSwitch:
@@ -176,7 +197,7 @@ class TestSwitch:
         reference = REFERENCES[1]
         wider = float(reference["ahalf_over_aHertz_same_load"])
         half = rigid_coupled.problem.hertz.half_width * wider
-        [edges] = entry(rigid_coupled)["contact"]["patches"]
+        [edges] = rigid_coupled.runs["half_plane"].finest.patches
         trailing, leading = (
             float(reference[name]) * half
             for name in ("b_trailing_over_ahalf", "c_leading_over_ahalf")
@@ -184,7 +205,10 @@ class TestSwitch:
         assert edges == pytest.approx([-trailing, leading], rel=1e-3)
 
     def test_both_ways_round_tell_the_same_change(self, rigid, rigid_coupled):
-        one, other = rigid.couplings[2].changes, rigid_coupled.couplings[0].changes
+        one, other = (
+            rigid.data("coupling").changes[2].changes,
+            rigid_coupled.data("coupling").changes[0].changes,
+        )
         for name in ("peak_pressure", SHIFT, "pressure_l2", "tau1_max"):
             assert one[name].difference == pytest.approx(other[name].difference, rel=0.03)
 
@@ -203,7 +227,7 @@ class TestSwitch:
         expected = np.array([-1.0 - 2.0 * shift, 1.0 - 2.0 * shift]) * half
         assert edges == pytest.approx(expected, abs=5e-3)
         assert other.problem.extent[0] / a == pytest.approx(-1.5) and edges[0] < -1.5
-        length = other.couplings[0].changes["contact_length"].value
+        length = other.data("coupling").changes[0].changes["contact_length"].value
         assert length / a == pytest.approx(2.0 * half, rel=2e-3)
 
     def test_one_friction_alone(self):
@@ -211,9 +235,8 @@ class TestSwitch:
             scene_of(RIGID, coupled=True)
 
     def test_equal_materials_are_the_same_either_way(self):
-        one, other = (entry(solved(ALIKE, friction=0.3, coupled=way)) for way in (False, True))
-        for key in ("contact", "normal_tangential_coupling", "stress"):
-            assert one[key] == other[key]
+        one, other = (own(solved(ALIKE, friction=0.3, coupled=way), 0.3) for way in (False, True))
+        assert one == other
 
 
 class TestRoughBody:
@@ -226,7 +249,7 @@ class TestRoughBody:
         return replace(problem, scene=replace(problem.scene, profile=short))
 
     def test_change_under_a_hardness(self, wavy):
-        [found] = couplings(*wavy, None, no_progress)
+        [found] = couplings(*wavy[::-1], None, no_progress).changes
         assert found.converged
         assert found.changes["peak_pressure"].value <= 4e9
         assert found.changes[SHIFT].value < 0.0
@@ -234,9 +257,9 @@ class TestRoughBody:
     def test_a_trace_that_ends_on_one_side_changes_nothing(self, wavy):
         """The grid is extended where there is a trace, here behind the contact only."""
         problem, levels = wavy
-        [one] = couplings(problem, levels, None, no_progress)
+        [one] = couplings(levels, problem, None, no_progress).changes
         ended = self.cut(problem, -np.inf, levels.finest.grid.x[-1] + 2e-6)
-        [other] = couplings(ended, levels, None, no_progress)
+        [other] = couplings(levels, ended, None, no_progress).changes
         for name, change in one.changes.items():
             assert other.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
@@ -244,12 +267,12 @@ class TestRoughBody:
         """The first stretches are too short for it."""
         problem = problem_of(STRONG, friction=1.5)
         levels = half_plane_of(problem)
-        [expected] = couplings(problem, levels, None, no_progress)
+        [expected] = couplings(levels, problem, None, no_progress).changes
         stretched = coupling._stretched
         monkeypatch.setattr(
             coupling, "_stretched", lambda p, g, more: stretched(p, g, 1 + more // 64)
         )
-        [found] = couplings(problem, levels, None, no_progress)
+        [found] = couplings(levels, problem, None, no_progress).changes
         for name, change in expected.changes.items():
             assert found.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
@@ -265,15 +288,14 @@ class TestRoughBody:
         inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
         solution = replace(level.solution, pressure=level.solution.pressure[inside])
         ending = replace(levels, levels=(replace(level, grid=grid, solution=solution),))
-        [found] = couplings(ended, ending, None, no_progress)
+        [found] = couplings(ending, ended, None, no_progress).changes
         assert found.changes == {} and found.why == BEYOND_THE_END
-        assert found.as_dict() is None
 
 
 class TestEstimate:
     def test_measured_changes_take_the_place_of_the_estimate(self, rigid):
-        effect = estimate(rigid.problem, rigid.couplings)
-        last = rigid.couplings[2].changes
+        effect = estimate(rigid.problem, rigid.data("coupling").changes)
+        last = rigid.data("coupling").changes[2].changes
         for name in ("peak_pressure", "contact_length", "pressure_l2", "tau1_max_depth"):
             assert effect[name] == abs(last[name].difference)
 
@@ -281,11 +303,13 @@ class TestEstimate:
         effect = estimate(rigid.problem, ())
         size = 0.3 * rigid.problem.dundurs_beta
         assert effect["pressure_l2"] == pytest.approx(1.6 * size)
-        without = [replace(c, changes={}, why=BEYOND_THE_END) for c in rigid.couplings]
+        without = [
+            replace(c, changes={}, why=BEYOND_THE_END) for c in rigid.data("coupling").changes
+        ]
         assert estimate(rigid.problem, tuple(without)) == effect
 
     def test_what_both_models_contain_is_not_missing(self, rigid_coupled):
-        assert estimate(rigid_coupled.problem, rigid_coupled.couplings) is None
+        assert estimate(rigid_coupled.problem, rigid_coupled.data("coupling").changes) is None
 
     def test_equal_materials_have_no_such_effect(self, wavy_outcome):
         assert wavy_outcome.problem.dundurs_beta == 0.0

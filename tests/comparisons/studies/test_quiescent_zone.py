@@ -1,6 +1,5 @@
 """The layer of low shear below asperities, on shear made for it and on real contacts."""
 
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,9 +11,9 @@ from analytic.exact.hertz import HertzContact, hertz_stress
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.window import window_of
-from comparisons.report.tables.quiescent_zone import zone_line, zone_table
 from comparisons.runs.run import run
 from comparisons.studies import quiescent_zone as q
+from comparisons.studies.study import WHY_NOT
 
 Z = np.linspace(0.0, 1.0, 101) ** 2
 RIPPLE = 0.04 * np.cos(400.0 * Z) * np.exp(-((Z / 0.03) ** 2))  # near the surface, no zone's
@@ -108,14 +107,15 @@ def wavy():
 
 
 def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
-    still, sliding = wavy.result["quiescent_zone"]["half_plane"]
-    assert (still["status"], sliding["status"]) == (q.QUIESCENT, q.BRIDGED)
-    assert 0.0 < still["start"]["value"] < still["depth"]["value"] < still["stop"]["value"]
-    assert sliding["start"]["value"] is None
-    assert sliding["level"]["value"] > q.QUIET > still["ratio"]["value"]
-    assert len(still["asperities"]) == len(wavy.problem.asperities) + 1
-    assert sliding["bridged"] > still["bridged"]
-    for each in still["asperities"]:
+    still, sliding = q.zones_of(wavy.found[q.NAME])
+    assert (still.state, sliding.state) == (q.QUIESCENT, q.BRIDGED)
+    values = {name: figure.value for name, figure in still.figures.items()}
+    assert 0.0 < values["start"] < values["depth"] < values["stop"]
+    assert "start" not in sliding.figures
+    assert sliding.figures["level"].value > q.QUIET > values["ratio"]
+    assert still.asperities == len(wavy.problem.asperities) + 1
+    assert sliding.bridged > still.bridged
+    for each in wavy.found[q.NAME].table(q.ASPERITIES, friction=0.0).rows():
         assert 0.0 < each["length"] < 25e-6
         assert abs(each["x"]) < wavy.problem.hertz.half_width
 
@@ -127,7 +127,7 @@ def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
 def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
     wavy, half_range, depth, points
 ):
-    stated, *_ = wavy.result["quiescent_zone"]["half_plane"]
+    stated = q.zones_of(wavy.found[q.NAME])[0].figures
     other = WAVY | {"stress": {"half_range": half_range, "depth": depth, "points": points}}
     posed = problem(other)
     window = window_of(posed)
@@ -136,45 +136,46 @@ def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
     )
     found = q.zone_of(posed, level, window, 0.0)
     a = posed.hertz.half_width
-    for name in q.FIGURES:
-        reading = 2e-3 * (
-            a if "depth" in name or name in ("start", "stop") else stated[name]["value"]
-        )
-        assert stated[name]["uncertainty"] < reading
-        assert getattr(found, name) == pytest.approx(stated[name]["value"], abs=reading)
+    for name in q.QUANTITIES:
+        value, place = stated[name].value, "depth" in name or name in ("start", "stop")
+        reading = 2e-3 * (a if place else value)
+        assert stated[name].numerical * stated[name].scale < reading
+        assert getattr(found, name) == pytest.approx(value, abs=reading)
 
 
-def test_on_a_bound_it_is_inconclusive():
-    dip = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4)
-    sizes = dict.fromkeys(q.FIGURES, 0.0)
-    known = q.QuiescentZone(0.0, replace(dip, ratio=0.74), sizes, ())
-    assert known.status == q.QUIESCENT
-    assert replace(known, uncertainty=sizes | {"ratio": 0.02}).status == q.UNCLEAR
+def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
+    """Of the same levels, whose ratio is as far from a bound as it is uncertain, or farther."""
+    ratio = q.zones_of(wavy.found[q.NAME])[0].figures["ratio"]
+    size = ratio.numerical * ratio.scale
+    posed = wavy.problem, wavy.runs["half_plane"], wavy.window, 0.0
+    for off, state in ((0.5, q.UNCLEAR), (3.0, q.QUIESCENT)):
+        monkeypatch.setattr(q, "QUIET", ratio.value + off * size)
+        assert q.zone_figures(*posed)[1] == state
 
 
 def test_scenes_without_fields_or_roughness_have_none(finish, smooth_tables):
-    smooth = finish(smooth_tables)
-    assert q.quiescent_zones(smooth.problem, smooth.runs, smooth.window) is None
+    assert q.NAME not in finish(smooth_tables).found
     outcome = run(resolved({k: v for k, v in WAVY.items() if k != "stress"}), None, HALF_PLANE)
-    assert outcome.result["quiescent_zone"] is None
-    assert zone_table(outcome) is None and zone_line(outcome) is None
+    assert q.NAME not in outcome.found
 
 
 @pytest.mark.parametrize(("name", "value"), [("half_range", 0.9), ("depth", 0.6)])
 def test_a_field_that_ends_before_says_so(name, value):
     tables = WAVY | {"stress": {name: value, "points": [60, 20]}}
     outcome = run(resolved(tables), None, HALF_PLANE)
-    why = outcome.result["quiescent_zone"]["why"]
+    why = outcome.found[q.NAME].said(WHY_NOT)
     assert why == f"stress.{name} is less than {'1' if name == 'half_range' else '0.8'} a"
-    assert zone_table(outcome).rows == ((why,),) and zone_line(outcome) is None
+    [block] = q.blocks(outcome)
+    assert block.tables[0].rows == ((why,),) and q.lines(outcome) == []
 
 
 def test_table_and_line_say_what_the_figures_are(wavy):
-    table, line = zone_table(wavy), zone_line(wavy)
+    [block], [(_, line)] = q.blocks(wavy), q.lines(wavy)
+    [table] = block.tables
     assert [row[:3] for row in table.rows] == [
         ("0", "half-plane", q.QUIESCENT),
         ("0.3", "half-plane", q.BRIDGED),
     ]
-    still = wavy.result["quiescent_zone"]["half_plane"][0]
-    assert float(table.rows[0][6].split()[0]) == pytest.approx(still["level"]["value"], rel=5e-3)
+    level = q.zones_of(wavy.found[q.NAME])[0].figures["level"].value
+    assert float(table.rows[0][6].split()[0]) == pytest.approx(level, rel=5e-3)
     assert line.startswith("friction 0: 0.") and "; friction 0.3: bridged, least shear 0.8" in line

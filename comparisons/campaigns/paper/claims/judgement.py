@@ -14,8 +14,8 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.figures.uncertainty import iteration
 from comparisons.figures.verdict import is_within
-from comparisons.results.outcome import Outcome
 from comparisons.studies.contact import by_repetition
+from comparisons.studies.study import MODEL_ERROR, Run
 
 CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
 OUTCOMES = (CONFIRMED, DENIED, INCONCLUSIVE)
@@ -110,7 +110,7 @@ class JudgedClaim:
         return finite(content)
 
 
-def judge(claim: Claim, outcome: Outcome) -> JudgedClaim:
+def judge(claim: Claim, outcome: Run) -> JudgedClaim:
     """Measure a claim on the run of its scene by every model that can, and judge it."""
     numbers = {m: measured(outcome, m, claim.reading, claim.exact) for m in claim.models}
     besides = {
@@ -121,17 +121,17 @@ def judge(claim: Claim, outcome: Outcome) -> JudgedClaim:
     return JudgedClaim(claim, numbers, besides, *judgement(claim, numbers), error)
 
 
-def model_error_of(claim: Claim, outcome: Outcome) -> FigureModelError | None:
+def model_error_of(claim: Claim, outcome: Run) -> FigureModelError | None:
     """What the half-plane does not model in the figure of a claim."""
-    name, budget = claim.quantity, outcome.budget
-    if name is None or budget is None:
+    friction = SLIDING if claim.slides else 0.0
+    wanted = {"study": MODEL_ERROR, "quantity": claim.quantity, "friction": friction}
+    error = outcome.figures.one(**wanted)
+    if error is None:
         return None
-    error = budget.of(name, SLIDING if claim.slides else 0.0)
-    left = budget.selection.not_modelled(name)
-    return FigureModelError(name, error.value, error.uncertainty, left)
+    return FigureModelError(error.quantity, error.value, error.numerical, dict(error.unknown))
 
 
-def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False) -> MeasuredNumber:
+def measured(outcome: Run, model: str, reading: Reading, exact: bool = False) -> MeasuredNumber:
     """A number on the finest level of a model, with its uncertainty from all levels.
 
     Discretisation, far boundary and iteration as for a run's figures; besides, what reading only

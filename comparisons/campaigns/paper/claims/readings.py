@@ -23,7 +23,7 @@ from comparisons.campaigns.paper.claims.zones import (
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import layer_thickness
+from comparisons.studies.comparison import layer_thickness
 from comparisons.studies.quiescent_zone import ShearDip, shear_dip, zone_of
 
 NEAR, DEEP = 0.1, 0.5  # a: asperities shear above the one, the smooth contact below the other

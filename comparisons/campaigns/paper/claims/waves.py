@@ -6,7 +6,7 @@ from analytic.operators.tangential import CoupledHalfPlane
 from analytic.stress.field import friction_field
 from comparisons.campaigns.paper.claims.readings import LevelView, Reading
 from comparisons.models.nearest_operator import solve_on
-from comparisons.studies.contact import DEEP
+from comparisons.studies.comparison import DEEP
 from comparisons.studies.quiescent_zone import QUIET, mean_shear, shear_dip
 
 WAVES = np.geomspace(0.2, 0.8, 9)  # a

@@ -4,20 +4,20 @@ import numpy as np
 
 from analytic.exact.hertz import hertz_stress
 from comparisons.campaigns.paper.claims.readings import LevelView
+from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, figure
 from comparisons.figures.quantity import LABELS
-from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
-from comparisons.results.outcome import Outcome
+from comparisons.studies.study import Run
 
 SHALLOW = 0.1  # a, of figure 5(b)
 SIGMA = {"sx": ("σx", "#0072B2"), "sz": ("σz", "#D55E00")}
 
 
-def axis_pictures(smooth: Outcome) -> list[Picture]:
+def axis_pictures(smooth: Run) -> list[Picture]:
     """Figures 5(a) and 5(b): normal stresses on the axis, down to 1 a and down to SHALLOW."""
     return [_axis_picture(smooth, 1.0, -1.02, 0.0), _axis_picture(smooth, SHALLOW, -1.02, -0.76)]
 
 
-def _axis_picture(smooth: Outcome, depth: float, low: float, high: float) -> Picture:
+def _axis_picture(smooth: Run, depth: float, low: float, high: float) -> Picture:
     hertz = smooth.problem.hertz
     drawn = figure(COLUMN, 3.7)
     axes = drawn.add_axes((0.13, 0.125, 0.83, 0.745))

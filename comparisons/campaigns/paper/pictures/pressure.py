@@ -6,8 +6,7 @@ import numpy as np
 
 from comparisons.campaigns.paper.pictures.scales import RANGE, Scales, trace_surfaces
 from comparisons.common.numbers import significant, with_unit
-from comparisons.figures.quantity import LABELS
-from comparisons.report.figures.style import (
+from comparisons.drawing.style import (
     BODY,
     COLUMN,
     LINES,
@@ -19,8 +18,9 @@ from comparisons.report.figures.style import (
     data_uri,
     figure,
 )
-from comparisons.report.tables.problem import load_text
-from comparisons.results.outcome import Outcome
+from comparisons.figures.quantity import LABELS
+from comparisons.output.page.tables.problem import load_text
+from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +33,7 @@ SHARE = 0.6  # of the panels' height, for the pressures
 MICRO = 1e-6
 
 
-def trace_picture(outcome: Outcome, scales: Scales) -> Picture:
+def trace_picture(outcome: Run, scales: Scales) -> Picture:
     """Figure 1: pressures over the whole trace, and both bodies under load below them."""
     scene, hertz = outcome.problem.scene, outcome.problem.hertz
     drawn, (above, below) = _panels(WIDE, 4.4)
@@ -69,7 +69,7 @@ def trace_picture(outcome: Outcome, scales: Scales) -> Picture:
     )
 
 
-def pressure_picture(outcome: Outcome, scales: Scales, of: str) -> Picture:
+def pressure_picture(outcome: Run, scales: Scales, of: str) -> Picture:
     """Panel (a): the same between -RANGE and RANGE; `of`, the surface in words."""
     hertz = outcome.problem.hertz
     drawn, (above, below) = _panels(COLUMN, 3.9)
@@ -110,7 +110,7 @@ def _panels(width: float, height: float) -> "tuple[Figure, tuple[Axes, Axes]]":
     return drawn, (above, below)
 
 
-def _pressures(axes: "Axes", outcome: Outcome, unit: float, origin: float, top: float) -> None:
+def _pressures(axes: "Axes", outcome: Run, unit: float, origin: float, top: float) -> None:
     """Over x in `unit` [m] from `origin`, up to `top` [p0]."""
     hertz = outcome.problem.hertz
     for name, run in outcome.runs.items():

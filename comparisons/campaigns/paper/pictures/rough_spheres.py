@@ -10,7 +10,7 @@ from comparisons.campaigns.paper.claims.book import (
     growth,
     real_pressure,
 )
-from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
+from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, figure
 
 COLOURS = dict(zip(SETS, ("#0072B2", "#D55E00", "#009E73"), strict=True))
 LOADS = {"light": 0.1, "heavy": 100.0}  # T of figure 4.6

@@ -7,8 +7,8 @@ import numpy as np
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from comparisons.models.problem import mean_height
-from comparisons.report.figures.fields import COMPONENTS, Component, round_bands
-from comparisons.results.outcome import Outcome
+from comparisons.output.page.pictures.fields import COMPONENTS, Component, round_bands
+from comparisons.studies.study import Run
 
 RANGE = 1.25  # a, to either side
 
@@ -22,13 +22,13 @@ class Scales:
     relief: float  # height of the surfaces' axes [m]
 
 
-def values_of(outcome: Outcome, component: Component, model: str, friction: float) -> np.ndarray:
+def values_of(outcome: Run, component: Component, model: str, friction: float) -> np.ndarray:
     """A model's field on the run's window [p0]."""
     field = outcome.runs[model].finest.stress(friction).field
     return component.of(field) / outcome.problem.hertz.peak_pressure
 
 
-def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def trace_surfaces(outcome: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x (n,) and the heights (n,) of body and roller under load [m] over the whole trace. From the
     half-plane's pressures, beyond the contact too; of a smooth body over the range of its pressure
     elements. The datum of the heights is arbitrary."""
@@ -47,7 +47,7 @@ def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray
     return grid.x, body, body + np.maximum(gap, 0.0)
 
 
-def scales_of(outcomes: dict[str, Outcome]) -> Scales:
+def scales_of(outcomes: dict[str, Run]) -> Scales:
     bands = {}
     for component in COMPONENTS:
         fields = [
@@ -60,12 +60,12 @@ def scales_of(outcomes: dict[str, Outcome]) -> Scales:
     return Scales(bands, pressure, max(map(_relief, outcomes.values())))
 
 
-def _highest(outcome: Outcome) -> float:
+def _highest(outcome: Run) -> float:
     peaks = [run.finest.solution.pressure.max() for run in outcome.runs.values()]
     return float(max(peaks) / outcome.problem.hertz.peak_pressure)
 
 
-def _relief(outcome: Outcome) -> float:
+def _relief(outcome: Run) -> float:
     """Height [m] that both surfaces under load take, with room for the roller."""
     x, body, roller = trace_surfaces(outcome)
     near = np.abs(x) <= RANGE * outcome.problem.hertz.half_width

@@ -4,16 +4,16 @@ import numpy as np
 
 from comparisons.campaigns.paper.pictures.scales import RANGE, Scales, values_of
 from comparisons.common.numbers import decimal, plain, significant
-from comparisons.report.figures.fields import Component, colour_bar, cross, fill
-from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
-from comparisons.results.outcome import Outcome
+from comparisons.drawing.style import COLUMN, Picture, data_uri, figure
+from comparisons.output.page.pictures.fields import Component, colour_bar, cross, fill
+from comparisons.studies.study import Run
 
 LINES = {"colors": "#111111", "linewidths": 0.55, "linestyles": "dashed"}
 TALL = (COLUMN - 0.75) / (2.0 * RANGE)  # inches: a half-width is as long down as along
 FOOT, TITLE, BAR = 0.86, 0.3, 0.1  # inches
 
 
-def contour_picture(outcome: Outcome, component: Component, scales: Scales, of: str) -> Picture:
+def contour_picture(outcome: Run, component: Component, scales: Scales, of: str) -> Picture:
     """A component at every friction coefficient: half-plane in bands, finite elements in lines."""
     hertz, window = outcome.problem.hertz, outcome.window
     x, z = window.x / hertz.half_width, window.z / hertz.half_width

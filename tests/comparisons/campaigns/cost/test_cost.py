@@ -17,9 +17,9 @@ from comparisons.campaigns.cost.recommend import scene_sections
 from comparisons.campaigns.cost.result import content_of
 from comparisons.campaigns.cost.study import FOLDER, OK
 from comparisons.cli import main
-from comparisons.report.terminal import PLAIN
+from comparisons.output.terminal import PLAIN
 from comparisons.runs.run import run
-from comparisons.studies.contact import figures
+from comparisons.studies.contact import values_of
 
 HERTZ = hertz_from_load(3.55e6, 7.5706e-3, 210e9 / 0.91 / 2.0)
 BY_NAME = {method.name: method for method in METHODS}
@@ -57,7 +57,7 @@ class TestWholeStudy:
 
     def test_the_recommendation_followed_meets_the_tolerance(self, small, tmp_path, monkeypatch):
         """By what `run` makes of it: at that level, and where it ends."""
-        monkeypatch.setattr("comparisons.report.page.render", lambda *_: "")
+        monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
         found, _ = small
         choice = found.recommendations[-1]
         assert choice.quantity == "all" and choice.finite_element is not None
@@ -68,7 +68,7 @@ class TestWholeStudy:
             level = outcome.runs[wanted].levels[sections["resolution"]["levels"] - 1]
             assert level.grid.pitch == pytest.approx(picked.row.setting, rel=1e-12)
             contact = outcome.result["models"][wanted][0]["contact"]
-            reached = figures(level, outcome.problem, 0.0)
+            reached = values_of(level, outcome.problem, 0.0)
             for name, exact in (
                 ("peak_pressure", HERTZ.peak_pressure),
                 ("contact_length", 2.0 * HERTZ.half_width),

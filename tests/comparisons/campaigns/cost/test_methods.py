@@ -21,7 +21,7 @@ from comparisons.campaigns.cost.page import cells, shown
 from comparisons.campaigns.cost.reference import error_of, is_exact, references
 from comparisons.campaigns.cost.result import assess
 from comparisons.campaigns.cost.solve import touching_strips
-from comparisons.campaigns.cost.study import OK, CostRow, Study
+from comparisons.campaigns.cost.study import OK, CostRow, CostRun
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
 from comparisons.models.problem import problem_of
@@ -92,7 +92,7 @@ def study():
     rows = [
         CostRow(FINEST, p, OK, None, measure(CostTask(made, None, FINEST.name, p))) for p in pitches
     ]
-    return problem_of(made), Study(tuple(rows), {})
+    return problem_of(made), CostRun(tuple(rows), {})
 
 
 class TestReference:

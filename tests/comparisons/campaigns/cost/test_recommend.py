@@ -13,11 +13,11 @@ from comparisons.campaigns.cost.page import cells, cost_page, notes_of, refusals
 from comparisons.campaigns.cost.recommend import AssessedRow, pareto, recommendations
 from comparisons.campaigns.cost.result import assess, content_of
 from comparisons.campaigns.cost.solve import SolvedContact
-from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, Study, _series
+from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, CostRun, _series
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
 from comparisons.common.tasks import ProcessEnded
-from comparisons.report.figures.style import Picture
+from comparisons.drawing.style import Picture
 
 BY_NAME = {method.name: method for method in METHODS}
 
@@ -98,7 +98,7 @@ class TestRows:
     def test_files_and_table_have_them(self, monkeypatch):
         rows = [row("P2", 1e-5, 1.0, 1e-4), row("P2", 5e-6, 1.0, 1e-4, status=FAILED)]
         rows += [CostRow(BY_NAME["P1"], None, SKIPPED, "does not apply")]
-        found = assess(problem(SMOOTH), Study(tuple(rows), {}))
+        found = assess(problem(SMOOTH), CostRun(tuple(rows), {}))
         names = shown(found)
         texts = [cells(found, each, names) for each in found.assessed]
         assert texts[1][-1].endswith("failed") and "skipped" in texts[2]
@@ -119,7 +119,7 @@ class TestRows:
         wave = {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6}
         wavy = problem(changed(SMOOTH, profile=wave))
         with pytest.raises(SceneError, match="no reference for errors: why"):
-            assess(wavy, Study((CostRow(FINEST, 1e-6, FAILED, "why"),), {}))
+            assess(wavy, CostRun((CostRow(FINEST, 1e-6, FAILED, "why"),), {}))
 
 
 class TestRecommendation:

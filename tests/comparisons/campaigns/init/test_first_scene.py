@@ -264,7 +264,7 @@ def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
 
 
 def test_the_scene_runs_unchanged(folder, monkeypatch):
-    monkeypatch.setattr("comparisons.report.page.render", lambda *_: "")  # takes the longest
+    monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, 0.05 * Z))
     assert main(["init", "trace.csv"]) == 0
     assert main(["run", "trace.toml", "--models", "half-plane", "--out", "out"]) == 0

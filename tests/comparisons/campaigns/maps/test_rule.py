@@ -7,7 +7,7 @@ from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT,
 from comparisons.campaigns.maps.picture import map_figure, map_picture
 from comparisons.campaigns.maps.rule import rule_of
 from comparisons.campaigns.points import FAILED, SOLVED
-from comparisons.report.figures.style import drawing
+from comparisons.drawing.style import drawing
 
 
 @pytest.fixture

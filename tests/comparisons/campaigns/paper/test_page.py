@@ -213,7 +213,9 @@ def test_the_model_error_stands_beside_each_claim_of_a_real_contact(made, page):
         assert (error is None) == (claim.quantity is None)
         if error is not None:
             friction = SLIDING if claim.slides else 0.0
-            found = made.paper.outcomes[claim.scene].budget.of(claim.quantity, friction)
+            found = (
+                made.paper.outcomes[claim.scene].data("model_error").of(claim.quantity, friction)
+            )
             assert error["quantity"] == claim.quantity and error["value"] == found.value
     text = " ".join("".join(page.words).split()).replace("\u00a0", " ").replace("\u2060", "")
     assert text.count("Model error of the half-plane in this figure:") == sum(

@@ -13,8 +13,8 @@ from comparisons.campaigns.sweep.study import scatter
 from comparisons.campaigns.sweep.zone_map import zone_map_figure
 from comparisons.cli import main
 from comparisons.common.errors import InputError
+from comparisons.drawing import style
 from comparisons.models.problem import problem_of
-from comparisons.report.figures import style
 
 WAVES = {
     "roller": {"radius": 8e-3, "rigid": True},

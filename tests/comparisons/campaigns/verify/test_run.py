@@ -43,7 +43,7 @@ from comparisons.figures import convergence
 
 # Evaluated, the number of the process as a finding.
 PROCESS = """(
-    lambda c: c.Findings((c.BoundedFigure("process", __import__("os").getpid(), 1e9, ""),))
+    lambda c: c.CaseFindings((c.BoundedFigure("process", __import__("os").getpid(), 1e9, ""),))
 )(__import__("sys").modules["comparisons.campaigns.checks"])"""
 SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
 

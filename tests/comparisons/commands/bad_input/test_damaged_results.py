@@ -10,17 +10,17 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.common.progress import no_progress
-from comparisons.results.outcome import Outcome
 from comparisons.runs.write import write_files
+from comparisons.studies.study import Run
 
-CONTACT = ("models", "half_plane", 0, "contact")
+FIRST = ("figures", 0)  # the half-plane's peak pressure
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory, smooth_outcome: Outcome) -> Path:
+def finished(tmp_path_factory, smooth_outcome: Run) -> Path:
     folder = tmp_path_factory.mktemp("finished") / "run"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("comparisons.report.page.render", lambda *_: "before")
+        patch.setattr("comparisons.output.page.page.render", lambda *_: "before")
         write_files(replace(smooth_outcome, directory=folder), no_progress)
     return folder
 
@@ -55,11 +55,12 @@ def refused(capsys, *arguments: object) -> str:
 @pytest.mark.parametrize(
     ("file", "value", "keys", "told"),
     [
-        ("result.json", None, ("groups",), "make up no report (KeyError('groups'))"),
-        ("result.json", {}, ("models",), "make up no report"),
-        ("result.json", 99, ("schema",), "schema: is 99, of a later crosscheck; allowed is 2"),
-        ("result.json", 1, ("schema",), "is 1, of an earlier crosscheck; allowed is 2: run the"),
-        ("result.json", float("nan"), (*CONTACT, "peak_pressure"), "NaN is no number"),
+        ("result.json", None, ("figures",), "is no result of a run (KeyError('figures'))"),
+        ("result.json", [], ("figures",), "make up no report"),
+        ("result.json", {}, ("series",), "is no result of a run"),
+        ("result.json", 99, ("schema",), "schema: is 99, of a later crosscheck; allowed is 3"),
+        ("result.json", 1, ("schema",), "is 1, of an earlier crosscheck; allowed is 3: run the"),
+        ("result.json", float("nan"), (*FIRST, "value"), "NaN is no number"),
         ("record.json", None, ("versions",), "make up no report (KeyError('versions'))"),
     ],
 )
@@ -72,9 +73,9 @@ def test_report_of_damaged_files(damaged, capsys, file, value, keys, told):
 @pytest.mark.parametrize(
     ("value", "keys", "told"),
     [
-        ("high", ("comparison", "peak_pressure", 0, "half_plane"), "half_plane: is 'high'"),
-        (3.0, ("validity", "verdict"), "validity: is 3.0"),
-        (float("inf"), ("comparison", "peak_pressure", 0, "difference"), "Infinity is no number"),
+        ("high", (*FIRST, "value"), "could not convert string to float: 'high'"),
+        (3.0, ("verdict",), "verdict: is 3.0"),
+        (float("inf"), (*FIRST, "value"), "Infinity is no number"),
     ],
 )
 def test_table_of_damaged_files(damaged, capsys, value, keys, told):
@@ -82,7 +83,7 @@ def test_table_of_damaged_files(damaged, capsys, value, keys, told):
 
 
 def test_a_figure_that_is_no_number_is_not_within_its_uncertainty(damaged, capsys):
-    folder = damaged("result.json", float("nan"), *CONTACT, "peak_pressure")
+    folder = damaged("result.json", float("nan"), *FIRST, "value")
     assert "result.json: is not JSON: NaN is no number" in refused(capsys, "rerun", folder)
 
 

@@ -14,6 +14,7 @@ from comparisons.models.finite_element.stress import stresses_of
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
+from comparisons.studies.study import unsolved
 
 FRICTION = 0.5
 TABLES = {
@@ -30,8 +31,7 @@ TABLES = {
 @pytest.fixture(scope="module")
 def runs():
     posed = problem(TABLES)
-    plan = make_plan(posed, MODELS)
-    return refined(posed, plan, window_of(posed), Tasks())[0]
+    return refined(unsolved(posed, make_plan(posed, MODELS)), Tasks()).runs
 
 
 @pytest.mark.parametrize(("model", "most"), [("half_plane", 1e-3), ("finite_element", 7e-3)])
@@ -58,7 +58,7 @@ def test_both_fields_have_the_curve_next_to_the_ends(runs):
 def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
     """Without stresses at all points of the mesh, too; what is found goes to other processes."""
     posed, found = problem(TABLES), []
-    plan, window = make_plan(posed, ("finite_element",)), window_of(posed)
+    plan = make_plan(posed, ("finite_element",))
 
     def both(pressed, frictions, window, asperities, _):
         known = replace(pressed, on_mesh=None)
@@ -69,7 +69,7 @@ def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
         return (), None
 
     with patch("comparisons.models.finite_element.level.stresses_of", both):
-        refined(posed, plan, window, Tasks())
+        refined(unsolved(posed, plan), Tasks())
     for ((without,), nothing), (_, later), ((all_known,), at_once) in found:
         assert nothing is None
         for part in ("sx", "sz", "txz"):

@@ -13,8 +13,9 @@ from analytic.running_in import run_in
 from analytic.surface.roughness import roughness
 from comparisons.models.problem import problem_of
 from comparisons.models.running_in import run_in_scene
-from comparisons.results.outcome import Outcome
+from comparisons.output.recorded_run import read_result
 from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.studies.study import Run
 
 
 class TestProblem:
@@ -97,7 +98,7 @@ class TestProblem:
 class TestRun:
     @pytest.fixture(scope="class")
     @classmethod
-    def done(cls, tmp_path_factory, resolved) -> Outcome:
+    def done(cls, tmp_path_factory, resolved) -> Run:
         from comparisons.runs.run import run
 
         heard = []
@@ -106,17 +107,17 @@ class TestRun:
         assert "running the surface in" in heard
         return outcome
 
-    def test_files_hold_the_surface_before_and_after(self, done: Outcome):
+    def test_files_hold_the_surface_before_and_after(self, done: Run):
         found, out = done.problem.scene.run_in, done.directory
         table = np.loadtxt(out / "run_in_profile.csv", delimiter=",", skiprows=1)
         header = (out / "run_in_profile.csv").read_text().splitlines()[0]
         assert header == "x [m],height before running-in [m],height [m]"
         assert table[:, 0] == pytest.approx(found.profile.x, rel=1e-11)
         assert table[:, 1] - table[:, 2] == pytest.approx(found.lowering, abs=1e-17)
-        assert json.loads((out / "result.json").read_text())["running_in"]["settled"] is True
+        assert read_result(out / "result.json").found["running_in"].said("status") == "settled"
         assert not (done.directory / "half_plane" / "run_in_profile.csv").exists()
 
-    def test_the_record_holds_the_surface_before_and_repeats_the_run(self, done: Outcome, tmp_path):
+    def test_the_record_holds_the_surface_before_and_repeats_the_run(self, done: Run, tmp_path):
         from comparisons.runs.run import run
 
         record = json.loads((done.directory / "record.json").read_text())
@@ -128,7 +129,7 @@ class TestRun:
         again = run(replace(scene, profile=placed), tmp_path / "again", ("half_plane",))
         assert again.record["hashes"] == done.record["hashes"]
         assert set(done.record["hashes"]) == {"half_plane_pressure", "run_in_profile"}
-        assert again.result["running_in"] == done.result["running_in"]
+        assert again.found["running_in"] == done.found["running_in"]
 
 
 def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness():

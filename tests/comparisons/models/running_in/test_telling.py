@@ -6,54 +6,63 @@ from dataclasses import replace
 from io import StringIO
 
 import pytest
+from scenes import posed, refound
 
 import comparisons.models.running_in
 from comparisons.common.errors import ExitStatus
+from comparisons.figures.figure import Statement
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.report.figures.running_in import running_in_in_words, running_in_picture
-from comparisons.report.headline import headline
-from comparisons.report.page import render
-from comparisons.report.tables.problem import problem_sheet
-from comparisons.report.terminal import run_in_text, summary
-from comparisons.results.outcome import Outcome
+from comparisons.output.headline import headline
+from comparisons.output.page.page import render
+from comparisons.output.page.pictures.running_in import running_in_in_words, running_in_picture
+from comparisons.output.page.tables.problem import problem_sheet
+from comparisons.output.result_json import content_of
+from comparisons.output.terminal import run_in_text, summary
+from comparisons.studies.study import Run
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
 
 @pytest.fixture(scope="module")
-def outcome(finish: Callable[..., Outcome], wavy) -> Outcome:
+def outcome(finish: Callable[..., Run], wavy) -> Run:
     return finish({**wavy, "title": "Wavy, run in", "stress": {"points": [60, 20]}})
 
 
 class TestTelling:
-    def test_result(self, outcome: Outcome, hardness):
-        told, run_in = outcome.result["running_in"], outcome.problem.scene.run_in
+    def test_result(self, outcome: Run, hardness):
+        found, run_in = outcome.found["running_in"], outcome.problem.scene.run_in
+        told = {f.quantity: f.value for f in found.figures if f.source == "half_plane"}
         assert told["passes"] == len(run_in.passes) == 5 * told["sweeps"]
-        assert told["volume_moved"] == run_in.volume == sum(told["volume_by_pass"])
+        volumes = found.table("passes").columns["volume"].values
+        assert told["volume_moved"] == run_in.volume == sum(volumes)
         assert told["largest_lowering"] == run_in.largest_lowering > 0.0
-        assert told["settled"] is True and told["converged"] is True
-        assert told["at_ends_of_trace"] == []
-        assert told["roughness_before"]["rq"] > told["roughness_after"]["rq"] > 0.0
-        assert outcome.result["groups"]["rms_slope"] == told["roughness_after"]["rms_slope"]
-        assert json.loads(json.dumps(outcome.result, allow_nan=False)) == outcome.result
-        for model in outcome.result["models"].values():
-            assert model[0]["contact"]["peak_pressure"] < 1.03 * hardness
+        assert (found.said("status"), found.said("converged")) == ("settled", "yes")
+        assert found.table("at ends of the trace") is None
+        known = outcome.figures.of(study="running_in")
+        before, after = (known.one(source=s, quantity="rq").value for s in ("before", "after"))
+        assert before > after > 0.0
+        slope = outcome.figures.one(study="problem", source="scene", quantity="rms_slope")
+        assert slope.value == known.one(source="after", quantity="rms_slope").value
+        content = content_of(outcome)
+        assert json.loads(json.dumps(content, allow_nan=False)) == content
+        for peak in outcome.figures.of(study="contact", quantity="peak_pressure"):
+            assert peak.value < 1.03 * hardness
 
-    def test_result_without_running_in(self, wavy_outcome: Outcome):
-        assert wavy_outcome.result["running_in"] is None
+    def test_result_without_running_in(self, wavy_outcome: Run):
+        assert "running_in" not in wavy_outcome.found
         assert running_in_picture(wavy_outcome) is None
         assert "running-in" not in render(wavy_outcome)
 
-    def test_plan_and_assumptions(self, outcome: Outcome):
+    def test_plan_and_assumptions(self, outcome: Run):
         [said] = [text for text in outcome.plan.assumptions if text.startswith("running-in")]
         assert "what flows is lost" in said
 
-    def test_report_shows_both_surfaces_and_one_sentence(self, outcome: Outcome, monkeypatch):
+    def test_report_shows_both_surfaces_and_one_sentence(self, outcome: Run, monkeypatch):
         figures = []
         monkeypatch.setattr(
-            "comparisons.report.figures.style.data_uri",
+            "comparisons.drawing.style.data_uri",
             lambda figure: figures.append(figure) or "data:",
         )
         picture = running_in_picture(outcome)
@@ -75,7 +84,7 @@ class TestTelling:
         page = render(outcome)
         assert '<section id="running-in">' in page and page.index("running-in") > 0
 
-    def test_table(self, outcome: Outcome):
+    def test_table(self, outcome: Run):
         from rich.console import Console
 
         console = Console(width=80, record=True, file=StringIO())
@@ -87,14 +96,14 @@ class TestTelling:
         peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
         softer = replace(run_in.constraints, hardness=peak / 1.8)
         scene = replace(outcome.problem.scene, run_in=replace(run_in, constraints=softer))
-        sharp = replace(outcome, problem=replace(outcome.problem, scene=scene))
+        sharp = posed(outcome, problem=replace(outcome.problem, scene=scene))
         assert run_in_text(sharp).endswith("; pressed afterwards by up to 1.80 times its hardness")
         assert "times its hardness" not in row
         [surface] = [line for line in shown if line.startswith("surface")]
         assert "before running-in " in surface or "at the cut-off" not in surface
         assert "Roughness before running-in (ISO 21920-2)" in dict(problem_sheet(outcome))
 
-    def test_what_fell_short_is_told(self, outcome: Outcome):
+    def test_what_fell_short_is_told(self, outcome: Run):
         problem = outcome.problem
         run_in = problem.scene.run_in
         passes = (replace(run_in.passes[0], at_end=True), *run_in.passes[1:])
@@ -116,13 +125,14 @@ class TestTelling:
         ]
         assert f"{1e6 * run_in.pitch:#.3g} µm apart" in said
 
-    def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Outcome):
+    def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Run):
         assert outcome.exit_status != ExitStatus.NOT_CONVERGED
         problem = outcome.problem
         run_in = problem.scene.run_in
         passes = (replace(run_in.passes[0], converged=False), *run_in.passes[1:])
         scene = replace(problem.scene, run_in=replace(run_in, passes=passes))
-        failed = replace(outcome, problem=replace(problem, scene=scene))
+        failed = posed(outcome, problem=replace(problem, scene=scene))
+        failed = refound(failed, "running_in", statements=(Statement("converged", "no"),))
         assert not failed.converged
         assert failed.exit_status == ExitStatus.NOT_CONVERGED
         said = headline(failed)

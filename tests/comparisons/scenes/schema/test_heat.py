@@ -136,7 +136,7 @@ def test_a_scene_without_heat_says_so_and_loads_none_of_it():
         skipped.step for skipped in make_plan(problem(HOT), ("half_plane",)).skipped
     }
     code = (
-        "import sys; from comparisons.runs.run import run; import comparisons.report.page\n"
+        "import sys; from comparisons.runs.run import run; import comparisons.output.page.page\n"
         "from comparisons.scenes.resolve import load_scene\n"
         "run(load_scene('smooth'), None, ('half_plane',))\n"
         "print([name for name in sys.modules if name.startswith(('analytic.heat', 'fem.heat'))])"

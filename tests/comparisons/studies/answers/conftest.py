@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scenes import QUICK, problem, resolved
 
-from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
+from comparisons.studies.study import Run
 
 
 @pytest.fixture(scope="session")
@@ -32,7 +32,7 @@ def curve(tmp_path, hertz) -> Callable[..., dict]:
 
 
 @pytest.fixture
-def answered() -> Callable[..., Outcome]:
+def answered() -> Callable[..., Run]:
     """`answered(section)`: the half-plane of a smooth contact beside one answer, "other"."""
 
     def solved(section: dict, models=("half_plane",), out: Path | None = None, **changes):

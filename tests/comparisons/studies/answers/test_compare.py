@@ -6,36 +6,42 @@ import numpy as np
 import pytest
 from scenes import QUICK, resolved
 
-from comparisons.report.saved import read_outcome
-from comparisons.results.flat_table import tidy_rows
+from comparisons.output.flat_csv import tidy_rows
+from comparisons.output.page.saved import read_run
+from comparisons.output.recorded_run import read_result
 from comparisons.runs.rerun import rerun
 from comparisons.runs.run import run
 from comparisons.studies.answers.answer import Answer
 
 
 def verdicts(outcome):
-    return {r.quantity: r.verdict for r in outcome.answers[0].rows if r.verdict is not None}
+    return {figure.quantity: figure.verdict for figure in outcome.judged.of(study="answers")}
 
 
 def row(outcome, quantity):
-    return next(r for r in outcome.answers[0].rows if r.quantity == quantity)
+    known = outcome.figures.of(study="answers", quantity=quantity)
+    return next(figure for figure in known if figure.against)
+
+
+def own_uncertainty(outcome, quantity):
+    return row(outcome, quantity).uncertainty.parts.get("own")
 
 
 def test_hertz_exact_pressure_agrees(answered, curve):
     outcome = answered(curve())
     assert verdicts(outcome) == {"peak_pressure": "agree", "contact_length": "agree"}
-    found = outcome.answers[0]
+    found = outcome.data("answers").answers[0]
     assert abs(found.balance) < 1e-3 and found.hints == ()
     assert max(found.conditions["half_plane"].values()) < 1e-3
-    assert row(outcome, "contact_length").own_uncertainty is None
+    assert own_uncertainty(outcome, "contact_length") is None
     assert outcome.exit_status == 0
 
 
 def test_three_per_cent_more_differ(answered, curve):
     outcome = answered(curve(p=lambda p: 1.03 * p))
     assert verdicts(outcome) == {"peak_pressure": "differ", "contact_length": "agree"}
-    assert row(outcome, "peak_pressure").difference == pytest.approx(0.03, abs=1e-4)
-    found = outcome.answers[0]
+    assert row(outcome, "peak_pressure").value == pytest.approx(0.03, abs=1e-4)
+    found = outcome.data("answers").answers[0]
     assert found.balance == pytest.approx(0.03, abs=1e-3)
     assert found.conditions["half_plane"]["penetration"] > 0.01
     assert outcome.exit_status == 1
@@ -48,9 +54,9 @@ def test_own_finite_elements_field_agrees(answered, tmp_path):
     outcome = answered(section, ("finite_element",))
     assert set(verdicts(outcome)) == {"peak_pressure", "contact_length", "tau1_max"}
     assert set(verdicts(outcome).values()) == {"agree"}
-    assert row(outcome, "tau1_field_near").difference < 0.02
-    assert row(outcome, "tau1_field_deep").difference < 0.005
-    assert max(outcome.answers[0].conditions["finite_element"].values()) < 1e-3
+    assert row(outcome, "tau1_field_near").value < 0.02
+    assert row(outcome, "tau1_field_deep").value < 0.005
+    assert max(outcome.data("answers").answers[0].conditions["finite_element"].values()) < 1e-3
 
 
 def test_several_resolutions_state_an_uncertainty(answered, curve):
@@ -60,39 +66,40 @@ def test_several_resolutions_state_an_uncertainty(answered, curve):
         return curve(x=lambda x: (1.0 + by) * x, points=round(8.0 / by) + 1)["file"]
 
     outcome = answered({"file": [stretched(by) for by in (0.02, 0.08, 0.04)]})
-    spacing = [answer.spacing for answer in outcome.answers[0].answers]
+    spacing = [answer.spacing for answer in outcome.data("answers").answers[0].answers]
     assert spacing == sorted(spacing, reverse=True)
     found = row(outcome, "contact_length")
-    assert found.difference == pytest.approx(0.02, abs=2e-3)
-    assert found.own_uncertainty == pytest.approx(1.25 * 0.02, rel=0.1)
+    assert found.value == pytest.approx(0.02, abs=2e-3)
+    assert found.uncertainty.parts["own"] == pytest.approx(1.25 * 0.02, rel=0.1)
     assert found.verdict == "inconclusive"
 
 
 def test_measured_data_have_their_validation_comparison(answered, curve):
     outcome = answered(curve(p=lambda p: 0.95 * p, scatter=0.04))
-    (found,) = outcome.answers[0].validation["peak_pressure"]
+    (found,) = outcome.data("answers").answers[0].validation["peak_pressure"]
     assert found["E"] == pytest.approx(1.0 / 0.95 - 1.0, abs=1e-3)
     assert found["u_D"] == 0.04 and found["u_input"] is None
     assert found["u_val"] == pytest.approx(np.hypot(found["u_num"], 0.04))
-    assert row(outcome, "peak_pressure").own_uncertainty == pytest.approx(0.038, abs=1e-3)
+    assert own_uncertainty(outcome, "peak_pressure") == pytest.approx(0.038, abs=1e-3)
     assert row(outcome, "peak_pressure").verdict == "inconclusive"  # 5 +- 3.8 against 2 %
 
 
 def test_files_table_and_repetition_follow(answered, curve, tmp_path, undrawn):
     section = curve(p=lambda p: 1.03 * p)
     outcome = answered(section, out=tmp_path / "out")
-    result = json.loads((tmp_path / "out/result.json").read_text())
-    given = result["answers"]["other"]["comparison"]["peak_pressure"][0]
-    assert given["verdict"] == "differ" and given["friction"] == 0.0
+    figures = read_result(tmp_path / "out/result.json").figures
+    wanted = {"source": "other", "quantity": "peak_pressure", "against": "half_plane"}
+    given = figures.one(study="answers", **wanted)
+    assert given.verdict == "differ" and given.friction == 0.0
     record = json.loads((tmp_path / "out/record.json").read_text())
-    assert record["hashes"]["answer_other"] == [outcome.answers[0].finest.sha256]
+    assert record["hashes"]["answer_other"] == [outcome.data("answers").answers[0].finest.sha256]
     rows = [r for r in tidy_rows([tmp_path / "out"]) if r["answer"] == "other"]
     assert {"peak_pressure": "differ", "contact_length": "agree"}.items() <= {
         r["quantity"]: r["verdict"] for r in rows
     }.items()
     assert "Answers from outside" in (tmp_path / "out/report.html").read_text()
-    same = read_outcome(tmp_path / "out").answers[0]
-    assert same.as_dict() == outcome.answers[0].as_dict()
+    same = read_run(tmp_path / "out").data("answers").answers[0]
+    assert same.findings() == outcome.data("answers").answers[0].findings()
     with open(section["file"], "w") as file:
         file.write("gone\n")
     again = rerun(tmp_path / "out")

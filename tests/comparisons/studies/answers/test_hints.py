@@ -8,7 +8,7 @@ from analytic.exact.hertz import hertz_from_load
 
 
 def hints(outcome):
-    return {hint.kind: hint for hint in outcome.answers[0].hints}
+    return {hint.kind: hint for hint in outcome.data("answers").answers[0].hints}
 
 
 def test_a_tenth_of_a_half_width_aside(answered, curve, hertz):
@@ -46,7 +46,7 @@ def test_half_of_a_symmetric_model(answered, tmp_path, hertz):
     np.savetxt(tmp_path / "half.csv", np.column_stack([x, hertz.pressure(x)]), delimiter=",")
     outcome = answered({"file": str(tmp_path / "half.csv")})
     assert set(hints(outcome)) == {"half model"}
-    assert outcome.answers[0].balance == pytest.approx(-0.5, abs=2e-3)
+    assert outcome.data("answers").answers[0].balance == pytest.approx(-0.5, abs=2e-3)
 
 
 def test_a_mirrored_answer(answered, curve, hertz):

@@ -1,16 +1,18 @@
 """Flash temperatures from the scene to its files: both models, uncertainties, verdict, report."""
 
-import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import PROFILES, STEEL, changed, resolved
+from scenes import PROFILES, STEEL, changed, refound, resolved
 
 from comparisons.figures.quantity import MODELS
-from comparisons.report.saved import read_outcome
-from comparisons.report.tables.heat import heat_facts, heat_lines, heat_table
-from comparisons.results.flat_table import rows_of
+from comparisons.output.flat_csv import rows_of
+from comparisons.output.junit import run_cases_of
+from comparisons.output.page.saved import read_run
+from comparisons.output.page.tables.heat import heat_facts, heat_lines, heat_table
+from comparisons.output.recorded_run import read_result
 from comparisons.runs.run import run
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
@@ -40,32 +42,47 @@ def rough(tmp_path_factory):
 def test_a_rough_trace_has_one_flash_temperature_by_both_models(rough):
     """Both solve one problem but for the roller, a disc in the finite elements: what is left of
     their difference is numerical, and within what is stated."""
-    for figure in rough.heat.figures:
+    for figure in rough.data("heat").figures:
         (roller,) = figure.effects.values()
         assert roller["uncertainty"] < 1e-4 < 1e-3 < abs(roller["value"]) < 0.02
         assert abs(figure.difference - roller["value"]) < figure.uncertainty < 0.02
         assert figure.verdict == "agree"
         assert abs(figure.by_pressure) < figure.uncertainty
-    assert rough.heat.figures[0].values["half_plane"] > 100.0
-    assert rough.heat.friction == 0.1
+    assert rough.data("heat").figures[0].values["half_plane"] > 100.0
+    assert rough.data("heat").friction == 0.1
 
 
 def test_figures_in_result_json(rough):
-    heat = json.loads((rough.directory / "result.json").read_text())["heat"]
-    flash = heat["figures"]["flash_temperature"]
-    assert flash["verdict"] == "agree"
-    assert flash["values"]["finite_element"] == pytest.approx(
-        flash["values"]["half_plane"], rel=0.02
-    )
-    assert heat["models"]["half_plane"]["flash_position"] < 0.0  # the hot end is behind
-    assert set(heat["rules"]) == {"equal_largest", "equal_mean", "conductivities"}
+    figures = read_result(rough.directory / "result.json").figures
+    flash = figures.of(study="heat", quantity="flash_temperature")
+    assert flash.one(against="finite_element").verdict == "agree"
+    one, other = (flash.one(source=model, against=None) for model in MODELS)
+    assert other.value == pytest.approx(one.value, rel=0.02)
+    assert one.place[0] < 0.0  # the hot end is behind
+    assert {figure.source for figure in flash} - set(MODELS) == {
+        *("equal_largest", "equal_mean", "conductivities")
+    }
+
+
+def test_what_is_judged_has_a_case_for_continuous_integration(rough):
+    """Whatever decides the exit status: a temperature that differs is no green run."""
+    cases = {case.name: case for case in run_cases_of(rough) if case.classname.endswith(".heat")}
+    assert set(cases) == {
+        f"{name}, friction 0.1"
+        for name in ("flash_temperature", "mean_temperature", "fraction_into_body")
+    }
+    assert {case.result for case in cases.values()} == {"passed"}
+    heat = [replace(f, bounds=f.bounds and (-1e-9, 1e-9)) for f in rough.found["heat"].figures]
+    differs = refound(rough, "heat", figures=tuple(heat))
+    assert differs.exit_status == 4
+    assert {c.result for c in run_cases_of(differs) if c.classname.endswith(".heat")} == {"skipped"}
 
 
 def test_temperatures_as_csv(rough):
     for model in MODELS:
         path = Path(rough.directory) / model / "temperature.csv"
         x, heat, into_body, body, _ = np.loadtxt(path, delimiter=",", skiprows=1).T
-        found = rough.heat.contacts[model]
+        found = rough.data("heat").contacts[model]
         assert x == pytest.approx(found.x, abs=1e-12)
         assert body == pytest.approx(found.body, rel=1e-9)
         assert heat.max() == pytest.approx(0.1 * rough.runs[model].finest.solution.pressure.max())
@@ -77,12 +94,12 @@ def test_report_and_terminal(rough):
     assert "<h2>Frictional heat</h2>" in page
     assert "Rise of temperature below the surface of the roller" in page
     assert "agree" in heat_lines(rough)[0]
-    again = read_outcome(rough.directory)
+    again = read_run(rough.directory)
     assert heat_table(again) == heat_table(rough)
 
 
 def test_below_the_surface_it_cools(rough):
-    study = rough.heat
+    study = rough.data("heat")
     for field in study.field:
         assert field.shape == (len(study.z), len(study.x))
         assert field.max() == pytest.approx(field[0].max())
@@ -94,10 +111,10 @@ def test_below_the_surface_it_cools(rough):
 def test_one_model_alone():
     scene = resolved(changed(TRACE, heat={"slide_to_roll": -2.0}))
     outcome = run(scene, None, ("half_plane",))
-    figure = outcome.heat.figures[0]
+    figure = outcome.data("heat").figures[0]
     assert (figure.difference, figure.verdict) == (None, None)
     assert 0.0 < figure.own["half_plane"] < 0.05
-    assert outcome.heat.peclet["body"] == 0.0
+    assert outcome.data("heat").peclet["body"] == 0.0
 
 
 STRESSED = {
@@ -118,7 +135,7 @@ def stressed(tmp_path_factory):
 def test_thermal_stresses_by_both_models(stressed):
     """Transforms and elements, whose meshes and boundaries differ, have one answer; without heat
     it is that of the comparison."""
-    tau1, depth, along = stressed.heat.figures[3:]
+    tau1, depth, along = stressed.data("heat").figures[3:]
     for figure in (tau1, depth, along):
         assert abs(figure.difference) < figure.uncertainty + 3e-3  # held 400 a away
         assert figure.uncertainty < 0.05
@@ -134,19 +151,20 @@ def test_thermal_stresses_by_both_models(stressed):
 
 def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
     less = changed(STRESSED, heat={"body_expansion": "1e-9 1/K"})
-    without = run(resolved(less), None, ("half_plane",)).heat
+    without = run(resolved(less), None, ("half_plane",)).data("heat")
     for figure in without.figures[3:]:
         alone = figure.elastic["half_plane"]
         assert figure.values["half_plane"] == pytest.approx(alone, rel=1e-3)
     flash, *_ = without.figures
-    assert flash.values["half_plane"] == stressed.heat.figures[0].values["half_plane"]
+    assert flash.values["half_plane"] == stressed.data("heat").figures[0].values["half_plane"]
 
 
 def test_thermal_stresses_in_every_output(stressed):
-    result = json.loads((stressed.directory / "result.json").read_text())
-    row = result["heat"]["figures"]["sx_heated"]
-    assert row["values"]["half_plane"] < 0.0 < row["elastic"]["half_plane"]
-    place = result["heat"]["stresses"]["finite_element"]["elastic"]["sx_position"]
+    result = read_result(stressed.directory / "result.json")
+    own = result.figures.of(study="heat", source="half_plane", against=None)
+    warm, cold = (own.one(quantity=f"sx_heated{name}") for name in ("", "_without_heat"))
+    assert warm.value < 0.0 < cold.value
+    place = stressed.data("heat").stresses["finite_element"].elastic["sx_position"]
     assert place == pytest.approx(-stressed.problem.hertz.half_width, rel=2e-3)
     page = (stressed.directory / "report.html").read_text()
     assert "Last, σx of the body's surface, thin without heat." in page.replace("&#39;", "'")
@@ -154,7 +172,7 @@ def test_thermal_stresses_in_every_output(stressed):
     assert "199." in said and "without)" in said and "agree" in said
     rows = {each["quantity"]: each for each in rows_of(result, "made")}
     assert rows["tau1_heated"]["unit"] == "Pa" and rows["tau1_depth_heated"]["unit"] == "m"
-    assert heat_table(read_outcome(stressed.directory)) == heat_table(stressed)
+    assert heat_table(read_run(stressed.directory)) == heat_table(stressed)
 
 
 def test_a_slab_is_no_half_space():
@@ -162,10 +180,10 @@ def test_a_slab_is_no_half_space():
     tables["load"] = {"hertz_peak_pressure": 1e9, "friction": 0.1}
     del tables["profile"], tables["resolution"]
     outcome = run(resolved(tables), None, MODELS)
-    figure = outcome.heat.figures[0]
+    figure = outcome.data("heat").figures[0]
     assert figure.verdict == "differ"
     assert outcome.exit_status == 1
-    assert list(outcome.heat.contains) == ["thickness", "roller"]
+    assert list(outcome.data("heat").contains) == ["thickness", "roller"]
     effects = figure.effects
     # without the slab more heat enters the roller: together they are less than their sum
     assert 1.0 < figure.difference < effects["thickness"]["value"] < 2.0

@@ -17,12 +17,13 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
-from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
-from comparisons.studies.contact import figures, norms
+from comparisons.studies.comparison import norms
+from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.catalogue import contained
 from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.model_error import ModelError
+from comparisons.studies.study import Run
 
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
 ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": RUBBER}
@@ -88,7 +89,7 @@ SCENES = {
 }
 
 
-def outcome_of(tables: dict, levels: int) -> Outcome:
+def outcome_of(tables: dict, levels: int) -> Run:
     """On three levels, its effects on so many."""
     judged = {*QUANTITIES, *(STRESSES if "stress" in tables else ())}
     scene = resolved(tables | {"tolerance": dict.fromkeys(judged, 1e-5)})
@@ -108,7 +109,7 @@ def direct_errors(tables: dict) -> dict[str, float]:
     friction = posed.scene.friction[0]
     one = half_plane_level(posed, pitch, window, Stages())
     other = finite_element_level(posed, plan, Refinement(pitch), window, Stages())
-    flat, real = (figures(level, posed, friction) for level in (one, other))
+    flat, real = (values_of(level, posed, friction) for level in (one, other))
     found = {name: flat[name] / real[name] - 1.0 for name in flat}
     return found | norms(one, other, posed, friction, window)
 
@@ -120,12 +121,15 @@ def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, floa
     half_width = problem(tables).hertz.half_width
     tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}
     added, switched = outcome_of(tables, levels), tables | {"finite_element": switches}
-    assert added.budget.levels == levels and added.budget.unsplit is None
+    assert added.data("model_error").levels == levels and added.data("model_error").unsplit is None
     friction = added.problem.scene.friction[0]
-    split = split_variants(added.problem, added.budget.selection, friction)
+    split = split_variants(added.problem, added.data("model_error").selection, friction)
     assert split.whole.effects == contained(resolved(switched))
     errors = direct_errors(switched)
-    return [(added.budget.of(quantity, friction), each) for quantity, each in errors.items()]
+    return [
+        (added.data("model_error").of(quantity, friction), each)
+        for quantity, each in errors.items()
+    ]
 
 
 @pytest.mark.parametrize("name", SCENES)

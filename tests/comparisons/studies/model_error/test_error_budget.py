@@ -6,7 +6,7 @@ import pytest
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import Tasks
 from comparisons.models.half_plane import half_plane_level
-from comparisons.studies.contact import figures
+from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.error_budget import sampling_changes
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
@@ -39,7 +39,7 @@ def pressed(problem_with, tmp_path):
 def stated(pressed, samples: int) -> tuple[dict, dict]:
     problem, levels = pressed(samples)
     changes = sampling_changes(problem, None, levels, Tasks())
-    return figures(levels[-1], problem, 0.0), changes[0.0]
+    return values_of(levels[-1], problem, 0.0), changes[0.0]
 
 
 @pytest.mark.parametrize("samples", [6, 9, 16])

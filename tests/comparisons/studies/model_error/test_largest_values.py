@@ -3,13 +3,15 @@
 The models are made up: three asperities, whose largest shears and depths each solution just has.
 """
 
+from dataclasses import replace
 from types import SimpleNamespace
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 
-from comparisons.figures.verdict import Comparison
+from comparisons.figures.figure import Figure
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.studies.model_error.contributions import EffectContributions
 from comparisons.studies.model_error.model_error import ModelError, model_errors
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
@@ -38,12 +40,14 @@ def errors(
     for name in ("tau1_max", "tau1_max_depth"):
         one, other = (of.largest().figures[name][0] for of in (half_plane, plain))
         difference = one / other - 1.0
-        rows.append(Comparison(name, 0.0, one, other, difference, settled, None, None))
+        sure = Uncertainty({"numerical": settled})
+        row = Figure("comparison", name, "half_plane", difference, {"friction": 0.0})
+        rows.append(replace(row, against="finite_element", uncertainty=sure))
     stated = {name: SimpleNamespace(total=settled) for name in ("tau1_max", "tau1_max_depth")}
     with patch.multiple(
         MODULE,
         quantities_of=lambda level, problem, friction: level.found,
-        pair_history=lambda *given: None,
+        values_of=lambda level, *of: {n: v[0] for n, v in level.found.largest().figures.items()},
         uncertainties=lambda *given: stated,
         iteration=lambda *levels: 0.0,
         relative_resolution=lambda *levels: 0.0,

@@ -6,14 +6,18 @@ import pytest
 
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.tasks import LATER, PERHAPS, Tasks
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
-from comparisons.figures.verdict import ToleranceCheck, is_decided
-from comparisons.models.level import Level, ModelRun
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.figures.verdict import is_decided
+from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
+from comparisons.output.headline import validity
 from comparisons.runs.refinement import refined
-from comparisons.studies.contact import compared
-from comparisons.studies.model_error.error_budget import announce_effects, error_budget
-from comparisons.studies.model_error.validity import validity_verdict
+from comparisons.studies.comparison import compared
+from comparisons.studies.model_error import study as model_error
+from comparisons.studies.model_error.error_budget import error_budget
+from comparisons.studies.study import Solved
 
 SMALL = {"resolution": {"pitch": 12e-6, "levels": 3}, "finite_element": {"block": 40}}
 JUDGED = ("peak_pressure", "contact_length")
@@ -47,12 +51,12 @@ def budgets(problem_with, tmp_path_factory):
         problem = problem_with(**(SMALL | SCENES[name]))
         plan = make_plan(problem, MODELS)
         cache = Cache(tmp_path_factory.mktemp("levels"), name, kinds_of(Level))
-        runs, _ = refined(problem, plan, None, Tasks(kept=cache))
-        rows, found = compared(problem, runs, None), []
+        solved = refined(Solved(problem, plan, None, {}), Tasks(kept=cache))
+        rows, found = compared(problem, solved.runs, None), []
         for effects in (True, "all"):
             scene = replace(problem.scene, budget=replace(problem.scene.budget, effects=effects))
-            posed = replace(problem, scene=scene)
-            found.append(error_budget(posed, plan, None, runs, rows, (), Tasks(kept=cache)))
+            posed = replace(solved, problem=replace(problem, scene=scene))
+            found.append(error_budget(posed, rows, (), Tasks(kept=cache)))
         return *found, problem.scene.tolerance
 
     return made
@@ -62,14 +66,16 @@ def budgets(problem_with, tmp_path_factory):
 def test_verdicts_are_those_with_all_effects(budgets, name):
     frugal, whole, tolerance = budgets(name)
     assert whole.left_out is None
-    found, wanted = (each.tolerance_checks(tolerance) for each in (frugal, whole))
-    assert [check.verdict for check in found] == [check.verdict for check in wanted]
-    assert validity_verdict(found)[0] == validity_verdict(wanted)[0]
+    found, wanted = (
+        [figure for figure in each.figures(tolerance) if figure.bounds] for each in (frugal, whole)
+    )
+    assert [figure.verdict for figure in found] == [figure.verdict for figure in wanted]
+    assert validity(found)[0] == validity(wanted)[0]
     selections = [each.selection.added for each in (frugal, whole)]
     assert (selections[0] < selections[1]) == (name in DECIDED)
     assert (frugal.left_out is not None) == (frugal.levels < whole.levels) == (name in FIXED)
     for one, other in zip(found, wanted, strict=True):  # what was left out is stated as unknown
-        assert abs(one.value - other.value) <= one.total_uncertainty
+        assert abs(one.value - other.value) <= one.total
 
 
 @pytest.mark.parametrize(
@@ -85,8 +91,17 @@ def test_verdicts_are_those_with_all_effects(budgets, name):
     ],
 )
 def test_a_verdict_is_fixed_where_no_finer_solution_turns_it(value, uncertainty, unknown, fixed):
-    check = ToleranceCheck("peak_pressure", 0.0, value, uncertainty, {"coating": unknown}, 0.02)
-    assert check.is_fixed == fixed
+    error = Figure(
+        study="model_error",
+        quantity="peak_pressure",
+        source="half_plane",
+        value=value,
+        against="whole",
+        uncertainty=Uncertainty({"numerical": uncertainty}),
+        unknown={"coating": unknown},
+        bounds=(-0.02, 0.02),
+    )
+    assert error.is_fixed == fixed
 
 
 @pytest.mark.parametrize(
@@ -112,9 +127,9 @@ def test_its_own_elements_say_whether_a_third_level_of_the_whole_is_likely(
     problem = problem_with(**SMALL, roller=RIGID, profile=WAVY, **changed)
     plan, tasks = make_plan(problem, MODELS), Tasks()
 
-    def announced(half_plane: ModelRun):
-        return announce_effects(problem, plan, None, half_plane, (), tasks)
+    def begin(solved: Solved) -> None:
+        model_error.begin(solved, tasks)
 
-    refined(problem, plan, None, tasks, announced)
+    refined(Solved(problem, plan, None, {}), tasks, begin)
     wholes = {key: task for key, task in tasks._tasks.items() if key.startswith("whole-")}
     assert [task.urgency for key, task in wholes.items() if key.endswith("-3")] == [urgency]

@@ -7,24 +7,25 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pytest
-from scenes import STEEL, resolved
+from scenes import STEEL, refound, resolved
 
 import comparisons.models.finite_element.level
 from analytic.exact.layers import TABLE
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level
-from comparisons.results.outcome import Outcome
+from comparisons.output.headline import validity, verdict_of
 from comparisons.runs.run import run
 from comparisons.studies.model_error.error_budget import ErrorBudget
-from comparisons.studies.model_error.validity import validity_verdict
+from comparisons.studies.study import Run
 from meshes.block import MeshError
 
 RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
 RIGID = {"radius": 10e-3, "rigid": True}
 
 
-def outcome_of(tables: dict, out: Path = Path("made")) -> Outcome:
+def outcome_of(tables: dict, out: Path = Path("made")) -> Run:
     """A run that leaves no files."""
     with patch("comparisons.runs.run.write_files"):
         return run(resolved(tables), out, MODELS)
@@ -71,7 +72,7 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
             "budget": {"effects": False},
         }
     )
-    hertz, budget = outcome.problem.hertz, outcome.budget
+    hertz, budget = outcome.problem.hertz, outcome.data("model_error")
     half_plane = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
     for quantity, true in exact.items():
         own, error = budget.of(quantity, 0.0), half_plane[quantity] / true - 1.0
@@ -84,7 +85,7 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
 
 
 @pytest.fixture(scope="module")
-def outcomes() -> list[Outcome]:
+def outcomes() -> list[Run]:
     """Peak pressures, and so a/R and p/E, of one to two."""
     return [outcome_of(smooth(pressure)) for pressure in (2.0e9, 4.0e9)]
 
@@ -92,62 +93,75 @@ def outcomes() -> list[Outcome]:
 class TestSmooth:
     def test_finite_deformation_is_computed(self, outcomes):
         for outcome in outcomes:
-            assert outcome.budget.selection.added == {"finite_strain"}
+            assert outcome.data("model_error").selection.added == {"finite_strain"}
+            assert status_of(outcome, "exact_circle")[0] == "negligible"
             assert (
-                outcome.result["error_budget"]["effects"]["exact_circle"]["status"] == "negligible"
+                outcome.data("model_error").unsplit is None
+                and outcome.data("model_error").levels >= 2
             )
-            assert outcome.budget.unsplit is None and outcome.budget.levels >= 2
 
     def test_an_effect_of_first_order_doubles(self, outcomes):
-        errors = [outcome.budget.of("peak_pressure", 0.0) for outcome in outcomes]
+        errors = [outcome.data("model_error").of("peak_pressure", 0.0) for outcome in outcomes]
         one, other = (error.effects["finite_strain"].value for error in errors)
         assert 1.85 < other / one < 2.15
 
     def test_the_parts_make_up_the_difference_to_what_the_models_say(self, outcomes):
         """All relative to the whole: half-plane - whole = (half-plane - own) - parts."""
-        for row in (row for row in outcomes[1].comparisons if row.half_plane is not None):
-            own = outcomes[1].budget.of(row.quantity, 0.0)
-            whole = row.half_plane / (1.0 + own.value)
+        for name in ("peak_pressure", "contact_length", "contact_ratio"):
+            known = outcomes[1].figures.of(quantity=name)
+            own = outcomes[1].data("model_error").of(name, 0.0)
+            values = [known.one(study="contact", source=model).value for model in MODELS]
+            whole = values[0] / (1.0 + own.value)
             parts = sum(share.value for share in own.effects.values()) + own.interaction
-            models = (row.half_plane - row.finite_element) / whole
+            models = (values[0] - values[1]) / whole
             assert models - parts == pytest.approx(own.value, abs=2e-5)
 
     def test_the_verdict_is_taken_from_it(self, outcomes):
         """Both models agree to 3e-4, and the half-plane is off by eight times as much."""
         last = outcomes[1]
-        [row] = [row for row in last.comparisons if row.quantity == "peak_pressure"]
-        own = last.budget.of("peak_pressure", 0.0)
-        assert row.verdict == "agree" and abs(row.difference) < 3e-4
+        row = last.figures.one(study="comparison", quantity="peak_pressure")
+        own = last.data("model_error").of("peak_pressure", 0.0)
+        assert row.verdict == "agree" and abs(row.value) < 3e-4
         assert own.value == pytest.approx(-0.0024, abs=0.0006) and own.uncertainty < 6e-4
-        assert last.result["validity"]["verdict"] == "inconclusive"  # laws differ by 1.8 %
-        checks = last.budget.tolerance_checks({"peak_pressure": 1e-3})
-        of_one_law = [replace(check, not_modelled={}) for check in checks]
-        assert validity_verdict(of_one_law)[0] == "fails"
+        assert verdict_of(last)[0] == "inconclusive"  # laws differ by 1.8 %
+        errors = last.data("model_error").figures({"peak_pressure": 1e-3})
+        of_one_law = [replace(error, unknown={}) for error in errors if error.bounds]
+        assert validity(of_one_law)[0] == "fails"
 
     def test_the_exit_status_counts_both_tables(self, outcomes):
         """The models agree; with this model error the half-plane holds, fails, or neither."""
 
-        def status(model_error, verdict="agree"):
-            budget, rows = outcomes[1].budget, outcomes[1].comparisons
-            budget = replace(budget, selection=replace(budget.selection, estimates={}))
-            errors = [replace(e, value=model_error, uncertainty=1e-4) for e in budget.model_errors]
-            return replace(
-                outcomes[1],
-                budget=replace(budget, model_errors=tuple(errors)),
-                comparisons=tuple(replace(row, verdict=row.tolerance and verdict) for row in rows),
-            ).exit_status
+        def status(model_error, difference=1e-4):
+            sure, last = Uncertainty({"numerical": 1e-4}), outcomes[1]
+            errors = [
+                replace(error, value=model_error, uncertainty=sure, unknown={})
+                for error in last.found["model_error"].figures
+            ]
+            rows = [
+                replace(row, value=difference, uncertainty=sure)
+                for row in last.found["comparison"].figures
+            ]
+            last = refound(last, "model_error", figures=tuple(errors))
+            return refound(last, "comparison", figures=tuple(rows)).exit_status
 
+        bound = outcomes[1].model_errors[0].tolerance
         assert status(1e-3) == ExitStatus.DONE
-        assert status(0.004) == status(1e-3, "inconclusive") == ExitStatus.INCONCLUSIVE
-        for found in (status(-0.01), status(1e-3, "differ"), status(-0.01, "inconclusive")):
+        assert status(bound) == status(1e-3, bound) == ExitStatus.INCONCLUSIVE
+        for found in (status(-3.0 * bound), status(1e-3, 3.0 * bound), status(-3.0 * bound, bound)):
             assert found == ExitStatus.OUTSIDE_TOLERANCE
 
     def test_models_and_comparison_are_those_without_effects(self, outcomes):
         plain = outcome_of(smooth(2.0e9, budget={"effects": False}))
-        for part in ("models", "comparison", "groups", "hertz"):
-            assert _figures(plain.result[part]) == _figures(outcomes[0].result[part])
-        assert plain.budget.selection.added == frozenset()
-        assert plain.result["validity"]["verdict"] == "inconclusive"
+        for study in ("contact", "comparison", "problem"):
+            assert plain.found[study].figures == outcomes[0].found[study].figures
+        assert plain.data("model_error").selection.added == frozenset()
+        assert verdict_of(plain)[0] == "inconclusive"
+
+
+def status_of(outcome: Run, effect: str) -> tuple[str, str]:
+    """What became of an effect, and why."""
+    rows = outcome.found["model_error"].table("effects").rows()
+    return next((row["status"], row["because"]) for row in rows if row["effect"] == effect)
 
 
 def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
@@ -161,10 +175,10 @@ def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
         }
     )
     for quantity in ("peak_pressure", "contact_length", "pressure_l2"):
-        own = outcome.budget.of(quantity, 0.0)
+        own = outcome.data("model_error").of(quantity, 0.0)
         computed = sum(abs(effect.value) for effect in own.effects.values())  # p/E is not zero
         assert abs(own.value) <= own.uncertainty + computed < 0.02
-    assert outcome.result["validity"]["verdict"] == "holds"
+    assert verdict_of(outcome)[0] == "holds"
 
 
 def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
@@ -177,13 +191,12 @@ def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
 
     with patch("comparisons.models.finite_element.level.finite_element_level", without_strain):
         outcome = outcome_of(smooth(2.0e9))
-    selection = outcome.budget.selection
+    selection = outcome.data("model_error").selection
     assert selection.impossible["finite_strain"] == "no mesh is possible"
     assert selection.added == frozenset()
-    assert outcome.budget.of("peak_pressure", 0.0).effects == {}
+    assert outcome.data("model_error").of("peak_pressure", 0.0).effects == {}
     assert "finite_strain" in selection.not_modelled("peak_pressure")
-    effect = outcome.result["error_budget"]["effects"]["finite_strain"]
-    assert effect["status"] == "not computed" and effect["because"] == "no mesh is possible"
+    assert status_of(outcome, "finite_strain") == ("not computed", "no mesh is possible")
 
 
 def test_without_a_solution_free_of_effects_nothing_is_split():
@@ -197,18 +210,20 @@ def test_without_a_solution_free_of_effects_nothing_is_split():
     body = {**STEEL, "thickness": 1e-3}
     with patch("comparisons.models.finite_element.level.finite_element_level", bounded_alone):
         outcome = outcome_of(smooth(1.0e9, body=body))
-    assert outcome.budget.unsplit == "no mesh" and outcome.budget.levels >= 2
-    [row] = [row for row in outcome.comparisons if row.quantity == "peak_pressure"]
-    own = outcome.budget.of("peak_pressure", 0.0)
+    assert (
+        outcome.data("model_error").unsplit == "no mesh" and outcome.data("model_error").levels >= 2
+    )
+    row = outcome.figures.one(study="comparison", quantity="peak_pressure")
+    own = outcome.data("model_error").of("peak_pressure", 0.0)
     assert own.effects == {} and own.interaction == 0.0
-    whole = outcome.budget.wholes[0.0]
-    assert "finite_strain" in outcome.budget.selection.added
+    whole = outcome.data("model_error").wholes[0.0]
+    assert "finite_strain" in outcome.data("model_error").selection.added
     peaks = [float(level.solution.pressure.max()) for level in _peers(outcome, whole)]
     assert own.value == pytest.approx(peaks[0] / peaks[1] - 1.0, abs=own.uncertainty)
-    assert abs(own.value - row.difference) > 1e-4
+    assert abs(own.value - row.value) > 1e-4
 
 
-def _peers(outcome: Outcome, level: Level) -> tuple[Level, Level]:
+def _peers(outcome: Run, level: Level) -> tuple[Level, Level]:
     """The half-plane's level on the same pressure elements, and the level."""
     levels = outcome.runs["half_plane"].levels
     return next(each for each in levels if each.grid == level.grid), level
@@ -230,24 +245,14 @@ def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(t
         first, stop = len(solved), None
         again = outcome_of(smooth(2.0e9), tmp_path / "out")
         once = outcome_of(smooth(2.0e9), tmp_path / "other")
-    assert _figures(again.result) == _figures(once.result)
+    assert again.figures == once.figures
     whole = len(solved) - first
     assert whole == 2 * _levels(once) - (first - 1)
 
 
-def _levels(outcome: Outcome) -> int:
+def _levels(outcome: Run) -> int:
     """Finite-element levels of a run: the scene's own, the far-boundary check, and the budget's."""
-    budget: ErrorBudget = outcome.budget
+    budget: ErrorBudget = outcome.data("model_error")
     per_level = 1 + 1  # finite deformation, and without
     own = len(outcome.runs["finite_element"].levels) + 1
     return own + budget.levels * (per_level - 1)
-
-
-def _figures(value: object) -> object:
-    """Without times, memory and what depends on them."""
-    if isinstance(value, dict):
-        kept = {k: v for k, v in value.items() if k not in ("cost", "seconds")}
-        return {name: _figures(item) for name, item in kept.items()}
-    if isinstance(value, list):
-        return [_figures(item) for item in value]
-    return value

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.grid import HatGrid
-from comparisons.studies.contact import relative_l2
+from comparisons.studies.comparison import relative_l2
 from comparisons.studies.model_error.sideways import sideways_shift
 
 GRID = HatGrid(1e-7, -1500, 1400)

@@ -21,6 +21,7 @@ from comparisons.studies.model_error.contributions import (
 from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.model_error.solutions import SolvedVariants
 from comparisons.studies.model_error.variants import ModelVariant
+from comparisons.studies.study import Solved
 
 RIGID = {"rigid": True}
 SELECTION = EffectSelection(frozenset(), frozenset({"exact_circle", "finite_strain"}), {}, {}, {})
@@ -31,7 +32,7 @@ def made(problem_with):
     """A small scene's variants, yet to be solved, by given tasks."""
     problem = problem_with(roller=RIGID)
     plan = make_plan(problem, MODELS)
-    runs, _ = refined(problem, plan, None, Tasks())
+    runs = refined(Solved(problem, plan, None, {}), Tasks()).runs
     own, patches = runs["finite_element"], runs["half_plane"].finest.patches
 
     def variants(tasks) -> SolvedVariants:

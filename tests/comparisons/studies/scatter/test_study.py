@@ -48,7 +48,7 @@ def exact():
 
 @pytest.mark.parametrize("quantity", ["peak_pressure", "contact_length"])
 def test_mean_and_interval_are_those_of_hertz(outcome, exact, quantity):
-    figure, values = outcome.scatter.of(quantity, 0.0), exact[quantity]
+    figure, values = outcome.data("scatter").of(quantity, 0.0), exact[quantity]
     assert figure.nominal == pytest.approx(np.median(values), rel=2e-3)
     assert figure.mean == pytest.approx(values.mean(), rel=2e-3)
     assert figure.standard_deviation == pytest.approx(values.std(), rel=0.1)
@@ -60,7 +60,7 @@ def test_shares_are_those_of_the_powers_in_hertz(outcome):
     """p0 goes with the roots of P, E* and 1/R, and E* with half a power of one of two equal
     moduli."""
     parts = np.array([0.5 * 4.0, 0.25 * 6.0, 0.5 * 3.0]) ** 2
-    found = outcome.scatter.of("peak_pressure", 0.0).shares
+    found = outcome.data("scatter").of("peak_pressure", 0.0).shares
     expected = dict(zip(("load", "body_youngs_modulus", "roller_radius"), parts, strict=True))
     for name, part in expected.items():
         assert found[name]["first"] == pytest.approx(part / parts.sum(), abs=0.06)
@@ -68,25 +68,26 @@ def test_shares_are_those_of_the_powers_in_hertz(outcome):
 
 
 def test_the_result_has_it_by_quantity(outcome):
-    [entry] = outcome.result["scatter"]["peak_pressure"]
-    assert entry["interval"][0] < entry["mean"] < entry["interval"][1]
-    assert set(entry["shares"]) == set(INPUTS)
-    counts = outcome.result["scatter_samples"]
+    [figure] = outcome.figures.of(study="scatter", quantity="peak_pressure")
+    low, high = figure.spread.interval
+    assert low < figure.spread.mean < high
+    assert set(figure.spread.shares) == set(INPUTS)
+    [counts] = outcome.found["scatter"].table("samples").rows()
     assert counts["solutions"] == 64 * (3 + 2) and counts["failed"] == 0
-    assert run(resolved(SMOOTH), None, ("half_plane",)).result["scatter"] is None
+    assert "scatter" not in run(resolved(SMOOTH), None, ("half_plane",)).found
 
 
 def test_it_is_the_same_again_and_by_any_executor(outcome):
     with ThreadPoolExecutor(1) as executor:
         opens = partial(ExecutorWorker, executor)
         again = run(resolved(SCENE), None, ("half_plane",), opens=opens)
-    assert again.result["scatter"] == outcome.result["scatter"]
+    assert again.figures.of(study="scatter") == outcome.figures.of(study="scatter")
     other = run(resolved(changed(SCENE, scatter={"seed": 4})), None, ("half_plane",))
-    assert other.result["scatter"] != outcome.result["scatter"]
+    assert other.figures.of(study="scatter") != outcome.figures.of(study="scatter")
 
 
 def test_the_band_of_pressures_holds_the_nominal_one(outcome):
-    scatter, level = outcome.scatter, outcome.runs["half_plane"].levels[0]
+    scatter, level = outcome.data("scatter"), outcome.runs["half_plane"].levels[0]
     middle = np.abs(scatter.x) < 0.8 * outcome.problem.hertz.half_width
     pressure = level.solution.pressure[middle]
     assert np.all((scatter.band[0][middle] < pressure) & (pressure < scatter.band[1][middle]))
@@ -108,10 +109,12 @@ def test_a_run_says_it(tmp_path, capsys):
     assert "Your inputs move the" in said and "most by load 100%" in said
     page = (out / "report.html").read_text()
     assert 'id="inputs"' in page and "Saltelli" in page
-    entry = json.loads((out / "result.json").read_text())
-    [scatter] = entry["scatter"]["peak_pressure"]
+    figures = json.loads((out / "result.json").read_text())["figures"]
+    wanted = {"study": "scatter", "quantity": "peak_pressure"}
+    [scatter] = [figure for figure in figures if wanted.items() <= figure.items()]
     # the root of a load of 6 %, 1.96 deviations to either side
-    assert scatter["relative"] == pytest.approx(0.03 * 1.96, rel=0.1)
+    low, high = scatter["spread"]["interval"]
+    assert 0.5 * (high - low) / scatter["value"] == pytest.approx(0.03 * 1.96, rel=0.1)
     assert main(["report", str(out)]) == 0
     assert (out / "report.html").read_text() == page
 

@@ -1,6 +1,5 @@
 """[statistics] of a scene: what it solves, that its causes are the cause, and what a run says."""
 
-import json
 import sys
 from dataclasses import replace
 from types import SimpleNamespace
@@ -16,6 +15,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
+from comparisons.output.recorded_run import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
 from comparisons.studies.statistics.figures import LoadRow
@@ -36,7 +36,7 @@ def outcome():
 
 @pytest.fixture(scope="module")
 def loads(outcome):
-    return outcome.statistics.loads
+    return outcome.data("statistics").loads
 
 
 def test_loads_go_down_three_decades_from_the_scenes(loads):
@@ -104,7 +104,7 @@ def test_effective_width_tends_to_hertz(loads):
 
 def test_filters_take_the_sharpest_summits_first(outcome):
     rows = {kind: [] for kind in ("as pressed", "cut-off", "sampling")}
-    for row in outcome.statistics.summits:
+    for row in outcome.data("statistics").summits:
         rows[row.treatment].append(row)
     assert [len(each) for each in rows.values()] == [1, 4, 2]
     for finer, coarser in zip(rows["cut-off"], rows["cut-off"][1:], strict=False):
@@ -127,7 +127,7 @@ def test_cutoffs_can_be_asked_for():
 
 class TestPatches:
     def test_each_is_what_its_pressure_makes_it(self, outcome):
-        (found,) = outcome.statistics.patches.values()
+        (found,) = outcome.data("statistics").patches.values()
         level = outcome.runs["half_plane"].finest
         assert len(found) == len(level.patches)
         assert sum(patch.load for patch in found) == pytest.approx(2e6, rel=1e-6)
@@ -169,7 +169,7 @@ class TestPatches:
         }  # fmt: skip
         scene = resolved(tables)
         scene = replace(scene, resolution=replace(scene.resolution, most=2))
-        patches = run(scene, None, MODELS).statistics.patches
+        patches = run(scene, None, MODELS).data("statistics").patches
         elastic, flowing = patches["half_plane"], patches["finite_element"]
         assert all(patch.plastic_strain is None for patch in elastic)
         assert {patch.kinds["exact"] for patch in flowing} == {"elastic"}
@@ -200,22 +200,26 @@ def test_a_run_says_it(tmp_path, capsys):
     page = (out / "report.html").read_text()
     words = " ".join(page.split())
     assert 'id="statistics"' in page and "below 0.0001, cutting above 0.3" in words
-    found = json.loads((out / "result.json").read_text())["statistics"]
-    assert len(found["loads"]) == 7 and found["traces"] == 4
-    assert set(found["loads"][0]["causes"]) == {"summits alone", "ridges", "few contacts"}
-    patches = found["patches"]["half_plane"]
-    assert all((p["depth"]["sphere"] > 1e-4) == (p["kinds"]["exact"] != "elastic") for p in patches)
+    found = read_result(out / "result.json").found["statistics"]
+    loads, (patches,) = found.table("loads"), [s for s in found.series if s.name == "patches"]
+    assert found.table("traces").columns["traces"].values == (4,)
+    assert len(loads.rows()) == 7
+    causes = {name.partition(".")[2] for name in loads.columns if name.startswith("causes")}
+    assert causes == {"summits alone", "ridges", "few contacts"}
+    for patch in patches.rows():
+        assert (patch["depth.sphere"] > 1e-4) == (patch["kinds.exact"] != "elastic")
     assert main(["report", str(out)]) == 0
     assert (out / "report.html").read_text() == page
 
 
 def test_without_the_section_nothing_of_it_runs(monkeypatch):
-    """Nor does the study load, and the plan says so."""
-    monkeypatch.setitem(sys.modules, "comparisons.studies.statistics.study", None)
+    """Nor do the theories load, and the plan says so."""
+    monkeypatch.setitem(sys.modules, "analytic.statistics.rough_bodies", None)
     scene = resolved({name: part for name, part in SCENE.items() if name != "statistics"})
     found = run(scene, None, ("half_plane",))
-    assert found.statistics is None and found.result["statistics"] is None
-    skipped = {item["step"]: item["because"] for item in found.result["skipped"]}
+    assert "statistics" not in found.found
+    said = found.found["problem"].statements
+    skipped = {each.source: each.text for each in said if each.name == "skipped"}
     assert skipped["statistics of rough contact"] == "the scene has no [statistics]"
     plan = make_plan(problem_of(resolved(SCENE)), ("finite_element",))
     because = [item.because for item in plan.skipped if item.step == "statistics of rough contact"]
@@ -260,5 +264,5 @@ def test_statistics_of_a_smooth_profile_end_with_two_and_write_nothing(tmp_path,
 def test_the_scene_that_comes_along_has_both_kinds_of_asperities():
     scene = load_scene("rough-statistics")
     assert scene.statistics.traces >= 8
-    (patches,) = run(scene, None, ("half_plane",)).statistics.patches.values()
+    (patches,) = run(scene, None, ("half_plane",)).data("statistics").patches.values()
     assert {patch.kinds["exact"] for patch in patches} == {"elastic", "plastic"}

@@ -1,0 +1,238 @@
+"""Stresses and displacements of a model as a file that other programs open.
+
+vtu      ParaView, PyVista, meshio
+vtkhdf   ParaView and PyVista; HDF5, read in pieces: for large fields
+msh      gmsh, meshio, PyVista (MSH 2.2); each array is a view in gmsh
+
+Every file also says what it is of: `title`, `units` and `scene`, the latter two as JSON. In a vtu
+they are field data of bytes, bytes(data["scene"]).decode(): meshio opens no file with a text there.
+In a vtkhdf they are texts. In a msh they stand in a section $Comments. The scene stands as text in
+contact.csv beside them, too."""
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from analytic.stress_state import StressState
+from comparisons.models.half_plane import stresses_at
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
+from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.study import Run
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+
+AUTOMATIC = "auto"
+LARGE = 2_000_000  # points from which a field goes to vtkhdf unless the caller says otherwise
+COMPONENTS = ("sx", "sz", "sy", "txz", "tau1", "von_mises")  # [Pa]
+# with the direction of s1, the largest principal stress in the plane, as a vector
+STRESSES = (*COMPONENTS, "s1_direction")
+# Numbers that VTK and gmsh have for a kind of cell that meshio knows by name.
+CELL_TYPES = {"quad": (9, 4), "triangle6": (22, 6)}
+
+
+@dataclass(frozen=True)
+class FieldFile:
+    """Arrays at points that cells connect."""
+
+    points: np.ndarray  # (n, 3) [m] x, z, 0: the plane of mesh.msh
+    kind: str  # of cell, as meshio calls it
+    cells: np.ndarray  # (m, k) indices of points
+    arrays: dict[str, np.ndarray]  # (n,) by name, or vectors (n, 3), in `units`
+    units: dict[str, str]  # of the arrays by name, and of "points"
+    title: str  # of the run
+    scene: str  # of the run, as JSON
+
+    @property
+    def notes(self) -> dict[str, str]:
+        """What the file says of itself, as texts."""
+        return {"title": self.title, "units": json.dumps(self.units), "scene": self.scene}
+
+
+def scene_text(scene: ResolvedScene) -> str:
+    """A scene as one line of JSON, SI units."""
+    return json.dumps(scene.as_dict(), ensure_ascii=False, allow_nan=False)
+
+
+def field_of(outcome: Run, level: Level) -> FieldFile:
+    """Stresses at the points of a model's level, as STRESSES.
+
+    On a mesh of finite elements also their `displacement`, a vector (n, 3) [m] in the axes of the
+    points, zero where the body is held; and, in single precision, `half_plane_` and `difference_`
+    COMPONENTS: the half-plane's stresses at the same points, and these less the finite elements'.
+    Of several friction coefficients each array has its own in the name. Where the body yields there
+    are also what flow leaves behind when the roller is gone."""
+    scene = outcome.problem.scene
+    nu = scene.body.poissons_ratio
+    on_mesh = level.field_on_mesh
+    if on_mesh is not None:
+        plane, stresses = on_mesh.points, on_mesh.stresses
+        cells, nu = on_mesh.triangles, on_mesh.poissons_ratio
+        kind = "triangle6"
+    else:
+        x, z = np.meshgrid(outcome.window.x, outcome.window.z)
+        plane = np.column_stack([x.ravel(), z.ravel()])
+        stresses = {
+            s.friction: StressState(s.field.sx.ravel(), s.field.sz.ravel(), s.field.txz.ravel())
+            for s in level.stresses
+        }
+        rows, columns = x.shape
+        corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+        cells = np.column_stack([corner, corner + 1, corner + columns + 1, corner + columns])
+        kind = "quad"
+    arrays = _named(stresses, lambda s: _components(s, nu) | {"s1_direction": _direction(s)})
+    if on_mesh is not None:
+        arrays |= _named(on_mesh.displacement, lambda u: {"displacement": _in_space(u)})
+        arrays |= on_mesh.others
+        half_plane = outcome.runs.get("half_plane")
+        if half_plane is not None:
+            arrays |= _beside(outcome.problem, half_plane.beside(level), plane, stresses, arrays)
+    units = {"points": "m"} | {name: _unit(name) for name in arrays}
+    return FieldFile(_in_space(plane), kind, cells, arrays, units, scene.title, scene_text(scene))
+
+
+def _named(by_friction: Mapping, arrays: Callable[..., dict]) -> dict[str, np.ndarray]:
+    """The arrays of every friction coefficient, which is in their names where there are several."""
+    suffix = " (friction {:g})" if len(by_friction) > 1 else ""
+    return {
+        name + suffix.format(friction): values
+        for friction, of in by_friction.items()
+        for name, values in arrays(of).items()
+    }
+
+
+def _unit(name: str) -> str:
+    if name.startswith("displacement"):
+        return "m"
+    return "1" if "strain" in name or name.startswith("s1_") else "Pa"
+
+
+def _in_space(plane: np.ndarray) -> np.ndarray:
+    """x, z, 0 (n, 3) from x, z (n, 2)."""
+    return np.pad(plane, ((0, 0), (0, 1)))
+
+
+def _components(s: StressState, nu: float | np.ndarray) -> dict[str, np.ndarray]:
+    values = (s.sx, s.sz, s.sy(nu), s.txz, s.tau1, s.von_mises(nu))
+    return dict(zip(COMPONENTS, values, strict=True))
+
+
+def _beside(
+    problem: Problem,
+    half_plane: Level,
+    plane: np.ndarray,
+    stresses: Mapping[float, StressState],
+    own: Mapping[str, np.ndarray],
+) -> dict[str, np.ndarray]:
+    """The half-plane's stresses at points (n, 2) and their difference; NaN above the mean line."""
+    found = stresses_at(problem, half_plane, tuple(stresses), *plane.T)
+    nu = problem.scene.body.poissons_ratio
+    arrays = _named(found, lambda s: _components(s, nu))
+    return {
+        before + name: values.astype(np.float32)
+        for name, array in arrays.items()
+        for before, values in (("half_plane_", array), ("difference_", array - own[name]))
+    }
+
+
+def _direction(stress: StressState) -> np.ndarray:
+    """Unit vectors (n, 3) along the largest principal stress in the plane, of either sign."""
+    angle = 0.5 * np.arctan2(2.0 * stress.txz, stress.sx - stress.sz)
+    return np.column_stack([np.cos(angle), np.sin(angle), 0.0 * angle]).astype(np.float32)
+
+
+def write_field(folder: Path, field: FieldFile, choice: str = AUTOMATIC) -> Path:
+    """Write stress.<choice> into a folder; by its size where the choice is automatic."""
+    if choice == AUTOMATIC:
+        choice = "vtu" if len(field.points) < LARGE else "vtkhdf"
+    path = folder / f"stress.{choice}"
+    FORMATS[choice](path, field)
+    return path
+
+
+def _write_vtu(path: Path, field: FieldFile) -> None:
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+    grid = vtk_grid(field)
+    for name, text in field.notes.items():
+        codes = numpy_to_vtk(np.frombuffer(text.encode(), dtype=np.uint8), deep=True)
+        codes.SetName(name)
+        grid.GetFieldData().AddArray(codes)
+    writer = vtkXMLUnstructuredGridWriter()
+    # In place: appended arrays meshio decodes as one base64 text with padding inside, which Python
+    # refuses from 3.13.13 and 3.14.4 on. The default level, 5, takes a fifth longer for 1 % less.
+    writer.SetDataModeToBinary()
+    writer.SetCompressorTypeToZLib()
+    writer.SetCompressionLevel(1)
+    _write(writer, path, grid)
+
+
+def _write_vtkhdf(path: Path, field: FieldFile) -> None:
+    from vtkmodules.vtkCommonCore import vtkStringArray
+    from vtkmodules.vtkIOHDF import vtkHDFWriter
+
+    grid = vtk_grid(field, lambda name: name.replace(".", "_"))  # HDF5 has no such names
+    for name, text in field.notes.items():
+        array = vtkStringArray()
+        array.SetName(name)
+        array.InsertNextValue(text)
+        grid.GetFieldData().AddArray(array)
+    _write(vtkHDFWriter(), path, grid)
+
+
+def _write(writer: object, path: Path, grid: "vtkUnstructuredGrid") -> None:
+    writer.SetFileName(os.fsencode(path))  # a name need not be UTF-8
+    writer.SetInputData(grid)
+    if not writer.Write():
+        raise OSError(None, "VTK cannot write it", str(path))
+
+
+def vtk_grid(field: FieldFile, called: Callable[[str], str] = str) -> "vtkUnstructuredGrid":
+    """VTK's form of points, cells and arrays, which `called` names."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+    number, corners = CELL_TYPES[field.kind]
+    points, cells, grid = vtkPoints(), vtkCellArray(), vtkUnstructuredGrid()
+    points.SetData(numpy_to_vtk(field.points, deep=True))
+    starts = np.arange(0, field.cells.size + 1, corners, dtype=np.int64)
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(starts, deep=True),
+        numpy_to_vtkIdTypeArray(field.cells.astype(np.int64).ravel(), deep=True),
+    )
+    grid.SetPoints(points)
+    grid.SetCells(number, cells)
+    for name, values in field.arrays.items():
+        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+        array.SetName(called(name))
+        array.GetInformation().Set(vtkDataArray.UNITS_LABEL(), field.units[name])
+        grid.GetPointData().AddArray(array)
+    return grid
+
+
+def _write_msh(path: Path, field: FieldFile) -> None:
+    import meshio
+
+    from meshes.msh_file import append_comment
+
+    tags = [np.ones(len(field.cells), dtype=int)]
+    content = meshio.Mesh(
+        field.points,
+        [(field.kind, field.cells)],
+        point_data=field.arrays,
+        cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
+        field_data={"body": np.array([1, 2])},
+    )
+    meshio.write(path, content, file_format="gmsh22", binary=True)
+    append_comment(path, field.notes)
+
+
+FORMATS = {"vtu": _write_vtu, "vtkhdf": _write_vtkhdf, "msh": _write_msh}

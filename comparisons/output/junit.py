@@ -1,0 +1,100 @@
+"""JUnit XML for continuous integration: of the verdicts of a run, and of any other testcases."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+from xml.etree import ElementTree
+
+from comparisons.common.errors import InputError
+from comparisons.common.files import check_writable, published
+from comparisons.common.mpi import is_first
+from comparisons.common.numbers import given_percent, percent, with_unit
+from comparisons.figures.figure import Figure
+from comparisons.figures.verdict import Verdict
+from comparisons.output.headline import headline
+from comparisons.studies import meaning
+from comparisons.studies.study import Run
+
+Result = Literal["passed", "failure", "error", "skipped"]
+RESULTS: dict[Verdict, Result] = {
+    "agree": "passed",
+    "holds": "passed",
+    "differ": "failure",
+    "fails": "failure",
+    "inconclusive": "skipped",  # neither red nor green, and shown with its reason
+}
+
+
+@dataclass(frozen=True)
+class JunitCase:
+    """A test as CI systems show it."""
+
+    classname: str  # what they group by, with dots
+    name: str
+    text: str  # what was found
+    result: Result = "passed"
+    message: str = ""  # in a line, why it did not pass
+
+
+def check_place(junit: Path | None) -> None:
+    """Raise InputError unless the file can be written; None is no file."""
+    if junit is not None:
+        if junit.is_dir():
+            raise InputError(f"{junit}: cannot be written: it is a folder; allowed is a file")
+        check_writable(junit.parent, ())
+
+
+def write_junit(junit: Path | None, content: str) -> None:
+    """Leave the content in the file, whole or not at all; None is no file."""
+    if junit is not None and is_first():
+        with published(junit.parent, ()) as folder:
+            (folder / junit.name).write_text(content, encoding="utf-8")
+
+
+def junit_xml(suite: str, testcases: Iterable[JunitCase], seconds: float) -> str:
+    """One suite of testcases, which took so many seconds together."""
+    root = ElementTree.Element("testsuites", name=f"crosscheck {suite}")
+    element = ElementTree.SubElement(root, "testsuite", name=suite)
+    counts = {"tests": 0, "failure": 0, "error": 0, "skipped": 0}
+    for each in testcases:
+        case = ElementTree.SubElement(element, "testcase", classname=each.classname, name=each.name)
+        counts["tests"] += 1
+        if each.result != "passed":
+            ElementTree.SubElement(case, each.result, message=each.message)
+            counts[each.result] += 1
+        ElementTree.SubElement(case, "system-out").text = each.text
+    names = {"failure": "failures", "error": "errors"}
+    element.attrib.update({names.get(name, name): str(count) for name, count in counts.items()})
+    element.set("time", f"{seconds:.3f}")
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
+
+
+def run_cases_of(run: Run) -> list[JunitCase]:
+    """That the solvers converged, and each judged figure. One that differs or fails is a failure;
+    an inconclusive one is skipped, with the reason; all are errors where a solver did not
+    converge."""
+    scene, sentence = run.problem.scene.name, headline(run).sentence
+    cases = [JunitCase(f"{scene}.solvers", "converged", sentence)]
+    for figure in run.judged:
+        table = f"answers.{figure.source}" if figure.study == "answers" else figure.study
+        text, name = _said(figure), f"{figure.quantity}, friction {figure.friction:g}"
+        cases.append(JunitCase(f"{scene}.{table}", name, text, RESULTS[figure.verdict], text))
+    if run.converged:
+        return cases
+    return [replace(case, result="error", message=sentence) for case in cases]
+
+
+def _said(figure: Figure) -> str:
+    """Verdict, size, uncertainty with what is not modelled, and what is allowed."""
+    quantity, unsure = meaning(figure), percent(figure.total)
+    if figure.against is None:
+        value, most = (
+            with_unit(size, quantity.unit)
+            for size in (figure.value, figure.bounds[1] * figure.scale)
+        )
+        return f"{figure.verdict}: {value} with an uncertainty of {unsure}, at most {most}"
+    size = percent(figure.value, signed=not quantity.of_pair, uncertainty=figure.total)
+    allowed = f"tolerance {given_percent(figure.tolerance)}"
+    return f"{figure.verdict}: {size} with an uncertainty of {unsure}, {allowed}"

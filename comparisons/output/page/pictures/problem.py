@@ -1,0 +1,184 @@
+"""The problem drawn from the scene itself: bodies to scale, and the contact close up."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import given, plain, scale_of, with_unit
+from comparisons.drawing import style
+from comparisons.output.page.tables.problem import (
+    coating_text,
+    elastic_text,
+    load_text,
+    yielding_text,
+)
+from comparisons.output.page.tables.text import listed
+from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.study import Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+VIEW = 1.15  # radii to either side in the drawing to scale
+LAYERS_IN_VIEW = 5.0  # of a thin body instead
+CLOSE_UP = 1.15, 2.0  # half-widths to either side in the close-up, at least and at most
+RISE = 6.0  # of the roller over the close-up, in reliefs of the surface
+ARROW = {"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "shrinkA": 0.0, "shrinkB": 0.0}
+FORCE = "#B3001B"
+LINE = 0.11  # of the view: height of a line of words
+POINTS = 800
+EDGE = {"edgecolor": style.OUTLINE["color"], "linewidth": style.OUTLINE["linewidth"]}
+
+
+def problem_picture(outcome: Run) -> style.Picture:
+    """Roller, body, load and sliding; above to scale, below with the heights stretched."""
+    scene = outcome.problem.scene
+    drawn = style.figure(style.COLUMN, 5.9)
+    to_scale, close_up = style.stacked(drawn, [(0.18, 2.92), (0.73, 1.57)], 0.7, 0.14)
+    _to_scale(to_scale, outcome)
+    stretch = _close_up(close_up, outcome)
+    body = "the rough body" if scene.profile is not None else "the smooth body"
+    sliding = f", sliding with friction {listed(scene.friction)}" if any(scene.friction) else ""
+    return style.Picture(
+        source=style.data_uri(drawn),
+        alternative=(
+            f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {body} by "
+            f"{load_text(outcome.problem)}"
+            f"{sliding}; {'; '.join(_body_in_words(scene))}."
+        ),
+        caption=(
+            "The problem. Above: to scale. Below: roller and body where they first touch, "
+            f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
+            "is the width 2a of the Hertz contact under the same load."
+        ),
+    )
+
+
+def _to_scale(axes: "Axes", outcome: Run) -> None:
+    from matplotlib.patches import Circle
+
+    scene, hertz = outcome.problem.scene, outcome.problem.hertz
+    radius = scene.roller_radius
+    view = VIEW * radius
+    if scene.thickness is not None:
+        view = min(view, max(LAYERS_IN_VIEW * scene.thickness, 4.0 * hertz.half_width))
+    unit = scale_of([view], "m")
+    view /= unit.factor
+    half = view if scene.width is None else min(view, 0.5 * scene.width / unit.factor)
+    depth = np.inf if scene.thickness is None else scene.thickness / unit.factor
+    below = min(depth, 0.42 * view)
+    height = 0.73 * view  # the picture's, above the body
+    for look in (style.ROLLER, {"fill": False, **EDGE}):
+        axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **look))
+    across = np.linspace(-half, half, 200)
+    torn = depth > below  # the drawing ends before the body does
+    bottom = 0.02 * view * np.sin(24.0 * across / view) if torn else 0.0
+    axes.fill_between(across, bottom - below, 0.0, **style.BODY)
+    axes.plot([-half, half], [0.0, 0.0], **style.OUTLINE)
+    for side in (-half, half):
+        if scene.width is not None and half < view:
+            axes.plot([side, side], [-below, 0.0], **style.OUTLINE)
+    if not torn:
+        _base(axes, half, below, scene.base == "frictionless")
+    _arrow(axes, (0.0, 0.62 * view), (0.0, 0.06 * view))
+    note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
+    load = f"P = {load_text(outcome.problem)}"
+    axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
+    material = "rigid" if scene.roller is None else elastic_text(scene.roller)
+    roller = f"roller\nR = {given(radius, 'm')}\n{material}"
+    axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
+    # words stand in the body where it is large, else under it
+    roomy = torn and half == view
+    rough = "rough body" if scene.profile is not None else "body"
+    said = "\n".join([f"{rough}, {elastic_text(scene.body)}", *_body_in_words(scene)])
+    tall = LINE * view * (1 + said.count("\n"))
+    words = -0.5 * below if roomy else -1.2 * below - 0.03 * view - 0.5 * tall
+    axes.text(-0.97 * view, words, said, **note)
+    if any(scene.friction):
+        traction = f"q = µ p,  µ = {listed(scene.friction)}"
+        start, end = (0.71, 0.97) if roomy else (0.08, 0.34)
+        _arrow(axes, (start * half, -0.32 * below), (end * half, -0.32 * below))
+        above = -0.55 * below if roomy else words + 0.5 * (tall - LINE * view)
+        axes.text(0.97 * view, above, traction, color=FORCE, ha="right", **note)
+    axes.set(
+        xlim=(-view, view),
+        ylim=(-1.14 * below if roomy else words - 0.5 * tall - 0.01 * view, height),
+        xlabel=f"x [{unit.name}]",
+        ylabel=f"height [{unit.name}]",
+        aspect="equal",
+    )
+    axes.grid(False)
+
+
+def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
+    """The rigid base under a body of finite thickness: hatched; on rollers where it may slide."""
+    thick = 0.1 * below
+    gap = 0.06 * below if frictionless else 0.0
+    if frictionless:
+        places = np.linspace(-half, half, 25)[1:-1]
+        look = {"linestyle": "", "marker": "o", "markersize": 2.2, "color": style.OUTLINE["color"]}
+        axes.plot(places, np.full(len(places), -below - 0.5 * gap), **look)
+    top = -below - gap
+    corners = [-half, half, half, -half], [top - thick, top - thick, top, top]
+    style.hatch(axes, axes.fill(*corners, facecolor="none", **EDGE), EDGE["edgecolor"])
+
+
+def _close_up(axes: "Axes", outcome: Run) -> float:
+    """Surfaces at first touch; returns how much more heights are stretched than lengths."""
+    problem = outcome.problem
+    scene, half_width = problem.scene, problem.hertz.half_width
+    relief = 0.0 if scene.profile is None else np.ptp(scene.profile.height)
+    reach = np.sqrt(2.0 * scene.roller_radius * RISE * relief) if relief else np.inf
+    reach = np.clip(reach / half_width, *CLOSE_UP) * half_width
+    low, high = -reach, reach
+    if scene.profile is not None:
+        low, high = max(low, scene.profile.x[0]), min(high, scene.profile.x[-1])
+    if scene.width is not None:
+        low, high = max(low, -0.5 * scene.width), min(high, 0.5 * scene.width)
+    x = np.linspace(low, high, POINTS)
+    body = np.zeros_like(x) if scene.profile is None else scene.profile.spline()(x)
+    parabola = x**2 / (2.0 * scene.roller_radius)
+    roller = parabola + np.max(body - parabola)
+    along, up = scale_of([high], "m"), scale_of([np.max(roller), np.ptp(body)], "m")
+    bottom, top = body.min() - 0.35 * (roller.max() - body.min()), roller.max()
+    position = x / along.factor
+    ends = bottom / up.factor, top / up.factor
+    style.fill_bodies(axes, position, body / up.factor, roller / up.factor, *ends)
+    axes.plot(position, roller / up.factor, **style.OUTLINE)
+    axes.plot(position, body / up.factor, **{**style.OUTLINE, "linewidth": 0.7})
+    at = 0.5 * (bottom + body.min()) / up.factor
+    reach = half_width / along.factor
+    axes.plot([-reach, reach], [at, at], color="black", marker="|", markersize=8, linewidth=1.2)
+    clear = {"facecolor": style.BODY["facecolor"], "edgecolor": "none", "pad": 1.5}
+    words = f"2a = {with_unit(2.0 * half_width, 'm')}"
+    axes.text(0.0, at, words, ha="center", va="center", bbox=clear)
+    axes.set(
+        xlim=(position[0], position[-1]), xlabel=f"x [{along.name}]", ylabel=f"height [{up.name}]"
+    )
+    box = axes.get_position()
+    wide, tall = axes.figure.get_size_inches() * (box.width, box.height)
+    return (tall / (top - bottom)) / (wide / (high - low))
+
+
+def _arrow(axes: "Axes", tail: tuple[float, float], tip: tuple[float, float]) -> None:
+    axes.annotate("", tip, tail, arrowprops={**ARROW, "color": FORCE, "linewidth": 1.8})
+
+
+def _body_in_words(scene: ResolvedScene) -> list[str]:
+    """Its size and support, and what the finite elements' body has besides."""
+    size = []
+    if scene.thickness is not None:
+        base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.base]
+        size.append(f"{given(scene.thickness, 'm')} thick, {base} a rigid base")
+    elif scene.width is None:
+        size.append("unbounded (half-plane)")
+    else:
+        size.append("unbounded in depth")
+    if scene.width is not None:
+        size.append(f"{given(scene.width, 'm')} wide")
+    found = [", ".join(size)]
+    if scene.coating is not None:
+        found.append(f"coating {coating_text(scene.coating)}")
+    if scene.yielding is not None:
+        found.append(f"yields {yielding_text(scene.yielding)}")
+    return found

@@ -1,0 +1,171 @@
+"""The comparison as rows of text, for the page and for the terminal.
+
+In: the figures of a run. Out: a row a quantity, with equal ones of several friction coefficients in
+one."""
+
+from dataclasses import dataclass
+
+from comparisons.common.numbers import Scale, given_percent, percent, plain, scale_of, with_unit
+from comparisons.figures.figure import Figure, grouped
+from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, label
+from comparisons.models.problem import Problem
+from comparisons.output.page.tables.model_error import left_out
+from comparisons.output.page.tables.text import REPEATED, error_text, is_shown, listed
+from comparisons.studies import comparison, contact, coupling
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.study import MODEL_ERROR, WHY_NOT, Run, TextTable
+
+SAME_PROBLEM = "the same problem"
+
+
+@dataclass(frozen=True)
+class ComparisonRow:
+    """A quantity at one friction coefficient, or at several that give the same figures."""
+
+    quantity: str
+    label: str
+    friction: str
+    half_plane: str  # with unit; empty for the norm of a difference
+    finite_element: str
+    in_hertz: tuple[str, str]  # the same two in units of the Hertz contact's
+    difference: str  # in the digits that the uncertainty supports
+    uncertainty: str
+    tolerance: str
+    verdict: str  # "" where nothing was judged
+    reference: str  # what problem the finite elements' figure is one of
+    note: str  # what to know before the figures are taken for evidence
+
+
+def comparison_rows(run: Run) -> list[ComparisonRow]:
+    """In the order of quantities, then of friction coefficients."""
+    rows, differences = [], run.figures.of(study=comparison.NAME)
+    for name in QUANTITIES:
+        pairs = [(each, _values(run, each)) for each in differences.of(quantity=name)]
+        for same in grouped(pairs, _shown):
+            rows.append(_row(run, *same[0], listed(each.friction for each, _ in same)))
+    return rows
+
+
+def _values(run: Run, difference: Figure) -> tuple[Figure | None, ...]:
+    """Both models' figures, None of a norm."""
+    at = {"quantity": difference.quantity, "at": difference.at}
+    return tuple(run.figures.one(study=contact.NAME, source=model, **at) for model in MODELS)
+
+
+def _shown(pair: tuple[Figure, tuple[Figure | None, ...]]) -> tuple:
+    difference, values = pair
+    sizes = tuple(each and each.value for each in values)
+    return difference.value, difference.numerical, *sizes
+
+
+def reference_of(run: Run, quantity: str) -> str:
+    """What the finite elements solve: the half-plane's problem, or that with effects that bear on
+    the quantity; those without an estimate bear on all."""
+    selection = run.data(MODEL_ERROR).selection
+    named = [
+        EFFECTS[name].label
+        for name in EFFECTS
+        if name in selection.contained and quantity in selection.estimates.get(name, [quantity])
+    ]
+    return ", ".join(named) or SAME_PROBLEM
+
+
+def figure_rows(run: Run) -> list[tuple[str, ...]]:
+    """Of the only model: quantity, friction, figure with unit and over Hertz's, uncertainty."""
+    known = [f for f in run.figures.of(study=contact.NAME) if f.quantity in QUANTITIES]
+    known = [figure for figure in known if is_shown(run, figure.quantity)]
+    known.sort(key=lambda figure: list(QUANTITIES).index(figure.quantity))
+    rows = []
+    for same in grouped(known, lambda figure: (figure.quantity, figure.value, figure.numerical)):
+        name, value, uncertainty = same[0].quantity, same[0].value, same[0].numerical
+        sizes = with_unit(value, QUANTITIES[name].unit), in_hertz(run.problem, name, value)
+        frictions = listed(figure.friction for figure in same)
+        rows.append((name, frictions, *sizes, percent(uncertainty)))
+    return rows
+
+
+def figure_table(run: Run) -> TextTable:
+    """The same for the page."""
+    [model] = run.runs
+    head = ("quantity", "friction", f"{HYPHENATED[model]} model", "over Hertz", "uncertainty")
+    rows = ((label(name), *cells) for name, *cells in figure_rows(run))
+    return TextTable("", head, tuple(rows))
+
+
+def _row(
+    run: Run, difference: Figure, models: tuple[Figure | None, ...], frictions: str
+) -> ComparisonRow:
+    name, values = difference.quantity, [each and each.value for each in models]
+    # the hardness holds the peaks of both models, which makes them equal by itself
+    capped = "capped in both" if all(each and "capped" in each.notes for each in models) else ""
+    scale = scale_of(values, QUANTITIES[name].unit)
+    half_plane, finite_element = ("" if v is None else scale.text(v) for v in values)
+    bound = difference.tolerance
+    return ComparisonRow(
+        quantity=name,
+        label=label(name),
+        friction=frictions,
+        half_plane=half_plane,
+        finite_element=finite_element,
+        in_hertz=tuple(in_hertz(run.problem, name, value) for value in values),
+        difference=error_text(name, difference.value, difference.numerical),
+        uncertainty=percent(difference.numerical),
+        tolerance="" if bound is None else given_percent(bound),
+        verdict=difference.verdict or "",
+        reference=reference_of(run, name),
+        note=", ".join(filter(None, (capped, left_out(run, difference)))),
+    )
+
+
+def in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
+    """The figure over that of the smooth contact under the same load."""
+    meaning = QUANTITIES[quantity]
+    if value is None or meaning.over is None:
+        return ""
+    times, symbol = meaning.over
+    return Scale(times * meaning.scale(problem.hertz), symbol).text(value)
+
+
+def coupling_table(run: Run) -> TextTable | None:
+    """Figures with the surfaces moved, and the change; None where friction moves nothing."""
+    changes = run.figures.of(study=coupling.NAME)
+    if not changes:
+        return None
+    names = [coupling.SHIFT, *(name for name in QUANTITIES if name != REPEATED)]
+    frictions = list(dict.fromkeys(figure.friction for figure in changes))
+    rows = []
+    for name in names:
+        cells = [cell for mu in frictions for cell in _cells(run, name, mu)]
+        if any(cells):
+            rows.append(
+                (coupling.QUANTITIES[name].label if name == coupling.SHIFT else label(name), *cells)
+            )
+    head = [cell for mu in frictions for cell in (f"friction {plain(mu)}", "change")]
+    return TextTable("Half-plane, surfaces moved by friction", ("", *head), tuple(rows))
+
+
+def coupling_line(run: Run) -> str | None:
+    """The change at the largest friction in one sentence; None where friction moves nothing."""
+    if coupling.NAME not in run.found:
+        return None
+    friction = max(run.problem.scene.friction, key=abs)
+    if (why := run.found[coupling.NAME].said(WHY_NOT, friction=friction)) is not None:
+        return f"not known: {why}"
+    contained = "contained" if run.problem.scene.coupled else "not modelled"
+    shift, of_a = _cells(run, coupling.SHIFT, friction, digits=3)
+    peak, length = (_cells(run, n, friction)[1] for n in ("peak_pressure", "contact_length"))
+    return (
+        f"friction {plain(friction)} moves the surfaces ({contained}): the contact by "
+        f"{shift} ({of_a}), peak pressure {peak}, contact length {length}"
+    )
+
+
+def _cells(run: Run, name: str, friction: float, digits: int = 4) -> tuple[str, str]:
+    """The figure and its change, in percent; of a shift, of the Hertz half-width."""
+    both = run.figures.of(study=coupling.NAME, quantity=name, friction=friction)
+    value, change = both.one(against=None), both.one(against=coupling.UNCOUPLED)
+    if value is None:
+        return "", percent(change.value) if change else ""
+    moved = percent(change and change.value, signed=True)
+    text = with_unit(value.value, coupling.QUANTITIES[name].unit, digits)
+    return text, f"{moved} of a" if name == coupling.SHIFT else moved

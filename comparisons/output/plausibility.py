@@ -1,0 +1,114 @@
+"""Plausibility warnings: signs in a scene of a missing or mistaken unit.
+
+A scene with `radius = 8` for 8 mm, `youngs_modulus = 207` for 207 GPa or a trace in the wrong unit
+is solved like any other. Nothing here is refused; the user is warned."""
+
+from collections.abc import Iterator
+
+from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.material import combined_modulus
+from analytic.surface.outliers import spikes
+from analytic.surface.roughness import shortest_wavelength
+from comparisons.common.numbers import given, significant, with_unit
+from comparisons.scenes.scene import ProfileInfo, ResolvedScene
+from comparisons.studies.study import Run
+
+LARGEST_RADIUS = 5.0  # [m]; rolls of mills have less
+SOFTEST, STIFFEST = 1e3, 1.5e12  # [Pa] Young's modulus: gels, diamond
+LONGEST_TRACE = 0.25  # [m] that stylus instruments drive
+# Rms slopes of measured surfaces: polished have more than the first, sawn less than the second.
+SMOOTHEST, STEEPEST = 1e-4, 1.0
+LIGHTEST, HEAVIEST = 5e-5, 0.3  # half-width over radius: steel at some MPa, rubber pressed flat
+FEWEST_ELEMENTS = 8  # to a wave: peak pressures are then known to some per cent
+LONGEST_BRIDGE = 5  # samples: a line across more than that is no surface any more
+FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between samples
+
+
+def warnings_about(scene: ResolvedScene) -> list[str]:
+    """One sentence each, before anything is solved."""
+    found, radius = [], scene.roller_radius
+    if radius > LARGEST_RADIUS:
+        found.append(f"roller.radius is {given(radius, 'm')}: a number without unit is in m")
+    for section, material in (("body", scene.body), ("roller", scene.roller)):
+        if material is not None and not SOFTEST <= material.youngs_modulus <= STIFFEST:
+            modulus = f"{section}.youngs_modulus is {given(material.youngs_modulus, 'Pa')}"
+            found.append(f"{modulus}: a number without unit is in Pa")
+    return [*found, *_of_load(scene), *warnings_about_surface(scene.profile_info)]
+
+
+def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
+    """The same of a measured trace alone."""
+    return [] if info is None or info.path is None else [*_of_trace(info)]
+
+
+def warnings_about_result(outcome: Run) -> list[str]:
+    """What only the solution shows."""
+    run = next(iter(outcome.runs.values()))
+    scene, solution = outcome.problem.scene, run.finest.solution
+    peak, modulus = float(solution.pressure.max()), outcome.problem.modulus
+    found = []
+    if peak > modulus:
+        found.append(
+            f"the peak pressure of {with_unit(peak, 'Pa')} exceeds the combined modulus of "
+            f"{with_unit(modulus, 'Pa')}, which no material bears: check load and profile units"
+        )
+    info, length = scene.profile_info, run.finest.contact_length
+    if info is not None and length < FEWEST_SAMPLES * info.spacing:
+        found.append(
+            f"the whole contact, {with_unit(length, 'm')}, is shorter than {FEWEST_SAMPLES} "
+            f"samples of the profile ({with_unit(info.spacing, 'm')} apart): what is pressed is "
+            "the curve between them"
+        )
+    if scene.profile is not None:
+        per_wave = shortest_wavelength(scene.profile) / run.finest.grid.pitch
+        if per_wave < FEWEST_ELEMENTS:
+            found.append(
+                f"the shortest wave has {significant(per_wave, 2)} pressure elements on the finest "
+                f"level: at fewer than {FEWEST_ELEMENTS} its pressures are not known (budget, "
+                "resolution)"
+            )
+    return found
+
+
+def _of_load(scene: ResolvedScene) -> Iterator[str]:
+    if scene.load.kind == "approach":
+        return
+    hertz = hertz_from_load if scene.load.kind == "load_per_length" else hertz_from_peak_pressure
+    modulus = combined_modulus(scene.body, scene.roller)
+    smooth = hertz(scene.load.value, scene.roller_radius, modulus)
+    ratio = smooth.half_width / scene.roller_radius
+    if LIGHTEST <= ratio <= HEAVIEST:
+        return
+    yield (
+        f"load: smooth bodies would have {with_unit(smooth.peak_pressure, 'Pa')} and a half-width "
+        f"of {with_unit(smooth.half_width, 'm')}, {significant(ratio, 2)} of the radius: check "
+        "load, radius and moduli (1 N/um is 1e6 N/m)"
+    )
+
+
+def _of_trace(info: ProfileInfo) -> Iterator[str]:
+    slope = info.roughness.rms_slope
+    if info.length > LONGEST_TRACE:
+        yield f"profile: the trace is {with_unit(info.length, 'm')} long: check x_unit or spacing"
+    if slope == 0.0:
+        yield "profile: every height is the same once the form is off: check the file"
+    elif not SMOOTHEST <= slope <= STEEPEST:
+        height = with_unit(info.roughness.rq, "m")
+        yield (
+            f"profile: the rms slope is {significant(slope, 2)} at an Rq of {height}: check x_unit "
+            "and z_unit"
+        )
+    if info.stretch is not None:
+        start, stop = info.stretch
+        if stop - start > LONGEST_BRIDGE * info.spacing:
+            yield (
+                f"profile: nothing was measured from {with_unit(start, 'm')} to "
+                f"{with_unit(stop, 'm')}: what is pressed there is a straight line"
+            )
+    if (found := spikes(info.trace)) is not None:
+        one = found.count == 1
+        yield (
+            f"profile: {'a spike stands' if one else f'{found.count} spikes stand'} out of the "
+            f"trace, {'' if one else 'the largest '}by {with_unit(found.height, 'm')} at x = "
+            f"{with_unit(found.place, 'm')}: dirt and lost contact are pressed like the surface"
+        )

@@ -1,0 +1,170 @@
+"""The record and the figures in a run's folder, checked.
+
+Everything comes from the folder itself. A profile's file may have changed or gone."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import inf
+from pathlib import Path
+
+import numpy as np
+
+from analytic.profile import Profile
+from analytic.surface.readers.files import MeasuredProfile
+from comparisons.common.errors import InputError, one_line
+from comparisons.common.files import LARGEST_RECORD
+from comparisons.common.provenance import digest
+from comparisons.figures.quantity import MODELS
+from comparisons.output.record import SCHEMA
+from comparisons.output.result_json import SCHEMA as RESULT_SCHEMA
+from comparisons.output.result_json import Result, read_content
+from comparisons.output.schema_2 import SCHEMA as SCHEMA_BEFORE
+from comparisons.output.schema_2 import result_of_schema_2
+from comparisons.scenes.profile import KnownTrace
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import MOST_LEVELS, ResolvedScene
+from comparisons.studies.study import MODEL_ERROR
+
+_IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"}
+
+
+@dataclass(frozen=True)
+class Record:
+    """A recorded run."""
+
+    # as resolved, with as many levels as the run and its error budget had and no end to its time
+    scene: ResolvedScene
+    models: tuple[str, ...]  # of half_plane, finite_element
+    levels: int  # of each model
+    result: Result
+    versions: dict
+    machine: dict
+    hashes: dict
+
+
+def read_record(folder: Path) -> Record:
+    """The run recorded in a folder. Raises InputError, one line, where it cannot be repeated."""
+    if not folder.is_dir():
+        raise InputError(f"{folder}: is no folder; allowed is the folder of a finished run")
+    path = folder / "record.json"
+    content = read_table(path)
+    check_schema(path, content, SCHEMA)
+    result = read_result(folder / "result.json")
+    models = _part(path, content, "models", list)
+    if not models or any(name not in MODELS for name in models):
+        raise InputError(f"{path}: models: is {models!r}; allowed are {', '.join(MODELS)}")
+    levels = _part(path, content, "levels", int)
+    if not 1 <= levels <= MOST_LEVELS:
+        raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
+    return Record(
+        scene=_scene(path, content, levels, result),
+        models=tuple(name for name in MODELS if name in models),
+        levels=levels,
+        result=result,
+        **{name: _part(path, content, name, dict) for name in ("versions", "machine", "hashes")},
+    )
+
+
+def read_result(path: Path) -> Result:
+    """What a run's result.json says; one of the schema before, too, for one release.
+    Raises InputError, one line, where it is none."""
+    content = read_table(path)
+    try:
+        if content.get("schema") == SCHEMA_BEFORE:
+            return result_of_schema_2(content)
+        check_schema(path, content, RESULT_SCHEMA)
+        return read_content(content)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
+
+
+def _scene(path: Path, content: dict, levels: int, result: Result) -> ResolvedScene:
+    tables, name = _part(path, content, "scene", dict), _part(path, content, "name", str)
+    name = one_line(name)
+    trace = None
+    if tables.get("profile") is not None:
+        trace = _trace(path, _part(path, content, "profile", dict))
+    folder, source = path.parent, str(path)
+    scene = resolve_tables(tables, name=name, folder=folder, source=source, trace=trace)
+    cost = result.found[MODEL_ERROR].table("cost") if MODEL_ERROR in result.found else None
+    effects = None if cost is None else cost.columns["levels"].values[0]
+    if effects is not None and not (type(effects) is int and 0 <= effects <= MOST_LEVELS):
+        where = f"{path.parent / 'result.json'}: levels of the whole model"
+        raise InputError(f"{where}: is {effects!r}; allowed is from 0 to {MOST_LEVELS}")
+    return replace(
+        scene,
+        resolution=replace(scene.resolution, levels=levels, most=levels),
+        budget=replace(scene.budget, time=inf, levels=effects),
+    )
+
+
+def _trace(path: Path, profile: dict) -> KnownTrace:
+    """The recorded trace, if it is still what was recorded."""
+    trace = _part(path, profile, "trace", dict, "profile.")
+    where = f"{path}: profile.trace"
+    try:
+        x, height = (np.array(trace[name], dtype=float) for name in ("x", "height"))
+        samples = Profile(x, height)
+        stretch = trace.get("stretch")
+        read = MeasuredProfile(
+            profile=samples,
+            format=trace["format"],
+            place=trace["place"],
+            bridged=int(trace["bridged"]),
+            trimmed=int(trace["trimmed"]),
+            stretch=None if stretch is None else (float(stretch[0]), float(stretch[1])),
+        )
+        same = digest(x, height) == trace["sha256"]
+        wrong = "" if same else ": has another SHA-256 than recorded"
+    except KeyError as error:
+        wrong = f".{error.args[0]}: is missing"
+    except (TypeError, ValueError, IndexError, OverflowError) as error:
+        wrong = f": {error}"
+    if wrong:
+        raise InputError(f"{where}{wrong}; allowed is what was recorded")
+    return KnownTrace(read, profile.get("file_sha256"))
+
+
+def read_table(path: Path) -> dict:
+    """The table in a file of a run's folder. Raises InputError where there is none."""
+    try:
+        if (size := path.stat().st_size) > LARGEST_RECORD:
+            raise InputError(f"{path}: has {size} bytes; allowed are {LARGEST_RECORD}")
+        content = json.loads(path.read_bytes().decode("utf-8"), parse_constant=_no_number)
+    except FileNotFoundError:
+        raise InputError(
+            f"{path.parent}: holds no {path.name}; allowed is the folder of a finished run"
+        ) from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}; allowed is a file") from None
+    except InputError:
+        raise
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{path}: is not JSON: {error}; allowed is what a run wrote") from None
+    if not isinstance(content, dict):
+        raise InputError(f"{path}: is no table; allowed is what a run wrote")
+    return content
+
+
+def _no_number(name: str) -> None:
+    """Refuse NaN and the infinities, which Python reads, and no run writes."""
+    raise ValueError(f"{name} is no number")
+
+
+def check_schema(path: Path, content: Mapping, known: int) -> None:
+    """Raise InputError unless the content of a file is of the schema that is known here."""
+    schema = _part(path, content, "schema", int)
+    if schema != known:
+        age, remedy = ("a later", "") if schema > known else ("an earlier", ": run the scene again")
+        given = f"is {schema}, of {age} crosscheck"
+        raise InputError(f"{path}: schema: {given}; allowed is {known}{remedy}")
+
+
+def _part(path: Path, content: Mapping, name: str, kind: type, within: str = "") -> object:
+    """A named part of a table, of the kind that a run writes."""
+    found = content.get(name)
+    if isinstance(found, kind) and not isinstance(found, bool):
+        return found
+    state = "is missing" if found is None else f"is {type(found).__name__}"
+    raise InputError(f"{path}: {within}{name}: {state}; allowed is {_IN_WORDS[kind]}")

@@ -1,0 +1,469 @@
+"""result.json and report.npz of schema 2, read for one release: the map from old paths to figures.
+
+In: a content of schema 2. Out: the same as a Result; the parts of an old report.npz as those of a
+new one. Goes with the release after the one that writes schema 3."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from math import inf
+from types import SimpleNamespace
+
+from comparisons.figures.convergence import Convergence
+from comparisons.figures.figure import (
+    Column,
+    Figure,
+    Findings,
+    Part,
+    SampleSpread,
+    Series,
+    Statement,
+    figures_of,
+)
+from comparisons.figures.quantity import MODELS, QUANTITIES
+from comparisons.figures.uncertainty import Uncertainty, numerical
+from comparisons.models.finite_element.compliance_check import ComplianceColumn
+from comparisons.output.result_json import Result
+from comparisons.studies import bulge, checks, comparison, contact, coupling, problem, running_in
+from comparisons.studies import quiescent_zone as zone
+from comparisons.studies import yielding as flow
+from comparisons.studies.answers import answer as answers
+from comparisons.studies.answers.study import ComparedAnswers
+from comparisons.studies.coupling import Couplings
+from comparisons.studies.heat import figures as heat
+from comparisons.studies.model_error import account
+from comparisons.studies.scatter import figures as scatter
+from comparisons.studies.statistics import figures as statistics
+from comparisons.studies.study import CONVERGED, MODEL_ERROR, WHY_NOT, Solved
+
+SCHEMA = 2
+STRESS = ("tau1_max", "txz_max_abs", "von_mises_max")
+ITSELF = Uncertainty({"itself": 1.0})
+
+
+def result_of_schema_2(old: Mapping) -> Result:
+    """Raises LookupError, TypeError or ValueError where it is built otherwise."""
+    readers = {
+        contact.NAME: _contact,
+        comparison.NAME: _comparison,
+        coupling.NAME: _coupling,
+        MODEL_ERROR: _model_error,
+        problem.NAME: _problem,
+        running_in.NAME: _running_in,
+        checks.NAME: _checks,
+        scatter.NAME: _scatter,
+        flow.NAME: _yield,
+        zone.NAME: _zones,
+        bulge.NAME: _bulges,
+        statistics.NAME: _statistics,
+        answers.NAME: _answers,
+        heat.NAME: _heat,
+    }
+    found = {}
+    for name, read in readers.items():
+        items = list(read(old))
+        kinds = (Figure, Series, Statement)
+        findings = Findings(*(tuple(i for i in items if isinstance(i, kind)) for kind in kinds))
+        if items:
+            found[name] = findings
+    validity = old["validity"]
+    compares = bool(old["comparison"])
+    verdict = validity["verdict"] if compares else "not compared"
+    return Result(old["scene"], {}, verdict, validity["why"], (), found)
+
+
+Items = Iterator[Figure | Series | Statement]
+
+
+def _entries(old: Mapping) -> Iterator[tuple[str, int, dict, dict[str, float]]]:
+    for model, entries in old["models"].items():
+        for n, entry in enumerate(entries):
+            yield model, n, entry, {"friction": entry["friction"]}
+
+
+def _number(value: float | None) -> float:
+    return inf if value is None else float(value)
+
+
+def _stated(parts: Mapping[str, float | None]) -> Uncertainty:
+    names = ("iteration", "discretisation", "domain")
+    return numerical(*(_number(parts[name]) for name in names))
+
+
+def _contact(old: Mapping) -> Items:
+    a, p0 = old["hertz"]["half_width"], old["hertz"]["peak_pressure"]
+    budget = (old["error_budget"] or {}).get("quantities", {})
+    hardness, exact = old["scene"]["body"].get("hardness"), "approach" not in old["scene"]["load"]
+    for model, n, entry, at in _entries(old):
+        own, known, stress = entry["contact"], entry["uncertainty"], entry["stress"] or {}
+        stated = {name: _stated(parts) for name, parts in known.items()}
+        worst = max(stated.values(), key=lambda u: u.total)
+        values = {name: own[name] for name in contact.QUANTITIES if own.get(name) is not None}
+        values |= {name: stress[name] for name in STRESS if stress}
+        places = {name: tuple(stress[f"{name}_at"]) for name in STRESS if stress}
+        places["peak_pressure"] = (own["peak_position"],)
+        if stress:
+            values["tau1_max_depth"] = _depth(old, model, n, stress)
+        for name, value in values.items():
+            unit = a if "length" in name or "depth" in name else p0
+            scale, sure = abs(value) or unit, stated.get(contact.AS_UNCERTAIN.get(name, name))
+            if name in budget and name in stated:
+                sure = replace(sure, convergence=_convergence(budget[name][n], model, value, scale))
+            if name == "peak_position":
+                scale = a
+                sure = Uncertainty({"discretisation": entry["cost"]["levels"][-1]["pitch"] / a})
+            elif sure is None:
+                sure = Uncertainty() if name == "load_per_length" and exact else worst
+            capped = (
+                name == "peak_pressure" and hardness and value >= contact.AT_HARDNESS * hardness
+            )
+            yield Figure(
+                *(contact.NAME, name, model, value, at, None, scale, sure),
+                place=places.get(name),
+                notes=("capped",) if capped else (),
+            )
+        if n == 0:
+            yield from _of_model(model, entry, stated)
+
+
+def _of_model(model: str, entry: Mapping, stated: Mapping[str, Uncertainty]) -> Items:
+    """What is the same at every friction coefficient."""
+    own, cost = entry["contact"], entry["cost"]
+    length = sum(stop - start for start, stop in own["patches"])
+    edges = (stated["contact_length"].total * length,) * len(own["patches"])
+    ends = zip(*own["patches"], strict=True)
+    columns = (Column(tuple(map(float, values)), "m", edges) for values in ends)
+    yield Series("patches", dict(zip(("start", "stop"), columns, strict=True)), model)
+    levels = {
+        name: Column(tuple(level[name] for level in cost["levels"]))
+        for name in ("pitch", "unknowns", "seconds")
+    }
+    yield Series("levels", levels, model, is_account=True)
+    yield Statement(CONVERGED, "yes" if entry["checks"][CONVERGED] else "no", model)
+    if own.get("approach_why"):
+        yield Statement("no approach", own["approach_why"], model)
+
+
+def _depth(old: Mapping, model: str, n: int, stress: Mapping) -> float:
+    """Below the boundary, where the comparison has it; else below the mean line."""
+    compared = old["comparison"].get("tau1_max_depth")
+    return compared[n][model] if compared else stress["tau1_max_at"][1]
+
+
+def _convergence(entry: Mapping, model: str, value: float, scale: float) -> Convergence | None:
+    known = entry.get("numerical", {}).get(model)
+    if known is None:
+        return None
+    names = ("formal_order", "order", "safety_factor")
+    left = _number(known["discretisation"]) * scale
+    behaviour = known["convergence"]
+    more = {name: known[name] for name in names}
+    return Convergence(value, known["limit"], left, behaviour=behaviour, **more)
+
+
+def _comparison(old: Mapping) -> Items:
+    for name, rows in old["comparison"].items():
+        for row in rows:
+            tolerance, value = row["tolerance"], row["finite_element"]
+            yield Figure(
+                *(comparison.NAME, name, "half_plane", row["difference"]),
+                at={"friction": row["friction"]},
+                against="finite_element",
+                scale=abs(value or 0.0) or 1.0,
+                uncertainty=Uncertainty({"numerical": _number(row["uncertainty"])}),
+                bounds=None if tolerance is None else (-tolerance, tolerance),
+            )
+
+
+def _coupling(old: Mapping) -> Items:
+    a = old["hertz"]["half_width"]
+    for _, _, entry, at in _entries(
+        {"models": {"half_plane": old["models"].get("half_plane", [])}}
+    ):
+        changes, known = entry["normal_tangential_coupling"], entry["uncertainty"]
+        if changes is None:
+            continue
+        stated = {name: _stated(parts) for name, parts in known.items()}
+        worst = max(stated.values(), key=lambda u: u.total)
+        yield Statement(CONVERGED, "yes" if changes[CONVERGED] else "no", "half_plane", at)
+        for name, change in changes.items():
+            if not isinstance(change, dict) or "difference" not in change:
+                continue
+            sure = stated.get("contact_length" if name == coupling.SHIFT else name, worst)
+            scale = a if name == coupling.SHIFT else abs(change["value"] or 0.0) or 1.0
+            for value, against in ((change["value"], None), (change["difference"], "uncoupled")):
+                if value is not None:
+                    key = coupling.NAME, name, "half_plane", value, at, against, scale, sure
+                    yield Figure(*key)
+
+
+def _model_error(old: Mapping) -> Items:
+    budget = old["error_budget"] or {}
+    for name, rows in old["model_error"].items():
+        inputs = {e["friction"]: e["input"] for e in budget["quantities"][name]}
+        for row in rows:
+            at, tolerance = {"friction": row["friction"]}, row["tolerance"]
+            parts = [
+                Part(n, e["value"], _number(e["uncertainty"]), e["moves_maximum"])
+                for n, e in row["effects"].items()
+            ]
+            parts += [Part(account.INTERACTION, row["interaction"]), Part("jump", row["jump"])]
+            if inputs[row["friction"]] is not None:
+                parts.append(Part(account.INPUTS, inputs[row["friction"]]))
+            yield Figure(
+                *(MODEL_ERROR, name, "half_plane", row["value"], at, "whole"),
+                uncertainty=Uncertainty({"numerical": _number(row["uncertainty"])}),
+                unknown=row["not_modelled"],
+                bounds=None if tolerance is None else (-tolerance, tolerance),
+                parts=tuple(parts),
+                place=row["maximum_moves"] and tuple(row["maximum_moves"]),
+            )
+            moved = {
+                f"pressure_{key}": row[key]
+                for key in ("shift", "stretch", "mean_shift")
+                if key in row
+            }
+            moved |= {account.LEFT: row["value_after_shift"]} if moved else {}
+            yield from figures_of(MODEL_ERROR, "half_plane", moved, ITSELF, at)
+    if budget:
+        yield from _budget(budget)
+
+
+def _budget(budget: Mapping) -> Items:
+    effects = budget["effects"]
+    columns = {"effect": Column(tuple(effects))}
+    for name in ("status", "because"):
+        columns[name] = Column(tuple(each[name] for each in effects.values()))
+    for quantity in QUANTITIES:
+        sizes = ((each["estimate"] or {}).get(quantity) for each in effects.values())
+        columns[quantity] = Column(tuple(sizes))
+    yield Series("effects", columns, is_account=True)
+    cost = {"levels": Column((budget["levels"],)), "seconds": Column((budget["cost"]["seconds"],))}
+    yield Series("cost", cost, "whole", is_account=True)
+    for name, key in (("not split", "unsplit"), ("left out", "left_out")):
+        if budget[key] is not None:
+            yield Statement(name, budget[key])
+
+
+def _problem(old: Mapping) -> Items:
+    yield from figures_of(problem.NAME, problem.HERTZ, old["hertz"])
+    yield from figures_of(problem.NAME, problem.SCENE, old["groups"])
+    if old["profile"]:
+        surface = old["profile"]
+        filters = {name: surface[name] for name in ("cutoff", "short_cutoff")}
+        yield from figures_of(problem.NAME, problem.PRESSED, surface["pressed"] | filters)
+        yield from figures_of(problem.NAME, problem.STANDARD, surface["standard"] or {})
+    yield from (Statement("assumed", text) for text in old["validity"]["assumes"])
+    yield from (Statement("skipped", s["because"], s["step"]) for s in old["skipped"])
+    yield Statement("refinement", old["refinement"])
+
+
+def _running_in(old: Mapping) -> Items:
+    account_of = old["running_in"]
+    if account_of is None:
+        return
+    names = [name for name in running_in.QUANTITIES if name in account_of]
+    values = {name: account_of[name] for name in names}
+    yield from figures_of(running_in.NAME, "half_plane", values)
+    for source in (running_in.BEFORE, running_in.AFTER):
+        yield from figures_of(running_in.NAME, source, account_of[f"roughness_{source}"])
+    yield Series("passes", {"volume": Column(tuple(account_of["volume_by_pass"]), "m^2")})
+    yield Statement(CONVERGED, "yes" if account_of[CONVERGED] else "no")
+
+
+def _checks(old: Mapping) -> Items:
+    sure = Uncertainty({"iteration": checks.KKT_TOLERANCE})
+    for model, n, entry, _ in _entries(old):
+        for name in checks.QUANTITIES if n == 0 else ():
+            yield Figure(checks.NAME, name, model, entry["checks"][name], uncertainty=sure)
+
+
+def _scatter(old: Mapping) -> Items:
+    counts = old["scatter_samples"]
+    for name, rows in (old["scatter"] or {}).items():
+        for row in rows:
+            spread = row["mean"], row["standard_deviation"], tuple(row["interval"]), row["shares"]
+            scale = abs(row["nominal"]) or 1.0
+            error = (
+                row["standard_deviation"] / max(1, counts["solutions"] - counts["failed"]) ** 0.5
+            )
+            yield Figure(
+                *(scatter.NAME, name, "half_plane", row["nominal"]),
+                at={"friction": row["friction"]},
+                scale=scale,
+                uncertainty=Uncertainty({"sampling": error / scale}),
+                spread=SampleSpread(*spread),
+            )
+
+
+def _yield(old: Mapping) -> Items:
+    known = old["yield"]
+    source = "half_plane" if "half_plane" in old["models"] else MODELS[1]
+    yield from figures_of(
+        flow.NAME, "scene", {name: known[name] for name in flow.QUANTITIES if name in known}
+    )
+    yield Statement("flow", known["flow"])
+    if known["beyond_doubt"]:
+        yield Statement(flow.BEYOND_DOUBT, known["beyond_doubt"], source)
+    for n, entry in enumerate(known["by_friction"]):
+        at = {"friction": entry["friction"]}
+        stated = old["models"][source][n]["uncertainty"]
+        sure = _stated(stated["tau1_max" if entry["from"] == flow.FIELD else "peak_pressure"])
+        values = {name: entry[name] for name in flow.QUANTITIES if name in entry}
+        limit = {"shakedown_limit": values.pop("shakedown_limit")}
+        yield from figures_of(flow.NAME, source, values, sure, at)
+        yield from figures_of(flow.NAME, "scene", limit, None, at)
+
+
+def _zones(old: Mapping) -> Items:
+    zones = old.get("quiescent_zone") or {}
+    if "why" in zones:
+        yield Statement(WHY_NOT, zones["why"])
+        return
+    for model, entries in zones.items():
+        for entry in entries:
+            at = {"friction": entry["friction"]}
+            for name in zone.QUANTITIES:
+                value, size = entry[name]["value"], entry[name]["uncertainty"]
+                stated = _number(size) / (abs(value or 0.0) or 1.0)
+                sure = Uncertainty({"numerical": stated})
+                yield from figures_of(zone.NAME, model, {name: value}, sure, at)
+            yield Statement(zone.STATE, entry["status"], model, at)
+            rows = [row | {"state": row["status"]} for row in entry["asperities"]]
+            units = {"x": "m", "length": "m", "level": "", "state": ""}
+            columns = {n: Column(tuple(row[n] for row in rows), u) for n, u in units.items()}
+            yield Series(zone.ASPERITIES, columns, model, at)
+
+
+def _bulges(old: Mapping) -> Items:
+    known = old.get("bulge")
+    if known is not None and known["why"] is not None:
+        yield Statement(WHY_NOT, known["why"])
+    own = {"height": "uncertainty", "half_plane": "uncertainty", "end": "end_uncertainty"}
+    own |= {"energy": "energy_uncertainty"}
+    for entry in (known or {}).get("by_friction", ()):
+        at = {"friction": entry["friction"]}
+        for name in bulge.QUANTITIES:
+            values = {bulge.MODEL: entry[name]}
+            if name == "energy_ahead":
+                values = entry[name]
+            for source, value in values.items():
+                size = _number(entry[own[name]]) if name in own else inf
+                sure = Uncertainty({"numerical": size / (abs(value or 0.0) or 1.0)})
+                yield from figures_of(bulge.NAME, source, {name: value}, sure, at)
+        size = (_number(entry["uncertainty"]),) * len(entry["rise"])
+        curve = {
+            "distance": Column(tuple(entry["distance"]), "m"),
+            "rise": Column(tuple(entry["rise"]), "m", size),
+        }
+        yield Series(bulge.CURVE, curve, bulge.MODEL, at)
+        if patches := entry["patches"]:
+            names = [n for n in patches[0] if n not in ("uncertainty", "end_uncertainty")]
+            sizes = tuple(_number(row["uncertainty"]) for row in patches)
+            columns = {
+                name: Column(
+                    tuple(r[name] for r in patches), "", sizes if name == "height" else None
+                )
+                for name in names
+            }
+            yield Series(bulge.PATCHES, columns, bulge.MODEL, at)
+
+
+def _statistics(old: Mapping) -> Items:
+    known = old.get("statistics")
+    if known is None:
+        return
+    for name, rows in {"summits": known["summits"], "loads": known["loads"]}.items():
+        flat = [
+            statistics.flat(
+                {k: v for k, v in row.items() if k not in ("grid", "scatter", "uncertainty")}
+            )
+            for row in rows
+        ]
+        yield Series(name, statistics.columns_of(flat, {}))
+    for model, patches in known["patches"].items():
+        yield Series(
+            "patches", statistics.columns_of(list(map(statistics.flat, patches)), {}), model
+        )
+
+
+def _answers(old: Mapping) -> Items:
+    for answer, content in old.get("answers", {}).items():
+        for name, rows in content["comparison"].items():
+            for row in rows:
+                own, total = row["own_uncertainty"], _number(row["uncertainty"])
+                stated = total if own is None else total - own
+                of_row = answers.AnswerRow(
+                    *(name, row["friction"], row["answer"], row["reference"], row["difference"]),
+                    *(stated, 0.0, own, row["tolerance"]),
+                )
+                yield from of_row.figures(answer, content["reference"])
+        yield from figures_of(answers.NAME, answer, {"load_balance": content["balance"]}, ITSELF)
+        yield from figures_of(answers.NAME, answer, {"spacing": content["spacing"]})
+
+
+def _heat(old: Mapping) -> Items:
+    known = old.get("heat")
+    if known is None:
+        return
+    at = {"friction": known["friction"]}
+    for name, number in known["peclet"].items():
+        yield from figures_of(heat.NAME, name, {"peclet_number": number}, None, at)
+    for row in known["figures"].values():
+        size = abs(list((row["elastic"] or row["values"]).values())[-1]) or 1.0
+        of_row = heat.HeatFigure(**_heat_row(row, max(size, abs(list(row["values"].values())[-1]))))
+        yield from heat.figures_of_row(of_row, at, {})
+    for rule, values in known["rules"].items():
+        yield from figures_of(heat.NAME, rule, values, None, at)
+    yield from (Statement("the finite elements have", text) for text in known["contains"])
+
+
+def _heat_row(row: Mapping, scale: float) -> dict:
+    return {name: value for name, value in row.items() if name != "verdict"} | {"scale": scale}
+
+
+def kinds_of_schema_2() -> dict[str, object]:
+    """What makes the dataclasses of an old report.npz that have changed since."""
+    return {
+        "Uncertainty": numerical,
+        "Column": ComplianceColumn,
+        "PairHistory": SimpleNamespace,
+        "Comparison": SimpleNamespace,
+        "HeatFigure": lambda **row: heat.HeatFigure(**_heat_row(row, 1.0)),
+        "AnswerRow": lambda **row: answers.AnswerRow(
+            **{n: v for n, v in row.items() if n not in ("uncertainty", "verdict")},
+            model=_number(row["uncertainty"]),
+            reading=0.0,
+        ),
+    }
+
+
+def parts_of_schema_2(old: Mapping) -> tuple[dict, dict[str, object], Mapping[str, Findings]]:
+    """Of an old outcome: the parts of a Solved, the data of its studies, and the figures that only
+    its levels show."""
+    solved = {name: old[name] for name in ("problem", "plan", "window", "runs")}
+    data = {
+        coupling.NAME: Couplings(old["couplings"]),
+        MODEL_ERROR: old["budget"],
+        scatter.NAME: old["scatter"],
+        statistics.NAME: old["statistics"],
+        answers.NAME: ComparedAnswers(old["answers"]) if old["answers"] else None,
+        heat.NAME: old["heat"],
+    }
+    posed = Solved(**solved)
+    data[flow.NAME] = flow.flow_assessment(posed.problem, posed.runs)
+    figures = tuple(
+        replace(
+            Figure(comparison.NAME, name, "half_plane", pair.differences[-1][name]),
+            at={"friction": pair.friction},
+            against="finite_element",
+            uncertainty=stated,
+            levels=tuple(level[name] for level in pair.differences),
+        )
+        for pair in old["pairs"]
+        for name, stated in pair.uncertainties.items()
+    )
+    return (
+        solved,
+        data,
+        {comparison.NAME: Findings(figures), contact.NAME: contact.solve(posed, {}, None)},
+    )

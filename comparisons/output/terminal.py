@@ -1,0 +1,213 @@
+"""The short table of a run for the terminal: figures, verdict, where the files are, time."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.errors import one_line
+from comparisons.common.numbers import significant, with_unit
+from comparisons.figures.quantity import LABELS, QUANTITIES
+from comparisons.output.headline import headline
+from comparisons.output.page.pictures.running_in import area
+from comparisons.output.page.tables.answers import answer_facts, answer_rows, compared_answers
+from comparisons.output.page.tables.comparison import comparison_rows, coupling_line, figure_rows
+from comparisons.output.page.tables.heat import heat_lines
+from comparisons.output.page.tables.model_error import model_error_rows, not_modelled_line
+from comparisons.output.page.tables.problem import in_mm
+from comparisons.output.page.tables.scatter import scatter_lines
+from comparisons.output.page.tables.statistics import statistics_lines
+from comparisons.scenes.scene import ProfileInfo
+from comparisons.studies import STUDIES, yielding
+from comparisons.studies.answers.answer import ComparedAnswer
+from comparisons.studies.study import MODEL_ERROR, Run
+from comparisons.studies.yielding import FlowAssessment
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.table import Table
+    from rich.text import Text
+
+SHORT = {name: quantity.short for name, quantity in QUANTITIES.items()}
+STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
+STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
+LISTED = 2  # effects in the terminal; the report has them all
+ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
+# Any terminal shows these.
+PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
+PLAIN |= {ord("±"): "+-", ord("σ"): "s"}
+
+
+def summary(outcome: Run) -> "RenderableType":
+    """Table, verdict, files and times; readable at 80 columns and without colour."""
+    from rich.console import Group
+    from rich.text import Text
+
+    said = headline(outcome)
+    stamp = said.kind.upper(), STYLES.get(said.kind, "bold")
+    verdict = Text.assemble(stamp, f"  {said.sentence.translate(PLAIN)}")
+    title = Text(one_line(outcome.problem.scene.title), style="bold")
+    compares = outcome.plan.compares
+    tables = [_comparison(outcome)] if compares else [_figures(outcome)]
+    if compares and outcome.problem.scene.tolerance:
+        tables += ["", _model_errors(outcome)]
+    for answer in compared_answers(outcome):
+        tables += ["", *_answer(outcome, answer)]
+    return Group(title, "", *tables, "", verdict, "", _facts(outcome))
+
+
+def _comparison(outcome: Run) -> "Table":
+    table = plain_table(
+        "quantity",
+        numbers=("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"),
+    )
+    table.add_column("verdict", overflow="fold")
+    table.caption = "difference: (half-plane - finite elements) / finite elements"
+    rows = comparison_rows(outcome)
+    if any(row.verdict == "inconclusive" for row in rows):
+        table.padding = 0  # the longest verdict fits into 80 columns
+    for row in rows:
+        name, figures = f"{SHORT[row.quantity]}\n{row.note}", (row.half_plane, row.finite_element)
+        judged = row.difference, row.uncertainty, row.tolerance
+        cells = map(_cell, (name.strip(), row.friction, *figures, *judged))
+        table.add_row(*cells, _cell(row.verdict, STYLES.get(row.verdict, "")))
+    return table
+
+
+def _model_errors(outcome: Run) -> "Table":
+    """Of the half-plane in what is judged, and what it is made of."""
+    table = plain_table("quantity", numbers=("mu", "error\n%", "uncert.\n%", "tol.\n%"))
+    table.add_column("dominant\ncontributions, %", overflow="fold")
+    table.title = "model error of the half-plane"
+    table.caption = "minus: the half-plane's figure is too low"
+    for row in model_error_rows(outcome, judged=True):
+        name = f"{SHORT[row.quantity]}\n{row.note}".strip()
+        cells = (name, row.friction, row.error, row.uncertainty, row.tolerance)
+        largest = "\n".join(row.contributions[:LISTED]).replace(" %", "")
+        table.add_row(*map(_cell, cells), _cell(largest))
+    return table
+
+
+def _answer(outcome: Run, answer: ComparedAnswer) -> "list[RenderableType]":
+    """An answer from outside beside its reference, and what is to be said of it."""
+    from rich.text import Text
+
+    numbers = ("mu", answer.name, LABELS[answer.reference].replace(" ", "\n"))
+    table = plain_table("quantity", numbers=(*numbers, "differ.\n%", "uncert.\n%", "tol.\n%"))
+    table.add_column("verdict", overflow="fold")
+    table.title = f"{answer.name}, from outside"
+    for quantity, *cells, _, tolerance, verdict in answer_rows(outcome, answer):
+        styled = _cell(verdict, STYLES.get(verdict, ""))
+        table.add_row(SHORT[quantity], *map(_cell, cells), _cell(tolerance), styled)
+    lines = (f"{name}: {text}" for name, text in answer_facts(answer))
+    return [table, *(Text(line.translate(PLAIN)) for line in lines)]
+
+
+def _figures(outcome: Run) -> "Table":
+    table = plain_table("quantity", numbers=("mu", "value", "of Hertz", "uncert.\n%"))
+    for quantity, *cells in figure_rows(outcome):
+        table.add_row(SHORT[quantity], *map(_cell, cells))
+    return table
+
+
+def plain_table(*words: str, numbers: Iterable[str] = ()) -> "Table":
+    """An empty table with columns of words, and then of numbers."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        pad_edge=False,
+        show_edge=False,
+        title_justify="left",
+        title_style="default",
+        caption_justify="left",
+        caption_style="default",
+    )
+    # where a terminal is too narrow, cells break: cut short they would be other numbers
+    for column in words:
+        table.add_column(column, overflow="fold")
+    for column in numbers:
+        table.add_column(column, justify="right", overflow="fold")
+    return table
+
+
+def _cell(text: str, style: str = "") -> "Text":
+    from rich.text import Text
+
+    return Text(text.translate(PLAIN).replace("< ", "<").removesuffix(" %"), style=style)
+
+
+def surface_text(info: ProfileInfo, run_in: bool = False) -> str:
+    """Roughness as pressed, and what a drawing would say of the trace, before it was run in."""
+    text = f"Ra {with_unit(info.roughness.ra, 'm', 3)} as pressed"
+    if info.standard is not None:
+        ra, cutoff = with_unit(info.standard.ra, "m", 3), in_mm(info.standard.cutoff)
+        text += f", {'before running-in ' if run_in else ''}{ra} at the cut-off {cutoff}"
+    return text
+
+
+def run_in_text(outcome: Run) -> str:
+    """How the surface was run in, whether it settled, and whether that held."""
+    run_in = outcome.problem.scene.run_in
+    text = f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
+    text += "settled" if run_in.status == "settled" else "not settled"
+    text += "" if run_in.converged else ", not converged"
+    # features finer than running-in resolved may be pressed harder than it allowed
+    hardness = run_in.constraints.hardness
+    peak = max(np.max(run.finest.solution.pressure) for run in outcome.runs.values())
+    if peak > ABOVE * hardness:
+        text += f"; pressed afterwards by up to {peak / hardness:.2f} times its hardness"
+    return text
+
+
+def yield_text(flow: FlowAssessment) -> str:
+    """Shakedown and, of a rough body, its plasticity, at the largest shear."""
+    worst = flow.worst
+    pressure = significant(2.0 * worst.peak / flow.yield_stress, 3)
+    text = f"peak pressure {pressure} k, elastic shakedown up to {worst.shakedown:.3g} k"
+    indices = {"summits": flow.summit_index, "slope": flow.slope_index}
+    known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
+    return f"{text}; plasticity index {', '.join(known)}" if known else text
+
+
+def _facts(outcome: Run) -> "Table":
+    from rich.table import Table
+    from rich.text import Text
+
+    scene, rows = outcome.problem.scene, []
+    if scene.profile_info is not None:
+        surface = surface_text(scene.profile_info, run_in=scene.run_in is not None)
+        rows.append(("surface", surface))
+    if scene.run_in is not None:
+        rows.append(("run in", run_in_text(outcome)))
+    if outcome.plan.compares:
+        rows.append(("not modelled", not_modelled_line(outcome)))
+        moves = [row for row in model_error_rows(outcome, judged=True) if row.moved]
+        said = (f"{SHORT[row.quantity]}, friction {row.friction}: {row.moved}" for row in moves)
+        rows += [("another asperity", line) for line in said]
+    rows += [("inputs", line) for line in scatter_lines(outcome)]
+    rows += statistics_lines(outcome)
+    if (moved := coupling_line(outcome)) is not None:
+        rows.append(("coupling", moved))
+    rows += [
+        line for study in STUDIES if study.name in outcome.found for line in study.lines(outcome)
+    ]
+    rows += [("heat", line) for line in heat_lines(outcome)]
+    if (flow := outcome.data(yielding.NAME)).ratio is not None:
+        rows.append(("yield", yield_text(flow)))
+    seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
+    times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())
+    budget = outcome.data(MODEL_ERROR)
+    if budget is not None and budget.seconds:
+        times += f", error budget {with_unit(budget.seconds, 's', 3)} summed over cores"
+    facts = Table.grid(padding=(0, 2))
+    facts.add_column(no_wrap=True)
+    facts.add_column(overflow="fold")
+    for name, text in [*rows, ("time", times)]:
+        facts.add_row(name, Text(text.translate(PLAIN).replace(" %", "%")))
+    if outcome.directory is not None:
+        for name, file in (("report", "report.html"), ("figures", "result.json")):
+            facts.add_row(name, Text(str(outcome.directory / file)))
+    return facts

@@ -1,0 +1,125 @@
+"""The half-plane's model error as figures, and what became of every effect.
+
+In: an error budget. Out: a figure a quantity and friction coefficient, judged where it has a
+tolerance, with its parts; the effects' account; how far peaks lie beside each other."""
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from comparisons.figures.figure import (
+    Column,
+    Figure,
+    Findings,
+    Part,
+    Series,
+    Statement,
+    figures_of,
+)
+from comparisons.figures.quantity import QUANTITIES as COMPARED
+from comparisons.figures.quantity import WHOLE, Quantity
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.problem import Problem
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
+from comparisons.studies.model_error.model_error import ModelError
+from comparisons.studies.model_error.selection import EffectSelection
+from comparisons.studies.model_error.sideways import sideways_shift
+
+if TYPE_CHECKING:
+    from comparisons.studies.model_error.error_budget import ErrorBudget
+
+NAME = "model_error"
+INTERACTION, JUMP, INPUTS = "interaction", "jump", "inputs"  # parts beside the effects
+LEFT = "pressure_l2_after_shift"
+QUANTITIES = COMPARED | {
+    "pressure_shift": Quantity("shift of the peaks at x = 0", "m"),
+    "pressure_stretch": Quantity("further shift of the peaks by x"),
+    "pressure_mean_shift": Quantity("mean shift of the peaks", "m"),
+    LEFT: Quantity("pressures' difference with peaks moved", of_pair=True),
+}
+
+
+def figure_of(
+    error: ModelError,
+    selection: EffectSelection,
+    tolerance: Mapping[str, float],
+    sampling: Mapping[float, Mapping[str, float]] | None = None,
+) -> Figure:
+    """A model error, relative to the whole model; `sampling` is what half the samples of the trace
+    change, by friction coefficient and quantity."""
+    parts = [Part(n, e.value, e.uncertainty, e.moves_maximum) for n, e in error.effects.items()]
+    parts += [Part(INTERACTION, error.interaction), Part(JUMP, error.jump)]
+    inputs = (sampling or {}).get(error.friction, {}).get(error.quantity)
+    bound = tolerance.get(error.quantity)
+    return Figure(
+        study=NAME,
+        quantity=error.quantity,
+        source="half_plane",
+        value=error.value,
+        at={"friction": error.friction},
+        against=WHOLE,
+        scale=error.scale,
+        uncertainty=Uncertainty({"numerical": error.uncertainty}),
+        unknown=selection.not_modelled(error.quantity),
+        bounds=None if bound is None else (-bound, bound),
+        parts=(*parts, *([] if inputs is None else [Part(INPUTS, inputs)])),
+        place=error.moved,
+    )
+
+
+def findings_of(budget: "ErrorBudget", problem: Problem, runs: Mapping[str, ModelRun]) -> Findings:
+    """Of a finished comparison."""
+    figures = budget.figures(problem.scene.tolerance)
+    for friction in problem.scene.friction:
+        figures += _sideways(runs, budget.wholes.get(friction), friction)
+    account = {name: effect_account(name, budget.selection) for name in EFFECTS}
+    columns = {
+        "effect": Column(tuple(account)),
+        "status": Column(tuple(status for status, _ in account.values())),
+        "because": Column(tuple(why for _, why in account.values())),
+    }
+    for quantity in COMPARED:
+        sizes = (budget.selection.estimates.get(name, {}).get(quantity) for name in EFFECTS)
+        columns[quantity] = Column(tuple(sizes))
+    cost = {"levels": Column((budget.levels,)), "seconds": Column((budget.seconds,), "s")}
+    series = (
+        Series("effects", columns, is_account=True),
+        Series("cost", cost, WHOLE, is_account=True),
+    )
+    said = {"not split": budget.unsplit, "left out": budget.left_out}
+    statements = tuple(Statement(name, text) for name, text in said.items() if text is not None)
+    return Findings(tuple(figures), series, statements, budget)
+
+
+def _sideways(
+    runs: Mapping[str, ModelRun], whole: Level | None, friction: float
+) -> Iterator[Figure]:
+    """How far the whole model's peaks lie beside the half-plane's, and what else they differ by."""
+    other = runs["finite_element"].finest if whole is None else whole
+    own = runs["half_plane"].beside(other).solution.pressure
+    found = sideways_shift(other.grid, own, other.solution.pressure)
+    values = {
+        "pressure_shift": found.shift,
+        "pressure_stretch": found.stretch,
+        "pressure_mean_shift": found.mean,
+        LEFT: found.left,
+    }
+    itself = Uncertainty({"itself": 1.0})  # a difference is as sure as its order of size
+    return iter(figures_of(NAME, "half_plane", values, itself, {"friction": friction}))
+
+
+def effect_account(name: str, selection: EffectSelection) -> tuple[str, str]:
+    """What became of an effect, and why."""
+    if name in selection.contained:
+        return "contained", "the scene's own finite elements have it"
+    if name in selection.added:
+        return "computed", "its estimate exceeds a tenth of a tolerance"
+    if name in selection.impossible:
+        return "not computed", selection.impossible[name]
+    if name in selection.negligible:
+        return "negligible", "its estimate is below a tenth of every tolerance"
+    if name == COUPLED and name in selection.estimates:  # with friction, it cannot be without
+        return "contained", f"it is a part of {EFFECTS['finite_strain'].label}"
+    if name in KINEMATIC:
+        return "does not apply", f"it counts in {EFFECTS['finite_strain'].label}"
+    return "does not apply", "it does not apply, or has no size"

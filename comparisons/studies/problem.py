@@ -1,0 +1,116 @@
+"""What was asked: the smooth contact under the same load, the scene's groups, surface and plan.
+
+In: a problem, its plan, and how far each model is known. Out: figures that need no solution, or of
+which it is a part; what was skipped and assumed, in words; the levels that were planned."""
+
+from collections.abc import Mapping
+from dataclasses import asdict
+
+from comparisons.figures.figure import Column, Figure, Findings, Series, Statement, figures_of
+from comparisons.figures.quantity import Quantity
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.forecast import forecast
+from comparisons.models.problem import Problem
+from comparisons.studies import contact
+from comparisons.studies.study import Solved, Study
+
+NAME = "problem"
+HERTZ, SCENE, PRESSED, STANDARD = "hertz", "scene", "as pressed", "standard"  # sources
+QUANTITIES = {
+    "half_width": Quantity("half-width of the smooth contact", "m"),
+    "peak_pressure": Quantity("peak pressure of the smooth contact", "Pa"),
+    "reduced_modulus": Quantity("combined modulus", "Pa"),
+    "tau1_max": Quantity("largest τ₁ of the smooth contact", "Pa"),
+    "tau1_max_depth": Quantity("its depth", "m"),
+    "a_over_thickness": Quantity("half-width over thickness, a/t"),
+    "a_over_radius": Quantity("half-width over radius, a/R"),
+    "a_over_width": Quantity("half-width over width, a/w"),
+    "rms_slope": Quantity("rms slope"),
+    "max_slope": Quantity("largest slope"),
+    "friction_dundurs": Quantity("friction times Dundurs' β, µβ"),
+    "peak_pressure_over_hardness": Quantity("peak pressure over hardness, p/H"),
+    **{name: Quantity(name.capitalize(), "m") for name in ("ra", "rq", "rt", "rz", "rsm")},
+    **{name: Quantity(name.capitalize()) for name in ("rsk", "rku", "rdq", "sections")},
+    "mean": Quantity("mean height", "m"),
+    "cutoff": Quantity("cut-off λc", "m"),
+    "short_cutoff": Quantity("cut-off λs", "m"),
+    "start": Quantity("start of the first section length", "m"),
+}
+GROUPS = tuple(QUANTITIES)[5:12]
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+    """`before` has the models' figures: a load that they find is as uncertain as they are."""
+    problem, hertz = solved.problem, solved.problem.hertz
+    known = before[contact.NAME].figures
+    unsure = _largest(known) if problem.scene.load.kind == "approach" else None
+    smooth = {
+        "half_width": hertz.half_width,
+        "peak_pressure": hertz.peak_pressure,
+        "reduced_modulus": hertz.combined_modulus,
+        "tau1_max": hertz.tau1_max,
+        "tau1_max_depth": hertz.tau1_max_depth,
+    }
+    figures = figures_of(NAME, HERTZ, smooth, unsure)
+    figures += figures_of(NAME, SCENE, _groups(problem), unsure)
+    if problem.scene.hardness is not None:
+        peaks = [f for f in known if f.quantity == "peak_pressure"]
+        over = {"peak_pressure_over_hardness": max(f.value for f in peaks) / problem.scene.hardness}
+        figures += figures_of(NAME, SCENE, over, _largest(peaks))
+    figures += _surface(problem)
+    return Findings(tuple(figures), (_planned(solved),), tuple(_statements(solved)))
+
+
+def _largest(figures: tuple[Figure, ...] | list[Figure]) -> Uncertainty:
+    """The largest uncertainty of any of these."""
+    worst = max((f for f in figures if f.levels), key=lambda f: f.numerical)
+    return Uncertainty(worst.uncertainty.parts)
+
+
+def _groups(problem: Problem) -> dict[str, float | None]:
+    scene, half_width = problem.scene, problem.hertz.half_width
+    roughness = None if scene.profile_info is None else scene.profile_info.roughness
+    return {
+        "a_over_thickness": None if scene.thickness is None else half_width / scene.thickness,
+        "a_over_radius": half_width / scene.roller_radius,
+        "a_over_width": None if scene.width is None else half_width / scene.width,
+        "rms_slope": None if roughness is None else roughness.rms_slope,
+        "max_slope": None if roughness is None else roughness.max_slope,
+        "friction_dundurs": max(scene.friction) * problem.dundurs_beta,
+    }
+
+
+def _surface(problem: Problem) -> list[Figure]:
+    """The surface's figures, as pressed and by the standard."""
+    info = problem.scene.profile_info
+    if info is None:
+        return []
+    filters = {"cutoff": info.cutoff, "short_cutoff": info.short_cutoff}
+    figures = figures_of(NAME, PRESSED, asdict(info.roughness) | filters)
+    if info.standard is not None:
+        figures += figures_of(NAME, STANDARD, asdict(info.standard))
+    return figures
+
+
+def _planned(solved: Solved) -> Series:
+    levels = [asdict(level) for level in forecast(solved.problem, solved.plan).levels]
+    units = {"pitch": "m", "seconds": "s", "memory": "byte"}
+    columns = {
+        name: Column(tuple(level[name] for level in levels), units.get(name, ""))
+        for name in levels[0]
+    }
+    return Series("planned levels", columns, is_account=True)
+
+
+def _statements(solved: Solved) -> list[Statement]:
+    """What was assumed and skipped, why refinement stopped, why there are no standard figures."""
+    plan, info = solved.plan, solved.problem.scene.profile_info
+    said = [Statement("assumed", text) for text in plan.assumptions]
+    said += [Statement("skipped", each.because, each.step) for each in plan.skipped]
+    said.append(Statement("refinement", solved.refinement))
+    if info is not None and info.standard_why is not None:
+        said.append(Statement("no standard parameters", info.standard_why, STANDARD))
+    return said
+
+
+STUDY = Study(NAME, QUANTITIES, solve)

@@ -1,0 +1,199 @@
+"""A study: one question to one solved scene, and all that becomes of its answer.
+
+In: a solved scene, and what earlier studies found. Out: figures, series and statements, and how the
+page and the terminal show them. A new study is a module with a STUDY, which is named in
+`comparisons.studies.STUDIES`: it appears in result.json, tables, JUnit, page and rerun by itself.
+Its physics is imported inside `solve`, so that reading a scene stays fast."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.common.errors import ExitStatus
+from comparisons.figures.figure import FAILED, Figures, Findings, Statement
+from comparisons.figures.quantity import WHOLE, Quantity
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window, window_of
+
+if TYPE_CHECKING:
+    from comparisons.common.tasks import Opens, Tasks
+    from comparisons.studies.answers.answer import Answer
+
+# Names of statements: why a study was not done, and whether a solution converged, "yes" or "no".
+WHY_NOT, CONVERGED = "not done", "converged"
+MODEL_ERROR = "model_error"  # the study that judges the half-plane
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A scene as far as it is solved."""
+
+    problem: Problem
+    plan: Plan
+    window: Window | None  # points of the common field, None without [stress]
+    runs: Mapping[str, ModelRun]  # by model; empty before anything is solved
+    refinement: str = ""  # why it stopped
+    # from outside, read before, each on its resolutions; None: the scene's files are read
+    answers: "Mapping[str, tuple[Answer, ...]] | None" = None
+    opens: "Opens | None" = None  # workers for samples; None: those of the run's tasks
+
+
+def unsolved(problem: Problem, plan: Plan) -> Solved:
+    """A scene of which nothing is solved yet."""
+    return Solved(problem, plan, window_of(problem) if plan.stress else None, {})
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run: all that its files, tables and page are made of."""
+
+    solved: Solved
+    found: Mapping[str, Findings]  # by the study's name, in the order in which they are shown
+    record: dict  # the content of record.json
+    directory: Path | None  # where the files are, None for a run without files
+
+    @property
+    def problem(self) -> Problem:
+        return self.solved.problem
+
+    @property
+    def plan(self) -> Plan:
+        return self.solved.plan
+
+    @property
+    def window(self) -> Window | None:
+        return self.solved.window
+
+    @property
+    def runs(self) -> Mapping[str, ModelRun]:
+        return self.solved.runs
+
+    @cached_property
+    def figures(self) -> Figures:
+        """Every number that is a result."""
+        return Figures(figure for found in self.found.values() for figure in found.figures)
+
+    @cached_property
+    def judged(self) -> Figures:
+        return Figures(figure for figure in self.figures if figure.bounds is not None)
+
+    @cached_property
+    def model_errors(self) -> Figures:
+        """The half-plane's, those that are judged."""
+        return self.judged.of(study=MODEL_ERROR)
+
+    def data(self, study: str) -> object | None:
+        """What the pictures of a study are drawn from; None where the run has not done it."""
+        return self.found[study].data if study in self.found else None
+
+    @property
+    def converged(self) -> bool:
+        """Whether every solution met its contact conditions, and running-in did."""
+        said = (each for found in self.found.values() for each in found.statements)
+        return all(each.text == "yes" for each in said if each.name == CONVERGED)
+
+    def levels(self, friction: float) -> dict[str, Level]:
+        """The finest level of every model at a friction coefficient, last of the whole model where
+        it is not the scene's own finite elements."""
+        finest = {name: run.finest for name, run in self.runs.items()}
+        budget, own = self.data(MODEL_ERROR), self.runs.get("finite_element")
+        whole = None if budget is None else budget.wholes.get(friction)
+        if whole is not None and all(whole is not level for level in own.levels):
+            finest[WHOLE] = whole
+        return finest
+
+    def pair(self, friction: float) -> dict[str, Level]:
+        """The half-plane and the last of `levels` on the same elements, or the only model."""
+        name, last = list(self.levels(friction).items())[-1]
+        first = next(iter(self.runs.values()))
+        return {first.name: first.beside(last), name: last}
+
+    @property
+    def deciding_friction(self) -> float:
+        """The coefficient at which a judged model error exceeds its tolerance most, or comes
+        nearest to it; the last one without any."""
+        worst = max(self.model_errors, key=lambda f: abs(f.value) / f.tolerance, default=None)
+        return self.problem.scene.friction[-1] if worst is None else worst.friction
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        """3: a solver did not converge; 1: a judged figure differs or fails; 4: none does, but one
+        is inconclusive; else 0."""
+        if not self.converged:
+            return ExitStatus.NOT_CONVERGED
+        verdicts = {figure.verdict for figure in self.judged}
+        if verdicts & set(FAILED):
+            return ExitStatus.OUTSIDE_TOLERANCE
+        return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
+
+
+@dataclass(frozen=True)
+class TextTable:
+    """Text cells by row; the first column names the row."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A part of the page: a heading, tables, and how to read them."""
+
+    heading: str
+    tables: tuple[TextTable, ...]
+    note: str
+    within: str  # id of the section of the page that it belongs to
+    pictures: tuple[str, ...] = ()  # names of the study's `pictures` that stand above the tables
+
+
+def _always(solved: Solved) -> bool:
+    return True
+
+
+def _nothing(*_: object) -> None:
+    return None
+
+
+def _empty(run: Run) -> list:
+    return []
+
+
+@dataclass(frozen=True)
+class Study:
+    """One question, by the functions that answer it."""
+
+    name: str  # of its figures
+    quantities: Mapping[str, Quantity]
+    # what it finds; the second argument holds the findings of earlier studies by name
+    solve: "Callable[[Solved, Mapping[str, Findings], Tasks], Findings]"
+    # whether the scene asks for it; before anything is solved, as the next two
+    applies: Callable[[Solved], bool] = _always
+    needs: Callable[[Solved], str | None] = _nothing  # why it cannot be done, though asked for
+    # makes known to the tasks what `solve` will ask for; again once more is solved, and known tasks
+    # stay as they are
+    begin: "Callable[[Solved, Tasks], None]" = _nothing
+    blocks: Callable[[Run], list[Block]] = _empty  # its parts of the page
+    # what draws its pictures, by name; None where there is nothing to draw
+    pictures: Mapping[str, Callable[[Run], object]] = field(default_factory=dict)
+    data: type | None = None  # of its findings' `data`
+    # its lines of the terminal, each with its name
+    lines: Callable[[Run], list[tuple[str, str]]] = _empty
+
+
+def studied(
+    studies: tuple[Study, ...], solved: Solved, found: dict[str, Findings], tasks: "Tasks"
+) -> dict[str, Findings]:
+    """What earlier studies have `found`, and each of these in turn."""
+    for study in studies:
+        if study.applies(solved):
+            why = study.needs(solved)
+            if why is None:
+                found[study.name] = study.solve(solved, found, tasks)
+            else:
+                found[study.name] = Findings(statements=(Statement(WHY_NOT, why),))
+    return found

@@ -1,0 +1,179 @@
+"""A real browser without a window, spoken to over two pipes (its own DevTools protocol).
+
+Tests that ask for it are skipped where neither Chromium nor Chrome is installed.
+"""
+
+import fcntl
+import json
+import os
+import select
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from comparisons.output.page.pdf import browser as installed
+from comparisons.output.page.pdf import options
+from comparisons.studies.study import Run
+
+PATIENCE = 120.0  # s, for one answer
+# The browser reads its orders from the third file that it inherits, and answers on the fourth.
+START = """
+import os, sys
+reads, writes, *command = sys.argv[1:]
+os.dup2(int(reads), 3)
+os.dup2(int(writes), 4)
+os.execv(command[0], command)
+"""
+HIGH = 10  # files below are for the browser
+
+
+class Browser:
+    """A running browser."""
+
+    def __init__(self, program: str, profile: Path) -> None:
+        ends = [fcntl.fcntl(end, fcntl.F_DUPFD, HIGH) for end in (*os.pipe(), *os.pipe())]
+        reads, self._orders, self._answers, writes = ends
+        command = [program, *options(str(profile)), "--remote-debugging-pipe", "about:blank"]
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", START, str(reads), str(writes), *command],
+            pass_fds=(reads, writes),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(reads)
+        os.close(writes)
+        self._count, self._rest, self.events = 0, b"", []
+
+    def ask(self, method: str, session: str | None = None, **given: object) -> dict:
+        """What the browser answers to one order."""
+        self._count += 1
+        order = {"id": self._count, "method": method, "params": given}
+        order |= {"sessionId": session} if session else {}
+        os.write(self._orders, json.dumps(order).encode() + b"\0")
+        number = self._count
+        answer = self.wait(lambda message: message.get("id") == number)
+        assert "error" not in answer, (method, answer["error"])
+        return answer["result"]
+
+    def wait(self, wanted: Callable[[dict], bool]) -> dict:
+        """The next message that is wanted; all others are kept in `events`."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            while b"\0" not in self._rest:
+                ready, _, _ = select.select([self._answers], [], [], end - time.monotonic())
+                assert ready, "the browser does not answer"
+                self._rest += os.read(self._answers, 1 << 20)
+            text, _, self._rest = self._rest.partition(b"\0")
+            message = json.loads(text)
+            if wanted(message):
+                return message
+            self.events.append(message)
+
+    def close(self) -> None:
+        self.ask("Browser.close")
+        self._process.wait(PATIENCE)
+        os.close(self._orders)
+        os.close(self._answers)
+
+
+class Tab:
+    """A page in the browser, so many pixels wide; with `script` off its scripts do not run."""
+
+    def __init__(self, browser: Browser, page: Path, width: int, script: bool = True) -> None:
+        self._browser = browser
+        target = browser.ask("Target.createTarget", url="about:blank")["targetId"]
+        self._session = browser.ask("Target.attachToTarget", targetId=target, flatten=True)[
+            "sessionId"
+        ]
+        browser.events.clear()
+        for domain in ("Page", "Runtime", "Log"):
+            self.ask(f"{domain}.enable")
+        self.ask("Emulation.setScriptExecutionDisabled", value=not script)
+        self.resize(width)
+        self.ask("Page.navigate", url=page.resolve().as_uri())
+        browser.wait(lambda message: message.get("method") == "Page.loadEventFired")
+
+    def resize(self, width: int) -> None:
+        self.ask(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=900,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
+
+    def ask(self, method: str, **given: object) -> dict:
+        return self._browser.ask(method, self._session, **given)
+
+    def value(self, expression: str) -> object:
+        """Of JavaScript; waits for a promise."""
+        found = self.ask(
+            "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
+        )
+        assert "exceptionDetails" not in found, found["exceptionDetails"]
+        return found["result"].get("value")
+
+    def press(self, key: str, code: int, text: str = "") -> None:
+        named = {"key": key, "code": key, "windowsVirtualKeyCode": code}
+        self.ask("Input.dispatchKeyEvent", type="keyDown", text=text, **named)
+        self.ask("Input.dispatchKeyEvent", type="keyUp", **named)
+
+    def point(self, x: float, y: float) -> None:
+        self.ask("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+
+    def complaints(self) -> list[str]:
+        """What the browser's console holds against the page."""
+        found = []
+        for event in self._browser.events:
+            given = event.get("params", {})
+            if event.get("method") == "Runtime.exceptionThrown":
+                found.append(str(given["exceptionDetails"]))
+            if event.get("method") == "Log.entryAdded" and given["entry"]["level"] != "verbose":
+                found.append(given["entry"]["text"])
+            if event.get("method") == "Runtime.consoleAPICalled":
+                found.append(str(given["args"]))
+        return found
+
+    def close(self) -> None:
+        self.ask("Page.close")
+
+
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    program = installed()
+    if program is None:
+        pytest.skip("neither Chromium nor Chrome is installed")
+    running = Browser(program, tmp_path_factory.mktemp("browser"))
+    yield running
+    running.close()
+
+
+@pytest.fixture
+def tab(browser: Browser) -> Iterator[Callable[..., Tab]]:
+    """`tab(page, width, script=True)`: the page in the browser."""
+    opened: list[Tab] = []
+
+    def open_one(page: Path, width: int, script: bool = True) -> Tab:
+        opened.append(Tab(browser, page, width, script))
+        return opened[-1]
+
+    yield open_one
+    for each in opened:
+        each.close()
+
+
+@pytest.fixture(scope="session")
+def wavy_file(
+    wavy_outcome: Run,
+    rendered: Callable[[Run], str],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Path:
+    """The report of a rough run with two friction coefficients, as a file."""
+    page = tmp_path_factory.mktemp("wavy") / "report.html"
+    page.write_text(rendered(wavy_outcome), encoding="utf-8")
+    return page

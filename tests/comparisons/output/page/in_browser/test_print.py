@@ -1,0 +1,110 @@
+"""The report as a printer gets it: whole pages of A4, nothing cut, and the command that prints."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from unittest.mock import patch
+
+import pytest
+
+from comparisons.output.page.page import render
+from comparisons.output.page.pdf import NoPdfError, print_pdf, print_report
+from comparisons.studies.study import Run
+
+A4 = (594.96, 841.92)  # points, as a browser rounds them
+POINTS_TO_PIXELS = 96.0 / 72.0
+MARGIN = 10.0 / 25.4 * 96.0  # pixels to either side
+
+# What is wider than the paper or the box that would scroll it on a screen; what a page break cuts.
+CUT = """
+(() => {
+  const out = [];
+  for (const box of document.querySelectorAll(".scroll, td, th, figure, img, p, li")) {
+    if (!box.getClientRects().length || box.closest("#look")) continue;
+    if (box.getBoundingClientRect().right > innerWidth + 0.5) out.push(box.outerHTML);
+    if (box.clientWidth && box.scrollWidth > box.clientWidth + 1) out.push(box.outerHTML);
+  }
+  return out.map((text) => text.slice(0, 120));
+})()
+"""
+
+
+@pytest.fixture(scope="module")
+def levels_file(
+    finish: Callable[..., Run],
+    smooth_tables: dict,
+    no_pictures: Callable[[Run], dict],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Path:
+    """The words of the report of a run with as many levels as there are columns for."""
+    page = tmp_path_factory.mktemp("levels") / "report.html"
+    outcome = finish({**smooth_tables, "resolution": {"levels": 6}})
+    with patch("comparisons.output.page.page.draw", no_pictures):
+        page.write_text(render(outcome), encoding="utf-8")
+    return page
+
+
+@pytest.mark.parametrize("name", ["wavy_file", "levels_file"])
+def test_nothing_is_wider_than_the_paper(tab, request, name):
+    page = tab(request.getfixturevalue(name), 1280)
+    page.ask("Emulation.setEmulatedMedia", media="print")
+    page.ask("Emulation.setScrollbarsHidden", hidden=True)
+    page.resize(round(A4[0] * POINTS_TO_PIXELS - 2.0 * MARGIN))
+    assert page.value(CUT) == []
+    tallest = page.value(
+        "Math.max(...[...document.querySelectorAll('figure')].map((f) => f.offsetHeight))"
+    )
+    assert tallest < A4[1] * POINTS_TO_PIXELS - 100.0  # a figure that a page holds is not cut
+    shown = page.value(
+        "[...document.querySelectorAll('#look, .hint, .tip')].map((e) => e.offsetHeight)"
+    )
+    assert set(shown) == {0}
+
+
+def test_a_printed_report_has_pages_of_a4(browser, wavy_file):
+    printed = print_report(wavy_file.parent)
+    content = printed.read_bytes()
+    boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)
+    assert 5 <= len(boxes) <= 13
+    for box in boxes:
+        assert tuple(map(float, box)) == pytest.approx(A4, abs=0.5)
+    made = {path.name for path in wavy_file.parent.iterdir()}
+    assert made == {"record.json", "report.html", "report.pdf"}  # which says whose the pdf is
+
+
+def fake(folder: Path, script: str) -> None:
+    """A browser that does something else."""
+    path = folder / "chromium"
+    path.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+    path.chmod(0o755)
+
+
+@pytest.mark.parametrize(
+    ("script", "message"),
+    [
+        (None, "neither Chromium nor Chrome is installed; apt-get install"),
+        ("exit 7", "ended with 7 and left no PDF"),
+        ("sleep 60", "did not end within 1 s"),
+        (
+            'for a in "$@"; do case $a in --print-to-pdf=*) '
+            "printf '%%PDF-1.4 torn' > \"${a#*=}\";; esac; done",
+            "left no PDF",
+        ),
+    ],
+    ids=["none", "fails", "hangs", "torn"],
+)
+def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch, script, message):
+    tools = tmp_path / "bin"
+    tools.mkdir()
+    if script is not None:
+        fake(tools, f"PATH=/usr/bin:/bin; {script}")
+    monkeypatch.setenv("PATH", str(tools))
+    page, target = tmp_path / "page.html", tmp_path / "page.pdf"
+    page.write_text("<p>page</p>", encoding="utf-8")
+    target.write_bytes(b"before")
+    with pytest.raises(NoPdfError) as raised:
+        print_pdf(page, target, patience=1.0)
+    assert message in str(raised.value)
+    assert "\n" not in str(raised.value)
+    assert target.read_bytes() == b"before"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["bin", "page.html", "page.pdf"]

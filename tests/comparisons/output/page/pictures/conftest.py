@@ -1,0 +1,63 @@
+"""What pictures draw, read from the figures before they become images."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from matplotlib import pyplot
+from scenes import posed
+
+from comparisons.drawing.style import collected_figures
+from comparisons.output.page.pictures.cost import cost_picture
+from comparisons.output.page.pictures.fields import field_pictures, near_surface_pictures
+from comparisons.output.page.pictures.mesh import mesh_pictures
+from comparisons.output.page.pictures.pressures import close_up_picture, pressure_picture
+from comparisons.output.page.pictures.problem import problem_picture
+from comparisons.output.page.pictures.sections import section_pictures
+from comparisons.output.page.pictures.surfaces import surface_picture
+from comparisons.studies.study import Run
+
+DRAWN = (
+    problem_picture,
+    pressure_picture,
+    close_up_picture,
+    surface_picture,
+    field_pictures,
+    near_surface_pictures,
+    section_pictures,
+    mesh_pictures,
+    cost_picture,
+)
+
+
+def drawn(draw: Callable, outcome: Run) -> tuple[list, object]:
+    """The figures that a function draws of a run, and what it returns."""
+    with collected_figures() as figures:
+        made = draw(outcome)
+        for figure in figures:
+            figure.draw_without_rendering()
+    for figure in figures:
+        pyplot.close(figure)
+    return figures, made
+
+
+@pytest.fixture(scope="session")
+def drawn_by() -> Callable:
+    return drawn
+
+
+@pytest.fixture(scope="session")
+def wavy(wavy_outcome: Run) -> dict[str, list]:
+    """Every figure of the rough run's report, by the function that drew it."""
+    return {draw.__name__: drawn(draw, wavy_outcome)[0] for draw in DRAWN}
+
+
+@pytest.fixture(scope="session")
+def with_scene() -> Callable[..., Run]:
+    """`with_scene(outcome, **fields)`: a run that says so of its scene."""
+
+    def changed(outcome: Run, **fields: object) -> Run:
+        scene = replace(outcome.problem.scene, **fields)
+        return posed(outcome, problem=replace(outcome.problem, scene=scene))
+
+    return changed

@@ -1,0 +1,161 @@
+"""Subsurface fields as they are drawn: the values, one scale for both models, round bands."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import posed
+from scipy.interpolate import RegularGridInterpolator
+
+from comparisons.drawing.style import drawing
+from comparisons.output.page.pictures.fields import (
+    colour_bar,
+    field_pictures,
+    fill,
+    layout,
+    round_bands,
+)
+from comparisons.studies.study import Run
+
+
+def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(
+    wavy: dict[str, list],
+):
+    for figure in wavy["field_pictures"]:
+        both, difference = (scale.norm.boundaries for scale in scales_of(figure))
+        assert difference == pytest.approx(-difference[::-1])
+        assert difference[-1] < 0.5 * both[-1]
+        assert len({scale.get_cmap().name for scale in scales_of(figure)}) == 2
+
+
+def scales_of(figure) -> list:
+    """Of the colour bars: that of the models, then that of their difference."""
+    return [axes._colorbar.mappable for axes in figure.axes if hasattr(axes, "_colorbar")]
+
+
+def test_the_caption_says_where_the_differences_colours_end(wavy_outcome: Run, drawn_by):
+    p0, window = wavy_outcome.problem.hertz.peak_pressure, wavy_outcome.window
+
+    def caption(outcome: Run) -> tuple[str, float]:
+        figures, made = drawn_by(field_pictures, outcome)
+        return made[0][1][0].caption, float(scales_of(figures[0])[1].norm.boundaries[-1])
+
+    text, end = caption(wavy_outcome)
+    assert f"colours end at ±{end:#.2g} p₀" in text
+
+    run = wavy_outcome.runs["half_plane"]
+    found = run.finest.stress(0.0)
+    sx = found.field.sx.copy()
+    sx[3, 17] += 40.0 * p0  # one place far beyond what the scale must cover
+    field = replace(found.field, sx=sx)
+    finest = replace(run.finest, stresses=(replace(found, field=field), *run.finest.stresses[1:]))
+    runs = {**wavy_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], finest))}
+    spiked, end = caption(posed(wavy_outcome, runs=runs))
+    assert end < 1.0
+    assert f"colours end at ±{end:#.2g} p₀, which covers 99.5 % of the points" in spiked
+    place = f"x = {window.x[17] / wavy_outcome.problem.hertz.half_width:.3f} a".replace("-", "−")
+    assert f"20 p₀, stands at {place}" in spiked
+
+
+def test_fields_and_their_difference_are_those_of_the_run(wavy: dict[str, list], wavy_outcome: Run):
+    hertz, window = wavy_outcome.problem.hertz, wavy_outcome.window
+    one, other = (
+        run.finest.stress(0.0).field.tau1 / hertz.peak_pressure
+        for run in wavy_outcome.runs.values()
+    )
+    figure = wavy["field_pictures"][0]
+    both, difference = scales_of(figure)
+    shown = [axes for axes in figure.axes if axes.images]
+    drawn = (one, both), (other, both), (one - other, difference)
+    for axes, (values, scale) in zip(shown, drawn, strict=True):
+        pixels = colours_of(axes)
+        rows, columns = ((np.arange(n) + 0.5) / n for n in pixels.shape[:2])
+        at = RegularGridInterpolator((window.z / hertz.half_width, window.x), values)
+        x = window.x[0] + columns * np.ptp(window.x)
+        expected = scale.to_rgba(at(tuple(np.meshgrid(rows, x, indexing="ij"))), bytes=True)
+        struck = np.any(pixels != expected, axis=-1)
+        if scale is both:  # but for rounding at the bounds of bands
+            assert np.mean(struck) < 1e-3
+        else:
+            assert np.all(pixels[struck] <= expected[struck])
+
+
+def test_a_field_stands_the_right_way_up_on_depths_that_are_not_even():
+    x, z = np.linspace(-1.5, 1.5, 31), np.linspace(0.0, 1.0, 20) ** 3
+    with drawing():
+        _, [axes], _ = layout(1, 1.5)
+        bands = np.linspace(0.0, 1.0, 51)
+        scale = fill(axes, x, z, z[:, None] + 0.0 * x, bands, "viridis", False)
+        pixels = colours_of(axes)
+        rows = (np.arange(len(pixels)) + 0.5) / len(pixels)
+        expected = np.broadcast_to(scale.to_rgba(rows, bytes=True)[:, None], pixels.shape)
+        assert np.mean(np.any(pixels != expected, axis=-1)) < 0.01
+        assert list(axes.get_ylim()) == [1.0, 0.0]  # depth downwards
+        left, right, bottom, top = axes.images[0].get_extent()
+        assert (left, right, bottom, top) == (-1.5, 1.5, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("size", [3.3e-7, 0.3, 1.0, 4.7e3])
+@pytest.mark.parametrize("signed", [True, False])
+def test_bands_are_round_cover_the_field_and_keep_zero_in_one_colour(size: float, signed: bool):
+    values = size * np.linspace(-1.0 if signed else 0.0, 1.0, 1001)[:, None]
+    bands = round_bands([values, 0.5 * values], signed)
+    steps = np.diff(bands)
+    mantissa = steps[0] / 10.0 ** np.floor(np.log10(steps[0]) + 1e-9)
+    assert np.ptp(steps) < 1e-9 * steps[0]
+    assert min(abs(mantissa - m) for m in (1.0, 2.0, 2.5, 5.0)) < 1e-6
+    assert bands[-1] >= 0.995 * size
+    assert 6 <= len(steps) <= 20
+    if signed:
+        assert bands == pytest.approx(-bands[::-1])
+        assert not np.any(np.abs(bands) < 0.4 * steps[0])
+    else:
+        assert bands[0] == 0.0
+
+
+def test_bands_survive_a_field_of_nothing():
+    assert np.all(np.diff(round_bands([np.zeros((3, 4))], True)) > 0.0)
+
+
+def test_what_is_negative_is_striped_and_nothing_else():
+    x, z = np.linspace(-1.5, 1.5, 61), np.linspace(0.0, 1.0, 30)
+    values = x + 0.0 * z[:, None]
+    bands = round_bands([values], signed=True)
+    with drawing():
+        figure, [axes], [bar] = layout(1, 1.5)
+        shown = fill(axes, x, z, values, bands, "RdBu_r", True)
+        colour_bar(figure, bar, shown, "τxz/p₀", bands)
+    pixels = colours_of(axes)
+    place = x[0] + (np.arange(pixels.shape[1]) + 0.5) / pixels.shape[1] * np.ptp(x)
+    plain = shown.to_rgba(place, bytes=True)
+    struck = np.any(pixels != plain, axis=-1)
+    negative = place < bands[bands < 0.0][-1]
+    assert not np.any(struck[:, ~negative])
+    assert 0.2 < np.mean(struck[:, negative]) < 0.4
+    assert np.all(pixels[struck][:, :3] <= np.broadcast_to(plain, pixels.shape)[struck][:, :3])
+    [stripes] = [line for line in bar.lines if line.get_gid() == "hatch"]
+    ends = stripes.get_clip_path().get_fully_transformed_path().get_extents()
+    zero = bar.transData.transform((0.0, 0.5))[0]
+    assert ends.x1 < zero < bar.bbox.x1 and ends.x0 == pytest.approx(bar.bbox.x0)
+    with drawing():
+        _, [axes], _ = layout(1, 1.5)
+        bands = np.linspace(0.0, 1.5, 16)
+        shown = fill(axes, x, z, np.abs(values), bands, "viridis", False)
+    assert np.array_equal(colours_of(axes)[0], shown.to_rgba(np.abs(place), bytes=True))
+
+
+def colours_of(axes) -> np.ndarray:
+    [image] = axes.images
+    return np.asarray(image.get_array())
+
+
+def test_where_there_is_no_value_the_paper_shows():
+    x, z, values = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 4), np.ones((4, 5))
+    values[0, 0] = np.nan
+    with drawing():
+        _, [axes], _ = layout(1, 1.5)
+        fill(axes, x, z, values, np.linspace(-1.5, 1.5, 16), "RdBu_r", True)
+    clear = colours_of(axes)[..., 3] == 0
+    assert (
+        clear[0, 0] and not clear[-1, -1] and set(np.unique(colours_of(axes)[..., 3])) == {0, 255}
+    )

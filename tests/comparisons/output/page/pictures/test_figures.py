@@ -1,0 +1,137 @@
+"""What the report's pictures draw: axes, pressures, surfaces, sections, mesh, problem, cost."""
+
+import numpy as np
+import pytest
+
+from analytic.exact.hertz import hertz_stress
+from comparisons.output.page.pictures.mesh import CELL
+from comparisons.output.page.pictures.problem import problem_picture
+from comparisons.studies.study import Run
+
+
+def line(axes, label: str) -> np.ndarray:
+    """Points (n, 2) of the line of that label."""
+    [found] = [line for line in axes.lines if line.get_label() == label]
+    return found.get_xydata()
+
+
+def test_every_axis_says_what_it_shows_and_in_which_unit(wavy: dict[str, list]):
+    for name, figures in wavy.items():
+        if name == "cost_picture":
+            continue  # the unit stands at every tick
+        for figure in figures:
+            plots = [axes for axes in figure.axes if axes.get_ylim() != (0.0, 1.0)]  # no colour bar
+            left = min(axes.get_position().x0 for axes in plots)
+            assert any(axes.get_xlabel() for axes in plots)
+            for axes in plots:
+                for label in filter(None, (axes.get_xlabel(), axes.get_ylabel())):
+                    assert "[" in label or "/" in label, (name, label)
+                assert axes.get_ylabel() or axes.get_position().x0 > left + 0.01, name
+
+
+def test_pressures_are_drawn_over_x_in_units_of_hertz(wavy: dict[str, list], wavy_outcome: Run):
+    wide, narrow = wavy["pressure_picture"]
+    [close] = wavy["close_up_picture"]
+    p0 = wavy_outcome.problem.hertz.peak_pressure
+    for name, label in (("half_plane", "half-plane"), ("finite_element", "finite elements")):
+        level = wavy_outcome.runs[name].finest
+        for figure in (wide, narrow):
+            points = line(figure.axes[0], label)
+            assert points[1:-1, 1] == pytest.approx(level.solution.pressure / p0)
+            assert points[1:-1, 0] == pytest.approx(level.grid.x / 1e-6)  # micrometres
+            assert points[0, 1] == points[-1, 1] == 0.0
+        nodes = line(close.axes[0], label)
+        assert np.max(nodes[:, 1]) == pytest.approx(np.max(level.solution.pressure) / p0)
+    assert wide.axes[-1].get_xlabel() == "x [µm]"
+    hertz = line(wide.axes[0], "Hertz, smooth")
+    assert hertz[:, 1] == pytest.approx(
+        wavy_outcome.problem.hertz.pressure(hertz[:, 0] * 1e-6) / p0, abs=1e-6
+    )
+    hardness = line(wide.axes[0], "hardness")
+    assert hardness[:, 1] == pytest.approx(wavy_outcome.problem.scene.hardness / p0)
+
+
+def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(
+    wavy: dict[str, list], wavy_outcome: Run
+):
+    one, other = (run.finest.solution.pressure for run in wavy_outcome.runs.values())
+    drawn = wavy["pressure_picture"][0].axes[1].lines[0].get_ydata()[1:-1]
+    assert drawn == pytest.approx((one - other) / wavy_outcome.problem.hertz.peak_pressure)
+
+
+def test_deformed_surfaces_coincide_where_there_is_pressure(
+    wavy: dict[str, list], wavy_outcome: Run
+):
+    axes = wavy["pressure_picture"][0].axes[2]
+    level = wavy_outcome.runs["half_plane"].finest
+    roller, body = axes.lines[0].get_ydata(), axes.lines[1].get_ydata()
+    touching = level.solution.pressure > 0.0
+    assert np.all(roller >= body - 1e-9)
+    assert np.max(np.abs(roller - body)[touching]) < 1e-6 * np.ptp(roller)
+    assert np.max(roller - body) == pytest.approx(np.max(level.solution.gap) / 1e-6, rel=1e-6)
+
+
+def test_bars_are_as_long_as_the_stages_took(wavy: dict[str, list], wavy_outcome: Run):
+    [figure] = wavy["cost_picture"]
+    bars = figure.axes[0].patches
+    ends = [bar.get_x() + bar.get_width() for bar in bars]
+    expected = []
+    for run in wavy_outcome.runs.values():
+        expected += [sum(run.seconds.values()), *run.seconds.values()]
+    assert ends == pytest.approx(expected)
+
+
+def test_sections_hold_both_fields_and_the_exact_smooth_one(
+    wavy: dict[str, list], wavy_outcome: Run
+):
+    hertz, window = wavy_outcome.problem.hertz, wavy_outcome.window
+    through_edge = wavy["section_pictures"][1]
+    column = int(np.argmin(np.abs(window.x - hertz.half_width)))
+    whole = [axes for axes in through_edge.axes if axes.get_xlim()[1] > 0.5]
+    for axes, friction in zip(whole, wavy_outcome.problem.scene.friction, strict=True):
+        for name, label in (("half_plane", "half-plane"), ("finite_element", "finite elements")):
+            field = wavy_outcome.runs[name].finest.stress(friction).field
+            drawn = line(axes, label)
+            assert drawn[:, 1] == pytest.approx(field.tau1[:, column] / hertz.peak_pressure)
+            assert drawn[:, 0] == pytest.approx(window.z / hertz.half_width)
+        exact = hertz_stress(hertz, window.x[column], window.z, friction).tau1
+        assert line(axes, "Hertz, exact")[:, 1] == pytest.approx(exact / hertz.peak_pressure)
+
+
+def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(
+    wavy: dict[str, list], wavy_outcome: Run
+):
+    mesh = wavy_outcome.runs["finite_element"].finest.mesh
+    whole = wavy["mesh_pictures"][0].axes[0]
+    low, high = whole.get_ylim()
+    assert low > high  # z downwards
+    assert whole.get_xlabel() == "x [mm]"
+    drawn = whole.lines[0].get_xydata() * 1e-3
+    lengths = np.hypot(*np.diff(drawn, axis=0).T)
+    lengths = lengths[~np.isnan(lengths)]  # where the pen was lifted
+    corners = mesh.triangles[:, :3]
+    pairs = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2))
+    ends = mesh.points[np.unique(pairs, axis=0)]
+    every = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    width = whole.get_position().width * whole.figure.get_figwidth()
+    cell = CELL * 2.0 * mesh.spec.half_width / width
+    assert np.sort(lengths) == pytest.approx(np.sort(every[every >= cell]))
+    assert np.any(every < cell)
+    assert whole.images  # the finest elements as dark cells
+
+
+def test_the_problem_is_drawn_to_the_scene(wavy: dict[str, list], wavy_outcome: Run):
+    to_scale, close = wavy["problem_picture"][0].axes
+    assert to_scale.get_aspect() == 1.0
+    roller = to_scale.patches[0]
+    assert roller.get_radius() == pytest.approx(wavy_outcome.problem.scene.roller_radius / 1e-3)
+    texts = " ".join(text.get_text() for text in to_scale.texts)
+    assert "R = 10 mm" in texts and "E = 210 GPa" in texts and "µ = 0, 0.1" in texts
+    surfaces = [line.get_ydata() for line in close.lines[:2]]
+    assert np.min(surfaces[0] - surfaces[1]) == pytest.approx(0.0, abs=1e-9)  # first touch
+
+
+def test_a_rigid_roller_and_a_base_are_described(drawn_by, with_scene, smooth_outcome: Run):
+    outcome = with_scene(smooth_outcome, roller=None, thickness=1e-3, base="bonded")
+    _, picture = drawn_by(problem_picture, outcome)
+    assert "1 mm thick, bonded to a rigid base" in picture.alternative

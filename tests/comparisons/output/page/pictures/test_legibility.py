@@ -1,0 +1,110 @@
+"""What a reader meets in the pictures: words apart, parts that differ in grey."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from matplotlib.transforms import Bbox
+
+from analytic.material import Material
+from comparisons.drawing.style import (
+    LINES,
+    REFERENCE,
+    drawing,
+    figure,
+    hatch,
+    stacked,
+    svg,
+)
+from comparisons.output.page.pictures.pressures import TICKS, close_up_picture, pressure_picture
+from comparisons.output.page.pictures.problem import problem_picture
+from comparisons.output.page.tables.problem import problem_sheet
+from comparisons.scenes.scene import Coated, Yielding
+from comparisons.studies.study import Run
+
+HARD = Coated(Material(400e9, 0.22), 20e-6)
+
+
+def rows_of(outcome: Run) -> dict[str, str]:
+    return {name: text for _, rows in problem_sheet(outcome) for name, text in rows}
+
+
+def test_a_coating_and_a_yield_stress_are_described(smooth_outcome, with_scene, drawn_by):
+    changed = {"coating": HARD, "yielding": Yielding(1e9, 20e9)}
+    rows = rows_of(with_scene(smooth_outcome, **changed))
+    assert rows["coating"] == "20 µm thick, E = 400 GPa, ν = 0.22"
+    assert rows["body yields"] == "at 1 GPa, hardening by 20 GPa"
+    assert not {"coating", "body yields"} & set(rows_of(smooth_outcome))
+    for name, value in changed.items():
+        [figure], picture = drawn_by(problem_picture, with_scene(smooth_outcome, **{name: value}))
+        words = " ".join(text.get_text() for text in figure.axes[0].texts)
+        for said in (words, picture.alternative):
+            assert ("coating 20 µm thick" in said) == (name == "coating")
+            assert ("yields at 1 GPa" in said) == (name == "yielding")
+
+
+def lines_of(text) -> list[Bbox]:
+    """The box of each line of a text in a figure."""
+    whole, lines = text.get_window_extent(), text.get_text().split("\n")
+    tall = whole.height / len(lines)
+    boxes = []
+    for number, line in enumerate(lines):
+        alone = text.axes.text(0.0, 0.0, line, fontsize=text.get_fontsize())
+        wide = alone.get_window_extent().width
+        alone.remove()
+        left = whole.x1 - wide if text.get_ha() == "right" else whole.x0
+        top = whole.y1 - number * tall
+        # lines of one text may touch
+        boxes.append(Bbox.from_extents(left, top - 0.99 * tall, left + wide, top))
+    return boxes
+
+
+@pytest.mark.parametrize("friction", [(0.1,), (0.0, 0.1), (0.05, 0.2, 0.4)])
+@pytest.mark.parametrize("thickness", [None, 2e-3])
+def test_words_in_the_drawing_stand_apart(wavy_outcome, drawn_by, with_scene, friction, thickness):
+    fields = {"coating": HARD, "friction": friction, "thickness": thickness}
+    base = None if thickness is None else "frictionless"
+    [figure], _ = drawn_by(problem_picture, with_scene(wavy_outcome, base=base, **fields))
+    axes = figure.axes[0]
+    texts = [text for text in axes.texts if text.get_text()]
+    assert len(texts) == 4  # load, roller, body, traction
+    boxes = [line for text in texts for line in lines_of(text)]
+    for one, other in combinations(boxes, 2):
+        assert not one.overlaps(other)
+    for box in boxes:
+        assert axes.bbox.x0 <= box.x0 and box.x1 <= axes.bbox.x1 + 1.0
+        assert axes.bbox.y0 <= box.y0
+
+
+def test_numbers_along_the_top_are_whole_and_clear_of_the_axis_name(wavy_outcome, drawn_by):
+    for draw in (pressure_picture, close_up_picture):
+        figure = drawn_by(draw, wavy_outcome)[0][-1]
+        [top] = figure.axes[0].child_axes
+        [name] = [text for text in figure.axes[0].texts if text.get_text() == "x/a"]
+        labels = [text for text in top.get_xticklabels() if text.get_text()]
+        assert 3 <= len(labels) <= TICKS + 1
+        for label in labels:
+            box = label.get_window_extent()
+            assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
+            assert not box.overlaps(name.get_window_extent())
+
+
+def test_models_and_signs_differ_in_grey():
+    for one, other in combinations((*LINES.values(), REFERENCE), 2):
+        assert one["linestyle"] != other["linestyle"]
+
+
+def test_hatches_are_lines_on_bars_alone():
+    with drawing():
+        drawn = figure(4.0, 2.0)
+        [axes] = stacked(drawn, [(0.2, 1.4)], 0.5)
+        bars = axes.barh([0, 1], [2.0, 3.0], left=1.0, height=0.5)
+        hatch(axes, [bars[0]], "black")
+        axes.set(xlim=(0.0, 10.0), ylim=(-1.0, 2.0))
+        drawn.draw_without_rendering()
+        [lines] = [line for line in axes.lines if line.get_gid() == "hatch"]
+        clip = lines.get_clip_path().get_fully_transformed_path().get_extents()
+        assert clip.extents == pytest.approx(bars[0].get_window_extent().extents)
+        x = drawn.dpi * np.asarray(lines.get_xdata(), dtype=float)
+        assert np.count_nonzero((x > clip.x0) & (x < clip.x1)) > 5
+        assert "<pattern" not in svg(drawn)

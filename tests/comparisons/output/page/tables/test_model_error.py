@@ -1,0 +1,194 @@
+"""The budget as a reader meets it: rows, waterfalls, the terminal's lines."""
+
+import io
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from matplotlib import pyplot
+from rich.console import Console
+from scenes import budgeted, posed, refound
+
+from comparisons.drawing.style import collected_figures, drawing
+from comparisons.output.page.page import render
+from comparisons.output.page.pictures.model_error import (
+    NUMERICAL,
+    model_error_picture,
+    waterfalls,
+)
+from comparisons.output.page.tables.comparison import comparison_rows
+from comparisons.output.page.tables.model_error import (
+    effects_table,
+    model_error_rows,
+    not_modelled_line,
+)
+from comparisons.output.terminal import summary
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.error_budget import ErrorBudget
+from comparisons.studies.model_error.model_error import Estimate, ModelError
+from comparisons.studies.model_error.selection import EffectSelection
+from comparisons.studies.study import Run
+
+ESTIMATES = {
+    "exact_circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},
+    "plastic_flow": {"peak_pressure": 0.08},
+    "deformed_gap": {"peak_pressure": 0.02},
+}
+SELECTION = EffectSelection(
+    frozenset({"finite_size"}),
+    frozenset({"deformed_gap", "finite_strain"}),
+    {"exact_circle": ESTIMATES["exact_circle"]},
+    {"plastic_flow": "the body has no yield stress"},
+    ESTIMATES,
+)
+EFFECTS_HERE = {
+    "finite_size": Estimate(0.04, 0.001),
+    "deformed_gap": Estimate(-0.012, 0.0005),
+    "finite_strain": Estimate(0.0001, 0.0001),
+}
+
+
+@pytest.fixture
+def split(wavy_outcome: Run) -> Run:
+    """A run whose peak pressures were split; equal at both frictions, and one norm."""
+    own = (
+        ModelError("peak_pressure", 0.0, EFFECTS_HERE, 0.002, -0.031, 0.0012),
+        ModelError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
+        ModelError("pressure_l2", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
+    )
+    budget = ErrorBudget(SELECTION, 2, None, own, {0.0: {"peak_pressure": 0.003}}, 1.5)
+    rows = tuple(
+        row
+        for row in wavy_outcome.figures.of(study="comparison")
+        if (row.quantity, row.friction) in {(o.quantity, o.friction) for o in own}
+    )
+    return budgeted(refound(wavy_outcome, "comparison", figures=rows), budget)
+
+
+def test_rows_join_equal_frictions_and_list_what_counts(split: Run):
+    peak, norm = model_error_rows(split)
+    assert (peak.quantity, peak.friction) == ("peak_pressure", "0, 0.1")
+    assert (peak.error, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
+    # an effect that raises the finite elements' figure makes the half-plane's too low
+    assert peak.contributions == ("finite thickness or width −4.0 %", "deformed gap +1.2 %")
+    assert (
+        norm.error == "5.0 %" and "finite thickness or width 4.0 %" in norm.contributions
+    )  # norms have no sign
+    assert [row.quantity for row in model_error_rows(split, judged=True)] == ["peak_pressure"]
+
+
+def test_a_maximum_that_moves_is_named_with_its_places(split: Run):
+    moved = replace(split.data("model_error").model_errors[1], jump=0.02, moved=(-1.5e-4, 2.5e-5))
+    errors = (split.data("model_error").model_errors[0], moved)
+    moves = budgeted(split, replace(split.data("model_error"), model_errors=errors))
+    first, second = model_error_rows(moves)
+    assert (first.moved, second.moved) == ("", "at x = 25.00 µm, of the half-plane at −150.0 µm")
+    assert "another asperity +2.0 %" in second.contributions
+
+
+def test_a_row_says_what_may_exceed_its_tolerance(split: Run):
+    """In both tables."""
+    rows = [*model_error_rows(split), *comparison_rows(split)]
+    assert {row.quantity: row.note for row in rows} == {
+        "peak_pressure": "8.0 % not modelled",
+        "pressure_l2": "",
+    }
+
+
+def test_what_is_not_modelled_stands_with_its_size_and_reason(split: Run):
+    assert not_modelled_line(split) == (
+        "plastic flow (at most 8.0 %): the body has no yield stress; exact circle (at most 0.15 %)"
+    )
+    why = dict.fromkeys(("exact_circle", "plastic_flow"), "not asked for")
+    selection = replace(split.data("model_error").selection, impossible=why, negligible=())
+    both = budgeted(split, replace(split.data("model_error"), selection=selection))
+    assert not_modelled_line(both) == (
+        "exact circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
+    )
+
+
+def test_every_effect_that_applies_is_in_the_table(split: Run):
+    table = effects_table(split)
+    status = {row[0]: row[2] for row in table.rows}
+    assert status == {
+        "finite thickness or width": "contained",
+        "deformed gap": "computed",
+        "exact circle": "negligible",
+        "finite deformation": "computed",
+        "plastic flow": "not computed",
+    }
+    said = {row[0]: row[4] for row in table.rows}
+    assert said["plastic flow"] == "the body has no yield stress"
+    assert {row[0]: row[1] for row in table.rows}["exact circle"] == EFFECTS["exact_circle"].words
+
+
+def test_one_model_has_no_budget(finish: Callable[..., Run], smooth_tables: dict):
+    outcome = finish(smooth_tables, ("half_plane",))
+    assert outcome.data("model_error") is None and "model_error" not in outcome.found
+    assert effects_table(outcome) is None
+    with drawing():
+        assert model_error_picture(outcome) is None
+
+
+def judged_by(outcome: Run, tolerance: dict[str, float]) -> Run:
+    scene = replace(outcome.problem.scene, tolerance=tolerance)
+    judged = posed(outcome, problem=replace(outcome.problem, scene=scene))
+    return budgeted(judged, outcome.data("model_error"))
+
+
+class TestWaterfalls:
+    def test_steps_add_up_to_the_error_with_its_sign(self, split: Run):
+        [peak] = waterfalls(split)  # the norm is not judged
+        assert peak.name == "peak pressure"  # equal at both frictions
+        assert (peak.error, peak.uncertainty, peak.tolerance) == (-0.031, 0.0012, 0.02)
+        assert peak.steps["finite thickness or width"] == -0.04
+        assert peak.steps["deformed gap"] == 0.012 and peak.steps["interaction"] == -0.002
+        assert sum(peak.steps.values()) == pytest.approx(peak.error)
+        assert peak.steps[NUMERICAL] == pytest.approx(-0.0009)
+        assert peak.not_modelled == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
+
+    def test_without_tolerances_everything_is_shown_and_norms_have_sizes(self, split: Run):
+        peak, norm = waterfalls(judged_by(split, {}))
+        assert peak.tolerance is None and not peak.is_norm
+        assert norm.steps["deformed gap"] == 0.012 and NUMERICAL not in norm.steps
+
+    def test_bars_hang_on_each_other_and_the_last_is_the_error(self, split: Run):
+        with collected_figures() as figures:
+            picture = model_error_picture(judged_by(split, {"peak_pressure": 0.02}))
+        for figure in figures:  # wide and narrow
+            [axes] = figure.axes
+            rows = [tick.get_text() for tick in axes.get_yticklabels()]
+            assert rows[-1] == "model error" and "finite strain" not in rows
+            bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
+            for (_, end), (start, _) in pairwise(bars[:-1]):
+                assert start == pytest.approx(end)
+            assert bars[0][0] == bars[-1][0] == 0.0
+            assert bars[-2][1] == pytest.approx(-3.1) and bars[-1][1] == pytest.approx(-3.1)
+            pyplot.close(figure)
+        assert "peak pressure: −3.1 %" in picture.alternative
+        assert "deformed gap +1.2 %" in picture.alternative
+
+
+def test_the_page_lists_contributions_where_errors_were_split(
+    split: Run, wavy_page, page_of, no_pictures, monkeypatch
+):
+    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+    [table] = [table for table in page_of(render(split)).tables if "model error" in table[0]]
+    assert table[1][-1] == "finite thickness or width −4.0 %, deformed gap +1.2 %"
+    [table] = [table for table in wavy_page.tables if "model error" in table[0]]
+    assert "dominant contributions" not in table[0]  # no effect was computed
+
+
+def test_the_terminal_shows_it_in_80_columns(split: Run):
+    stream = io.StringIO()
+    Console(file=stream, width=80).print(summary(split))
+    text = stream.getvalue()
+    assert max(map(len, text.splitlines())) <= 80
+    flat = " ".join(text.split())
+    assert re.search(
+        r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite thickness or width -4\.0 8\.0 % not modelled",
+        flat,
+    )
+    assert "not modelled plastic flow (at most 8.0%" in flat

@@ -1,0 +1,251 @@
+"""The page as a reader, a browser and a printer meet it: whole, self-contained, in order."""
+
+import base64
+import csv
+import hashlib
+import json
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from scenes import posed
+
+from comparisons.figures.quantity import QUANTITIES, label
+from comparisons.output.page.page import render
+from comparisons.output.page.pictures.model_error import waterfalls
+from comparisons.output.page.tables.text import is_shown
+from comparisons.studies.study import Run
+
+ROOT = "{http://www.w3.org/2000/svg}"
+SECTIONS = ["problem", "comparison", "model-error", "contact", "yield", "stresses", "convergence"]
+SECTIONS += ["mesh", "cost", "checks", "skipped", "record"]
+LINK = "{http://www.w3.org/1999/xlink}href"
+
+
+def test_drawn_side_by_side_as_in_one_process(wavy_outcome, monkeypatch):
+    pages = []
+    monkeypatch.setenv("OMP_NUM_THREADS", "1")
+    for cores in ({0}, {0, 1}):
+        monkeypatch.setattr(os, "sched_getaffinity", lambda process, cores=cores: cores)
+        pages.append(render(wavy_outcome))
+    assert pages[0] == pages[1]
+
+
+def test_every_tag_is_closed_in_order(wavy_page, smooth_page, half_plane_page, page_of):
+    for page in (wavy_page, smooth_page, half_plane_page):
+        assert page.open_tags == []
+    with pytest.raises(ValueError, match="closes nothing"):
+        page_of("<p><b>wrong</p></b>")
+
+
+def test_nothing_is_loaded_from_anywhere(wavy_page):
+    loading = {"src", "srcset", "href", "data", "action", "poster", "background"}
+    for tag, name, value in wavy_page.attributes:
+        if name in loading and tag != "a":
+            assert value.startswith("data:image/svg+xml;base64,"), (tag, name)
+        assert not name.startswith("on"), (tag, name)
+    assert not re.search(r"https?:|<link|<iframe|@import|url\(", wavy_page.source)
+
+
+def test_contents_lead_to_every_section_and_each_heading_has_a_name(wavy_page, half_plane_page):
+    for page in (wavy_page, half_plane_page):
+        names = [value for _, name, value in page.attributes if name == "id"]
+        assert len(names) == len(set(names))
+        links = [value for tag, name, value in page.attributes if (tag, name) == ("a", "href")]
+        inside = [link for link in links if link.startswith("#")]
+        assert inside == [f"#{section}" for section in page.sections]
+        assert len(re.findall("<h[23]", page.source)) == len(
+            re.findall("<h3 id=|<h2>", page.source)
+        )
+        assert {"geometry", "materials", "load"} <= set(names)
+
+
+def test_the_contact_ratio_is_shown_once(wavy_page, smooth_page, half_plane_page, wavy_outcome):
+    for page in (wavy_page, smooth_page, half_plane_page):
+        assert "contact length over Hertz 2a" not in page.text
+        assert "× 2a" in page.text
+    scene = replace(wavy_outcome.problem.scene, tolerance={"contact_ratio": 0.02})
+    judged = posed(wavy_outcome, problem=replace(wavy_outcome.problem, scene=scene))
+    assert is_shown(judged, "contact_ratio") and is_shown(wavy_outcome, "peak_pressure")
+
+
+def test_it_says_when_where_and_by_which_revision(wavy_page, wavy_outcome):
+    made = wavy_outcome.record["made"]
+    assert set(made) == {"date", "host", "revision"}
+    rows = {row[0]: row[-1] for table in wavy_page.tables for row in table}
+    for name, value in made.items():
+        assert rows.get(name) == value
+
+
+def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
+    links = [value for tag, name, value in wavy_page.attributes if tag == "a" and name == "href"]
+    texts = [
+        base64.b64decode(link.partition(",")[2]).decode()
+        for link in links
+        if link.startswith("data:text/csv;")
+    ]
+    names = [value for tag, name, value in wavy_page.attributes if name == "download"]
+    assert len(texts) == len(names) >= 6 and all(name.endswith(".csv") for name in names)
+    [curves] = [
+        list(csv.reader(text.splitlines()))
+        for name, text in zip(names, texts, strict=True)
+        if name.startswith("contact-pressure")
+    ]
+    column = curves[0].index("p/p₀, half-plane")
+    level = wavy_outcome.runs["half_plane"].finest
+    shown = {row[column - 1]: row[column] for row in curves[1:]}
+    highest = level.solution.pressure.max() / wavy_outcome.problem.hertz.peak_pressure
+    assert max(float(text) for text in shown.values() if text) == pytest.approx(highest, rel=1e-5)
+    assert {len(row) for row in curves} == {len(curves[0])}
+    [steps] = [
+        list(csv.reader(text.splitlines()))
+        for name, text in zip(names, texts, strict=True)
+        if name.startswith("the-half-plane-s-model-error")
+    ]
+    panels = waterfalls(wavy_outcome)
+    assert steps[0] == ["quantity", "step", "relative size"]
+    assert {row[0] for row in steps[1:]} == {panel.name for panel in panels}
+    for panel in panels:
+        sizes = {step: float(size) for name, step, size in steps[1:] if name == panel.name}
+        assert sizes["model error"] == pytest.approx(panel.error, rel=1e-5)
+        assert sizes["uncertainty"] == pytest.approx(panel.uncertainty, rel=1e-5)
+        if not panel.is_norm:
+            assert sum(sizes[step] for step in panel.steps) == pytest.approx(
+                panel.error, rel=1e-4, abs=1e-6
+            )
+
+
+def test_the_mesh_says_where_its_file_is(wavy_page):
+    assert "as a file: finite_element/mesh.msh" in wavy_page.text
+
+
+def test_one_meaning_of_left_out(wavy_page, smooth_page, half_plane_page):
+    """Steps are skipped, effects not modelled or not computed: the former word for each is gone."""
+    for page in (wavy_page, smooth_page, half_plane_page):
+        assert "left out" not in page.text
+
+
+def test_one_script_runs_and_none_but_that(wavy_page, half_plane_page):
+    def seal(script: str) -> str:
+        return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+    [policy] = [
+        value
+        for tag, name, value in wavy_page.attributes
+        if (tag, name) == ("meta", "content") and "default-src" in value
+    ]
+    fields, script = wavy_page.scripts
+    assert policy.split("; ") == [
+        "default-src 'none'",
+        "img-src data:",
+        "style-src 'unsafe-inline'",
+        f"script-src 'sha256-{seal(script)}'",
+    ]
+    assert set(json.loads(fields)) == {"x", "z", "start", "components"}
+    assert half_plane_page.scripts == []  # without a field
+
+
+def test_pictures_are_whole_and_load_nothing_either(wavy_page):
+    for image in wavy_page.images:
+        drawing = ElementTree.fromstring(base64.b64decode(image["src"].partition(",")[2]))
+        assert drawing.tag == f"{ROOT}svg"
+        assert drawing.find(f".//{ROOT}path") is not None
+        assert drawing.find(f".//{ROOT}pattern") is None  # which prints as coarse pixels
+        for element in drawing.iter():
+            target = element.get(LINK) or element.get("href") or "#"
+            assert target.startswith(("#", "data:image/png;base64,")), target
+
+
+def test_every_picture_says_in_words_what_it_shows(wavy_page):
+    alternatives = [image["alt"] for image in wavy_page.images]
+    assert all(len(text) > 40 for text in alternatives)
+    assert len(set(alternatives)) == len(alternatives)
+
+
+def test_a_rough_run_with_friction_has_all_pictures(wavy_page):
+    # problem, pressure, close-up, surfaces; two fields and a near-surface one for each of the two
+    # friction coefficients; two sections; three meshes; convergence; cost; error budget
+    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1 + 1 + 1
+    assert wavy_page.count("next to the surface") == 2
+    assert wavy_page.count("Orthogonal shear stress") == 2
+    assert wavy_page.count("over depth") == 2
+    assert wavy_page.count("Finite-element mesh") == 3
+    assert {"Friction 0", "Friction 0.1"} <= set(wavy_page.headings)
+
+
+def test_a_smooth_run_has_no_pictures_of_roughness(smooth_page):
+    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1 + 1
+    assert smooth_page.count("next to the surface") == 0
+    assert smooth_page.count("right-hand edge") == 1
+    assert "Ra, Rq" not in smooth_page.text
+
+
+def test_sections_come_in_the_order_of_a_verification_report(wavy_page):
+    assert wavy_page.sections == SECTIONS
+
+
+def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page):
+    assert set(SECTIONS) - set(half_plane_page.sections) == {"model-error", "stresses", "mesh"}
+    assert len(half_plane_page.images) == 6
+    assert "Only the half-plane model was run" in half_plane_page.text
+    assert "finite elements" not in half_plane_page.text
+    assert "neither model" not in half_plane_page.text
+    assert "free to slide on a rigid base" in half_plane_page.text
+    assert "--models half-plane" in half_plane_page.text
+
+
+def test_the_finite_element_model_alone_has_its_mesh(
+    finish: Callable[..., Run], without_field: dict, page_of
+):
+    page = page_of(render(finish(without_field, ("finite_element",))))
+    assert "mesh" in page.sections
+    assert "Only the finite-element model was run" in page.text
+
+
+def test_fields_of_one_model_stand_without_a_difference(
+    finish: Callable[..., Run], smooth_tables, page_of
+):
+    page = page_of(render(finish(smooth_tables, ("half_plane",))))
+    assert page.count("Principal shear stress") == page.count("Orthogonal shear stress") == 1
+    assert page.count("over depth") == 2
+    assert "largest difference" not in page.text
+    [table] = [table for table in page.tables if "over Hertz" in table[0]]
+    names = [name for name, quantity in QUANTITIES.items() if not quantity.of_pair]
+    names.remove("contact_ratio")
+    assert [row[0] for row in table[1:]] == list(map(label, names))
+
+
+def test_words_never_carry_the_names_of_result_files(wavy_page):
+    assert not re.search(r"tau1|txz|_max|_l2", wavy_page.text.partition("Skipped steps")[0])
+
+
+def test_only_tables_scroll_sideways_and_are_named(wavy_page):
+    places = re.findall(r'<div class="scroll[^>]*>', wavy_page.source)
+    assert len(places) > 5 and all('aria-label="table, scrolls' in place for place in places)
+    assert "tabindex" not in wavy_page.source  # browsers themselves stop where something scrolls
+
+
+def test_a_title_cannot_add_markup(smooth_outcome: Run, page_of, monkeypatch, no_pictures):
+    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+    title = '<script>alert("x")</script> & <b>more'
+    scene = replace(smooth_outcome.problem.scene, title=title)
+    outcome = posed(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
+    page = page_of(render(outcome))
+    assert title in page.headings
+    assert len(page.scripts) == 2 and "<b>" not in page.source
+    assert page.open_tags == []
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")  # of uncertainties that are infinite
+def test_the_page_of_a_field_of_full_size_stays_small(
+    finish: Callable[..., Run], without_field: dict
+):
+    tables = {
+        **without_field,
+        "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+        "stress": {"points": [600, 200], "depth": 1.0},
+    }
+    assert len(render(finish(tables))) < 4_000_000

@@ -1,0 +1,158 @@
+"""The finite elements with all effects: drawn, saved, read again; its peaks beside the others'."""
+
+import base64
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from scenes import budgeted
+
+from comparisons.common.numbers import percent
+from comparisons.common.progress import no_progress
+from comparisons.drawing.style import collected_figures, drawing
+from comparisons.output.page.field_values import field_explorer
+from comparisons.output.page.page import render
+from comparisons.output.page.pictures.fields import field_pictures
+from comparisons.output.page.pictures.pressures import pressure_picture
+from comparisons.output.page.pictures.sections import section_pictures
+from comparisons.output.page.plots import Plots
+from comparisons.output.page.saved import read_run
+from comparisons.output.page.tables.model_error import model_error_rows, moved_text
+from comparisons.runs.write import write_files
+from comparisons.studies.study import Run
+
+MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
+
+
+@pytest.fixture(scope="module")
+def outcome(wavy_outcome: Run) -> Run:
+    """At friction 0.1 the whole model has other pressures and stresses than the scene's own finite
+    elements, on a coarser level; at friction 0 it is these."""
+    own = wavy_outcome.runs["finite_element"]
+    level = own.levels[-2]
+    stress = level.stress(0.1)
+    field = replace(stress.field, txz=1.25 * stress.field.txz)
+    moved = HIGHER * np.roll(level.solution.pressure, MOVED)
+    whole = replace(
+        level,
+        solution=replace(level.solution, pressure=moved),
+        stresses=(replace(stress, field=field),),
+    )
+    errors = (
+        replace(e, value=0.5) if (e.quantity, e.friction) == ("pressure_l2", 0.1) else e
+        for e in wavy_outcome.data("model_error").model_errors
+    )
+    wholes = {0.0: own.finest, 0.1: whole}
+    budget = replace(wavy_outcome.data("model_error"), model_errors=tuple(errors), wholes=wholes)
+    return budgeted(wavy_outcome, budget)
+
+
+def labels(axes) -> list[str]:
+    return [line.get_label() for line in axes.lines if not line.get_label().startswith("_")]
+
+
+def drawn(draw, outcome: Run) -> list:
+    with collected_figures() as figures:
+        draw(outcome)
+    for figure in figures:
+        pyplot.close(figure)
+    return figures
+
+
+def test_a_whole_model_that_is_the_scenes_own_is_no_further_model(outcome: Run):
+    assert list(outcome.levels(0.0)) == ["half_plane", "finite_element"]
+    assert list(outcome.levels(0.1)) == ["half_plane", "finite_element", "whole"]
+    assert [level.grid for level in outcome.pair(0.1).values()] == [
+        outcome.runs["finite_element"].levels[-2].grid
+    ] * 2
+    assert outcome.deciding_friction in (0.0, 0.1)
+
+
+def test_pressures_and_their_difference_are_those_of_the_whole(outcome: Run, monkeypatch):
+    monkeypatch.setattr(Run, "deciding_friction", 0.1)
+    p0, whole = outcome.problem.hertz.peak_pressure, outcome.data("model_error").wholes[0.1]
+    for figure in drawn(pressure_picture, outcome):
+        above, difference, _ = figure.axes
+        assert labels(above)[:3] == ["half-plane", "finite elements", "whole model, μ = 0.1"]
+        line = next(line for line in above.lines if line.get_label() == "whole model, μ = 0.1")
+        assert line.get_ydata()[1:-1] == pytest.approx(whole.solution.pressure / p0)
+        half_plane = outcome.runs["half_plane"].levels[-2].solution.pressure
+        assert difference.lines[0].get_ydata()[1:-1] == pytest.approx(
+            (half_plane - whole.solution.pressure) / p0
+        )
+
+
+def test_fields_are_those_of_the_whole_at_its_friction(outcome: Run):
+    plain, sliding, *_ = drawn(field_pictures, outcome)
+    for figure, name in ((plain, "finite elements"), (sliding, "whole model")):
+        assert figure.axes[1].get_title(loc="left").startswith(f"{name}: largest")
+        titles = [axes.get_title(loc="left") for axes in figure.axes]
+        assert f"half-plane − {name}" in titles
+    [section, *_] = drawn(section_pictures, outcome)
+    names = [labels(axes) for axes in section.axes]
+    assert "whole model" not in names[0] and "whole model" in names[1]
+
+
+def test_the_pages_values_are_those_of_the_pictures(outcome: Run):
+    content = json.loads(str(field_explorer(outcome)["fields"]))
+    plain, sliding = content["components"][1]["fields"]  # txz
+    assert plain["models"] == ["half-plane", "finite elements"]
+    assert sliding["models"] == ["half-plane", "whole model"]
+    half_plane, whole = (level.stress(0.1).field.txz for level in outcome.pair(0.1).values())
+    wanted = np.abs(half_plane - whole).max() / outcome.problem.hertz.peak_pressure
+    packed = np.frombuffer(base64.b64decode(sliding["data"][1]), dtype="<i2")
+    assert np.abs(packed * sliding["scale"][1]).max() == pytest.approx(wanted, rel=0.02)
+
+
+def test_how_far_its_peaks_stand_aside_is_said(outcome: Run, monkeypatch):
+    monkeypatch.setattr(Run, "deciding_friction", 0.1)
+    plain, sliding = (
+        {f.quantity: f.value for f in outcome.figures.of(study="model_error", friction=mu)}
+        for mu in (0.0, 0.1)
+    )
+    pitch = outcome.data("model_error").wholes[0.1].grid.pitch
+    assert sliding["pressure_shift"] == pytest.approx(MOVED * pitch, rel=0.05)
+    assert sliding["pressure_mean_shift"] == pytest.approx(MOVED * pitch, rel=0.05)
+    # the body one per cent stiffer, and pressures five per cent higher
+    assert 0.03 < sliding["pressure_l2_after_shift"] < 0.06
+    assert abs(plain["pressure_shift"]) < 0.01 * pitch
+    [said] = moved_text(outcome, 0.1)
+    assert said == f"{percent(sliding['pressure_l2_after_shift'])} with peaks moved by 4.7 µm"
+    assert moved_text(outcome, 0.0) == ()  # there it explains nothing
+    _, row = (row for row in model_error_rows(outcome) if row.quantity == "pressure_l2")
+    assert (row.friction, row.error) == ("0.1", "50 %") and row.contributions[0] == said
+    with drawing():
+        assert said in pressure_picture(outcome).caption
+
+
+def test_it_is_saved_and_the_page_drawn_again_is_the_same(outcome: Run, tmp_path):
+    folder = tmp_path / "run"
+    written = replace(outcome, directory=folder)
+    write_files(written, no_progress)
+    rows = np.loadtxt(folder / "whole/contact.csv", delimiter=",", skiprows=3)
+    whole = outcome.data("model_error").wholes[0.1]
+    assert rows[:, 1] == pytest.approx(whole.solution.pressure)
+    assert (folder / "whole/stress.vtu").is_file()
+    again = read_run(folder)
+    assert render(again) == (folder / "report.html").read_text(encoding="utf-8")
+    assert list(again.data("model_error").wholes) == [0.1]
+
+
+def test_further_frictions_have_folders_of_their_own(
+    outcome: Run, tmp_path, monkeypatch, no_pictures
+):
+    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+    whole = outcome.data("model_error").wholes[0.1]
+    other = replace(whole, stresses=(replace(whole.stresses[0], friction=0.0),))
+    budget = replace(outcome.data("model_error"), wholes={0.0: other, 0.1: whole})
+    write_files(replace(budgeted(outcome, budget), directory=tmp_path / "run"), no_progress)
+    names = {str(p.relative_to(tmp_path / "run")) for p in tmp_path.rglob("*") if p.is_file()}
+    assert {"whole/stress.vtu", "whole/friction_0.1/stress.vtu"} <= names
+    assert {"whole/contact.csv", "whole/friction_0.1/contact.csv"} <= names
+
+
+def test_notebooks_reach_it(outcome: Run, monkeypatch):
+    monkeypatch.setattr(Run, "deciding_friction", 0.1)
+    assert Plots(outcome).view("whole", "txz") is not None

@@ -1,0 +1,290 @@
+"""Fields and meshes as other programs open them: no complaint, equal values, all metadata."""
+
+import base64
+import json
+import subprocess
+import sys
+from functools import partial
+
+import meshio
+import numpy as np
+import pytest
+import pyvista
+
+from analytic.exact.hertz import hertz_from_load, hertz_stress
+from comparisons.common.provenance import versions
+from comparisons.figures.quantity import MODELS
+from comparisons.models.half_plane import stresses_at
+from comparisons.output import field_files as fields
+from comparisons.output.field_files import (
+    CELL_TYPES,
+    COMPONENTS,
+    FORMATS,
+    STRESSES,
+    field_of,
+    write_field,
+)
+from comparisons.runs.write import write_contact, write_mesh
+
+
+@pytest.fixture(scope="module")
+def outcome(finish):
+    """Rough steel, two friction coefficients, one with a decimal point."""
+    tables = {
+        "title": "Waves of 1 µm & <more>",
+        "roller": {"radius": 0.01, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
+        "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.25},
+        "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+        "stress": {"points": [20, 10]},
+    }
+    return finish(tables)
+
+
+@pytest.fixture(params=MODELS)
+def field(outcome, request):
+    return field_of(outcome, outcome.runs[request.param].finest)
+
+
+def quietly(program: str, *arguments: object) -> str:
+    """What a program prints in a process that any warning ends."""
+    command = [sys.executable, "-W", "error", "-c", program, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
+    return done.stdout
+
+
+def names(field) -> list[str]:
+    """Of the arrays: on the finite elements' mesh there are more."""
+    named = [STRESSES]
+    if field.kind == "triangle6":
+        beside = "half_plane", "difference"
+        named += [("displacement",), [f"{who}_{name}" for name in COMPONENTS for who in beside]]
+    return [f"{name} (friction {mu})" for some in named for mu in ("0", "0.1") for name in some]
+
+
+def unit_of(name: str) -> str:
+    return "m" if name.startswith("displacement") else "1" if name.startswith("s1_") else "Pa"
+
+
+OPENED = """
+import sys
+import meshio, pyvista
+for path in sys.argv[1:]:
+    pyvista.read(path)
+    if not path.endswith("vtkhdf"):
+        meshio.read(path)
+"""
+
+
+def test_files_open_without_a_word_of_complaint(outcome, tmp_path, capfd):
+    paths = []
+    for model, run in outcome.runs.items():
+        (tmp_path / model).mkdir()
+        paths += [
+            write_field(tmp_path / model, field_of(outcome, run.finest), name) for name in FORMATS
+        ]
+    write_mesh(tmp_path / "mesh.msh", outcome, outcome.runs["finite_element"].finest.mesh)
+    assert [path.name for path in paths] == [f"stress.{name}" for name in FORMATS] * 2
+    # meshio takes every .msh for one of Ansys first, and prints that reader's empty complaint
+    assert quietly(OPENED, *paths, tmp_path / "mesh.msh").strip() == ""
+    assert capfd.readouterr() == ("", "")
+
+
+def test_vtu_in_meshio(field, tmp_path, monkeypatch):
+    """Whose base64 the Pythons from 3.13.13 and 3.14.4 on decode: no padding but at the end."""
+    monkeypatch.setattr(base64, "b64decode", partial(base64.b64decode, validate=True))
+    mesh = meshio.read(write_field(tmp_path, field))
+    assert list(mesh.point_data) == names(field)
+    for name, values in field.arrays.items():
+        assert np.array_equal(mesh.point_data[name], values)
+    assert np.array_equal(mesh.points, field.points)
+    (block,) = mesh.cells
+    assert block.type == field.kind and np.array_equal(block.data, field.cells)
+    notes = {name: bytes(codes).decode() for name, codes in mesh.field_data.items()}
+    assert notes == field.notes
+
+
+def test_meshio_takes_no_text(field, tmp_path, capsys):
+    """Why the notes of a vtu are bytes: with a text in it, a file is none that meshio opens."""
+    grid = pyvista.read(write_field(tmp_path, field))
+    grid.field_data["said"] = ["text"]
+    grid.save(tmp_path / "text.vtu", binary=False)
+    assert pyvista.read(tmp_path / "text.vtu").field_data["said"][0] == "text"
+    with pytest.raises(SystemExit):
+        meshio.read(tmp_path / "text.vtu")
+    assert "Illegal data type 'String'" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("ending", ["vtu", "vtkhdf"])
+def test_vtk_files_in_pyvista(field, tmp_path, ending):
+    from vtkmodules.vtkCommonCore import vtkDataArray
+
+    grid = pyvista.read(write_field(tmp_path, field, ending))
+    called = [name.replace(".", "_") if ending == "vtkhdf" else name for name in names(field)]
+    assert sorted(grid.point_data) == sorted(called)
+    for name, shown in zip(names(field), called, strict=True):
+        unit = field.units[name]
+        assert unit == unit_of(name)
+        assert np.array_equal(grid.point_data[shown], field.arrays[name])
+        information = grid.GetPointData().GetArray(shown).GetInformation()
+        if ending == "vtu":  # of a vtkhdf the units are in its notes alone
+            assert information.Get(vtkDataArray.UNITS_LABEL()) == unit
+    assert np.array_equal(grid.points, field.points)
+    assert np.array_equal(grid.cells_dict[CELL_TYPES[field.kind][0]], field.cells)
+    for name, text in field.notes.items():
+        held = grid.field_data[name]
+        assert (bytes(held).decode() if ending == "vtu" else str(held[0])) == text
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_notes_say_units_and_scene(outcome, model):
+    field = field_of(outcome, outcome.runs[model].finest)
+    assert field.notes["title"] == "Waves of 1 µm & <more>"
+    assert json.loads(field.notes["scene"]) == outcome.problem.scene.as_dict()
+    assert json.loads(field.notes["units"]) == field.units
+    assert list(field.units) == ["points", *names(field)] and field.units["points"] == "m"
+
+
+def test_one_friction_coefficient_has_plain_names(smooth_outcome):
+    field = field_of(smooth_outcome, smooth_outcome.runs["half_plane"].finest)
+    assert list(field.arrays) == list(STRESSES)
+
+
+def test_principal_directions_diagonalise_the_stress(field):
+    for friction in ("0", "0.1"):
+        sx, sz, txz, tau1, along = (
+            field.arrays[f"{name} (friction {friction})"]
+            for name in ("sx", "sz", "txz", "tau1", "s1_direction")
+        )
+        there = np.isfinite(tau1)
+        x, z, y = along[there].T.astype(float)
+        assert np.hypot(x, z) == pytest.approx(1.0, abs=1e-6) and not y.any()
+        normal = (sx[there] * x + txz[there] * z) * x + (txz[there] * x + sz[there] * z) * z
+        middle, size = 0.5 * (sx + sz)[there], np.abs(tau1[there]).max()
+        assert normal == pytest.approx(middle + tau1[there], abs=1e-5 * size)
+
+
+def test_mesh_and_fields_lie_in_one_plane(outcome, tmp_path):
+    run = outcome.runs["finite_element"]
+    write_mesh(tmp_path / "mesh.msh", outcome, run.finest.mesh)
+    mesh = meshio.read(tmp_path / "mesh.msh", file_format="gmsh").points
+    for each in outcome.runs.values():
+        points = field_of(outcome, each.finest).points
+        assert not points[:, 2].any() and not mesh[:, 2].any()
+        assert mesh[:, 1].min() <= points[:, 1].min() and points[:, 1].max() <= mesh[:, 1].max()
+
+
+def test_one_file_holds_both_models_and_their_difference(outcome):
+    """At the finite elements' nodes, against Hertz's closed form between the nodes of pressure."""
+    problem, run = outcome.problem, outcome.runs["finite_element"]
+    field = field_of(outcome, run.finest)
+    x, z, _ = field.points.T
+    hertz = hertz_from_load(problem.hertz.load_per_length, 0.01, problem.modulus)
+    for friction in (0.0, 0.1):
+        exact = hertz_stress(hertz, x, z, friction)
+        values = exact.sx, exact.sz, exact.sy(0.25), exact.txz, exact.tau1, exact.von_mises(0.25)
+        for name, value in zip(COMPONENTS, values, strict=True):
+            named = f"{name} (friction {friction:g})"
+            half_plane = field.arrays[f"half_plane_{named}"]
+            difference = field.arrays[f"difference_{named}"]
+            assert half_plane.dtype == difference.dtype == np.float32
+            assert np.abs(half_plane - value).max() < 2e-3 * hertz.peak_pressure
+            rounding = 1e-6 * hertz.peak_pressure
+            assert half_plane - field.arrays[named] == pytest.approx(difference, abs=rounding)
+
+
+def test_the_half_plane_has_no_stress_above_the_mean_line(outcome):
+    level = outcome.runs["half_plane"].finest
+    found = stresses_at(outcome.problem, level, (0.1,), np.zeros(3), np.array([-1e-9, 0.0, 1e-6]))
+    assert np.isnan(found[0.1].tau1).tolist() == [True, False, False]
+    assert found[0.1].sz[1] == pytest.approx(-level.solution.pressure.max(), rel=1e-3)
+
+
+def test_displacements_warp_the_mesh_in_its_plane(outcome, tmp_path):
+    field = field_of(outcome, outcome.runs["finite_element"].finest)
+    for friction in ("0", "0.1"):
+        moved = field.arrays[f"displacement (friction {friction})"]
+        assert np.array_equal(moved, 1e-3 * field.points[:, [1, 0, 2]])
+    grid = pyvista.read(write_field(tmp_path, field))
+    warped = grid.warp_by_vector("displacement (friction 0.1)", factor=2.0).points
+    assert warped == pytest.approx(field.points + 2.0 * moved, rel=1e-6)
+
+
+IN_GMSH = """
+import json, sys
+import gmsh
+gmsh.initialize(["gmsh", "-v", "0"])
+gmsh.logger.start()
+gmsh.open(sys.argv[1])
+tags, points, _ = gmsh.model.mesh.getNodes()
+blocks = gmsh.model.mesh.getElements(2)
+views = {}
+for view in gmsh.view.getTags():
+    name = gmsh.view.option.getString(view, "Name")
+    kind, nodes, values, _, parts = gmsh.view.getHomogeneousModelData(view, 0)
+    views[name] = [kind, nodes.tolist(), values.tolist(), parts]
+groups = [gmsh.model.getPhysicalName(*group) for group in gmsh.model.getPhysicalGroups()]
+print(json.dumps([tags.tolist(), points.tolist(), [int(k) for k in blocks[0]],
+                  blocks[2][0].tolist(), views, groups, gmsh.logger.get()]))
+"""
+
+
+def in_gmsh(path):
+    tags, points, kinds, nodes, views, groups, said = json.loads(quietly(IN_GMSH, path))
+    assert [line for line in said if not line.startswith("Info")] == []
+    order = np.argsort(tags)
+    assert np.array_equal(np.array(tags)[order], np.arange(1, len(tags) + 1))
+    return np.reshape(points, (-1, 3))[order], kinds, np.array(nodes), views, groups
+
+
+def test_msh_in_gmsh_and_meshio(field, tmp_path):
+    path = write_field(tmp_path, field, "msh")
+    points, kinds, nodes, views, groups = in_gmsh(path)
+    mesh = meshio.read(path)
+    number, corners = {"quad": (3, 4), "triangle6": (9, 6)}[field.kind]
+    assert (kinds, groups) == ([number], ["body"])
+    assert np.array_equal(points, field.points) and np.array_equal(mesh.points, field.points)
+    assert np.array_equal(nodes.reshape(-1, corners) - 1, field.cells)
+    assert list(views) == list(mesh.point_data) == names(field)
+    for name, values in field.arrays.items():
+        kind, of_nodes, in_view, parts = views[name]
+        assert (kind, parts) == ("NodeData", 3 if values.ndim > 1 else 1)
+        found = np.reshape(in_view, (-1, parts)).squeeze()[np.argsort(of_nodes)]
+        assert np.array_equal(found, values)
+        assert np.array_equal(mesh.point_data[name], values)
+    said = path.read_bytes().rpartition(b"$Comments\n")[2].decode()
+    lines = dict(line.split(": ", 1) for line in said.splitlines()[:-1])
+    assert lines == field.notes
+
+
+def test_the_mesh_in_gmsh_meshio_and_pyvista(outcome, tmp_path):
+    mesh, path = outcome.runs["finite_element"].finest.mesh, tmp_path / "mesh.msh"
+    write_mesh(path, outcome, mesh)
+    points, kinds, nodes, views, groups = in_gmsh(path)
+    read = meshio.read(path, file_format="gmsh")
+    real = np.column_stack([mesh.points + mesh.shift, np.zeros(len(mesh.points))])
+    assert np.array_equal(points, real) and np.array_equal(read.points, real)
+    assert kinds == [9] and np.array_equal(nodes.reshape(-1, 6) - 1, mesh.triangles)
+    assert groups == ["top", "right", "bottom", "left", "body"] and list(views) == ["shift"]
+    assert np.array_equal(pyvista.read(path).points, real)
+    assert outcome.problem.scene.title in path.read_bytes().decode("utf-8", errors="replace")
+
+
+def test_contact_curves_have_units_in_their_header(outcome, tmp_path):
+    level = outcome.runs["half_plane"].finest
+    write_contact(tmp_path / "contact.csv", outcome, level)
+    *notes, header = (tmp_path / "contact.csv").read_text(encoding="utf-8").splitlines()[:3]
+    rows = (tmp_path / "contact.csv").read_text(encoding="utf-8").splitlines()[3:]
+    assert notes[0].startswith(f"# crosscheck {versions()['crosscheck']}")
+    assert notes[0].endswith(": Waves of 1 µm & <more>")
+    assert json.loads(notes[1].removeprefix("# scene: ")) == outcome.problem.scene.as_dict()
+    assert header == "x [m],pressure [Pa],gap [m],deformed height [m]"
+    read = np.array([row.split(",") for row in rows], dtype=float)
+    assert read[:, 0] == pytest.approx(level.grid.x, rel=1e-11)
+    assert read[:, 1] == pytest.approx(level.solution.pressure, rel=1e-11)
+
+
+def test_large_fields_go_to_hdf5(field, tmp_path, monkeypatch):
+    assert write_field(tmp_path, field).suffix == ".vtu"
+    monkeypatch.setattr(fields, "LARGE", len(field.points))
+    assert write_field(tmp_path, field).suffix == ".vtkhdf"

@@ -1,0 +1,103 @@
+"""Scenes that can hardly be meant: units left out or mistaken are doubted, and still solved."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons.cli import main
+from comparisons.output.plausibility import warnings_about
+from comparisons.scenes.files import scene_names
+from comparisons.scenes.resolve import load_scene, resolve_tables
+
+STEEL = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
+X = 0.5 * np.arange(801)  # um
+Z = 0.2 * np.sin(X)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    rows = (f"{x:.6g},{z:.6g}\n" for x, z in zip(X, Z, strict=True))
+    (tmp_path / "trace.csv").write_text("".join(rows))
+    return tmp_path
+
+
+def doubts(folder: Path, radius="8 mm", modulus="207 GPa", load="0.5 N/um", **profile) -> str:
+    tables = {
+        "roller": {"radius": radius, **STEEL},
+        "body": {**STEEL, "youngs_modulus": modulus},
+        "load": {"per_length": load},
+    }
+    if profile:
+        tables["profile"] = {"file": "trace.csv", "x_unit": "um", "z_unit": "um", **profile}
+    scene = resolve_tables(tables, name="made", folder=folder, source="made.toml")
+    return "; ".join(warnings_about(scene))
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_scenes_that_come_along_are_not_doubted(name):
+    assert warnings_about(load_scene(name)) == []
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"radius": 8}, "roller.radius is 8 m"),
+        ({"modulus": 207}, "body.youngs_modulus is 207 Pa"),
+        ({"modulus": "207e6 GPa"}, "body.youngs_modulus is 2"),
+        ({"load": 0.5}, "smooth bodies would have 1.5"),
+        ({"load": "500 N/um"}, "0.84 of the radius"),
+        ({"z_unit": "mm"}, "check x_unit and z_unit"),
+        ({"z_unit": "nm", "x_unit": "mm"}, "check x_unit"),
+        ({"x_unit": "mm"}, "the trace is 400"),
+    ],
+)
+def test_a_mistaken_unit_is_doubted(folder, change, told):
+    assert told in doubts(folder, **change)
+    assert doubts(folder) == doubts(folder, z_unit="um") == ""
+
+
+def test_heights_that_are_all_the_same_are_doubted(folder):
+    (folder / "trace.csv").write_text("".join(f"{x:.6g},3.0\n" for x in X))
+    assert "every height is the same" in doubts(folder, z_unit="um")
+
+
+SCENE = """
+roller = {radius = "8 mm", youngs_modulus = "207 GPa", poissons_ratio = 0.3}
+body = {youngs_modulus = "207 GPa", poissons_ratio = 0.3}
+profile = {file = "trace.csv", x_unit = "um", z_unit = "UNIT"}
+load = {per_length = LOAD}
+resolution = {levels = 2}
+"""
+
+
+def run(folder: Path, unit: str, load: str) -> int:
+    (folder / "s.toml").write_text(SCENE.replace("UNIT", unit).replace("LOAD", load))
+    return main(["run", "s.toml", "--models", "half-plane"])
+
+
+@pytest.mark.parametrize(
+    ("load", "told"),
+    [("0.5", "exceeds the combined modulus"), ("0.05", "is shorter than 4 samples")],
+)
+def test_a_run_says_its_doubts_beside_its_figures(folder, capsys, undrawn, load, told):
+    assert run(folder, "mm", f'"{load} N/um"') == 0
+    out, err = capsys.readouterr()
+    assert "peak pressure" in out and "plausibility warning" not in out
+    lines = err.splitlines()
+    assert all(line.startswith("crosscheck: plausibility warning: ") for line in lines)
+    assert ["rms slope" in line for line in lines] == [True, False]
+    assert told in lines[1] and err.isascii()
+
+
+def test_an_error_names_the_doubt_in_its_one_line(folder, capsys):
+    assert run(folder, "um", '"5000 N/um"') == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert "reaches the end of the trace" in err and "smooth bodies would have" in err
+
+
+def test_init_doubts_a_surface_in_the_wrong_unit(folder, capsys):
+    assert main(["init", "trace.csv", "--x-unit", "um", "--z-unit", "mm"]) == 0
+    assert "plausibility warning: profile: the rms slope is" in capsys.readouterr().out

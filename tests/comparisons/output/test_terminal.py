@@ -1,0 +1,130 @@
+"""The terminal's table: every figure in 80 columns, in a pipe, on any terminal."""
+
+import io
+import math
+import re
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from rich.console import Console
+from scenes import posed, refound
+
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.output.terminal import SHORT, summary
+from comparisons.studies.study import Run
+
+UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "": 1.0}
+
+
+def printed(outcome: Run, width: int = 80, encoding: str = "utf-8") -> str:
+    """What goes into a file or a pipe."""
+    stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    Console(file=stream, width=width).print(summary(outcome))
+    stream.seek(0)
+    return stream.read()
+
+
+def rows(text: str) -> dict[tuple[str, str], str]:
+    """Lines of the first table by the quantity's short name and its friction."""
+    found = {}
+    for line in text.partition("difference: ")[0].splitlines():
+        name = next((s for s in sorted(SHORT.values(), key=len)[::-1] if line.startswith(s)), None)
+        if name and "L2 " not in line[: len(name)]:
+            rest = line[len(name) :].replace("|", " ").split()
+            frictions = [rest.pop(0)]
+            while frictions[-1].endswith(","):
+                frictions.append(rest.pop(0))
+            for friction in frictions:
+                found[name, friction.strip(",")] = " ".join(rest)
+    return found
+
+
+def test_every_quantity_has_a_short_name():
+    assert set(SHORT) == set(QUANTITIES)
+    assert len(set(SHORT.values())) == len(SHORT)
+
+
+def test_every_figure_stands_in_80_columns_without_colour(wavy_outcome: Run, finish: Callable):
+    tolerance = {"contact_length": 0.007}  # less than its uncertainty
+    outcome = finish({**wavy_outcome.problem.scene.tables, "tolerance": tolerance})
+    text = printed(outcome)
+    assert "\x1b" not in text
+    assert "…" not in text
+    assert max(map(len, text.splitlines())) <= 80
+    assert "inconclusive" in text  # the longest verdict
+    lines = rows(text)
+    compared = outcome.figures.of(study="comparison")
+    assert len(lines) == len(compared)
+    for entry in compared:
+        words = lines[SHORT[entry.quantity], f"{entry.friction:g}"].split()
+        assert (words[-1] if entry.verdict else None) == entry.verdict
+        own = {"quantity": entry.quantity, "source": "half_plane", "friction": entry.friction}
+        half_plane = outcome.figures.one(study="contact", **own)
+        if half_plane is not None:
+            unit = words[1] if words[1] in UNITS else ""
+            assert float(words[0]) * UNITS[unit] == pytest.approx(half_plane.value, rel=1e-3)
+            words = words[4 if unit else 2 :]
+        expected = 100.0 * entry.value
+        last = 10.0 ** (math.floor(math.log10(100.0 * entry.numerical)) - 1)
+        shown_to = max(0.51 * last, 0.051 * abs(expected))
+        assert float(words[0]) == pytest.approx(expected, abs=shown_to)
+
+
+def test_a_difference_below_its_uncertainty_is_shown_as_nothing(wavy_outcome: Run):
+    first, *rest = wavy_outcome.figures.of(study="comparison")
+    changed = replace(first, value=-0.000049, uncertainty=Uncertainty({"numerical": 0.0038}))
+    outcome = refound(wavy_outcome, "comparison", figures=(changed, *rest))
+    words = rows(printed(outcome))["peak pressure", "0"].split()
+    assert words[4:6] == ["0.00", "0.38"]
+
+
+def test_peaks_that_the_hardness_limits_are_marked(wavy_outcome: Run):
+    assert "capped" not in printed(wavy_outcome)
+    known = wavy_outcome.found["contact"].figures
+    figures = (replace(f, notes=("capped",) * (f.quantity == "peak_pressure")) for f in known)
+    text = printed(refound(wavy_outcome, "contact", figures=tuple(figures)))
+    assert text.count("\ncapped in both") == 1  # and what is not modelled
+    assert max(map(len, text.splitlines())) <= 80
+
+
+def test_the_same_figures_stand_in_a_wide_pipe(wavy_outcome: Run):
+    assert rows(printed(wavy_outcome, 160)) == rows(printed(wavy_outcome, 80))
+
+
+def test_a_narrow_terminal_breaks_figures_but_cuts_none(wavy_outcome: Run):
+    def letters(width: int) -> Counter:
+        return Counter(re.sub(r"[\s─]", "", printed(wavy_outcome, width)))
+
+    assert letters(50) == letters(160)
+
+
+def test_a_terminal_without_unicode_shows_it_too(wavy_outcome: Run):
+    assert rows(printed(wavy_outcome, encoding="ascii")) == rows(printed(wavy_outcome))
+
+
+def test_verdict_time_and_files_follow_the_table(smooth_outcome: Run):
+    text = " ".join(printed(smooth_outcome).split())
+    figures, _, rest = text.partition("tau1 deep, L2")
+    assert figures
+    assert "INCONCLUSIVE The half-plane cannot be judged here" in rest
+    # three levels of 0.4683 s and of 3 s
+    assert "half-plane 1.40 s, finite elements 9.00 s" in rest
+    assert "results/made/report.html" in rest
+    assert "results/made/result.json" in rest
+
+
+def test_one_model_is_shown_without_a_comparison(finish: Callable[..., Run], smooth_tables):
+    text = printed(finish(smooth_tables, ("half_plane",)))
+    assert "NOT COMPARED" in text
+    assert "verdict" not in text
+    assert ("peak pressure", "0") in rows(text)
+    assert "fin" not in text
+
+
+def test_titles_are_not_taken_for_markup(smooth_outcome: Run):
+    scene = replace(smooth_outcome.problem.scene, title="[red]Roller[/red] [/] and more")
+    outcome = posed(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
+    assert printed(outcome).startswith("[red]Roller[/red] [/] and more\n")
