@@ -85,8 +85,8 @@ def _number(value: float | None) -> float:
 
 
 def _stated(parts: Mapping[str, float | None]) -> Uncertainty:
-    names = ("iteration", "discretisation", "domain")
-    return numerical(*(_number(parts[name]) for name in names))
+    names = ("iteration", "discretisation", "domain", "increments")
+    return numerical(*(_number(parts.get(name, 0.0)) for name in names))
 
 
 def _contact(old: Mapping) -> Items:
