@@ -13,10 +13,11 @@ from comparisons.models.assumptions import without_law
 from comparisons.output.page.tables.scatter import beside_inputs
 from comparisons.output.page.tables.text import error_text
 from comparisons.output.page.tables.yielding import flow_sentence
-from comparisons.studies import contact, coupling, scatter, yielding
+from comparisons.studies import contact, coupling, yielding
 from comparisons.studies.model_error.account import INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import law_leaned_on
+from comparisons.studies.scatter.figures import NAME as SCATTER
 from comparisons.studies.study import MODEL_ERROR, Run
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
@@ -137,7 +138,7 @@ def _sentence_of(run: Run) -> str:
 def _inputs(run: Run) -> str:
     """What uncertain inputs do to the figure that decides, where that is more than its tolerance:
     a model error below that is not what a user would see first."""
-    spread, errors = run.data(scatter.NAME), run.model_errors
+    spread, errors = run.data(SCATTER), run.model_errors
     if spread is None or not errors:
         return ""
     error = _nearest(errors)

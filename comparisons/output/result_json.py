@@ -84,8 +84,10 @@ def read_content(content: Mapping) -> Result:
     """What a content says. Raises LookupError, TypeError or ValueError where it is built
     otherwise."""
     studies: dict[str, tuple[list, list, list]] = {}
+    for figure in Figures(map(_read_figure, content["figures"])):
+        studies.setdefault(figure.study, ([], [], []))[0].append(figure)
     for place, (name, read) in enumerate(
-        (("figures", _read_figure), ("series", _read_series), ("statements", _read_statement))
+        (("series", _read_series), ("statements", _read_statement)), start=1
     ):
         for entry in content[name]:
             studies.setdefault(entry["study"], ([], [], []))[place].append(read(entry))

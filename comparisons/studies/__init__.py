@@ -15,18 +15,18 @@ from comparisons.studies import (
     running_in,
     yielding,
 )
-from comparisons.studies.answers import study as answers
-from comparisons.studies.heat import study as heat
-from comparisons.studies.model_error import study as model_error
-from comparisons.studies.scatter import study as scatter
-from comparisons.studies.statistics import study as statistics
+from comparisons.studies.answers.study import STUDY as ANSWERS
+from comparisons.studies.heat.study import STUDY as HEAT
+from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
+from comparisons.studies.scatter.study import STUDY as SCATTER
+from comparisons.studies.statistics.study import STUDY as STATISTICS
 from comparisons.studies.study import Study
 
 # In the order in which they are done, and their figures shown.
 STUDIES: tuple[Study, ...] = (
-    *(contact.STUDY, comparison.STUDY, coupling.STUDY, model_error.STUDY),
-    *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
-    *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
+    *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
+    *(problem.STUDY, running_in.STUDY, checks.STUDY, SCATTER, yielding.STUDY),
+    *(quiescent_zone.STUDY, bulge.STUDY, STATISTICS, ANSWERS, HEAT),
 )
 
 

@@ -23,6 +23,7 @@ import math
 from typing import NamedTuple
 
 from comparisons import api
+from comparisons.figures.figure import Figures
 from tests.finite_strain_check import cases
 from tests.harness import Demand, print_demands, print_table
 
@@ -48,16 +49,17 @@ class Held(NamedTuple):
         return abs(self.stated - self.found) / math.hypot(self.uncertainty, self.own)
 
 
-def held(name: str, result: dict, figures: dict) -> list[Held]:
-    """Every figure of a run (`result.json`) beside `figures` of `cases.kept`."""
+def held(name: str, stated: Figures, independent: dict) -> list[Held]:
+    """Every model error that a run has stated beside `independent` figures of `cases.kept`."""
     found = []
-    for quantity in [name for name in cases.QUANTITIES if name in result["model_error"]]:
-        [row] = result["comparison"][quantity]
-        [error] = result["model_error"][quantity]
-        value, own = figures[quantity]["value"], figures[quantity]["uncertainty"]
-        ratio = row["half_plane"] / value
-        stated = error["value"], error["uncertainty"]
-        found.append(Held(name, row["friction"], quantity, *stated, ratio - 1, ratio * own / value))
+    for error in stated.of(study="model_error", source="half_plane"):
+        if error.quantity in cases.QUANTITIES:
+            value = stated.one(study="contact", source="half_plane", quantity=error.quantity).value
+            known = independent[error.quantity]
+            ratio = value / known["value"]
+            own = ratio * known["uncertainty"] / known["value"]
+            of_figure = name, error.friction, error.quantity, error.value, error.numerical
+            found.append(Held(*of_figure, ratio - 1, own))
     return found
 
 
@@ -88,7 +90,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     values, rows = cases.read_values(), []
     for name in options.scenes:
-        rows += held(name, api.run(paths[name]).result, values[name]["figures"])
+        rows += held(name, api.run(paths[name]).figures, values[name]["figures"])
     cells = []
     for row in rows:
         percents = (row.stated, row.uncertainty, row.found, row.own)

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from comparisons import api
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.uncertainty import numerical
 from tests.finite_strain_check import cases, check
 from tests.finite_strain_check.contact import State, SurfacePair
 from tests.finite_strain_check.figures import figures
@@ -98,15 +100,15 @@ def test_meshes_are_conforming_and_carry_quadratics_exactly():
 def test_small_strains_meet_the_half_plane_on_a_rough_body():
     """Pressure, shear and orthogonal shear to 0.2 %, the length to both grids."""
     scene = api.load(cases.scene_paths()["unrun-rigid"])
-    contact = api.run(scene, models="half-plane").result["models"]["half_plane"][0]
+    run = api.run(scene, models="half-plane")
+    known = {f.quantity: f.value for f in run.figures.of(study="contact")}
     task = cases.task_of(scene, 0.0, "linear")
     found = cases.solved(task, (0.5, 0.25, 0.125))[-1]
-    stress, contact = contact["stress"], contact["contact"]
-    assert 1e9 * found.peak == pytest.approx(contact["peak_pressure"], rel=2e-3)
-    assert 1e9 * found.tau1 == pytest.approx(stress["tau1_max"], rel=2e-3)
-    assert 1e9 * found.txz == pytest.approx(stress["txz_max_abs"], rel=2e-3)
-    assert 1e-6 * found.length == pytest.approx(contact["contact_length"], rel=0.015)
-    assert len(found.patches) == len(contact["patches"])
+    assert 1e9 * found.peak == pytest.approx(known["peak_pressure"], rel=2e-3)
+    assert 1e9 * found.tau1 == pytest.approx(known["tau1_max"], rel=2e-3)
+    assert 1e9 * found.txz == pytest.approx(known["txz_max_abs"], rel=2e-3)
+    assert 1e-6 * found.length == pytest.approx(known["contact_length"], rel=0.015)
+    assert len(found.patches) == len(run.outcome.runs["half_plane"].finest.patches)
 
 
 def test_kept_values_are_those_of_the_finest_mesh():
@@ -127,15 +129,19 @@ def test_kept_values_are_those_of_the_finest_mesh():
 
 
 def test_a_figure_outside_both_uncertainties_is_not_within():
-    def row(value):
-        return [{"half_plane": 97.0, "friction": 0.1, "value": value, "uncertainty": 0.003}]
+    def stated_as(value):
+        of_model = "half_plane", 97.0, {"friction": 0.1}
+        error = "half_plane", value, {"friction": 0.1}, "whole", 1.0, numerical(0.0, 0.003, 0.0)
+        return Figures(
+            figure
+            for name in names
+            for figure in (Figure("contact", name, *of_model), Figure("model_error", name, *error))
+        )
 
     names = ["peak_pressure", "contact_length", "tau1_max", "txz_max_abs"]
     figure = {"value": 100.0, "uncertainty": 0.4}
     for stated, within in ((-0.026, True), (-0.034, True), (-0.024, False), (-0.046, False)):
-        tables = {name: row(stated) for name in names}
-        result = {"comparison": tables, "model_error": tables}
-        found = check.held("scene", result, dict.fromkeys(cases.QUANTITIES, figure))
+        found = check.held("scene", stated_as(stated), dict.fromkeys(cases.QUANTITIES, figure))
         assert len(found) == len(names)
         assert {each.ratio <= 1.0 for each in found} == {within}
         covered, far = check.demands(found)

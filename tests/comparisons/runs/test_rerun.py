@@ -14,9 +14,11 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
+from comparisons.output.recorded_run import read_result
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
+from comparisons.studies.study import MODEL_ERROR
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -63,20 +65,31 @@ def own(half_plane, tmp_path):
     return shutil.copytree(half_plane, tmp_path / "own")
 
 
-@pytest.fixture(scope="module")
-def figures(both):
-    return json.loads((both / "result.json").read_text())
+def peak_of(result):
+    """The half-plane's peak pressure, as result.json holds it."""
+    wanted = ("contact", "peak_pressure", "half_plane")
+    return next(f for f in result["figures"] if (f["study"], f["quantity"], f["source"]) == wanted)
 
 
-def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, figures, monkeypatch):
+def cost_of(levels):
+    """The series that says on how many levels the whole model was solved."""
+    columns = {"levels": {"values": [levels]}}
+    return {"study": MODEL_ERROR, "name": "cost", "is_account": True, "columns": columns}
+
+
+def whole_levels(found) -> int:
+    return found[MODEL_ERROR].table("cost").columns["levels"].values[0]
+
+
+def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, monkeypatch):
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
     monkeypatch.setattr("comparisons.studies.model_error.error_budget._settled", lambda *_: False)
-    assert figures["error_budget"]["levels"] == 2
+    assert whole_levels(read_result(both / "result.json").found) == 2
     before = contents(both)
     repetition = rerun(both)
     assert repetition.levels[1] > 2
-    assert repetition.outcome.result["error_budget"]["levels"] == 2
+    assert whole_levels(repetition.outcome.found) == 2
     assert repetition.movement.moved == ()
     assert repetition.movement.rounding == repetition.movement.new == 0
     assert repetition.movement.same > 150
@@ -106,24 +119,22 @@ def test_the_recorded_folder_is_not_written_to(half_plane, out):
 
 def test_a_tampered_figure_is_found(own, capsys):
     def alter(result):
-        result["models"]["half_plane"][0]["contact"]["peak_pressure"] *= 1.0 + 1e-3
+        peak_of(result)["value"] *= 1.0 + 1e-3
 
     change(own / "result.json", alter)
     assert main(["rerun", str(own)]) == 1
     printed = capsys.readouterr().out
-    rows = [line for line in printed.splitlines() if line.startswith("models.")]
+    rows = [line for line in printed.splitlines() if line.startswith("contact.peak_pressure")]
     assert len(rows) == 1
-    assert rows[0].startswith("models.half_plane[0].contact.peak_pressure")
-    assert "-9.99e-04" in rows[0]
+    assert "-1.00e-03" in rows[0]
     assert "MOVED  1 figure moved by more than the stated uncertainty" in printed
 
 
 def test_within_its_uncertainty_it_is_shown_and_no_finding(own, capsys):
     def alter(result):
-        result["models"]["half_plane"][0]["contact"]["peak_pressure"] *= 1.0 + 1e-5
+        peak_of(result)["value"] *= 1.0 + 1e-5
 
-    result = json.loads((own / "result.json").read_text())
-    stated = result["models"]["half_plane"][0]["uncertainty"]["peak_pressure"]["total"]
+    stated = read_result(own / "result.json").figures.one(quantity="peak_pressure").numerical
     assert 1e-5 < stated < 1e-4
     change(own / "result.json", alter)
     assert main(["rerun", str(own)]) == 0
@@ -157,7 +168,7 @@ def test_as_many_levels_as_recorded_whatever_they_take(tmp_path):
     change(folder / "record.json", lambda record: record["scene"]["budget"].update(time=1e-6))
     repetition = rerun(folder)
     assert repetition.levels == (5, 5)
-    assert [row.path for row in repetition.movement.moved] == ["scene.budget.time"]
+    assert [row.name for row in repetition.movement.moved] == ["scene.budget.time"]
 
 
 class TestTrace:
@@ -226,8 +237,9 @@ def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
         ("record.json", '{"schema": 99}', "schema: is 99, of a later crosscheck; allowed is 2"),
         ("record.json", '{"schema": 2}', "record.json: models: is missing"),
         ("result.json", '{"schema": 1}', "is 1, of an earlier crosscheck; .* run the scene again"),
-        ("result.json", '{"schema": 2}', "result.json: figures are missing"),
-        ("result.json", '{"schema": 2, "models": {"half_plane": 3}, "scene": 4}', "result.json: "),
+        ("result.json", '{"schema": 3}', "result.json: is no result of a run"),
+        ("result.json", '{"schema": 3, "figures": 3, "scene": 4}', "result.json: is no result"),
+        ("result.json", '{"schema": 2}', "result.json: is no result of a run"),
     ],
 )
 def test_a_folder_without_a_whole_record_is_refused(own, capsys, file, text, words):
@@ -269,11 +281,13 @@ def test_a_record_that_cannot_be_is_refused(own, alter, words):
 @pytest.mark.parametrize(
     "alter",
     [
-        lambda r: r.update(error_budget={"levels": 10**9}),
-        lambda r: r.update(error_budget={"levels": "3"}),
-        lambda r: r.update(error_budget="3"),
-        lambda r: r["models"]["half_plane"][0]["contact"].update(patches=["wide"]),
-        lambda r: r["models"]["half_plane"][0]["contact"].update(approach=10**400),
+        lambda r: r["series"].append(cost_of(10**9)),
+        lambda r: r["series"].append(cost_of("3")),
+        lambda r: r.update(series="3"),
+        lambda r: r["figures"].append(3),
+        lambda r: r["figures"].append(r["figures"][0]),
+        lambda r: peak_of(r).update(value="wide"),
+        lambda r: peak_of(r).update(value=10**400),
     ],
 )
 def test_figures_that_no_run_writes_are_refused_before_anything_is_solved(own, alter, monkeypatch):

@@ -16,7 +16,7 @@ from comparisons.models.finite_element.nonlinear import _refuse_cut_off
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene
-from comparisons.studies.contact import figures, uncertainties
+from comparisons.studies.contact import uncertainties, values_of
 from fem.solver.mumps import FemError
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -93,18 +93,17 @@ def test_increments_have_an_uncertainty_of_their_own(outcome):
     shorter = Refinement(elements.finest.grid.pitch, travel=0.25)
     level = finite_element_level(posed, plan, shorter, outcome.window, Stages())
     stated = uncertainties(elements, posed, 0.0)
-    reached = figures(elements.finest, posed, 0.0)
+    reached = values_of(elements.finest, posed, 0.0)
     edge = length_resolution(shorter.pitch, 1) / elements.finest.contact_length
-    moved_to = figures(level, posed, 0.0)
+    moved_to = values_of(level, posed, 0.0)
     # the depth of the maximum jumps on so coarse a mesh
     for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
         moved = abs(moved_to[name] - reached[name]) / abs(reached[name])
         read = edge if name in LENGTHS else 0.0
-        assert moved <= stated[name].increments + read < stated[name].total, name
-    assert 1e-3 < stated["peak_pressure"].increments < 0.02
-    [of_model] = outcome.result["models"]["finite_element"]
-    shown = of_model["uncertainty"]["peak_pressure"]
-    assert shown["increments"] == stated["peak_pressure"].increments
+        assert moved <= stated[name].parts["increments"] + read < stated[name].total, name
+    assert 1e-3 < stated["peak_pressure"].parts["increments"] < 0.02
+    shown = outcome.figures.one(source="finite_element", quantity="peak_pressure")
+    assert shown.uncertainty == stated["peak_pressure"]
 
 
 def test_flow_asks_for_nothing_but_a_yield_stress():

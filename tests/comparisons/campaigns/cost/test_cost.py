@@ -67,13 +67,13 @@ class TestWholeStudy:
             outcome = run(resolved(changed(SMOOTH, **sections)), tmp_path / wanted, (wanted,))
             level = outcome.runs[wanted].levels[sections["resolution"]["levels"] - 1]
             assert level.grid.pitch == pytest.approx(picked.row.setting, rel=1e-12)
-            contact = outcome.result["models"][wanted][0]["contact"]
             reached = values_of(level, outcome.problem, 0.0)
             for name, exact in (
                 ("peak_pressure", HERTZ.peak_pressure),
                 ("contact_length", 2.0 * HERTZ.half_width),
             ):
-                assert abs(contact[name] / exact - 1.0) <= found.problem.scene.tolerance[name]
+                figure = outcome.figures.one(study="contact", quantity=name)
+                assert abs(figure.value / exact - 1.0) <= found.problem.scene.tolerance[name]
                 error = abs(reached[name] / exact - 1.0)
                 assert error == pytest.approx(picked.errors[name], rel=0.02, abs=1e-9)
                 assert error <= found.problem.scene.tolerance[name]

@@ -13,6 +13,8 @@ import scenes
 
 from comparisons import api
 from comparisons.campaigns.decks.write import write_deck
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.quantity import MODELS
 
 pytestmark = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="decks in CalculiX: apt-get install calculix-ccx"
@@ -72,7 +74,7 @@ def coarse(tables: dict) -> dict:
     return tables | {"resolution": {"pitch": COARSER * pitch}}
 
 
-def judged(folder: Path, tables: dict, old: str = "", new: str = "") -> dict:
+def judged(folder: Path, tables: dict, old: str = "", new: str = "") -> dict[str, Figure]:
     """By quantity, CalculiX on two resolutions as `run --answer` judges it beside the scene's
     finite elements: by the stress on the surface of its solution of the decks."""
     tables = {name: section for name, section in tables.items() if name != "stress"}
@@ -81,8 +83,13 @@ def judged(folder: Path, tables: dict, old: str = "", new: str = "") -> dict:
     read = tomllib.loads((folder / "1/answer.toml").read_text())
     files = [str(folder / str(level) / read["file"]) for level in (1, 2)]
     asked = {"answers": {"calculix": read | {"file": files}}}
-    found = api.run(tables | asked, "finite-element").result["answers"]["calculix"]
-    return {name: rows[0] for name, rows in found["comparison"].items()}
+    return differences(api.run(tables | asked, "finite-element").figures)
+
+
+def differences(figures: Figures) -> dict[str, Figure]:
+    """Of CalculiX from a model, by quantity."""
+    of_answer = figures.of(study="answers", source="calculix")
+    return {f.quantity: f for f in of_answer if f.against in MODELS}
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -90,16 +97,16 @@ def test_calculix_agrees_with_the_finite_elements(name, tmp_path):
     rows = judged(tmp_path, SCENES[name])
     for quantity in ("peak_pressure", "contact_length"):
         row = rows[quantity]
-        assert abs(row["difference"]) <= row["uncertainty"]
-        assert row["verdict"] != "differ"
-    found = rows["peak_pressure"]["verdict"]
+        assert abs(row.value) <= row.numerical
+        assert row.verdict != "differ"
+    found = rows["peak_pressure"].verdict
     assert found == ("agree" if name in RESOLVED else "inconclusive")
 
 
 def test_a_deck_of_another_modulus_differs(tmp_path):
     steel = "210000000, 0.3"
     row = judged(tmp_path, SCENES["smooth"], steel, steel.replace("21", "23"))["peak_pressure"]
-    assert row["verdict"] == "differ" and row["difference"] > row["uncertainty"]
+    assert row.verdict == "differ" and row.value > row.numerical
 
 
 def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
@@ -111,12 +118,12 @@ def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
     read = tomllib.loads((tmp_path / "1/answer.toml").read_text())
     files = [str(tmp_path / str(level) / read["file"]) for level in (1, 2)]
     answers = {"calculix": read | {"file": files}}
-    found = api.run(tables | {"answers": answers}, "half-plane").result["answers"]["calculix"]
+    found = api.run(tables | {"answers": answers}, "half-plane")
+    rows = differences(found.figures)
     for quantity in ("peak_pressure", "contact_length", "tau1_max"):
-        (row,) = found["comparison"][quantity]
-        assert abs(row["difference"]) <= row["uncertainty"] < 0.1
-    assert found["comparison"]["peak_pressure"][0]["verdict"] == "agree"
-    assert abs(found["balance"]) < 2e-3
+        assert abs(rows[quantity].value) <= rows[quantity].numerical < 0.1
+    assert rows["peak_pressure"].verdict == "agree"
+    assert abs(found.figure("load_balance", "calculix", "answers").value) < 2e-3
 
 
 def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):

@@ -20,17 +20,17 @@ from comparisons.campaigns.verify.coverage import (
 from comparisons.campaigns.verify.pages import coverage_line, verify_page
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.convergence import Convergence
-from comparisons.figures.uncertainty import Uncertainty
+from comparisons.figures.uncertainty import numerical
 
 
 def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
-    uncertainty = Uncertainty(0.0, stated, 0.0, Convergence(2.0, 2.0, 0.0, 1.0, 1.0, "monotone"))
+    known = Convergence(2.0, 2.0, 0.0, 1.0, 1.0, "monotone")
     made = Pair(
         *("case <&>", "source", "Hertz", "half_plane", "contact_length"),
         levels=(1.9, 1.95, 2.0 * (1.0 + error)),
         exact=2.0,
         scale=2.0,
-        uncertainty=uncertainty,
+        uncertainty=numerical(0.0, stated, 0.0, convergence=known),
         converged=True,
     )
     return replace(made, **others)
@@ -49,8 +49,8 @@ def test_an_error_within_the_uncertainty_is_covered():
     assert pair(1e-3, 1.001e-3).covered and not pair(1e-3, 0.999e-3).covered
     assert not pair(-1e-3, 0.999e-3).covered
     assert pair(-1e-3, 2e-3).overestimation == pytest.approx(2.0)
-    given = replace(pair().uncertainty, iteration=1e-3, discretisation=2e-3, domain=4e-3)
-    assert pair(-1e-3, uncertainty=given).overestimation == pytest.approx(7.0)
+    three = numerical(1e-3, 2e-3, 4e-3)
+    assert pair(-1e-3, uncertainty=three).overestimation == pytest.approx(7.0)
 
 
 def test_an_error_of_rounding_is_not_informative():

@@ -14,8 +14,8 @@ from comparisons.models.finite_element import compliance_check as operator_diffe
 from comparisons.models.finite_element import mesh as finite_element_mesh
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.compliance_check import (
-    Column,
     ComplianceCheck,
+    ComplianceColumn,
     Differences,
     Wave,
     judged,
@@ -52,7 +52,7 @@ def checked(given) -> ComplianceCheck:
 
 
 def differences(waves: dict[float, float], beyond: float = 1e-4) -> Differences:
-    columns = (Column(0.0, 2.0 * beyond, beyond), Column(1.0, 1e-5, 1e-6))
+    columns = (ComplianceColumn(0.0, 2.0 * beyond, beyond), ComplianceColumn(1.0, 1e-5, 1e-6))
     return Differences(columns, tuple(Wave(1e-6 * n, n, off) for n, off in waves.items()))
 
 

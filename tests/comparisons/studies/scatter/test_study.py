@@ -2,6 +2,7 @@
 
 import json
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -16,11 +17,14 @@ from comparisons.common.executors import ExecutorWorker
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import Tasks
 from comparisons.models.half_plane import half_plane_level
+from comparisons.models.level import ModelRun
+from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Spread
 from comparisons.studies.scatter.samples import sampled, values_at
 from comparisons.studies.scatter.shares import designs
-from comparisons.studies.scatter.study import announce_scatter
+from comparisons.studies.scatter.study import begin, solve
+from comparisons.studies.study import unsolved
 
 INPUTS = {"load": "4 %", "body_youngs_modulus": "6 %", "roller_radius": "3 %"}
 SCENE = changed(SMOOTH, scatter=INPUTS | {"samples": 64, "seed": 3})
@@ -121,12 +125,21 @@ def test_a_run_says_it(tmp_path, capsys):
 
 def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
     kept, posed = Cache(tmp_path, "key", {}), problem(changed(SCENE, scatter={"samples": 8}))
-    finest = half_plane_level(posed, posed.pitches[0], None, Stages())
-    first = announce_scatter(posed, Tasks(kept=kept))(finest)
+    half_plane = ModelRun(
+        "half_plane", (half_plane_level(posed, posed.pitches[0], None, Stages()),)
+    )
+    scene = unsolved(posed, make_plan(posed, ("half_plane",)))
+
+    def found():
+        tasks = Tasks(kept=kept)
+        begin(scene, tasks)
+        return solve(replace(scene, runs={"half_plane": half_plane}), {}, tasks)
+
+    first = found()
     monkeypatch.setattr("comparisons.studies.scatter.study.solve_samples", None)
-    again = announce_scatter(posed, Tasks(kept=kept))(finest)
+    again = found()
     assert again.figures == first.figures
-    np.testing.assert_array_equal(again.band, first.band)
+    np.testing.assert_array_equal(again.data.band, first.data.band)
 
 
 class TestASample:

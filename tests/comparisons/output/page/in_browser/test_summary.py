@@ -45,15 +45,15 @@ def column(page, head: str) -> int:
 
 
 def test_a_run_has_the_figures_of_its_result(rows: list[SummaryRow], wavy_outcome: Run):
-    cells = rows[0].cells
-    result = wavy_outcome.result
-    assert cells["rms_slope"].value == result["groups"]["rms_slope"]
-    peaks = [entry["contact"]["peak_pressure"] for entry in result["models"]["finite_element"]]
-    assert cells["peak_pressure"].value == max(peaks)
-    entries = result["model_error"]["peak_pressure"]
-    worst = max(entries, key=lambda own: abs(own["value"]) + own["uncertainty"])
+    cells, figures = rows[0].cells, wavy_outcome.figures
+    slope = figures.one(study="problem", source="scene", quantity="rms_slope")
+    assert cells["rms_slope"].value == slope.value
+    peaks = figures.of(study="contact", source="finite_element", quantity="peak_pressure")
+    assert cells["peak_pressure"].value == max(figure.value for figure in peaks)
+    errors = figures.of(study="model_error", quantity="peak_pressure")
+    worst = max(errors, key=lambda own: abs(own.value) + own.numerical)
     own = cells["model_error_peak_pressure"]
-    assert own.value == abs(worst["value"])
+    assert own.value == abs(worst.value)
     assert own.note.startswith("± ") and own.note.endswith(" %, tolerance 2 %")
     assert cells["seconds_half_plane"].value == pytest.approx(
         sum(wavy_outcome.runs["half_plane"].seconds.values())

@@ -1,0 +1,130 @@
+"""A figure: what names it, and the one rule by which it is judged."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from comparisons.figures.figure import Figure, Figures, Findings, Series, Statement, figures_of
+from comparisons.figures.quantity import WHOLE
+from comparisons.figures.uncertainty import Uncertainty, numerical
+
+BOUNDED = Figure("comparison", "peak_pressure", "half_plane", 0.01, {"friction": 0.1}, "other")
+
+
+def judged(value, size, most, against="finite_element", unknown=0.0):
+    return Figure(
+        study="comparison",
+        quantity="peak_pressure",
+        source="half_plane",
+        value=value,
+        against=against,
+        uncertainty=Uncertainty({"iteration": size}),
+        unknown={"flow": unknown},
+        bounds=(-most, most),
+    )
+
+
+def test_two_figures_of_one_name_are_refused():
+    other = replace(BOUNDED, value=0.02, bounds=(-1.0, 1.0))
+    with pytest.raises(ValueError, match="two figures are called"):
+        Figures([BOUNDED, other])
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"study": "contact"},
+        {"quantity": "tau1_max"},
+        {"source": "whole"},
+        {"against": None},
+        {"at": {"friction": 0.2}},
+    ],
+)
+def test_each_part_of_the_name_tells_them_apart(change):
+    assert len(Figures([BOUNDED, replace(BOUNDED, **change)])) == 2
+
+
+def test_figures_of_a_kind_keep_their_order():
+    figures = Figures(replace(BOUNDED, at={"friction": mu}) for mu in (0.3, 0.0, 0.1))
+    assert [f.friction for f in figures.of(study="comparison")] == [0.3, 0.0, 0.1]
+    assert figures.one(friction=0.0) is figures[1]
+    assert figures.one(friction=0.2) is None
+
+
+@pytest.mark.parametrize(
+    ("value", "size", "most", "verdict"),
+    [
+        (0.01, 0.005, 0.02, "agree"),
+        (-0.01, 0.01, 0.02, "agree"),
+        (0.01, 0.011, 0.02, "inconclusive"),
+        (0.03, 0.01, 0.02, "inconclusive"),
+        (-0.031, 0.01, 0.02, "differ"),
+        (0.0, math.inf, 0.02, "inconclusive"),
+    ],
+)
+def test_the_whole_interval_lies_within_the_bounds_or_beyond(value, size, most, verdict):
+    assert judged(value, size, most).verdict == verdict
+
+
+def test_what_is_not_modelled_widens_the_interval():
+    assert judged(0.01, 0.005, 0.02, unknown=0.006).verdict == "inconclusive"
+
+
+def test_a_model_error_and_what_is_no_difference_hold_or_fail():
+    assert judged(0.01, 0.0, 0.02, against=WHOLE).verdict == "holds"
+    assert judged(0.03, 0.0, 0.02, against=None).verdict == "fails"
+
+
+def test_what_has_no_bounds_is_not_judged():
+    assert replace(judged(0.01, 0.0, 0.02), bounds=None).verdict is None
+
+
+def test_a_bounded_figure_without_a_stated_uncertainty_is_inconclusive():
+    assert replace(judged(0.0, 0.0, 0.02), uncertainty=None).verdict == "inconclusive"
+
+
+@given(
+    value=st.floats(-1.0, 1.0),
+    size=st.floats(0.0, 1.0),
+    unknown=st.floats(0.0, 1.0),
+    most=st.floats(1e-6, 1.0),
+)
+def test_a_verdict_that_is_fixed_survives_a_finer_solution(value, size, unknown, most):
+    """Wherever within its uncertainty the value comes to lie, with none left."""
+    figure = judged(value, size, most, unknown=unknown)
+    if not figure.is_fixed or figure.verdict == "inconclusive":
+        return
+    for moved in (-size, 0.0, size):
+        finer = judged(value + moved * (1.0 - 1e-12), 0.0, most, unknown=unknown)
+        assert finer.verdict == figure.verdict
+
+
+def test_parts_are_bounds_and_add():
+    stated = numerical(1e-3, 2e-3, 4e-3, 8e-3)
+    assert stated.total == pytest.approx(15e-3)
+    assert Uncertainty().total == 0.0
+    assert numerical(0.0, math.inf, 0.0).total == math.inf
+
+
+def test_a_value_is_judged_over_its_scale_and_a_difference_as_it_is():
+    own = replace(judged(2e9, 0.0, 3.0), against=None, scale=1e9)
+    assert (own.relative, own.verdict) == (2.0, "holds")
+    assert replace(judged(0.02, 0.0, 0.03), scale=1e9).relative == 0.02
+
+
+def test_plain_figures_leave_out_what_is_not_known():
+    made = figures_of("problem", "hertz", {"a": 2.0, "b": None, "c": math.nan, "d": 0.0})
+    assert [(f.quantity, f.scale, f.numerical) for f in made] == [("a", 2.0, 0.0), ("d", 1.0, 0.0)]
+
+
+def test_series_and_statements_are_found_by_name_source_and_place():
+    series = Series("patches", {}, "half_plane"), Series("patches", {}, "whole", {"friction": 0.1})
+    said = (Statement("converged", "yes", "half_plane"),)
+    findings = Findings(series=series, statements=said)
+    assert findings.table("patches", "whole", friction=0.1) is series[1]
+    assert findings.table("patches", "whole", friction=0.2) is None
+    assert findings.said("converged", "half_plane") == "yes"
+    assert findings.said("converged", "whole") is None
