@@ -3,11 +3,15 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 MAX_SAMPLES = 2_000_000  # the spline of so many samples takes 0.25 GB while it is built
+MIN_SAMPLES = 8  # of a made profile
 ROUNDING = 1e-6  # of the sample spacing: so far beyond its end a profile is still evaluated
 # Sizes [m] between which slopes, curvatures and their powers still fit a double.
 CLOSEST, FARTHEST = 1e-33, 1e33
@@ -49,8 +53,10 @@ class Profile:
         """Median distance between neighbouring samples [m]."""
         return float(np.median(np.diff(self.x)))
 
-    def spline(self) -> CubicSpline:
+    def spline(self) -> "CubicSpline":
         """C2 cubic spline through the samples: height(x) [m]. Unlike `surface` it extrapolates."""
+        from scipy.interpolate import CubicSpline  # slow to load, and not needed to hold samples
+
         return CubicSpline(self.x, self.height)
 
     def shifted(self, position: float) -> "Profile":
@@ -69,7 +75,7 @@ def surface(profile: Profile) -> Surface:
     return partial(_within, profile.spline(), ROUNDING * profile.spacing)
 
 
-def _within(spline: CubicSpline, slack: float, x: np.ndarray, derivative: int = 0) -> np.ndarray:
+def _within(spline: "CubicSpline", slack: float, x: np.ndarray, derivative: int = 0) -> np.ndarray:
     first, last = float(spline.x[0]), float(spline.x[-1])
     x = np.asarray(x, dtype=float)
     outside = ~((x >= first - slack) & (x <= last + slack))

@@ -45,14 +45,10 @@ def level_cost(name: str, number: int) -> LevelCost:
     from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
     from comparisons.models.plan import make_plan
     from comparisons.models.problem import problem_of
-    from comparisons.models.running_in import run_in_scene
     from comparisons.models.window import window_of
-    from comparisons.scenes.resolve import load_scene
+    from comparisons.scenes.scene import Scene
 
-    scene = load_scene(name)
-    if scene.running_in is not None:
-        scene = run_in_scene(scene)
-    problem = problem_of(scene)
+    problem = problem_of(Scene.read(name))
     plan = make_plan(problem, ("finite_element",))
     refinement = Refinement(problem.pitches[0] / 2.0 ** (number - 1))
     window = window_of(problem) if plan.stress else None

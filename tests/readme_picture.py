@@ -65,10 +65,10 @@ def overview(outcome: Run) -> "Figure":
 def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:
     """Run a scene and write its picture."""
     from comparisons.runs.run import run
-    from comparisons.scenes.resolve import load_scene
+    from comparisons.scenes.scene import Scene
 
     with TemporaryDirectory() as folder:
-        outcome = run(load_scene(scene), Path(folder) / "out", MODELS)
+        outcome = run(Scene.read(scene), Path(folder) / "out", MODELS)
     with drawing():
         overview(outcome).savefig(path, dpi=PIXELS, pil_kwargs={"optimize": True})
 

@@ -8,7 +8,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from comparisons.models.problem import Problem
-    from comparisons.scenes.scene import ResolvedScene
+    from comparisons.scenes.scene import Scene
     from comparisons.studies.study import Run
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -33,11 +33,17 @@ def changed(tables: dict, **sections: dict) -> dict:
     return tables | {name: tables.get(name, {}) | fields for name, fields in sections.items()}
 
 
-def resolved(tables: dict, name: str = "made", folder: Path = Path(".")) -> "ResolvedScene":
-    """What a scene file of these tables resolves to."""
-    from comparisons.scenes.resolve import resolve_tables
+def resolved(tables: dict, name: str = "made", folder: Path = Path(".")) -> "Scene":
+    """The scene that a file of these tables describes."""
+    from comparisons.scenes.scene import Origin, Scene
 
-    return resolve_tables(tables, name=name, folder=folder, source=f"{name}.toml")
+    return Scene.of(tables, Origin(name, folder, f"{name}.toml"))
+
+
+def judging(scene: "Scene", tolerance: dict[str, float]) -> "Scene":
+    """The scene that judges by these tolerances alone."""
+    names = type(scene.tolerance).model_fields
+    return scene.unchecked({f"tolerance.{name}": tolerance.get(name) for name in names})
 
 
 def problem(tables: dict) -> "Problem":

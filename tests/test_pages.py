@@ -8,8 +8,8 @@ import pytest
 
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.schema.finite_element import HELD_BLOCK
+from comparisons.scenes.finite_element import HELD_BLOCK
+from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.error_budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE
@@ -96,7 +96,7 @@ class TestMethod:
         for section, field in (name.split(".") for name in named):
             wrong = {**tables, section: {**tables.get(section, {}), field: []}}
             with pytest.raises(Exception, match=rf"{section}\.{field}: ") as refusal:
-                resolve_tables(wrong, name="made", folder=Path("."), source="made.toml")
+                Scene.of(wrong, Origin("made", Path("."), "made.toml"))
             assert "unknown" not in str(refusal.value)
 
 

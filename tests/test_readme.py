@@ -10,7 +10,7 @@ import re
 import shlex
 import tomllib
 from contextlib import redirect_stdout
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -30,8 +30,8 @@ from comparisons.models.window import window_of
 from comparisons.output.terminal import SHORT
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
-from comparisons.scenes.resolve import load_scene, resolve_tables
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import surface_of
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
 from comparisons.studies.study import Run
@@ -89,10 +89,9 @@ def call(arguments: list[str], folder: Path) -> Call:
     """`crosscheck` with these arguments, in a folder."""
     outcomes, original = [], run_module.run
 
-    def watched(scene: ResolvedScene, *given: object) -> Run:
+    def watched(scene: Scene, *given: object) -> Run:
         """With fewer points of the fields, which take half the time of all effects."""
-        stress = replace(scene.stress, points=(150, 60))
-        outcomes.append(original(replace(scene, stress=stress), *given))
+        outcomes.append(original(scene.changed("stress.points", [150, 60]), *given))
         return outcomes[-1]
 
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
@@ -125,9 +124,9 @@ def mine(folder) -> Call:
 def unrun() -> dict[float, dict[str, float]]:
     """Figures of the half-plane on the README's first scene, by friction coefficient, on the level
     with which its run ends: one more than it begins with."""
-    problem = problem_of(load_scene("ground-unrun"))
+    problem = problem_of(Scene.read("ground-unrun"))
     level = half_plane_level(problem, problem.pitches[-1] / 2.0, window_of(problem), Stages())
-    return {friction: values_of(level, problem, friction) for friction in problem.scene.friction}
+    return {mu: values_of(level, problem, mu) for mu in problem.scene.load.friction}
 
 
 def test_commands_are_the_two_and_the_one_for_a_profile():
@@ -185,9 +184,10 @@ def test_more_of_a_surface_works_in_the_own_scene(folder):
     tables.pop("stress")
     tables["profile"] |= {"cutoff": "0.8 mm", "short_cutoff": "80 um"}  # suit the small trace
     assert {"profile", "running_in"} <= tables.keys()
-    scene = resolve_tables(tables, name="more", folder=folder, source="more.toml")
-    assert scene.profile_info.cutoff is not None and scene.profile_info.short_cutoff is not None
-    run_in = problem_of(scene).scene.run_in
+    scene = Scene.of(tables, Origin("more", folder, "more.toml"))
+    surface = surface_of(scene)
+    assert surface.info.cutoff is not None and surface.info.short_cutoff is not None
+    run_in = problem_of(scene, surface).surface.run_in
     assert run_in.status == "settled" and len(run_in.passes) >= 9
 
 

@@ -10,10 +10,9 @@ from math import ceil, exp, floor
 import numpy as np
 
 from analytic.numerics import check_positive
-from analytic.profile import MAX_SAMPLES, Profile
+from analytic.profile import MAX_SAMPLES, MIN_SAMPLES, Profile
 from analytic.surface.roughness import moments
 
-MIN_SAMPLES = 8
 SAMPLES_PER_WAVELENGTH = 64  # leaves 3e-7 of the amplitude between the spline and the cosine
 MAX_ONE_SIDEDNESS = 2.0  # there a single valley already holds most of the variance
 

@@ -14,9 +14,9 @@ from math import ceil, sqrt
 import numpy as np
 
 from analytic.numerics import check_positive
-from analytic.profile import MAX_SAMPLES, Profile
+from analytic.profile import MAX_SAMPLES, MIN_SAMPLES, Profile
 from analytic.surface.roughness import roughness
-from analytic.surface.synthetic import MIN_SAMPLES, check_samples, random_generator
+from analytic.surface.synthetic import check_samples, random_generator
 
 RIDGE_PER_NOSE = 0.1  # ridge radius over nose radius where none is given
 SAMPLES_PER_RIDGE = 12  # at least; the spline then passes the height by less than 1e-4 of it

@@ -45,35 +45,35 @@ from comparisons.common.units import describe
 from comparisons.figures.quantity import MODELS, models_named
 from comparisons.output.field_files import AUTOMATIC, FORMATS
 from comparisons.scenes.files import find_scene, read_toml
-from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene, with_tolerance
 
 __all__ = ["compare", "cost", "load", "map", "read", "report", "run", "sweep", "tables"]
 
-Scene = ResolvedScene | Mapping | str | os.PathLike
+AnyScene = Scene | Mapping | str | os.PathLike
 """A scene as loaded, as tables, by its name or by its path."""
 
 
-def load(scene: Scene, tolerance: float | None = None) -> ResolvedScene:
-    """The scene with its profile in place, SI units.
+def load(scene: AnyScene, tolerance: float | None = None) -> Scene:
+    """The scene, checked, in SI units.
 
     scene      a name, a path, or tables as TOML has them (paths in them count from here)
     tolerance  relative, of all that is judged, in place of the scene's own
     Raises SceneError, one line, for anything that is wrong with it.
 
-    >>> load("sinusoid").load
-    Load(kind='hertz_peak_pressure', value=1000000000.0)
+    >>> load("sinusoid").load.hertz_peak_pressure
+    1000000000.0
+    >>> load("smooth").changed("load.friction", 0.2).load.friction
+    (0.2,)
     >>> load({"roller": {}})
     Traceback (most recent call last):
     comparisons.common.errors.SceneError: scene: roller.radius: is missing; allowed is a length \
 above 0: a number in m or "8.2 mm"
     """
     if isinstance(scene, Mapping):
-        name = "scene"
-        scene = resolve_tables(scene, name=name, folder=Path("."), source=name)
+        scene = Scene.of(scene)
     elif isinstance(scene, str | os.PathLike):
-        scene = load_scene(scene)
-    elif not isinstance(scene, ResolvedScene):
+        scene = Scene.read(scene)
+    elif not isinstance(scene, Scene):
         allowed = "allowed is a name, a path, tables or what load returns"
         raise InputError(f"scene: is {describe(scene)}; {allowed}")
     return scene if tolerance is None else with_tolerance(scene, tolerance)
@@ -85,7 +85,7 @@ def tables(scene: str | os.PathLike) -> dict:
 
     >>> changed = tables("smooth")
     >>> changed["load"]["friction"] = 0.2
-    >>> load(changed).friction
+    >>> load(changed).load.friction
     (0.2,)"""
     path = find_scene(scene)
     found = read_toml(path)
@@ -96,7 +96,7 @@ def tables(scene: str | os.PathLike) -> dict:
 
 
 def run(
-    scene: Scene,
+    scene: AnyScene,
     models: str | Sequence[str] = MODELS,
     *,
     tolerance: float | None = None,
@@ -153,7 +153,7 @@ def compare(*runs: FinishedRun) -> FigureTable:
 
 
 def cost(
-    scene: Scene,
+    scene: AnyScene,
     *,
     repeats: int = 3,
     out: str | os.PathLike | None = None,
@@ -204,7 +204,7 @@ def map(
 
 
 def sweep(
-    scene: Mapping | str | os.PathLike,
+    scene: AnyScene,
     over: str | Sequence[str] | Mapping[str, Sequence[float | str]],
     models: str | Sequence[str] = "half-plane",
     *,
@@ -229,11 +229,8 @@ def sweep(
 
     if isinstance(over, Mapping):
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
-    given = dict(scene) if isinstance(scene, Mapping) else tables(scene)
-    name = "scene" if isinstance(scene, Mapping) else find_scene(scene).stem
     asked = [over] if isinstance(over, str) else list(over)
-    place = {"name": name, "folder": Path("."), "source": name}
-    request = sweep_request(given, asked, models_named(models, "models"), **place)
+    request = sweep_request(load(scene), asked, models_named(models, "models"))
     with TemporaryDirectory() as scratch:
         folder = Path(scratch) / "sweep" if out is None else Path(out)
         content = make_sweep(request, folder, workers, progress)

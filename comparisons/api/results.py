@@ -111,7 +111,7 @@ class FinishedRun(Printed):
         [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
         stress across the plane is Poisson's ratio times sx + sz."""
         level = self._level(model)
-        frictions = self.outcome.problem.scene.friction
+        frictions = self.outcome.problem.scene.load.friction
         found = level.stress(frictions[0] if friction is None else friction)
         if found is None:
             raise InputError(

@@ -81,6 +81,6 @@ def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
 
 SCENE = "A TOML file, or a name that `scenes` lists."
 MODELS = "Models to solve with, separated by commas."
-Scene = Annotated[str, Argument(help=SCENE, autocompletion=complete_scenes)]
+SceneName = Annotated[str, Argument(help=SCENE, autocompletion=complete_scenes)]
 Models = Annotated[str, Option(help=MODELS, autocompletion=complete_models)]
 Junit = Annotated[Path | None, Option(help="File for JUnit XML: a testcase a figure.")]

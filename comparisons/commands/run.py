@@ -1,6 +1,7 @@
 """`crosscheck run`: one scene by both models, compared and judged."""
 
 import sys
+from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from time import perf_counter
@@ -12,7 +13,7 @@ from comparisons.commands.arguments import (
     RESULTS,
     Junit,
     Models,
-    Scene,
+    SceneName,
     job,
     json_option,
     out_option,
@@ -21,9 +22,11 @@ from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import SceneError, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, models_named
+from comparisons.runs.run import Known
 
 if TYPE_CHECKING:
-    from comparisons.scenes.scene import ResolvedScene
+    from comparisons.scenes.scene import Scene
+    from comparisons.scenes.surface import SceneSurface
 
 BOTH = ",".join(HYPHENATED.values())
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
@@ -31,7 +34,7 @@ Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 
 @job
 def run(
-    scene: Scene,
+    scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Models = BOTH,
     tolerance: Annotated[
@@ -63,23 +66,26 @@ def run(
         from comparisons.output.result_json import content_of
         from comparisons.output.terminal import summary
         from comparisons.runs.run import run as run_scene
-        from comparisons.scenes.resolve import load_scene, with_tolerance
+        from comparisons.scenes.scene import with_tolerance
+        from comparisons.scenes.surface import surface_of
 
     began = perf_counter()
     chosen = models_named(models, "--models")
-    resolved = from_first(lambda: load_scene(scene, answer or ()))
+    asked = from_first(lambda: _read(scene, answer or ()))
+    surface = from_first(lambda: surface_of(asked))
     if tolerance is not None:
-        resolved = with_tolerance(resolved, tolerance, "--tolerance")
-    directory = out or RESULTS / resolved.name
+        asked = with_tolerance(asked, tolerance, "--tolerance")
+    directory = out or RESULTS / asked.name
     from_first(lambda: check_writable(directory))
     from_first(lambda: check_place(junit))
-    warnings = warnings_about(resolved)
+    warnings = warnings_about(asked, surface)
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
-        _say_first_answer(resolved)
+        _say_first_answer(asked, surface)
     with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
         try:
-            outcome = run_scene(resolved, directory, chosen, callback, fields, opens)
+            how = fields, opens, Known(surface)
+            outcome = run_scene(asked, directory, chosen, callback, *how)
         except SceneError as error:
             raise SceneError("; ".join([str(error), *warnings])) from error
         if pdf and is_first():
@@ -87,7 +93,7 @@ def run(
             _print(directory)
     if junit is not None:
         seconds = perf_counter() - began
-        write_junit(junit, junit_xml(resolved.name, run_cases_of(outcome), seconds))
+        write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), seconds))
     content = content_of(outcome) if as_json else {}
     show_either(as_json, content, lambda: summary(outcome))
     _say_warnings([*warnings, *warnings_about_result(outcome)])
@@ -103,14 +109,25 @@ def _say_warnings(warnings: list[str]) -> None:
         tell(f"plausibility warning: {warning.translate(PLAIN)}")
 
 
-def _say_first_answer(scene: "ResolvedScene") -> None:
+def _read(scene: str, answers: Sequence[str]) -> "Scene":
+    """The scene of a name or path, with answers from outside, NAME=FILE each."""
+    from comparisons.scenes.scene import Scene
+    from comparisons.scenes.studies.answers import answers_named
+
+    asked = Scene.read(scene)
+    if answers:
+        asked = asked.changed("answers", answers_named(answers, asked.given.get("answers")))
+    return asked
+
+
+def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:
     """What maps or estimates say of the model error; not of a surface that must be run in first."""
     if scene.running_in is not None or not is_first():
         return
     from comparisons.campaigns.maps.place import first_answer
     from comparisons.models.problem import problem_of
 
-    for line in first_answer(problem_of(scene)):
+    for line in first_answer(problem_of(scene, surface)):
         tell(line)
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from typer import Argument, Option
 
-from comparisons.commands.arguments import RESULTS, Scene, job, json_option, out_option
+from comparisons.commands.arguments import RESULTS, SceneName, job, json_option, out_option
 from comparisons.commands.output import show, show_json
 from comparisons.common.errors import ExitStatus
 
@@ -90,7 +90,7 @@ def init(
 
 @job
 def deck(
-    scene: Scene,
+    scene: SceneName,
     code: Annotated[Code, Option("--for", help="Code that is to solve it.")],
     out: Annotated[Path | None, out_option("deck", "<name>-<code>")] = None,
     level: Annotated[
@@ -100,9 +100,9 @@ def deck(
 ) -> int:
     """Write a scene as a complete input of another code, and how to bring its answer back."""
     from comparisons.campaigns.decks.write import write_deck
-    from comparisons.scenes.resolve import load_scene
+    from comparisons.scenes.scene import Scene
 
-    resolved = load_scene(scene)
+    resolved = Scene.read(scene)
     written = write_deck(resolved, code, out or RESULTS / f"{resolved.name}-{code}", level)
     if as_json:
         show_json(written.as_dict())

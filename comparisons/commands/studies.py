@@ -9,7 +9,7 @@ from typer import Argument, Option
 from comparisons.commands.arguments import (
     RESULTS,
     Models,
-    Scene,
+    SceneName,
     complete_groups,
     complete_maps,
     complete_quantities,
@@ -33,7 +33,7 @@ MAPPED = "As for `run`, or the name of a finished map."
 
 @job
 def cost(
-    scene: Scene,
+    scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
     repeats: Annotated[int, Option(help="Times that each setting is measured.")] = 3,
     as_json: Annotated[bool, json_option("cost.json")] = False,
@@ -41,12 +41,12 @@ def cost(
     """Measure error against time of every method; name the cheapest for each tolerance."""
     from comparisons.campaigns.cost.cost import cost as measured_cost
     from comparisons.campaigns.cost.page import cost_table
-    from comparisons.scenes.resolve import load_scene
+    from comparisons.scenes.scene import Scene
 
-    resolved = load_scene(scene)
-    directory = out or RESULTS / f"{resolved.name}-cost"
+    asked = Scene.read(scene)
+    directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
-        found = measured_cost(resolved, directory, repeats, callback)
+        found = measured_cost(asked, directory, repeats, callback)
     path = directory / "cost.json"
     show_written(as_json, path, lambda: cost_table(found))
     if not as_json:
@@ -107,7 +107,7 @@ def map_of(
 
 @job
 def sweep(
-    scene: Scene,
+    scene: SceneName,
     over: Annotated[
         list[str],
         Option(
@@ -126,14 +126,11 @@ def sweep(
     from comparisons.campaigns.sweep.request import sweep_request
     from comparisons.campaigns.sweep.study import make_sweep, sweep_table
     from comparisons.figures.quantity import models_named
-    from comparisons.scenes.files import find_scene, read_toml
+    from comparisons.scenes.scene import Scene
 
     chosen = models_named(models, "--models")
-    path = find_scene(scene)
-    name = path.stem.strip(". ") or "scene"
-    place = {"name": name, "folder": path.parent, "source": scene}
-    request = sweep_request(read_toml(path), over, chosen, **place)
-    directory = out or RESULTS / f"sweep-{name}"
+    request = sweep_request(Scene.read(scene), over, chosen)
+    directory = out or RESULTS / f"sweep-{request.scene.name}"
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)
     show_either(as_json, content, lambda: sweep_table(content, directory))

@@ -1,1 +1,1 @@
-"""A resolved scene as a mechanical problem, and its solution by each model on one level."""
+"""A scene as a mechanical problem, and its solution by each model on one level."""

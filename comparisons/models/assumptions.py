@@ -3,7 +3,8 @@
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_assumptions
-from comparisons.scenes.scene import FiniteElementSettings, ResolvedScene
+from comparisons.scenes.finite_element import FiniteElementSection
+from comparisons.scenes.scene import Scene
 
 LAW_NAMES = {
     "neo-hookean": "neo-Hookean",
@@ -16,35 +17,36 @@ LAW_NAMES = {
 def assumptions_of(problem: Problem) -> tuple[str, ...]:
     """One sentence an assumption; where the finite elements drop one, what they have instead."""
     scene, settings = problem.scene, problem.scene.finite_element
-    listed = ["elastic"] if scene.hardness is None and not settings.plastic else []
+    listed = ["elastic"] if scene.body.hardness is None and not settings.plastic else []
     listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(settings)]
-    listed.append(_roller(settings, rigid=scene.roller is None))
+    listed.append(_roller(settings, rigid=scene.roller.rigid))
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
         listed.append(_split("the body is of one material", coated))
     if scene.running_in is not None:
-        listed += running_in_assumptions(scene)
-    if scene.hardness is not None:
+        listed += running_in_assumptions(scene, problem.surface)
+    if scene.body.hardness is not None:
         both = "plastic flow is a cap on the pressure (hardness)"
         listed.append(f"half-plane: {both}" if settings.plastic else both)
-    if any(scene.friction):
+    if any(scene.load.friction):
         listed.append(_friction(problem))
     return tuple(listed)
 
 
-def without_law(scene: ResolvedScene) -> list[str]:
+def without_law(scene: Scene) -> list[str]:
     """The elastic bodies, `body` and `roller`, of which the scene says no law of elasticity."""
-    elastic = ("body",) if scene.roller is None else ("body", "roller")
-    return [name for name in elastic if "law" not in scene.tables[name]]
+    elastic = ("body",) if scene.roller.rigid else ("body", "roller")
+    return [name for name in elastic if getattr(scene, name).law is None]
 
 
-def laws(scene: ResolvedScene) -> str:
+def laws(scene: Scene) -> str:
     """The laws of elasticity of both bodies at finite strain, in words."""
-    found = {body.law.name: None for body in (scene.body, scene.roller) if body is not None}
+    materials = [body.material for body in (scene.body, scene.roller) if body.material is not None]
+    found = {material.law.name: None for material in materials}
     return " and ".join(LAW_NAMES[law] for law in found)
 
 
-def _law(scene: ResolvedScene) -> str:
+def _law(scene: Scene) -> str:
     missing = " and ".join(without_law(scene))
     return f"law of elasticity: {laws(scene)}" + (f" (not given: {missing})" if missing else "")
 
@@ -53,7 +55,7 @@ def _split(half_plane: str, finite_elements: str) -> str:
     return f"half-plane: {half_plane}; finite elements: {finite_elements}"
 
 
-def _deformation(scene: ResolvedScene) -> str:
+def _deformation(scene: Scene) -> str:
     settings = scene.finite_element
     linear, small = "linear elasticity", "small deformation"
     if settings.plastic:
@@ -65,7 +67,7 @@ def _deformation(scene: ResolvedScene) -> str:
     return f"{linear}, {small}, plane strain"
 
 
-def _gap(settings: FiniteElementSettings) -> str:
+def _gap(settings: FiniteElementSection) -> str:
     undeformed = "the gap is on the undeformed surface"
     if settings.deformation == "finite":
         normal = "current normal, by deformed area"
@@ -76,7 +78,7 @@ def _gap(settings: FiniteElementSettings) -> str:
     return _split(undeformed, f"on the deformed one, and the pressure acts along the {normal}")
 
 
-def _boundary(settings: FiniteElementSettings) -> str:
+def _boundary(settings: FiniteElementSection) -> str:
     if settings.geometry == "flat":
         return "the roughness is in the gap: the boundary is flat"
     return _split(
@@ -85,7 +87,7 @@ def _boundary(settings: FiniteElementSettings) -> str:
     )
 
 
-def _roller(settings: FiniteElementSettings, rigid: bool) -> str:
+def _roller(settings: FiniteElementSection, rigid: bool) -> str:
     parts = ["an exact circle"] if settings.roller_shape == "circle" else []
     if settings.roller_body == "disc" and not rigid:
         parts.append("an elastic body of finite size")
@@ -95,13 +97,13 @@ def _roller(settings: FiniteElementSettings, rigid: bool) -> str:
 
 def _friction(problem: Problem) -> str:
     scene, beta = problem.scene, problem.dundurs_beta
-    product = max(scene.friction) * abs(beta)
+    product = max(scene.load.friction) * abs(beta)
     # for layers the product alone does not say how much
     size = "" if is_layered(scene) else f" (friction times Dundurs' beta is {product:.3g})"
     moves = f"the sliding traction moves the surfaces{size}"
     still = "the sliding traction does not change the pressure"
-    if scene.coupled != scene.finite_element.coupled:
-        return _split(moves, still) if scene.coupled else _split(still, moves)
-    if scene.coupled:
+    if scene.load.coupled != scene.finite_element.coupled:
+        return _split(moves, still) if scene.load.coupled else _split(still, moves)
+    if scene.load.coupled:
         return moves
     return still + (" (exact: Dundurs' beta is 0)" if size and beta == 0.0 else size)

@@ -56,14 +56,14 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     """Of a plan's levels, without its effects and far-boundary check; as if contact were all over
     the stretch of pressures, which it never exceeds."""
     scene, found, total, ends = problem.scene, [], 0.0, ""
-    for number in range(scene.resolution.most):
+    for number in range(problem.most_levels):
         pitch = problem.pitches[0] / 2.0**number
         elements = problem.grid(pitch).count
         everywhere = np.array([problem.extent])
         costs = [expected_level(name, problem, plan, pitch, everywhere) for name in plan.models]
         seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
         total += seconds
-        if found and total > scene.budget.time:
+        if found and total > problem.time:
             ends = f"the budget of {with_unit(scene.budget.time, 's', 3)} ends it (budget.time)"
             break
         if found and memory > scene.budget.memory:
@@ -72,7 +72,7 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
             break
         unknowns = max(cost.unknowns for cost in costs)
         found.append(PlannedLevel(pitch, elements, unknowns, seconds, memory))
-    wave = None if scene.profile is None else shortest_wavelength(scene.profile)
+    wave = None if scene.profile is None else shortest_wavelength(problem.surface.profile)
     per_wave = None if wave is None or np.isinf(wave) else float(wave / found[-1].pitch)
     asked = len(problem.pitches)
     return Forecast(tuple(found), asked, per_wave, ends or f"{len(found)} levels are the most")

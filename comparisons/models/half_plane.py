@@ -32,7 +32,7 @@ def half_plane_level(
     problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
 ) -> Level:
     """Solve one level: contact, and stresses in a window; without `fields` their maxima alone."""
-    frictions, grid = problem.scene.friction, problem.grid(pitch)
+    frictions, grid = problem.scene.load.friction, problem.grid(pitch)
     return half_plane_on(problem, grid, problem.coupling, frictions, window, stages, fields)
 
 
@@ -52,7 +52,7 @@ def half_plane_on(
     with stages.stage("contact", "half-plane: contact"):
         operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
         solution = pressed_on(problem, grid, operator)
-        body = HalfPlane(grid.count, grid.pitch, problem.scene.body.plane_strain_modulus)
+        body = HalfPlane(grid.count, grid.pitch, problem.scene.body.material.plane_strain_modulus)
         level = Level(
             grid=grid,
             solution=solution,

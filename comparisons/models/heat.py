@@ -54,9 +54,14 @@ class HeatedContact:
         }
 
 
+def reach_of(problem: Problem) -> float:
+    """From the contact to where a body that it stays on has its bulk temperature [m]."""
+    return problem.scene.heat.reach or problem.scene.roller.radius
+
+
 def friction_of(problem: Problem) -> float:
     """The coefficient that heats: the largest of the scene."""
-    return max(problem.scene.friction)
+    return max(problem.scene.load.friction)
 
 
 def heat_of_friction(problem: Problem, level: Level) -> np.ndarray:
@@ -73,7 +78,7 @@ def half_spaces(
     heat = problem.scene.heat
     materials = (heat.body, heat.roller)
     return tuple(
-        HeatedSurface(material, count, pitch, velocity, heat.reach)
+        HeatedSurface(material, count, pitch, velocity, reach_of(problem))
         for material, velocity in zip(materials, heat.velocities, strict=True)
     )
 
@@ -99,8 +104,10 @@ def peclet_numbers(problem: Problem) -> dict[str, float]:
 def what_it_contains(problem: Problem) -> dict[str, str]:
     """What the finite elements have and the half-space has not, in words."""
     scene, found = problem.scene, {}
-    if scene.thickness is not None:
-        how = {"held": "at its bulk temperature", "insulated": "insulated"}[scene.heat.base]
+    if scene.body.thickness is not None:
+        how = {"held": "at its bulk temperature", "insulated": "insulated"}[
+            scene.heat.base or "held"
+        ]
         found["thickness"] = f"the body's thickness, its base {how}"
     if scene.coating is not None:
         found["coating"] = "the coating"
@@ -123,18 +130,19 @@ def check_heat(problem: Problem) -> None:
                 f"numbers from {SLOWEST:g} to {FASTEST:g}"
             )
     own = peclet_numbers(problem)["body"]
-    if scene.heat.expansion is not None and own < LEAST_STRESSED:
+    if scene.heat.stresses and own < LEAST_STRESSED:
         given = f"{scene.source}: heat.stresses: is true at a Peclet number of {own:.3g}"
         raise SceneError(f"{given} of the body; allowed is {LEAST_STRESSED:g} or more")
     least = 4.0 * float(np.abs(problem.extent).max())
-    if scene.heat.reach < least:
+    reach = reach_of(problem)
+    if reach < least:
         raise SceneError(
-            f"{scene.source}: heat.reach: is {scene.heat.reach:g} m; allowed is at least "
+            f"{scene.source}: heat.reach: is {reach:g} m; allowed is at least "
             f"{least:.3g} m, four times as far as the contact may reach"
         )
-    most = FARTHEST * scene.roller_radius
-    if scene.heat.velocities[1] == 0.0 and scene.heat.reach > most:
+    most = FARTHEST * scene.roller.radius
+    if scene.heat.velocities[1] == 0.0 and reach > most:
         raise SceneError(
-            f"{scene.source}: heat.reach: is {scene.heat.reach:g} m in a roller at rest; allowed "
+            f"{scene.source}: heat.reach: is {reach:g} m in a roller at rest; allowed "
             f"is at most {most:.3g} m, {FARTHEST:g} times its radius"
         )

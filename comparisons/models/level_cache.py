@@ -10,7 +10,9 @@ from comparisons.common.files import unfinished
 from comparisons.common.provenance import LEVEL_CODE, digest, key_of, program_code, versions
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.models.problem import Problem
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface
 
 CODE = (  # of studies those whose answers are cached, too
     *LEVEL_CODE,
@@ -18,16 +20,18 @@ CODE = (  # of studies those whose answers are cached, too
 )
 
 
-def level_cache(out: Path | None, scene: ResolvedScene, plan: Plan, *kinds: type) -> Cache:
-    """Levels of the run of `plan` for `scene` that writes `out`, and dataclasses of other `kinds`;
+def level_cache(out: Path | None, problem: Problem, plan: Plan, *kinds: type) -> Cache:
+    """Levels of the run of `plan` that writes `out`, and dataclasses of other `kinds`;
     None writes and caches nothing."""
     if out is None:
         return NO_CACHE
-    key = key_of(scene_key(scene), repr(plan), versions(), program_code(*CODE))
+    shape = scene_key(problem.scene, problem.surface)
+    key = key_of(shape, repr(plan), versions(), program_code(*CODE))
     return Cache(unfinished(out), key, kinds_of(Level, *kinds), by_all=True)
 
 
-def scene_key(scene: ResolvedScene) -> list:
+def scene_key(scene: Scene, surface: SceneSurface) -> list:
     """What of a scene shapes results: its tables and its profile."""
-    profile = "" if scene.profile is None else digest(scene.profile.x, scene.profile.height)
-    return [scene.tables, profile]
+    profile = surface.profile
+    traced = "" if profile is None else digest(profile.x, profile.height)
+    return [surface.completed(scene.tables), traced]

@@ -14,32 +14,32 @@ from analytic.layers.operator import LayeredSurface, TangentialLayer
 from analytic.material import combined_modulus, dundurs_constants
 from analytic.operators.half_plane import HalfPlane, ModelOperator, SumOfConvolutions
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 
 
-def is_layered(scene: ResolvedScene) -> bool:
+def is_layered(scene: Scene) -> bool:
     """Whether the body is more than a half-plane of one material."""
-    return scene.thickness is not None or scene.coating is not None
+    return scene.body.thickness is not None or scene.coating is not None
 
 
-def nearest_operator(scene: ResolvedScene, grid: HatGrid, friction: float = 0.0) -> ModelOperator:
+def nearest_operator(scene: Scene, grid: HatGrid, friction: float = 0.0) -> ModelOperator:
     """Mutual compliance of roller and body on a grid of hats.
 
     friction  coefficient of the sliding traction that moves the surfaces; 0 leaves it out"""
     count, pitch = grid.count, grid.pitch
     if not is_layered(scene):
-        modulus = combined_modulus(scene.roller, scene.body)
+        modulus = combined_modulus(scene.roller.material, scene.body.material)
         if not friction:
             return HalfPlane(count, pitch, modulus)
-        beta = dundurs_constants(scene.body, scene.roller)[1]
+        beta = dundurs_constants(scene.body.material, scene.roller.material)[1]
         return CoupledHalfPlane(count, pitch, modulus, friction * beta)
     if scene.coating is not None:
-        body = LayeredBody(scene.coating.material, scene.coating.thickness, scene.body)
+        body = LayeredBody(scene.coating.material, scene.coating.thickness, scene.body.material)
     else:
-        body = LayeredBody(scene.body, scene.thickness, scene.base or "bonded")
+        body = LayeredBody(scene.body.material, scene.body.thickness, scene.body.base or "bonded")
     normal = LayeredSurface(count, pitch, body)
-    if scene.roller is not None:
-        roller = HalfPlane(count, pitch, scene.roller.plane_strain_modulus)
+    if not scene.roller.rigid:
+        roller = HalfPlane(count, pitch, scene.roller.material.plane_strain_modulus)
         normal = SumOfConvolutions(normal, roller)
     if not friction:
         return normal

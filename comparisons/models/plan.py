@@ -9,7 +9,7 @@ from comparisons.models.assumptions import assumptions_of
 from comparisons.models.finite_element.compliance_check import no_check
 from comparisons.models.heat import check_heat
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,12 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     finite_elements = "finite_element" in models
     stress = scene.stress is not None
     shared = finite_elements and _shares_factor(scene)
-    uncoupled = [no_coupling(problem, friction) for friction in scene.friction]
+    uncoupled = [no_coupling(problem, friction) for friction in scene.load.friction]
     coupling = "half_plane" in models and not all(uncoupled)
-    unbounded = scene.thickness is None or scene.width is None or scene.roller is not None
+    unbounded = scene.body.thickness is None or scene.body.width is None or not scene.roller.rigid
     domain_check = finite_elements and unbounded
     increments_check = finite_elements and scene.finite_element.plastic
-    effects = set(models) == set(MODELS) and bool(scene.budget.effects) and bool(scene.tolerance)
+    effects = set(models) == set(MODELS) and bool(scene.budget.effects) and bool(scene.tolerances)
     skipped = [
         Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
     ]
@@ -62,7 +62,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         if needless:
             skipped.append(Skipped(step, because))
 
-    slides = any(scene.friction)
+    slides = any(scene.load.friction)
     skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
     skip(scene.heat is None, "frictional heat", "the scene has no [heat]")
     skip(not stress, "subsurface stresses", "the scene has no [stress]")
@@ -70,14 +70,14 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     why = "they take the half-plane" if scene.statistics else "the scene has no [statistics]"
     unasked = scene.statistics is None or "half_plane" not in models
     skip(unasked, "statistics of rough contact", why)
-    skip(scene.hardness is None, "hardness cap", "the body has no hardness")
+    skip(scene.body.hardness is None, "hardness cap", "the body has no hardness")
     if "half_plane" in models:
         skip(not coupling, "coupling", uncoupled[-1])
     if finite_elements:
-        skip(scene.roller is None, "mesh of the roller", "it is rigid")
+        skip(scene.roller.rigid, "mesh of the roller", "it is rigid")
         same = "it is the body's block with another modulus, or the same"
         skip(shared, "factorisation of the roller's block", same)
-        why = "not asked for (budget.effects)" if scene.tolerance else "no quantity is judged"
+        why = "not asked for (budget.effects)" if scene.tolerances else "no quantity is judged"
         skip(not effects, "effects beside the scene's own finite elements", why)
         skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
         skip(not increments_check, "check of the increments of flow", "no body flows")
@@ -98,10 +98,14 @@ def no_coupling(problem: Problem, friction: float) -> str | None:
     return None
 
 
-def _shares_factor(scene: ResolvedScene) -> bool:
+def _shares_factor(scene: Scene) -> bool:
     """Whether the roller's block is the body's but for a factor on its modulus."""
-    settings, roller = scene.finite_element, scene.roller
-    own = (scene.thickness, scene.width, scene.coating) != (None, None, None) or settings.plastic
+    settings, roller = scene.finite_element, scene.roller.material
+    own = (scene.body.thickness, scene.body.width, scene.coating) != (
+        None,
+        None,
+        None,
+    ) or settings.plastic
     own = own or settings.deformation == "finite"  # its boundary is its shape
     flat = settings.geometry == "flat" and settings.roller_body == "half-plane"
     alike = roller is not None and roller.poissons_ratio == scene.body.poissons_ratio

@@ -1,4 +1,4 @@
-"""A resolved scene as the mechanical problem that both models solve.
+"""A scene as the mechanical problem that both models solve.
 
 Symbols: R radius of relative curvature, E* combined modulus, P load per length, a and p0
 half-width and peak pressure of the smooth (Hertz) contact under the same load."""
@@ -23,9 +23,11 @@ from analytic.profile import surface
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import SceneError
 from comparisons.models.nearest_operator import is_layered, nearest_operator, solve_on
-from comparisons.models.running_in import run_in_scene
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.models.running_in import run_in_surface
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface, surface_of
 
+MOST_LEVELS = 8  # of a run
 SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edge on a node
 HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavelength
 MOST_HATS = 6000  # on the contact at the third level; more only where refinement asks for it
@@ -49,10 +51,19 @@ MARGIN, SMOOTH_MARGIN = 0.15, 0.5
 
 
 @dataclass(frozen=True)
+class Levels:
+    """So many levels, whatever time they take, in place of as many as the scene's budget allows."""
+
+    models: int  # of each model
+    effects: int | None = None  # of the effects, at most
+
+
+@dataclass(frozen=True)
 class Problem:
     """What both models solve."""
 
-    scene: ResolvedScene  # as resolved, its surface run in where it asks for that
+    scene: Scene
+    surface: SceneSurface  # run in where the scene asks for that
     modulus: float  # E* of roller and body [Pa]
     hertz: HertzContact  # the smooth contact under the same load
     extent: tuple[float, float]  # (2,) [m] stretch of the surface that contact may reach
@@ -60,6 +71,21 @@ class Problem:
     pitches: tuple[float, ...]
     # (k,) [m] where one ends and the next begins: largest values are compared at the same asperity
     asperities: tuple[float, ...] = ()
+    levels: Levels | None = None  # None: as the scene's resolution and budget have it
+
+    @property
+    def tables(self) -> dict:
+        """The scene's, with the fields that follow from its surface."""
+        return self.surface.completed(self.scene.tables)
+
+    @property
+    def most_levels(self) -> int:
+        return MOST_LEVELS if self.levels is None else self.levels.models
+
+    @property
+    def time(self) -> float:
+        """That solving may take [s], by the laws of cost."""
+        return self.scene.budget.time if self.levels is None else np.inf
 
     @property
     def reference_pitch(self) -> float:
@@ -90,13 +116,13 @@ class Problem:
         return self._gap_under(self.scene.finite_element.roller_shape)
 
     def _gap_under(self, shape: str) -> Callable[[np.ndarray], np.ndarray]:
-        curve = None if self.scene.profile is None else surface(self.scene.profile)
-        return roller_gap(self.scene.roller_radius, curve, shape)
+        curve = None if self.surface.profile is None else surface(self.surface.profile)
+        return roller_gap(self.scene.roller.radius, curve, shape)
 
     @property
     def knots(self) -> np.ndarray | None:
         """(k,) [m] places where the gap's third derivative jumps, None if smooth."""
-        return None if self.scene.profile is None else self.scene.profile.x
+        return None if self.scene.profile is None else self.surface.profile.x
 
     @cached_property
     def first_touch(self) -> float:
@@ -105,19 +131,19 @@ class Problem:
 
     @property
     def dundurs_beta(self) -> float:
-        return dundurs_constants(self.scene.body, self.scene.roller)[1]
+        return dundurs_constants(self.scene.body.material, self.scene.roller.material)[1]
 
     @property
     def coupling(self) -> float:
         """Friction times Dundurs' beta, by which traction moves surfaces; 0 where that is out."""
-        return self.scene.friction[0] * self.dundurs_beta if self.scene.coupled else 0.0
+        return self.scene.load.friction[0] * self.dundurs_beta if self.scene.load.coupled else 0.0
 
     def grid(self, pitch: float) -> HatGrid:
         return HatGrid.within(*self.extent, pitch)
 
     def constraints(self, load: float | None = None) -> Constraints:
         """Load and hardness of the scene; `load` [N/m] in place of the scene's own."""
-        hardness = np.inf if self.scene.hardness is None else self.scene.hardness
+        hardness = np.inf if self.scene.body.hardness is None else self.scene.body.hardness
         return Constraints(load=load or self.hertz.load_per_length, hardness=hardness)
 
     @property
@@ -128,15 +154,17 @@ class Problem:
         plain, scene = self.constraints(), self.scene
         if not scene.finite_element.plastic:
             return plain
-        least = (1.0 + 0.5 * np.pi) / max(1.0, (1.0 + 0.5 * np.pi) * scene.friction[0])
-        return replace(plain, hardness=min(plain.hardness, least * scene.yielding.stress / 3**0.5))
+        least = (1.0 + 0.5 * np.pi) / max(1.0, (1.0 + 0.5 * np.pi) * scene.load.friction[0])
+        return replace(
+            plain, hardness=min(plain.hardness, least * scene.body.yield_stress / 3**0.5)
+        )
 
 
 def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
     """Heights (n,) [m] of the rough body's surface without load, averaged over each hat."""
     if problem.scene.profile is None:
         return np.zeros(grid.count)
-    return grid.hat_integrals(problem.scene.profile.spline(), problem.knots) / grid.weights
+    return grid.hat_integrals(problem.surface.profile.spline(), problem.knots) / grid.weights
 
 
 def ends_of(problem: Problem, grid: HatGrid, solution: ContactSolution) -> EndStress:
@@ -148,18 +176,24 @@ def ends_of(problem: Problem, grid: HatGrid, solution: ContactSolution) -> EndSt
     return end_stress(grid.x, pressure, solution.gap)
 
 
-def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
+def problem_of(
+    scene: Scene,
+    surface: SceneSurface | None = None,
+    load: float | None = None,
+    levels: Levels | None = None,
+) -> Problem:
     """Set up the problem of a scene; `load` [N/m] where the scene prescribes the approach.
-    The surface is run in first, where the scene asks for it and it was not done yet.
-    Raises SceneError where the contact would reach beyond the trace, the load exceeds what the
-    surface can carry at its hardness, or the pressure elements are too coarse or too many."""
-    scene = run_in_scene(scene)
-    modulus = combined_modulus(scene.roller, scene.body)
+    The surface, by default read as the scene says, is run in first, where the scene asks for it
+    and it was not done yet. Raises SceneError where the contact would reach beyond the trace, the
+    load exceeds what the surface can carry at its hardness, or the pressure elements are too coarse
+    or too many."""
+    surface = run_in_surface(scene, surface or surface_of(scene))
+    modulus = combined_modulus(scene.roller.material, scene.body.material)
     hertz = _smooth_contact(scene, modulus, load)
     _check_layers(scene, hertz.half_width)
     extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
-    problem = Problem(scene, modulus, hertz, extent, pitches=())
-    plain = scene.profile is None and scene.width is None and scene.hardness is None
+    problem = Problem(scene, surface, modulus, hertz, extent, pitches=(), levels=levels)
+    plain = scene.profile is None and scene.body.width is None and scene.body.hardness is None
     plain = plain and scene.coating is None and not scene.finite_element.plastic
     if not plain or problem.coupling:
         problem = replace(problem, extent=_contact_extent(problem))
@@ -169,26 +203,26 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     return replace(problem, asperities=_asperities(problem))
 
 
-def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) -> HertzContact:
+def _smooth_contact(scene: Scene, modulus: float, load: float | None) -> HertzContact:
     if scene.load.kind == "hertz_peak_pressure":
-        return hertz_from_peak_pressure(scene.load.value, scene.roller_radius, modulus)
-    if scene.load.kind == "load_per_length":
+        return hertz_from_peak_pressure(scene.load.value, scene.roller.radius, modulus)
+    if scene.load.kind == "per_length":
         load = scene.load.value
-    return hertz_from_load(load, scene.roller_radius, modulus)
+    return hertz_from_load(load, scene.roller.radius, modulus)
 
 
-def _check_layers(scene: ResolvedScene, half_width: float) -> None:
+def _check_layers(scene: Scene, half_width: float) -> None:
     """Refuse a layer too thin or thick for a mesh, and a coating that is nothing, or rigid."""
     if scene.coating is not None:
-        own, body = (each.youngs_modulus for each in (scene.coating.material, scene.body))
+        own, body = (each.youngs_modulus for each in (scene.coating.material, scene.body.material))
         if not body / STIFFEST <= own <= body * STIFFEST:
             raise SceneError(
                 f"{scene.source}: coating.youngs_modulus: is {own:g} Pa on a body of {body:.3g} "
                 f"Pa; allowed is from {body / STIFFEST:.3g} Pa to {body * STIFFEST:.3g} Pa"
             )
-    layers = {"body": scene.thickness, "coating": scene.coating and scene.coating.thickness}
+    layers = {"body": scene.body.thickness, "coating": scene.coating and scene.coating.thickness}
     if scene.load.kind == "approach":  # without deformation; the load is not known yet
-        half_width = np.sqrt(2.0 * scene.roller_radius * scene.load.value)
+        half_width = np.sqrt(2.0 * scene.roller.radius * scene.load.value)
     for name, thickness in layers.items():
         if thickness and not THINNEST * half_width <= thickness <= THICKEST * half_width:
             raise SceneError(
@@ -198,33 +232,38 @@ def _check_layers(scene: ResolvedScene, half_width: float) -> None:
             )
 
 
-def surface_ends(scene: ResolvedScene) -> tuple[float, float]:
+def surface_ends(problem: Problem) -> tuple[float, float]:
     """Ends [m] of the trace or the body, whichever come first; infinite without either."""
-    start, stop = -np.inf, np.inf
-    if scene.profile is not None:
-        start, stop = scene.profile.x[[0, -1]]
-    if scene.width is not None:
-        start, stop = max(start, -0.5 * scene.width), min(stop, 0.5 * scene.width)
+    start, stop, scene = -np.inf, np.inf, problem.scene
+    if problem.surface.profile is not None:
+        start, stop = problem.surface.profile.x[[0, -1]]
+    if scene.body.width is not None:
+        start, stop = max(start, -0.5 * scene.body.width), min(stop, 0.5 * scene.body.width)
     return start, stop
 
 
 def _contact_extent(problem: Problem) -> tuple[float, float]:
     """Outermost contact with a margin [m], by coarse half-plane solutions on fitting stretches."""
-    scene, half_width = problem.scene, problem.hertz.half_width
-    start, stop = surface_ends(scene)
-    narrowest = 0.0 if scene.hardness is None else problem.hertz.load_per_length / scene.hardness
-    if narrowest > 2.0 * scene.roller_radius:
-        softest = 0.5 * problem.hertz.load_per_length / scene.roller_radius
+    scene, half_width, hardness = (
+        problem.scene,
+        problem.hertz.half_width,
+        problem.scene.body.hardness,
+    )
+    start, stop = surface_ends(problem)
+    narrowest = 0.0 if hardness is None else problem.hertz.load_per_length / hardness
+    if narrowest > 2.0 * scene.roller.radius:
+        softest = 0.5 * problem.hertz.load_per_length / scene.roller.radius
         raise SceneError(
-            f"{scene.source}: body.hardness: is {scene.hardness:g} Pa, which carries the load on "
+            f"{scene.source}: body.hardness: is {hardness:g} Pa, which carries the load on "
             f"{narrowest:.3g} m, more than the roller is wide; allowed is {softest:.3g} Pa or more"
         )
-    relief = 0.0 if scene.profile is None else float(np.ptp(scene.profile.height))
+    profile = problem.surface.profile
+    relief = 0.0 if profile is None else float(np.ptp(profile.height))
     if not start < 0.0 < stop:
         raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
     # this far out the surface is below the roller even if the highest peak stood there
     outermost = max(2.0 * half_width, problem.hertz.load_per_length / problem.widest.hardness)
-    outermost += np.sqrt(2.0 * scene.roller_radius * relief)
+    outermost += np.sqrt(2.0 * scene.roller.radius * relief)
     while True:
         low, high = max(start, -outermost), min(stop, outermost)
         touching = (low, high)
@@ -240,14 +279,14 @@ def _contact_extent(problem: Problem) -> tuple[float, float]:
         around = max(touching[1] - touching[0], slack)
         low, high = max(low, touching[0] - around), min(high, touching[1] + around)
         touching, slack = _search_extent(problem, low, high)
-    margin = MARGIN if scene.profile is not None else SMOOTH_MARGIN
+    margin = MARGIN if profile is not None else SMOOTH_MARGIN
     margin = margin * half_width + 2.0 * slack
     return float(max(low, touching[0] - margin)), float(min(high, touching[1] + margin))
 
 
-def _too_wide(scene: ResolvedScene, touching: tuple, ends: tuple) -> str:
+def _too_wide(scene: Scene, touching: tuple, ends: tuple) -> str:
     body = "trace" if scene.profile is not None else "body"
-    capped = "" if scene.hardness is None else " at this hardness (body.hardness)"
+    capped = "" if scene.body.hardness is None else " at this hardness (body.hardness)"
     return (
         f"{scene.source}: load: the contact{capped} reaches the end of the {body} "
         f"({touching[0]:.4g} m to {touching[1]:.4g} m of {ends[0]:.4g} m to {ends[1]:.4g} m); "
@@ -288,7 +327,7 @@ def pressed_on(
 def _pitches(problem: Problem) -> tuple[float, ...]:
     """Pitches of the first levels: fine enough for the shortest wave, or for the smooth edge."""
     scene = problem.scene
-    levels = scene.resolution.levels
+    levels = scene.resolution.levels if problem.levels is None else problem.levels.models
     asked, elements = scene.resolution.pitch, scene.resolution.elements
     if asked or elements:
         asked = asked or problem.hertz.half_width / elements
@@ -298,7 +337,7 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
         start, stop = _touched(problem, problem.extent, layered=True)
         finest = min(finest, 0.5 * (stop - start) / SMOOTH_ELEMENTS)
     if scene.profile is not None:
-        finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
+        finest = min(finest, shortest_wavelength(problem.surface.profile) / HATS_PER_WAVE)
     # a light load on a crest touches far less than the Hertz contact of the roller
     span = problem.extent[1] - problem.extent[0]
     finest = max(min(finest, span / (2.0 * SMOOTH_ELEMENTS)), span / MOST_HATS)
@@ -344,11 +383,11 @@ def _check_circle(problem: Problem) -> None:
     scene, farthest = problem.scene, float(np.abs(problem.extent).max())
     if scene.finite_element.roller_shape != "circle":
         return
-    widest = WIDEST_CIRCLE * scene.roller_radius
+    widest = WIDEST_CIRCLE * scene.roller.radius
     if farthest > widest and is_layered(scene):
         farthest = np.abs(_touched(problem, problem.extent, layered=True)).max()
     if farthest > widest:
-        reach = f"{farthest:.3g} m from the centre of a roller of {scene.roller_radius:.3g} m"
+        reach = f"{farthest:.3g} m from the centre of a roller of {scene.roller.radius:.3g} m"
         raise SceneError(
             f'{scene.source}: finite_element.roller_shape: is "circle", but the contact may reach '
             f"to {reach}; allowed is a lighter load or a larger radius"

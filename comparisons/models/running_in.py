@@ -13,7 +13,8 @@ from analytic.running_in import run_in
 from analytic.surface.roughness import roughness, shortest_wavelength
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import given, with_unit
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface
 
 # Of the shortest wave: 1.5 % of the volume moved on ground surfaces. Twice as many would leave
 # 0.4 %, and edges of plateaus so sharp that both models take one level more to resolve them.
@@ -24,47 +25,51 @@ COARSE = 1.5  # times the pitch wanted: less than that is the rounding to a powe
 SMOOTH_HATS = 80  # and at least so many on its half-width
 
 
-def run_in_scene(scene: ResolvedScene) -> ResolvedScene:
-    """The scene with its surface run in; the scene itself where there is nothing to do. Raises
-    SceneError if the trace cannot carry the load at the hardness."""
-    settings = scene.running_in
-    if settings is None or scene.run_in is not None:
-        return scene
-    radius, modulus = scene.roller_radius, combined_modulus(scene.roller, scene.body)
+def run_in_surface(scene: Scene, surface: SceneSurface) -> SceneSurface:
+    """The surface of a scene, run in; itself where there is nothing to do. Raises SceneError if
+    the trace cannot carry the load at the hardness."""
+    settings, profile = scene.running_in, surface.profile
+    if settings is None or surface.run_in is not None:
+        return surface
+    radius, modulus = (
+        scene.roller.radius,
+        combined_modulus(scene.roller.material, scene.body.material),
+    )
     load = _load(scene, modulus)
-    pitch = _pitch(scene, hertz_from_load(load, radius, modulus).half_width)
-    count = scene.profile.length / pitch
+    pitch = _pitch(profile, hertz_from_load(load, radius, modulus).half_width)
+    count = profile.length / pitch
     if not FEWEST_HATS <= count <= MOST_ON_TRACE:
         raise SceneError(
             f"{scene.source}: running_in: takes {count:.2g} pressure elements of {pitch:.3g} m on "
-            f"a trace of {scene.profile.length:.3g} m; allowed are {FEWEST_HATS} to "
+            f"a trace of {profile.length:.3g} m; allowed are {FEWEST_HATS} to "
             f"{MOST_ON_TRACE:g}, by another load or trace"
         )
     limits = Constraints(load=load, hardness=settings.hardness)
-    places, sweeps = np.array(settings.positions) - scene.position, settings.sweeps
+    places = np.array(settings.places(surface.position)) - surface.position
+    sweeps = settings.sweeps
     try:
-        found = run_in(scene.profile, radius, modulus, limits, places, pitch=pitch, sweeps=sweeps)
+        found = run_in(profile, radius, modulus, limits, places, pitch=pitch, sweeps=sweeps)
     except ContactError as error:
         where = f"{scene.source}: running_in.hardness"
         raise SceneError(f"{where}: {error}; allowed is more") from error
-    info = replace(scene.profile_info, roughness=roughness(found.profile))
-    return replace(scene, profile=found.profile, profile_info=info, run_in=found)
+    info = replace(surface.info, roughness=roughness(found.profile))
+    return replace(surface, profile=found.profile, info=info, run_in=found)
 
 
-def _load(scene: ResolvedScene, modulus: float) -> float:
+def _load(scene: Scene, modulus: float) -> float:
     """[N/m]: running-in's own, or the scene's."""
     if scene.running_in.load is not None:
         return scene.running_in.load
-    if scene.load.kind == "load_per_length":
+    if scene.load.kind == "per_length":
         return scene.load.value
-    hertz = hertz_from_peak_pressure(scene.load.value, scene.roller_radius, modulus)
+    hertz = hertz_from_peak_pressure(scene.load.value, scene.roller.radius, modulus)
     return hertz.load_per_length
 
 
-def _pitch(scene: ResolvedScene, half_width: float) -> float:
+def _pitch(profile: Profile, half_width: float) -> float:
     """[m], the sample spacing over a power of two, or times one where there would be too many."""
-    spacing = scene.profile.spacing
-    wanted = min(_wanted(scene.profile), half_width / SMOOTH_HATS)
+    spacing = profile.spacing
+    wanted = min(_wanted(profile), half_width / SMOOTH_HATS)
     wanted = max(wanted, 2.0 * half_width / MOST_HATS)
     return spacing * 2.0 ** round(np.log2(wanted / spacing))
 
@@ -74,9 +79,9 @@ def _wanted(profile: Profile) -> float:
     return min(shortest_wavelength(profile) / HATS_PER_WAVE, profile.spacing)
 
 
-def running_in_account(scene: ResolvedScene) -> dict | None:
+def running_in_account(surface: SceneSurface) -> dict | None:
     """What running-in did, for result.json; None without it."""
-    found = scene.run_in
+    found = surface.run_in
     if found is None:
         return None
     return {
@@ -90,15 +95,15 @@ def running_in_account(scene: ResolvedScene) -> dict | None:
         "volume_moved": found.volume,
         "volume_by_pass": [one.volume for one in found.passes],
         "largest_lowering": found.largest_lowering,
-        "at_ends_of_trace": ended(scene),
+        "at_ends_of_trace": ended(surface),
         "roughness_before": asdict(roughness(found.before)),
-        "roughness_after": asdict(scene.profile_info.roughness),
+        "roughness_after": asdict(surface.info.roughness),
     }
 
 
-def running_in_assumptions(scene: ResolvedScene) -> list[str]:
+def running_in_assumptions(scene: Scene, surface: SceneSurface) -> list[str]:
     """The assumptions of running-in, and where it fell short."""
-    found, settings = scene.run_in, scene.running_in
+    found, settings = surface.run_in, scene.running_in
     listed = [
         f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "
         "friction; what flows is lost, nothing rises beside it and nothing hardens"
@@ -115,16 +120,16 @@ def running_in_assumptions(scene: ResolvedScene) -> list[str]:
     if found.status != "settled":
         listed.append(
             f"running-in: the surface has not settled in {found.sweeps} sweeps over "
-            f"{len(settings.positions)} positions"
+            f"{len(settings.places(surface.position))} positions"
         )
-    if ended(scene):
-        places = ", ".join(given(place, "m") for place in ended(scene))
+    if ended(surface):
+        places = ", ".join(given(place, "m") for place in ended(surface))
         ends = "the roller touches the end of the trace, beyond which nothing carries it"
         listed.append(f"running-in: from {places} {ends}")
     return listed
 
 
-def ended(scene: ResolvedScene) -> list[float]:
+def ended(surface: SceneSurface) -> list[float]:
     """Positions [m] on the trace from which the roller touched an end of it."""
-    places = dict.fromkeys(one.position for one in scene.run_in.passes if one.at_end)
-    return [place + scene.position for place in places]
+    places = dict.fromkeys(one.position for one in surface.run_in.passes if one.at_end)
+    return [place + surface.position for place in places]

@@ -81,7 +81,7 @@ def _thermal(problem: Problem, level: Level, window: Window):
     flux = np.pad(contact.into_body, (before, after))
     x = contact.x[0] + pitch * np.arange(-before, len(contact.x) + after)
     surface, scene = half_spaces(problem, len(x), pitch)[0], problem.scene
-    found = thermal_stress(surface, flux, window.z, scene.body, scene.heat.expansion)
+    found = thermal_stress(surface, flux, window.z, scene.body.material, scene.heat.body_expansion)
     order = min(3, len(window.z) - 1)
     parts = [RectBivariateSpline(window.z, x, each, kx=order) for each in vars(found).values()]
     return lambda x, z: StressState(*(part.ev(z, x) for part in parts))

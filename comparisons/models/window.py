@@ -45,16 +45,16 @@ def window_of(problem: Problem) -> Window:
     half_range, depth = (e.metres(half_width) for e in (wanted.half_range, wanted.depth))
     block = problem.block
     for name, given, body, unbounded in (
-        ("half_range", half_range, scene.width and 0.5 * scene.width, 0.25 * block),
-        ("depth", depth, scene.thickness, 0.5 * block),
+        ("half_range", half_range, scene.body.width and 0.5 * scene.body.width, 0.25 * block),
+        ("depth", depth, scene.body.thickness, 0.5 * block),
     ):
         if body is None and given > unbounded:
             raise SceneError(
                 f"{scene.source}: stress.{name}: is {given:.3g} m; allowed is at most half of what "
                 f"the unbounded body is meshed to (finite_element.block), {unbounded:.3g} m"
             )
-    half_range = min(half_range, 0.5 * (scene.width or np.inf))
-    depth = min(depth, scene.thickness or np.inf)
+    half_range = min(half_range, 0.5 * (scene.body.width or np.inf))
+    depth = min(depth, scene.body.thickness or np.inf)
     columns, rows = wanted.points
     coarsest, finest = problem.pitches[0], problem.reference_pitch
     spacing = max(2.0 * half_range / (columns - 1), FINEST_SPACING * finest)

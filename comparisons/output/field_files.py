@@ -22,7 +22,6 @@ from analytic.stress_state import StressState
 from comparisons.models.half_plane import stresses_at
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
@@ -55,9 +54,9 @@ class FieldFile:
         return {"title": self.title, "units": json.dumps(self.units), "scene": self.scene}
 
 
-def scene_text(scene: ResolvedScene) -> str:
-    """A scene as one line of JSON, SI units."""
-    return json.dumps(scene.as_dict(), ensure_ascii=False, allow_nan=False)
+def scene_text(problem: Problem) -> str:
+    """A problem's scene as one line of JSON, SI units."""
+    return json.dumps(problem.surface.as_dict(problem.scene), ensure_ascii=False, allow_nan=False)
 
 
 def field_of(outcome: Run, level: Level) -> FieldFile:
@@ -94,7 +93,8 @@ def field_of(outcome: Run, level: Level) -> FieldFile:
         if half_plane is not None:
             arrays |= _beside(outcome.problem, half_plane.beside(level), plane, stresses, arrays)
     units = {"points": "m"} | {name: _unit(name) for name in arrays}
-    return FieldFile(_in_space(plane), kind, cells, arrays, units, scene.title, scene_text(scene))
+    said = scene.title, scene_text(outcome.problem)
+    return FieldFile(_in_space(plane), kind, cells, arrays, units, *said)
 
 
 def _named(by_friction: Mapping, arrays: Callable[..., dict]) -> dict[str, np.ndarray]:

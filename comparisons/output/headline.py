@@ -119,7 +119,7 @@ def _sentence_of(run: Run) -> str:
         return _one_model(run)
     errors = run.model_errors
     kind, _ = validity(errors)
-    several = len(run.problem.scene.friction) > 1
+    several = len(run.problem.scene.load.friction) > 1
     law = law_leaned_on(run.data(MODEL_ERROR).selection, run.problem.scene)
     if kind == "holds":
         nearest = _said(_nearest(errors), several)
@@ -225,7 +225,7 @@ def _unconverged(run: Run) -> str:
         for each in (moved.changes if moved else ())
         if not each.converged
     ]
-    run_in = run.problem.scene.run_in
+    run_in = run.problem.surface.run_in
     if run_in is not None and not run_in.converged:
         failed = sum(not one.converged for one in run_in.passes)
         found.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")

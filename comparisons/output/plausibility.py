@@ -10,7 +10,8 @@ from analytic.material import combined_modulus
 from analytic.surface.outliers import spikes
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import given, significant, with_unit
-from comparisons.scenes.scene import ProfileInfo, ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies.study import Run
 
 LARGEST_RADIUS = 5.0  # [m]; rolls of mills have less
@@ -24,16 +25,16 @@ LONGEST_BRIDGE = 5  # samples: a line across more than that is no surface any mo
 FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between samples
 
 
-def warnings_about(scene: ResolvedScene) -> list[str]:
+def warnings_about(scene: Scene, surface: SceneSurface) -> list[str]:
     """One sentence each, before anything is solved."""
-    found, radius = [], scene.roller_radius
+    found, radius = [], scene.roller.radius
     if radius > LARGEST_RADIUS:
         found.append(f"roller.radius is {given(radius, 'm')}: a number without unit is in m")
-    for section, material in (("body", scene.body), ("roller", scene.roller)):
+    for section, material in (("body", scene.body.material), ("roller", scene.roller.material)):
         if material is not None and not SOFTEST <= material.youngs_modulus <= STIFFEST:
             modulus = f"{section}.youngs_modulus is {given(material.youngs_modulus, 'Pa')}"
             found.append(f"{modulus}: a number without unit is in Pa")
-    return [*found, *_of_load(scene), *warnings_about_surface(scene.profile_info)]
+    return [*found, *_of_load(scene), *warnings_about_surface(surface.info)]
 
 
 def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
@@ -44,7 +45,7 @@ def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
 def warnings_about_result(outcome: Run) -> list[str]:
     """What only the solution shows."""
     run = next(iter(outcome.runs.values()))
-    scene, solution = outcome.problem.scene, run.finest.solution
+    surface, solution = outcome.problem.surface, run.finest.solution
     peak, modulus = float(solution.pressure.max()), outcome.problem.modulus
     found = []
     if peak > modulus:
@@ -52,15 +53,15 @@ def warnings_about_result(outcome: Run) -> list[str]:
             f"the peak pressure of {with_unit(peak, 'Pa')} exceeds the combined modulus of "
             f"{with_unit(modulus, 'Pa')}, which no material bears: check load and profile units"
         )
-    info, length = scene.profile_info, run.finest.contact_length
+    info, length = surface.info, run.finest.contact_length
     if info is not None and length < FEWEST_SAMPLES * info.spacing:
         found.append(
             f"the whole contact, {with_unit(length, 'm')}, is shorter than {FEWEST_SAMPLES} "
             f"samples of the profile ({with_unit(info.spacing, 'm')} apart): what is pressed is "
             "the curve between them"
         )
-    if scene.profile is not None:
-        per_wave = shortest_wavelength(scene.profile) / run.finest.grid.pitch
+    if surface.profile is not None:
+        per_wave = shortest_wavelength(surface.profile) / run.finest.grid.pitch
         if per_wave < FEWEST_ELEMENTS:
             found.append(
                 f"the shortest wave has {significant(per_wave, 2)} pressure elements on the finest "
@@ -70,13 +71,13 @@ def warnings_about_result(outcome: Run) -> list[str]:
     return found
 
 
-def _of_load(scene: ResolvedScene) -> Iterator[str]:
+def _of_load(scene: Scene) -> Iterator[str]:
     if scene.load.kind == "approach":
         return
-    hertz = hertz_from_load if scene.load.kind == "load_per_length" else hertz_from_peak_pressure
-    modulus = combined_modulus(scene.body, scene.roller)
-    smooth = hertz(scene.load.value, scene.roller_radius, modulus)
-    ratio = smooth.half_width / scene.roller_radius
+    hertz = hertz_from_load if scene.load.kind == "per_length" else hertz_from_peak_pressure
+    modulus = combined_modulus(scene.body.material, scene.roller.material)
+    smooth = hertz(scene.load.value, scene.roller.radius, modulus)
+    ratio = smooth.half_width / scene.roller.radius
     if LIGHTEST <= ratio <= HEAVIEST:
         return
     yield (

@@ -6,27 +6,29 @@ from analytic.profile import Profile
 from comparisons.common.errors import one_line
 from comparisons.common.provenance import digest, machine, made, versions
 from comparisons.models.level import ModelRun
-from comparisons.scenes.scene import ProfileInfo, ResolvedScene
+from comparisons.models.problem import Problem
+from comparisons.scenes.surface import ProfileInfo
 
 SCHEMA = 2  # of record.json; 1 had neither the trace as read nor the number of levels
 
 
-def record_of(scene: ResolvedScene, runs: dict[str, ModelRun], hashes: dict[str, str]) -> dict:
+def record_of(problem: Problem, runs: dict[str, ModelRun], hashes: dict[str, str]) -> dict:
     """record.json: everything that a repetition needs, the profile's samples included.
     Those of `profile` are as pressed, before any running-in; those of its `trace` as read or made.
     A repetition starts from the trace and takes off form and waves, and runs in, itself."""
-    profile = scene.as_measured
+    scene, surface, tables = problem.scene, problem.surface, problem.tables
+    profile = surface.as_measured
     return {
         "schema": SCHEMA,
         "name": scene.name,
-        "scene": scene.tables,
-        "profile": None if profile is None else _profile(profile, scene.profile_info),
+        "scene": tables,
+        "profile": None if profile is None else _profile(profile, surface.info),
         "models": list(runs),
         "levels": max(len(run.levels) for run in runs.values()),
         "made": made(),
         "versions": versions(),
         "machine": machine(),
-        "seed": (scene.tables.get("profile") or {}).get("seed"),
+        "seed": (tables.get("profile") or {}).get("seed"),
         "hashes": hashes,
         "command": one_line(" ".join(sys.argv[1:])) or None,
     }

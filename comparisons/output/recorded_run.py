@@ -4,8 +4,7 @@ Everything comes from the folder itself. A profile's file may have changed or go
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from math import inf
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,14 +15,14 @@ from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import LARGEST_RECORD
 from comparisons.common.provenance import digest
 from comparisons.figures.quantity import MODELS
+from comparisons.models.problem import MOST_LEVELS, Levels
 from comparisons.output.record import SCHEMA
 from comparisons.output.result_json import SCHEMA as RESULT_SCHEMA
 from comparisons.output.result_json import Result, read_content
 from comparisons.output.schema_2 import SCHEMA as SCHEMA_BEFORE
 from comparisons.output.schema_2 import result_of_schema_2
-from comparisons.scenes.profile import KnownTrace
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import MOST_LEVELS, ResolvedScene
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import KnownTrace, SceneSurface, surface_of
 from comparisons.studies.study import MODEL_ERROR
 
 _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"}
@@ -33,10 +32,10 @@ _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"
 class Record:
     """A recorded run."""
 
-    # as resolved, with as many levels as the run and its error budget had and no end to its time
-    scene: ResolvedScene
+    scene: Scene
+    surface: SceneSurface  # as measured
     models: tuple[str, ...]  # of half_plane, finite_element
-    levels: int  # of each model
+    levels: Levels
     result: Result
     versions: dict
     machine: dict
@@ -54,13 +53,12 @@ def read_record(folder: Path) -> Record:
     models = _part(path, content, "models", list)
     if not models or any(name not in MODELS for name in models):
         raise InputError(f"{path}: models: is {models!r}; allowed are {', '.join(MODELS)}")
-    levels = _part(path, content, "levels", int)
-    if not 1 <= levels <= MOST_LEVELS:
-        raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
+    scene, surface = _scene(path, content)
     return Record(
-        scene=_scene(path, content, levels, result),
+        scene=scene,
+        surface=surface,
         models=tuple(name for name in MODELS if name in models),
-        levels=levels,
+        levels=_levels(path, content, result),
         result=result,
         **{name: _part(path, content, name, dict) for name in ("versions", "machine", "hashes")},
     )
@@ -79,24 +77,27 @@ def read_result(path: Path) -> Result:
         raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
 
 
-def _scene(path: Path, content: dict, levels: int, result: Result) -> ResolvedScene:
+def _scene(path: Path, content: dict) -> tuple[Scene, SceneSurface]:
     tables, name = _part(path, content, "scene", dict), _part(path, content, "name", str)
     name = one_line(name)
     trace = None
     if tables.get("profile") is not None:
         trace = _trace(path, _part(path, content, "profile", dict))
-    folder, source = path.parent, str(path)
-    scene = resolve_tables(tables, name=name, folder=folder, source=source, trace=trace)
+    scene = Scene.of(tables, Origin(name, path.parent, str(path)))
+    return scene, surface_of(scene, trace)
+
+
+def _levels(path: Path, content: dict, result: Result) -> Levels:
+    """As many as the run and its error budget had."""
+    levels = _part(path, content, "levels", int)
+    if not 1 <= levels <= MOST_LEVELS:
+        raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
     cost = result.found[MODEL_ERROR].table("cost") if MODEL_ERROR in result.found else None
     effects = None if cost is None else cost.columns["levels"].values[0]
     if effects is not None and not (type(effects) is int and 0 <= effects <= MOST_LEVELS):
         where = f"{path.parent / 'result.json'}: levels of the whole model"
         raise InputError(f"{where}: is {effects!r}; allowed is from 0 to {MOST_LEVELS}")
-    return replace(
-        scene,
-        resolution=replace(scene.resolution, levels=levels, most=levels),
-        budget=replace(scene.budget, time=inf, levels=effects),
-    )
+    return Levels(levels, effects)
 
 
 def _trace(path: Path, profile: dict) -> KnownTrace:

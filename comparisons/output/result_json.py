@@ -54,7 +54,7 @@ class Result:
 def result_of(run: Run) -> Result:
     verdict, why = verdict_of(run)
     record = {name: run.record[name] for name in RECORDED}
-    scene = run.problem.scene.as_dict()
+    scene = run.problem.surface.as_dict(run.problem.scene)
     return Result(scene, record, verdict, why, remedies(run), run.found)
 
 

@@ -3,8 +3,10 @@
 In: a content of schema 2. Out: the same as a Result; the parts of an old report.npz as those of a
 new one. Goes with the release after the one that writes schema 3."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from math import inf
 from types import SimpleNamespace
 
@@ -22,7 +24,9 @@ from comparisons.figures.figure import (
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.figures.uncertainty import Uncertainty, numerical
 from comparisons.models.finite_element.compliance_check import ComplianceColumn
+from comparisons.models.plan import Plan
 from comparisons.output.result_json import Result
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies import bulge, checks, comparison, contact, coupling, problem, running_in
 from comparisons.studies import quiescent_zone as zone
 from comparisons.studies import yielding as flow
@@ -421,9 +425,12 @@ def _heat_row(row: Mapping, scale: float) -> dict:
     return {name: value for name, value in row.items() if name != "verdict"} | {"scale": scale}
 
 
-def kinds_of_schema_2() -> dict[str, object]:
-    """What makes the dataclasses of an old report.npz that have changed since."""
-    return {
+def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
+    """What makes the dataclasses of an old report.npz, some as `kinds` are; of those that are gone
+    their fields."""
+    changed = {
+        "ResolvedScene": _scene,
+        "Plan": partial(Plan, increments_check=False),
         "Uncertainty": numerical,
         "Column": ComplianceColumn,
         "PairHistory": SimpleNamespace,
@@ -435,6 +442,15 @@ def kinds_of_schema_2() -> dict[str, object]:
             reading=0.0,
         ),
     }
+    return defaultdict(lambda: SimpleNamespace, {**kinds, **changed})
+
+
+def _scene(**old: object) -> dict[str, object]:
+    """What was one with its surface."""
+    surface = SceneSurface(
+        old["profile"], old["profile_info"], old["position"], run_in=old["run_in"]
+    )
+    return {name: old[name] for name in ("tables", "name", "source")} | {"surface": surface}
 
 
 def parts_of_schema_2(old: Mapping) -> tuple[dict, dict[str, object], Mapping[str, Findings]]:

@@ -17,7 +17,7 @@ from comparisons.output.page.tables.model_error import model_error_rows, not_mod
 from comparisons.output.page.tables.problem import in_mm
 from comparisons.output.page.tables.scatter import scatter_lines
 from comparisons.output.page.tables.statistics import statistics_lines
-from comparisons.scenes.scene import ProfileInfo
+from comparisons.scenes.surface import ProfileInfo
 from comparisons.studies import STUDIES, yielding
 from comparisons.studies.answers.answer import ComparedAnswer
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -49,7 +49,7 @@ def summary(outcome: Run) -> "RenderableType":
     title = Text(one_line(outcome.problem.scene.title), style="bold")
     compares = outcome.plan.compares
     tables = [_comparison(outcome)] if compares else [_figures(outcome)]
-    if compares and outcome.problem.scene.tolerance:
+    if compares and outcome.problem.scene.tolerances:
         tables += ["", _model_errors(outcome)]
     for answer in compared_answers(outcome):
         tables += ["", *_answer(outcome, answer)]
@@ -150,7 +150,7 @@ def surface_text(info: ProfileInfo, run_in: bool = False) -> str:
 
 def run_in_text(outcome: Run) -> str:
     """How the surface was run in, whether it settled, and whether that held."""
-    run_in = outcome.problem.scene.run_in
+    run_in = outcome.problem.surface.run_in
     text = f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
     text += "settled" if run_in.status == "settled" else "not settled"
     text += "" if run_in.converged else ", not converged"
@@ -176,11 +176,10 @@ def _facts(outcome: Run) -> "Table":
     from rich.table import Table
     from rich.text import Text
 
-    scene, rows = outcome.problem.scene, []
-    if scene.profile_info is not None:
-        surface = surface_text(scene.profile_info, run_in=scene.run_in is not None)
-        rows.append(("surface", surface))
-    if scene.run_in is not None:
+    surface, rows = outcome.problem.surface, []
+    if surface.info is not None:
+        rows.append(("surface", surface_text(surface.info, run_in=surface.run_in is not None)))
+    if surface.run_in is not None:
         rows.append(("run in", run_in_text(outcome)))
     if outcome.plan.compares:
         rows.append(("not modelled", not_modelled_line(outcome)))

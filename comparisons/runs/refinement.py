@@ -179,7 +179,7 @@ class _Levels:
         for number in asked:
             cost = self.task("finite_element", number).expected(self.patches)
             time += cost.seconds
-            if time > budget.time or cost.memory > min(budget.memory, self.machine):
+            if time > self.problem.time or cost.memory > min(budget.memory, self.machine):
                 break
             within.append(number)
         return within
@@ -211,7 +211,7 @@ class _Levels:
             pitch, patches = 0.5 * run.finest.grid.pitch, run.finest.patches
             finer = expected_level(name, self.problem, self.plan, pitch, patches)
             time, memory = time + finer.seconds, max(memory, finer.memory)
-        if time > budget.time:
+        if time > self.problem.time:
             return f"a finer level would exceed {budget.time:g} s (budget.time)"
         if memory > budget.memory:
             return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
@@ -224,8 +224,8 @@ def unresolved(solved: Solved) -> dict[str, float]:
     """Judged quantities whose discretisation uncertainty is above its share of the tolerance,
     with the largest of any friction coefficient."""
     problem, found = solved.problem, {}
-    tolerance = problem.scene.tolerance
-    for friction in problem.scene.friction:
+    tolerance = problem.scene.tolerances
+    for friction in problem.scene.load.friction:
         sizes = discretisations(solved.runs, problem, friction, solved.window)
         for name, size in sizes.items():
             if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:

@@ -18,7 +18,7 @@ from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of,
 from comparisons.output.recorded_run import Record, read_record
 from comparisons.output.result_json import Result, result_of
 from comparisons.output.terminal import STYLES, plain_table
-from comparisons.runs.run import run
+from comparisons.runs.run import Known, run
 from comparisons.studies.study import CONVERGED, Run
 
 if TYPE_CHECKING:
@@ -76,13 +76,14 @@ def rerun(
         recorded = compared_answers(read_run(folder, with_mesh=False))
         answers = {each.name: each.answers for each in recorded}
     with _place(folder, out) as place:
-        outcome = run(record.scene, place, record.models, callback, answers=answers)
+        known = Known(record.surface, answers, record.levels)
+        outcome = run(record.scene, place, record.models, callback, known=known)
     now = outcome.record
     return Repetition(
         record=record,
         outcome=outcome,
         movement=movement(_items(record.result), _items(result_of(outcome))),
-        levels=(record.levels, now["levels"]),
+        levels=(record.levels.models, now["levels"]),
         other=_unlike(record.versions, now["versions"]) | _unlike(record.machine, now["machine"]),
         bits=now["hashes"] == record.hashes,
     )

@@ -3,14 +3,14 @@
 In: a scene. Out: a finished run, and its folder."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError, SceneError, SolverError, address_space
-from comparisons.common.mpi import is_several
+from comparisons.common.mpi import from_first, is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest, revision
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
@@ -18,13 +18,14 @@ from comparisons.figures.figure import Findings
 from comparisons.models.forecast import forecast
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
-from comparisons.models.running_in import run_in_scene
+from comparisons.models.problem import Levels, Problem, problem_of
+from comparisons.models.running_in import run_in_surface
 from comparisons.output.field_files import AUTOMATIC
 from comparisons.output.record import record_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.write import write_files
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.study import Run, Solved, studied, unsolved
@@ -42,14 +43,23 @@ LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, an
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
 
+@dataclass(frozen=True)
+class Known:
+    """What a run need not find out: read before, or recorded."""
+
+    surface: SceneSurface | None = None  # as measured; None: read as the scene says
+    answers: Answers | None = None  # from outside; None: read from the scene's files
+    levels: Levels | None = None  # None: as many as figures take and the budget allows
+
+
 def run(
-    scene: ResolvedScene,
+    scene: Scene,
     out: Path | None,
     models: tuple[str, ...],
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
     opens: Opens | None = None,
-    answers: Answers | None = None,
+    known: Known = Known(),
 ) -> Run:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
@@ -57,22 +67,22 @@ def run(
     callback  gets each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
-    answers   from outside, read before; by default the scene's are read from their files
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution or a process ends amid a task,
     MemoryError where the process may not have what they take; nothing is written then."""
     stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)
+    surface = known.surface or from_first(lambda: surface_of(scene))
     try:
         if scene.running_in is not None:
             with stages.stage("running-in", "running the surface in"):
-                scene = run_in_scene(scene)
+                surface = run_in_surface(scene, surface)
         with stages.stage("set-up", "finding the reach of the contact"):
-            problem = _problem(scene, models, callback)
+            problem = _problem(scene, surface, models, known.levels, callback)
         plan = make_plan(problem, models)
         callback(forecast(problem, plan).text)
-        posed = replace(unsolved(problem, plan), answers=answers, opens=opens)
+        posed = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
         return solve(posed, out, callback, fields)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
@@ -89,7 +99,7 @@ def run(
         ) from error
 
 
-def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
+def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
     """Raise SceneError for what only one process can solve where there are several."""
     settings = scene.finite_element
     finite = settings.deformation == "finite"
@@ -109,9 +119,15 @@ def _check_address_space(models: tuple[str, ...]) -> None:
         raise MemoryError(f"finite elements take at least {least:.3g} GB of address space")
 
 
-def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCallback) -> Problem:
+def _problem(
+    scene: Scene,
+    surface: SceneSurface,
+    models: tuple[str, ...],
+    levels: Levels | None,
+    callback: ProgressCallback,
+) -> Problem:
     if scene.load.kind != "approach":
-        return problem_of(scene)
+        return problem_of(scene, surface, levels=levels)
     if "finite_element" not in models:
         raise SceneError(
             f"{scene.source}: load.approach: takes finite elements to find its load; "
@@ -119,7 +135,7 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCa
         )
     from comparisons.models.finite_element.level import problem_of_approach
 
-    return problem_of_approach(scene, callback)
+    return problem_of_approach(scene, callback, surface, levels)
 
 
 def solve(
@@ -131,7 +147,7 @@ def solve(
     """Solve a scene by its plan and answer its studies, as `run` does; nothing is solved yet."""
     problem, plan = scene.problem, scene.plan
     kinds = (study.data for study in STUDIES if study.data is not None)
-    cache = level_cache(out, problem.scene, plan, *kinds)
+    cache = level_cache(out, problem, plan, *kinds)
     chosen = [each for each in STUDIES if each.applies(scene) and each.needs(scene) is None]
     there = _for_finite_elements() if "finite_element" in plan.models else ()
     here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
@@ -151,7 +167,7 @@ def solve(
     except (ContactError, FemError, InputError, MeshError):
         cache.discard()
         raise
-    run = Run(solved, found, record_of(problem.scene, solved.runs, _hashes(solved, found)), out)
+    run = Run(solved, found, record_of(problem, solved.runs, _hashes(solved, found)), out)
     try:
         if out is not None:
             write_files(run, within(callback, SOLVED, 1.0), fields)
@@ -167,7 +183,7 @@ def _hashes(solved: Solved, found: Mapping[str, Findings]) -> dict[str, object]:
         f"{name}_pressure": digest(run.finest.solution.pressure)
         for name, run in solved.runs.items()
     }
-    run_in = solved.problem.scene.run_in
+    run_in = solved.problem.surface.run_in
     if run_in is not None:
         hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
     for files in found["answers"].series if "answers" in found else ():

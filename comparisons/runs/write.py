@@ -14,7 +14,7 @@ from comparisons.models.heat import HeatedContact
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.field_files import AUTOMATIC, field_of, scene_text, write_field
 from comparisons.output.result_json import content_of
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
@@ -38,8 +38,8 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
         heat = outcome.data("heat")
         for name, contact in heat.contacts.items() if heat else ():
             write_temperatures(folder / name / "temperature.csv", contact)
-        if outcome.problem.scene.run_in is not None:
-            write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
+        if outcome.problem.surface.run_in is not None:
+            write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.surface)
         (folder / "result.json").write_text(as_json(content_of(outcome)), encoding="utf-8")
         callback("drawing the report")
         (folder / "report.html").write_text(render(outcome, tasks), encoding="utf-8")
@@ -59,7 +59,7 @@ def _save_shown(here: Here, path: Path) -> None:
 def _written(outcome: Run) -> dict[str, Level]:
     """Levels by their folders; whole models of further friction coefficients below the first's."""
     levels: dict[str, Level] = {}
-    for friction in outcome.problem.scene.friction:
+    for friction in outcome.problem.scene.load.friction:
         for name, level in outcome.levels(friction).items():
             if all(level is not known for known in levels.values()):
                 levels[name if name not in levels else f"{name}/friction_{friction:g}"] = level
@@ -82,8 +82,9 @@ def write_mesh(path: Path, outcome: Run, mesh: BlockMesh) -> None:
     from meshes.msh_file import append_comment, write_msh
 
     write_msh(mesh, path)
-    scene = outcome.problem.scene
-    append_comment(path, {"title": scene.title, "units": "m", "scene": scene_text(scene)})
+    problem = outcome.problem
+    said = {"title": problem.scene.title, "units": "m", "scene": scene_text(problem)}
+    append_comment(path, said)
 
 
 def write_contact(path: Path, outcome: Run, level: Level) -> None:
@@ -92,7 +93,7 @@ def write_contact(path: Path, outcome: Run, level: Level) -> None:
     program = f"crosscheck {record['versions']['crosscheck']}"
     program += f", {record['made']['revision']}" if record["made"]["revision"] else ""
     columns = level.grid.x, level.solution.pressure, level.solution.gap
-    head = f"# {program}: {one_line(problem.scene.title)}\n# scene: {scene_text(problem.scene)}\n"
+    head = f"# {program}: {one_line(problem.scene.title)}\n# scene: {scene_text(problem)}\n"
     head += "x [m],pressure [Pa],gap [m],deformed height [m]"
     _write_csv(path, head, *columns, deformed_height(problem, level))
 
@@ -104,11 +105,11 @@ def write_temperatures(path: Path, contact: HeatedContact) -> None:
     _write_csv(path, head, *columns)
 
 
-def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:
+def write_run_in_profile(path: Path, surface: SceneSurface) -> None:
     """run_in_profile.csv: the trace along its own x, its height before and after."""
-    x, after = scene.run_in.profile.x + scene.position, scene.run_in.profile.height
+    x, after = surface.run_in.profile.x + surface.position, surface.run_in.profile.height
     head = "x [m],height before running-in [m],height [m]"
-    _write_csv(path, head, x, after + scene.run_in.lowering, after)
+    _write_csv(path, head, x, after + surface.run_in.lowering, after)
 
 
 def _write_csv(path: Path, head: str, *columns: np.ndarray) -> None:

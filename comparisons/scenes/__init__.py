@@ -1,1 +1,1 @@
-"""A scene file becomes a resolved scene; `library/` holds the scenes that come along."""
+"""What is asked: a checked scene, and its surface; `library/` holds the scenes that come along."""

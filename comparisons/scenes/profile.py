@@ -1,189 +1,190 @@
-"""The profile of a scene: read or made, without its form, filtered, put under the roller."""
+"""The [profile] section: a measured profile or a made one, each variety with fields of its own."""
 
-import hashlib
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from math import hypot, sqrt
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated
 
-from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
-from analytic.material import Material, combined_modulus
-from analytic.profile import Profile
-from analytic.surface.filters import check_cutoff, filtered
-from analytic.surface.form import RemovedForm, remove_form
-from analytic.surface.readers.files import MeasuredProfile, MissingUnitError, read_measured
-from analytic.surface.readers.topography import MapLine
-from analytic.surface.roughness import roughness
-from analytic.surface.roughness_standard import (
-    standard_cutoff,
-    standard_roughness,
-    standard_short_cutoff,
+from pydantic import model_validator
+
+from analytic.profile import MAX_SAMPLES, MIN_SAMPLES
+from comparisons.common.units import DIMENSIONLESS, LENGTH, describe
+from comparisons.scenes.fields import (
+    FieldType,
+    Length,
+    Number,
+    OneOf,
+    SceneSection,
+    Text,
+    Unit,
+    Whole,
+    allowed,
 )
-from analytic.surface.synthetic import ground_texture, self_affine, sinusoid
-from analytic.surface.turned import turned
-from comparisons.common.errors import SceneError
-from comparisons.common.units import LENGTH, unit_in_si
-from comparisons.scenes.scene import Load, ProfileInfo
-from comparisons.scenes.schema.fields import allowed
-from comparisons.scenes.schema.profile import AUTOMATIC, FILTER, ProfileSection
 
-SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
-SINUSOID_WAVES = 3.0  # and at least so many wavelengths
+AUTOMATIC = "auto"
+FILTER = ("cutoff", "short_cutoff")  # fields of every variety
+POSITIVE = Number(LENGTH, above=0.0)
+PLACE = Number(LENGTH, at_least=0.0)
 
-_MAKERS = {"sinusoid": sinusoid, "self-affine": self_affine}
-_MAKERS |= {"ground": ground_texture, "turned": turned}
-# What a message allows for a field that neither the file nor the scene gives.
-_ALLOWED = {
-    "x_unit": "exactly one of x_unit and spacing",
-    "z_unit": allowed(ProfileSection, "z_unit"),
-    "spacing": allowed(ProfileSection, "spacing"),
-}
+
+class CutOff(FieldType):
+    """A length above 0, or "auto"."""
+
+    def read(self, given: object) -> float | str:
+        if given == AUTOMATIC:
+            return AUTOMATIC
+        try:
+            return POSITIVE.read(given)
+        except ValueError as error:
+            raise self.wrong(str(error).partition(";")[0]) from error
+
+    def allowed(self) -> str:
+        return f'{POSITIVE.allowed()}, or "{AUTOMATIC}"'
+
+
+class Segment(FieldType):
+    """[[x0, y0], [x1, y1]]: two points of two lengths each, at least 0."""
+
+    def read(self, given: object) -> tuple[tuple[float, float], tuple[float, float]]:
+        points = self._pair(given)
+        start, stop = (tuple(map(self._length, self._pair(point))) for point in points)
+        if start == stop:
+            raise self.wrong("starts where it ends")
+        return start, stop
+
+    def _pair(self, given: object) -> list | tuple:
+        if isinstance(given, list | tuple) and len(given) == 2:
+            return given
+        size = f" of {len(given)}" if isinstance(given, list | tuple) else ""
+        raise self.wrong(f"holds {describe(given)}{size}")
+
+    def _length(self, given: object) -> float:
+        try:
+            return PLACE.read(given)
+        except ValueError as error:
+            raise self.wrong(f"holds a place that {str(error).partition(';')[0]}") from error
+
+    def allowed(self) -> str:
+        return 'two points, such as [["0 um", "10 um"], ["500 um", "10 um"]], none below 0'
 
 
 @dataclass(frozen=True)
-class KnownTrace:
-    """A trace that is read or made already, and the SHA-256 of its file, None for a made one."""
+class Columns(FieldType):
+    """Of a table: those of x and height, or that of heights alone, by names or numbers from 0."""
 
-    read: MeasuredProfile
-    sha256: str | None
+    def read(self, given: object) -> tuple[str | int, ...]:
+        values = given if isinstance(given, list | tuple) else [given]
+        if len(values) not in (1, 2) or values.count(values[0]) > 1:
+            raise self.wrong(f"is {describe(given)} of {len(values)}")
+        for value in values:
+            named = isinstance(value, str) and value.strip()
+            if not named and (type(value) is not int or not 0 <= value < MAX_SAMPLES):
+                raise self.wrong(f"holds {describe(value)}")
+        return tuple(values)
 
-
-def profile_of(
-    table: Mapping,
-    position: float | None,
-    *,
-    folder: Path,
-    source: str,
-    known: KnownTrace | None = None,
-) -> tuple[Profile, ProfileInfo, float]:
-    """The profile with x = 0 under the roller's centre and height 0 on the mean line.
-
-    table     [profile] with SI numbers and its defaults
-    position  [m] of the roller's centre on the trace; None is the middle
-    folder, source, known   as in `comparisons.scenes.resolve.resolve_tables`
-    Returns the account of the whole trace and the position as well. Raises SceneError."""
-    if "file" in table:
-        trace, origin = _measured(table, folder / table["file"], source, known)
-    else:
-        trace, origin = _made(table, source, known)
-    position = _position(position, trace, source)
-    pressed, filtering = _filtered(trace, table, source)
-    account = ProfileInfo(
-        **origin,
-        **filtering,
-        samples=len(trace.x),
-        length=trace.length,
-        spacing=trace.spacing,
-        roughness=roughness(pressed),
-    )
-    return pressed.shifted(position), account, position
+    def allowed(self) -> str:
+        return 'one or two columns by name or by number from 0, such as ["x", "z"] or [0, 2]'
 
 
-def sinusoid_length(
-    table: ProfileSection, load: Load, radius: float, roller: Material | None, body: Material
-) -> float:
-    """Length [m] of a sinusoid that outlasts its contact under `load`.
-    Crests touch where the roller is no higher than Hertz' compression and the waves make up
-    for: x^2 < a^2 + 4 R amplitude, a the Hertz half-width, R = `radius` [m]."""
-    if load.kind == "approach":
-        half_width = sqrt(2.0 * radius * load.value)
-    else:
-        hertz = hertz_from_load if load.kind == "load_per_length" else hertz_from_peak_pressure
-        half_width = hertz(load.value, radius, combined_modulus(body, roller)).half_width
-    widest = hypot(half_width, sqrt(4.0 * radius * table.amplitude))
-    return max(SINUSOID_REACH * widest, SINUSOID_WAVES * table.wavelength)
+Ratio = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
+Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
 
 
-def _measured(
-    table: Mapping, path: Path, source: str, known: KnownTrace | None
-) -> tuple[Profile, dict]:
-    """The profile in a file without its form, and where it comes from."""
-    try:
-        known = known or _read(table, path)
-    except MissingUnitError as error:
-        raise SceneError(
-            f"{source}: profile.{error.field}: is missing; allowed is {_ALLOWED[error.field]} "
-            f"({table['file']} {error.message})"
-        ) from error
-    except (ValueError, OSError) as error:
-        raise SceneError(f"{source}: profile.file: {error}") from error
-    try:
-        trace, form = _without_form(known.read.profile, table["form"])
-    except ValueError as error:
-        raise SceneError(f"{source}: profile.form: {error}") from error
-    names = ("bridged", "trimmed", "stretch", "format", "place")
-    how = {name: getattr(known.read, name) for name in names}
-    origin = {"source": table["file"], "path": path, "trace": known.read.profile, "form": form}
-    return trace, origin | how | {"sha256": known.sha256}
+class ProfileSection(SceneSection):
+    """A measured profile (`file`) or a made one (`kind`), with the parameters of
+    `analytic.surface.synthetic`, which also checks how they fit together."""
+
+    file: Annotated[str, Text("the path of a profile, from the scene's folder")] | None = None
+    x_unit: Annotated[str, Unit(LENGTH)] | None = None
+    z_unit: Annotated[str, Unit(LENGTH)] | None = None
+    spacing: Length | None = None
+    columns: Annotated[tuple, Columns()] | None = None
+    channel: Annotated[str, Text("the name of a channel, or of a sheet")] | None = None
+    row: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
+    column: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
+    line: Annotated[tuple, Segment()] | None = None
+    form: Annotated[str, OneOf(("none", "mean", "line", "arc"))] | None = None
+    dropouts: Annotated[str, OneOf(("refuse", "bridge"))] | None = None
+    kind: Annotated[str, OneOf(("sinusoid", "self-affine", "ground", "turned"))] | None = None
+    wavelength: Length | None = None
+    amplitude: Length | None = None
+    samples_per_wavelength: Samples | None = None
+    hurst: Annotated[float, Number(DIMENSIONLESS, above=0.0, at_most=1.0)] | None = None
+    rms_slope: Ratio | None = None
+    rms_height: Length | None = None
+    samples: Samples | None = None
+    length: Length | None = None
+    seed: Annotated[int, Whole(0, 2**63 - 1)] | None = None
+    shortest_wavelength: Length | None = None
+    roll_off_wavelength: Length | None = None
+    longest_wavelength: Length | None = None
+    decay: Ratio | None = None
+    one_sidedness: Ratio | None = None
+    feed: Length | None = None
+    nose_radius: Length | None = None
+    ridge_radius: Length | None = None
+    phase: Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=1.0)] | None = None
+    samples_per_feed: Samples | None = None
+    noise: Length | None = None
+    noise_wavelength: Length | None = None
+    cutoff: Annotated[float | str, CutOff()] | None = None
+    short_cutoff: Length | None = None
+
+    @property
+    def variety(self) -> str:
+        """ "file" for a measured profile, else its kind."""
+        return self.kind or "file"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _defaults_of_the_variety(cls, given: object) -> object:
+        if not isinstance(given, dict):
+            return given
+        kind = given.get("kind", "file")
+        variety = VARIETIES.get(kind) if isinstance(kind, str) else None
+        return {**variety.defaults, **given} if variety else given
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if self.file is not None and self.kind is not None:
+            yield "kind", "is given beside file; allowed is one of the two"
+        if self.file is None and self.kind is None:
+            yield "file", "is missing; allowed is file (measured) or kind (made)"
+        variety = VARIETIES[self.variety]
+        for name in sorted(self.model_fields_set - variety.fields()):
+            if getattr(self, name) is not None:
+                others = sorted(variety.fields() - {"kind", "file", *FILTER})
+                there = ", ".join([*others, *FILTER])
+                yield name, f"does not belong to {variety.title}; allowed there are {there}"
+        for name in variety.needed:
+            if getattr(self, name) is None:
+                words = allowed(ProfileSection, name)
+                yield name, f"is missing; allowed is {words} ({variety.title})"
+        for names in variety.one_of:
+            yield from self.unless_one_of(names, " and ")
+        for names in variety.at_most_one_of:
+            yield from self.unless_one_of(names, " and ", or_none=True)
 
 
-def _read(table: Mapping, path: Path) -> KnownTrace:
-    place = {name: table[name] for name in ("row", "column", "line") if name in table}
-    x_scale, height_scale = (
-        unit_in_si(table[unit], LENGTH) if unit in table else None for unit in ("x_unit", "z_unit")
-    )
-    read = read_measured(
-        path,
-        x_scale=x_scale,
-        height_scale=height_scale,
-        spacing=table.get("spacing"),
-        columns=table.get("columns"),
-        channel=table.get("channel"),
-        dropouts=table["dropouts"],
-        chosen=MapLine(**place) if place else None,
-    )
-    return KnownTrace(read, hashlib.sha256(path.read_bytes()).hexdigest())
+@dataclass(frozen=True)
+class Variety:
+    """Which fields one variety of profile has: needed ones, others, groups to choose one from."""
+
+    title: str
+    needed: Sequence[str]
+    optional: Sequence[str] = ()
+    defaults: Mapping[str, object] = field(default_factory=dict)
+    one_of: Sequence[Sequence[str]] = ()
+    at_most_one_of: Sequence[Sequence[str]] = ()
+
+    def fields(self) -> set[str]:
+        groups = (*self.one_of, *self.at_most_one_of)
+        return set().union(self.needed, self.optional, self.defaults, FILTER, *groups)
 
 
-def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profile, dict]:
-    """The profile that `analytic.surface.synthetic` makes, about its mean line, and its origin."""
-    parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
-    try:
-        trace = known.read.profile if known else _MAKERS[table["kind"]](**parameters)
-    except ValueError as error:
-        raise SceneError(f"{source}: profile: {error}") from error
-    return trace, {"source": table["kind"], "form": RemovedForm("none"), "trace": trace}
-
-
-def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dict]:
-    """What is pressed of the trace, and the filter and the standard's figures for the account."""
-    cutoff, short = table.get("cutoff"), table.get("short_cutoff")
-    field = "cutoff"
-    try:
-        if cutoff == AUTOMATIC:
-            cutoff = standard_cutoff(trace)
-        field = "short_cutoff"
-        if short is not None:
-            check_cutoff(trace, short)
-        field = "cutoff" if cutoff is not None else field
-        pressed = filtered(trace, cutoff, short)
-    except ValueError as error:
-        raise SceneError(f"{source}: profile.{field}: {error}") from error
-    account = {"cutoff": cutoff, "short_cutoff": short}
-    try:
-        cutoff = standard_cutoff(trace) if cutoff is None else cutoff
-        short = short or standard_short_cutoff(trace, cutoff)
-        account["standard"] = standard_roughness(trace, cutoff, short)
-    except ValueError as error:
-        account["standard_why"] = str(error).partition(";")[0]
-    return pressed, account
-
-
-def _without_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:
-    """As `remove_form`, but heights count from the mean line even where no form is removed."""
-    if form == "none":
-        level, removed = remove_form(profile, "mean")
-        return level, replace(removed, kind="none")
-    return remove_form(profile, form)
-
-
-def _position(given: float | None, trace: Profile, source: str) -> float:
-    first, last = float(trace.x[0]), float(trace.x[-1])
-    if given is None:
-        return 0.5 * (first + last)
-    if not first < given < last:
-        raise SceneError(
-            f"{source}: load.position: is {given:g} m; allowed is inside the trace, "
-            f"above {first:g} m and below {last:g} m"
-        )
-    return given
+VARIETIES = {
+    name: Variety(**given)
+    for name, given in tomllib.loads(
+        Path(__file__).with_name("varieties.toml").read_text(encoding="utf-8")
+    ).items()
+}

@@ -1,305 +1,247 @@
-"""A scene as resolved: everything that is asked for, in SI, with the profile in place.
+"""A scene: what is asked, as its file has it, checked, in SI, frozen.
 
-x along the surface with its origin under the roller's centre, heights positive out of the body
-with their zero on the mean line. `comparisons.scenes.resolve` makes it from a file."""
+What a file leaves out and what follows from the rest stands in the sections as well. Where the
+surface is needed (the trace, the place of the roller on it) see `comparisons.scenes.surface`.
+What is wrong is one line: "file: section.field: problem; allowed is …"."""
 
 import copy
-from dataclasses import asdict, dataclass, field, replace
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Self, get_args
 
-from analytic.material import Material, ThermalMaterial
-from analytic.profile import Profile
-from analytic.running_in import RunIn
-from analytic.surface.form import RemovedForm
-from analytic.surface.roughness import Roughness
-from analytic.surface.roughness_standard import StandardRoughness
-from comparisons.common.numbers import finite
+from pydantic import PrivateAttr, ValidationError
 
-MOST_LEVELS = 8  # of a run
-CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
-
-
-@dataclass(frozen=True)
-class Load:
-    """What presses the roller on."""
-
-    kind: str  # load_per_length [N/m] | hertz_peak_pressure [Pa] of the smooth pair | approach [m]
-    value: float
-
-
-@dataclass(frozen=True)
-class Yielding:
-    """Yield `stress` [Pa] in tension, and hardening modulus `hardening` [Pa]."""
-
-    stress: float
-    hardening: float
-
-
-@dataclass(frozen=True)
-class Coated:
-    """A coating of `material` and `thickness` [m], bonded to the body."""
-
-    material: Material
-    thickness: float
+from comparisons.common.errors import InputError, SceneError, nearest
+from comparisons.common.units import describe
+from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, plain
+from comparisons.scenes.files import find_scene, name_of, read_toml
+from comparisons.scenes.finite_element import FiniteElementSection
+from comparisons.scenes.profile import ProfileSection
+from comparisons.scenes.running_in import RunningInSection
+from comparisons.scenes.sections import (
+    OF_STRESS,
+    BodySection,
+    BudgetSection,
+    CoatingSection,
+    LoadSection,
+    ResolutionSection,
+    RollerSection,
+    StressSection,
+    ToleranceSection,
+)
+from comparisons.scenes.studies.answers import Answers
+from comparisons.scenes.studies.heat import HeatSection
+from comparisons.scenes.studies.scatter import ScatterSection
+from comparisons.scenes.studies.statistics import StatisticsSection
 
 
 @dataclass(frozen=True)
-class RunningIn:
-    """How the surface is run in before it is pressed."""
+class Origin:
+    """Where a scene comes from."""
 
-    hardness: float  # [Pa] at which asperities flow
-    load: float | None  # [N/m], None for the scene's own
-    positions: tuple[float, ...]  # [m] of the roller's centre on the trace as given, in order
-    sweeps: int  # over all of them, at most
-
-
-@dataclass(frozen=True)
-class ProfileInfo:
-    """Where the profile comes from, and its figures after the form was removed."""
-
-    source: str  # the file as the scene names it, or the kind of a made profile
-    samples: int  # of the whole trace
-    length: float  # [m]
-    spacing: float  # [m], median
-    form: RemovedForm  # what was taken away
-    roughness: Roughness  # figures of what is left and is pressed
-    path: Path | None = field(default=None, compare=False)  # of the file, None for a made profile
-    # as read or made: with its form, unfiltered, at its own positions
-    trace: Profile | None = field(default=None, compare=False, repr=False)
-    sha256: str | None = None  # of the file
-    bridged: int = 0  # lost samples that were interpolated between their neighbours
-    trimmed: int = 0  # lost samples that were dropped at the ends
-    stretch: tuple[float, float] | None = None  # [m] of the longest bridge, from where to where
-    format: str | None = None  # of the file
-    place: str | None = None  # the line of a map that it is, in words
-    cutoff: float | None = None  # [m] of the filter, None where there is none
-    short_cutoff: float | None = None  # [m]
-    # parameters after ISO 21920-2 of the whole trace, whatever is pressed
-    standard: StandardRoughness | None = None
-    standard_why: str | None = None  # why there are none
-
-    def as_dict(self) -> dict:
-        """The same for JSON, without `path`, which another machine does not have, and `trace`."""
-        figures = asdict(replace(self, path=None, trace=None))
-        del figures["path"], figures["trace"]
-        nested = ("form", "roughness", "standard")
-        return figures | {name: finite(figures[name]) for name in nested if figures[name]}
-
-    def surface(self) -> dict:
-        """The surface's figures, as pressed and by the standard, for JSON."""
-        plain = self.as_dict()
-        names = ("cutoff", "short_cutoff", "standard", "standard_why")
-        return {"pressed": plain["roughness"], **{name: plain[name] for name in names}}
+    name: str = "scene"  # of the file, without its ending
+    folder: Path = Path(".")  # that paths in it count from
+    source: str = "scene"  # what messages call it
 
 
-@dataclass(frozen=True)
-class Extent:
-    """A positive length, in m or in Hertz half-widths as it was given."""
+class SceneBase(SceneSection):
+    """The sections that every scene may have, and how a scene is read, checked and changed."""
 
-    value: float
-    in_half_widths: bool
+    title: Annotated[str, Text("what the scene shows")] | None = None
+    roller: RollerSection
+    body: BodySection
+    coating: CoatingSection | None = None
+    profile: ProfileSection | None = None
+    load: LoadSection
+    running_in: RunningInSection | None = None
+    stress: StressSection | None = None
+    tolerance: ToleranceSection = ToleranceSection()
+    finite_element: FiniteElementSection = FiniteElementSection()
+    resolution: ResolutionSection = ResolutionSection()
+    budget: BudgetSection = BudgetSection()
 
-    def metres(self, half_width: float) -> float:
-        """The length [m] where the Hertz half-width is `half_width` [m]."""
-        return self.value * half_width if self.in_half_widths else self.value
+    _given: dict = PrivateAttr(default_factory=dict)
+    _origin: Origin = PrivateAttr(default=Origin())
 
+    @classmethod
+    def read(cls, name_or_path: str | os.PathLike) -> Self:
+        """The scene in a file, or of a name that comes with the project.
+        Raises SceneError, one line, for anything that is wrong with the file or what it says."""
+        path = find_scene(name_or_path)
+        # messages call it as it was asked for: that is how to ask for it again
+        origin = Origin(name_of(path), path.parent, os.fspath(name_or_path))
+        return cls.of(read_toml(path), origin)
 
-@dataclass(frozen=True)
-class StressWindow:
-    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz).
-    `bulge` asks for what sliding raises ahead of the contact."""
+    @classmethod
+    def of(cls, tables: Mapping, origin: Origin = Origin()) -> Self:
+        """The scene that `tables`, as TOML has them, describe. Raises SceneError as `read` does."""
+        try:
+            checked = cls.model_validate(tables)
+        except ValidationError as error:
+            raise _scene_error(cls, error, origin.source) from error
+        follows = {name: section.completed(checked) for name, section in checked.sections()}
+        scene = checked.model_copy(update={"title": checked.title or origin.name, **follows})
+        scene._given, scene._origin = copy.deepcopy(dict(tables)), origin
+        return scene
 
-    depth: Extent
-    half_range: Extent
-    points: tuple[int, int]
-    bulge: bool = False
+    def changed(self, fields: str | Mapping[str, object], value: object = None) -> Self:
+        """The scene with another value of a field such as "load.friction", or of several by name,
+        checked as a file is; None takes one away. What was not given follows again."""
+        tables = self.given
+        pairs = fields if isinstance(fields, Mapping) else {fields: value}
+        for name, value in pairs.items():
+            *path, last = name.split(".")
+            table = tables
+            for part in path:
+                table = table.setdefault(part, {})
+                if not isinstance(table, dict):
+                    problem = f"{name}: {part} is no table; allowed is a scene's field"
+                    raise SceneError(f"{self.source}: {problem}")
+            table[last] = value
+            if value is None:
+                del table[last]
+        return self.of(tables, self._origin)
 
-
-@dataclass(frozen=True)
-class AnswerSource:
-    """Where an answer from outside is, and how to read it."""
-
-    name: str
-    files: tuple[str, ...]  # one for each resolution
-    length: float  # the file's unit [m]
-    stress: float  # the file's unit [Pa]
-    columns: tuple[str | int, ...]  # of a table: those of x and pressure, by name or number
-    up: str | None  # axis of the file out of the rough body, with its sign; None: found out
-    x_origin: float  # [m] where the scene's origin lies in the file, along its x
-    z_origin: float  # [m], along `up`
-    pressure: str | None  # array of a mesh that holds it; None: minus the stress on its top
-    step: int | None  # of several in time, from 0; None: the last
-    friction: float | None  # coefficient that it is of; None: the only one
-    scatter: float | None  # relative, of measured data; None: not stated
-
-
-@dataclass(frozen=True)
-class FiniteElementSettings:
-    """Which of the half-plane's assumptions the finite-element model keeps."""
-
-    geometry: str  # flat: the roughness is in the gap | rough: it is the boundary
-    # reference: at the place before loading, pressure along the mean normal | displaced: on the
-    # deformed surface, pressure along the roller's normal
-    gap: str
-    roller_shape: str  # parabola | circle
-    roller_body: str  # of an elastic roller: half-plane, a block | disc, a sector of its circle
-    coupled: bool  # the sliding traction moves the surfaces
-    deformation: str  # linear | finite: current shape and normals, hyperelastic
-    plastic: bool  # the body yields where its yield stress is reached
-    element: str  # P1 | P2 | P3: degree of the displacements
-    # held: an unbounded body ends at a fixed boundary | half-plane: at one that moves as a
-    # half-plane does there
-    far_field: str
-    block: float  # width and depth, in Hertz half-widths, of the stand-in for an unbounded body
-    growth: float  # element size gained per distance from the contact
+    def unchecked(self, fields: Mapping[str, object]) -> Self:
+        """The scene with other values of fields, by name, as they are; nothing follows."""
+        update: dict[str, object] = {}
+        for name, value in fields.items():
+            section, _, field = name.partition(".")
+            if field:
+                table = update.get(section, getattr(self, section))
+                value = table.model_copy(update={field: value})
+            update[section] = value
+        return self.model_copy(update=update)
 
     @property
-    def degree(self) -> int:
-        """Of the displacements' polynomials."""
-        return int(self.element[1:])
-
-
-@dataclass(frozen=True)
-class Resolution:
-    """`pitch` [m] of the coarsest pressure elements, or `elements` of them on a half-width of the
-    smooth contact (None: automatic); `levels` to begin with, and the `most` where quantities are
-    not resolved."""
-
-    pitch: float | None
-    levels: int
-    most: int = MOST_LEVELS
-    elements: float | None = None
-
-
-@dataclass(frozen=True)
-class Budget:
-    """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
-    whether it computes `effects` that the scene's finite elements do not model, and where "all",
-    those too that cannot change a verdict; on at most so many `levels` (None: as time allows)."""
-
-    time: float
-    memory: float
-    effects: bool | str = True
-    levels: int | None = None
-
-
-@dataclass(frozen=True)
-class Spread:
-    """How uncertain an input is: normal by a standard `deviation`, `relative` to the scene's own
-    value or in SI, cut off at CUT_OFF deviations; or uniform over a `range` in SI."""
-
-    deviation: float = 0.0
-    relative: bool = False
-    range: tuple[float, float] | None = None
-
-    def size(self, own: float) -> float:
-        """Standard deviation about the scene's `own` value, in SI."""
-        return self.deviation * (abs(own) if self.relative else 1.0)
-
-    def ends(self, own: float) -> tuple[float, float]:
-        """The smallest and the largest value that is sampled."""
-        far = CUT_OFF * self.size(own)
-        return self.range or (own - far, own + far)
-
-
-@dataclass(frozen=True)
-class Scatter:
-    """Uncertain inputs of a scene, by name."""
-
-    samples: int  # of each of two independent designs
-    seed: int
-    inputs: dict[str, Spread]
-    correlation_length: float  # [m] of the noise, 0: white
-
-
-@dataclass(frozen=True)
-class RoughnessStatistics:
-    """What is asked of the statistics of rough contact."""
-
-    traces: int  # random ones of the profile's spectrum, from `seed` on
-    seed: int
-    cutoffs: tuple[float, ...] | None  # [m] under which summits are counted; None: chosen
-    metal: str  # ferrous | nonferrous: by which h/R an asperity flows
-    lubricated: bool  # by which it cuts
-
-
-@dataclass(frozen=True)
-class Heat:
-    """Sliding that heats both bodies."""
-
-    speed: float  # [m/s] of sliding, above 0
-    # speed over the mean of both surfaces' speeds past the contact, from -2 (the contact stays on
-    # the body) to 2 (it stays on the roller), not 0
-    slide_to_roll: float
-    body: ThermalMaterial
-    roller: ThermalMaterial
-    coating: ThermalMaterial | None  # None without one
-    bulk_temperature: float  # [K] of both bodies
-    base: str  # of a body with thickness: held at that temperature | insulated
-    reach: float  # [m] from the contact to where a body that it stays on has that temperature
-    tolerance: float  # relative, of temperatures and thermal stresses
-    expansion: float | None = None  # [1/K] of the body; None: no thermal stresses are asked for
-    coating_expansion: float | None = None
+    def given(self) -> dict:
+        """The tables as they were given."""
+        return copy.deepcopy(self._given)
 
     @property
-    def velocities(self) -> tuple[float, float]:
-        """[m/s] of the body's and the roller's surface past the contact, towards +x. Their
-        difference is minus the speed: the roller drags the body towards +x."""
-        mean = -self.speed / self.slide_to_roll
-        return mean - 0.5 * self.speed, mean + 0.5 * self.speed
-
-
-@dataclass(frozen=True)
-class ResolvedScene:
-    """Everything one run needs."""
-
-    name: str  # the scene's file without its ending
-    source: str = field(compare=False)  # what messages call the scene: its path
-    title: str
-    roller_radius: float
-    roller: Material | None  # None: rigid
-    body: Material
-    hardness: float | None  # [Pa] cap on the contact pressure, or None
-    yielding: Yielding | None  # of the body in the finite elements; None: elastic
-    coating: Coated | None  # of the body in the finite elements; None: one material
-    thickness: float | None  # [m] of the body, None where it is unbounded
-    width: float | None  # [m], as the thickness
-    base: str | None  # bonded | frictionless, None without thickness
-    profile: Profile | None = field(compare=False)  # None: smooth
-    profile_info: ProfileInfo | None
-    load: Load
-    running_in: RunningIn | None  # None: the surface is pressed as it is
-    friction: tuple[float, ...]  # coefficients, one result for each
-    coupled: bool  # the half-plane's surfaces are moved by the sliding traction
-    position: float  # [m] where x = 0 lies on the trace as it was given
-    stress: StressWindow | None  # None: no field is asked for
-    tolerance: dict[str, float]  # relative, by compared quantity; others are not judged
-    finite_element: FiniteElementSettings
-    resolution: Resolution
-    budget: Budget
-    # the scene file with SI numbers and every default written out: resolving them again, in a
-    # folder that holds the profile's file, gives this scene
-    tables: dict = field(repr=False)
-    scatter: Scatter | None = None  # None: inputs are taken as exact
-    statistics: RoughnessStatistics | None = None  # of rough contact; None: not asked for
-    # what running-in did, None until it was done; then the profile and its figures are after it
-    run_in: RunIn | None = field(default=None, compare=False, repr=False)
-    answers: tuple[AnswerSource, ...] = ()  # from outside, beside those of the models
-    heat: Heat | None = None  # None: no temperature is asked for
+    def name(self) -> str:
+        return self._origin.name
 
     @property
-    def as_measured(self) -> Profile | None:
-        """The profile before any running-in."""
-        return self.profile if self.run_in is None else self.run_in.before
+    def folder(self) -> Path:
+        return self._origin.folder
 
-    def as_dict(self) -> dict:
-        """For JSON: `tables` with the scene's name and what became of its profile."""
-        return {
-            "name": self.name,
-            "title": self.title,
-            "profile": None,
-            "running_in": None,
-            "stress": None,
-            **copy.deepcopy(self.tables),
-            "profile_info": self.profile_info.as_dict() if self.profile_info else None,
-        }
+    @property
+    def source(self) -> str:
+        return self._origin.source
+
+    @property
+    def tables(self) -> dict:
+        """The scene as a file would have it, for JSON and TOML: SI numbers, what follows written
+        out, no None. Reading it gives the same scene."""
+        tables = plain(self)
+        if self.stress is None:  # defaults that have nothing to judge
+            for name in OF_STRESS:
+                tables["tolerance"].pop(name, None)
+        return tables
+
+    @property
+    def tolerances(self) -> dict[str, float]:
+        """Relative, by compared quantity; others are not judged."""
+        return {name: value for name, value in self.tolerance if value is not None}
+
+    def sections(self) -> Iterator[tuple[str, SceneSection]]:
+        """The sections that the scene has, but for those of which there may be several."""
+        return ((name, part) for name, part in self if isinstance(part, SceneSection))
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        for _, section in self.sections():
+            yield from section.misfits(self)
+        body, load, coating = self.body, self.load, self.coating
+        if coating and body.thickness is not None and coating.thickness >= body.thickness:
+            thick = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"
+            yield "coating.thickness", f"{thick}; allowed is less, the body's thickness contains it"
+        if coating and self.finite_element.plastic:
+            yield "finite_element.plastic", "is true for a coated body; allowed without [coating]"
+        if body.base == "frictionless" and body.width is not None and max(load.friction) > 0.0:
+            held = 'allowed is friction = 0, base = "bonded" or no width'
+            slides = f"is {max(load.friction):g} on a body of finite width on a frictionless base"
+            yield "load.friction", f"{slides}, which nothing would hold; {held}"
+
+
+class Scene(SceneBase):
+    """With the sections of the studies."""
+
+    scatter: ScatterSection | None = None
+    statistics: StatisticsSection | None = None
+    heat: HeatSection | None = None
+    answers: Answers | None = None
+
+
+def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:
+    """The sections that a file may have, by name; of [answers.NAME] that of any name."""
+
+    def inside(annotation: object) -> Iterator[type[SceneSection]]:
+        if isinstance(annotation, type) and issubclass(annotation, SceneSection):
+            yield annotation
+        for part in get_args(annotation):
+            yield from inside(part)
+
+    hints = {name: info.annotation for name, info in scene.model_fields.items()}
+    return {name: section for name, hint in hints.items() for section in inside(hint)}
+
+
+def with_tolerance(scene: Scene, tolerance: float, source: str = "tolerance") -> Scene:
+    """The scene with one relative tolerance for all that it judges.
+    Raises InputError, which calls it by its `source`, unless it is above 0 and below 1."""
+    is_number = isinstance(tolerance, int | float) and not isinstance(tolerance, bool)
+    if not (is_number and 0.0 < tolerance < 1.0):
+        given = f"{tolerance:g}" if is_number else describe(tolerance)
+        raise InputError(f"{source}: is {given}; allowed is a number above 0 and below 1")
+    return scene.changed("tolerance", dict.fromkeys(scene.tables["tolerance"], tolerance))
+
+
+def _scene_error(scene: type[SceneBase], error: ValidationError, where: str) -> SceneError:
+    """The one line that stands for `error`; `where` names the scene.
+    A misspelt name usually leaves a needed field missing as well, so unknown names come first."""
+    problems = error.errors(include_url=False)
+    unknown = [problem for problem in problems if problem["type"] == "extra_forbidden"]
+    return SceneError(f"{where}: {_line(scene, (unknown or problems)[0])}")
+
+
+def _line(scene: type[SceneBase], problem: dict) -> str:
+    location, kind = problem["loc"], problem["type"]
+    if kind == "extra_forbidden":
+        return _unknown(sections_of(scene), location, problem["input"])
+    if kind == "missing" and len(location) == 1:
+        return f"{location[0]}: is missing; allowed is a section [{location[0]}]"
+    if kind == "missing":
+        section, name = sections_of(scene)[location[0]], location[-1]
+        return f"{'.'.join(location)}: is missing; allowed is {allowed(section, name)}"
+    if kind in ("model_type", "dict_type"):
+        name = location[0]
+        return f"{name}: is {describe(problem['input'])}; allowed is a section [{name}]"
+    cause = problem.get("ctx", {}).get("error")
+    if isinstance(cause, FieldError):
+        location = (*location, cause.field)
+    return f"{'.'.join(map(str, location))}: {cause or problem['msg']}"
+
+
+def _unknown(sections: dict[str, type[SceneSection]], location: tuple, value: object) -> str:
+    """A name that no section has: the nearest one, in its own section if there is one alike."""
+    *section, name = map(str, location)
+    place = ".".join([*section, name])
+    titles = {table: f"[{table}]" for table in sections if table != "answers"}
+    if not section and isinstance(value, dict):
+        return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
+    fields = {
+        table: {field: f"{table}.{field}" for field in model.model_fields}
+        for table, model in sections.items()
+    }
+    own = fields[section[0]] if section else {"title": "title", **titles}
+    # of the same name in two sections, the first's: what is pressed, not how uncertain it is
+    anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
+    near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)
+    return f"{place}: is no known field; the nearest is {near}"
+
+
+def _nearest(name: str, shown: dict[str, str], alike: float = 0.0) -> str | None:
+    """How the name most like `name` is shown."""
+    return shown.get(nearest(name.casefold(), shown, alike))

@@ -86,8 +86,8 @@ class Excess:
 def needs(solved: Solved) -> str | None:
     """What it takes and the scene does not have."""
     scene = solved.problem.scene
-    lone = scene.profile and len(scene.friction) == 1 and not scene.finite_element.plastic
-    if MODEL not in solved.plan.models or not any(scene.friction):
+    lone = scene.profile and len(scene.load.friction) == 1 and not scene.finite_element.plastic
+    if MODEL not in solved.plan.models or not any(scene.load.friction):
         return "it takes the finite elements, and friction"
     if lone and scene.finite_element.deformation == "finite":
         return "it takes small strains: at finite ones a profile is solved at one friction alone"
@@ -97,7 +97,7 @@ def needs(solved: Solved) -> str | None:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """At every friction coefficient above 0; `before` has the models' figures."""
     figures, series = [], []
-    for friction in solved.problem.scene.friction:
+    for friction in solved.problem.scene.load.friction:
         if friction > 0.0:
             own, tables = _bulge(solved, before[contact.NAME], friction)
             figures += own
@@ -110,7 +110,7 @@ def half_plane_rise(
 ) -> np.ndarray:
     """B(s) [m] of the half-plane at distances s (n,) [m] from a centre [m] under a level's
     pressure, exact."""
-    body, x = problem.scene.body, level.grid.x
+    body, x = problem.scene.body.material, level.grid.x
     nu = body.poissons_ratio
     carried = np.append(0.0, np.cumsum(level.solution.pressure * level.grid.weights))
     edges = np.append(x, x[-1] + level.grid.pitch) - 0.5 * level.grid.pitch
@@ -123,7 +123,7 @@ def elastic_energy(
 ) -> tuple[float, float]:
     """Elastic strain energy [J/m] in the window behind and ahead of the load's centre, as far to
     both sides of it as the window reaches. In all of a half-plane it is infinite."""
-    field, centre, body = level.stress(friction).field, _centre(level), problem.scene.body
+    field, centre, body = level.stress(friction).field, _centre(level), problem.scene.body.material
     nu, mesh = body.poissons_ratio, level.field_on_mesh
     sy = nu * (field.sx + field.sz)
     if mesh is not None and "sy" in mesh.others:  # plastic strain leaves another
@@ -154,7 +154,7 @@ def _bulge(solved: Solved, known: Findings, friction: float) -> tuple[list[Figur
     """
     problem, run = solved.problem, solved.runs[MODEL]
     a, level = problem.hertz.half_width, run.finest
-    s, h, at = a * DISTANCES, a**2 / problem.scene.roller_radius, {"friction": friction}
+    s, h, at = a * DISTANCES, a**2 / problem.scene.roller.radius, {"friction": friction}
     centres = [_centre(each) for each in run.levels]
     whole, curve, tilt = _excess(problem, run, friction, s, centres, NEAR * a)
     figures = _figures_of(whole, at)
@@ -163,7 +163,7 @@ def _bulge(solved: Solved, known: Findings, friction: float) -> tuple[list[Figur
     )
     exact = {
         "penetration": h,
-        "relative_penetration": (a / problem.scene.roller_radius) ** 2,
+        "relative_penetration": (a / problem.scene.roller.radius) ** 2,
         "work_scale": problem.hertz.load_per_length * h,
     }
     figures += figures_of(NAME, MODEL, exact, None, at)
@@ -293,7 +293,7 @@ def _excess(
     curves, excesses = zip(*map(of_level, run.levels, centres), strict=True)
     curve, excess = curves[-1], excesses[-1]
     if tilt is None:
-        own = problem.scene.thickness is not None or problem.scene.width is not None
+        own = problem.scene.body.thickness is not None or problem.scene.body.width is not None
         tilt = 0.0 if own else far_boundary(excess[-1] / s[-1])
     top = int(np.argmax(excess[s <= near]))
     ends = [_end(s, each, top) for each in excesses]
@@ -412,7 +412,7 @@ def bulge_picture(run: Run) -> style.Picture | None:
     if not bulges:
         return None
     a = run.problem.hertz.half_width
-    h = a**2 / run.problem.scene.roller_radius
+    h = a**2 / run.problem.scene.roller.radius
     drawn = style.figure(style.COLUMN, 2.6)
     [axes] = style.stacked(drawn, [(0.35, 1.75)], 0.75)
     for bulge in bulges:

@@ -37,7 +37,7 @@ def compared(
     problem: Problem, runs: Mapping[str, ModelRun], window: Window | None
 ) -> tuple[Figure, ...]:
     """Every quantity of finished runs of both models, in the order of friction, then QUANTITIES."""
-    pair, frictions = [runs[model] for model in MODELS], problem.scene.friction
+    pair, frictions = [runs[model] for model in MODELS], problem.scene.load.friction
     return tuple(
         figure
         for friction in frictions
@@ -67,7 +67,7 @@ def differences_of(
     finest = half_plane.finest, finite_element.finest
     reference, made = values_of(finite_element.finest, problem, friction), {}
     for name, difference in history[-1].items():
-        quantity, tolerance = QUANTITIES[name], problem.scene.tolerance.get(name)
+        quantity, tolerance = QUANTITIES[name], problem.scene.tolerances.get(name)
         resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
         values = tuple(of_level[name] for of_level in history)
         convergence = grid_convergence(values, quantity.formal_order, resolution)

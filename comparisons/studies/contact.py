@@ -42,7 +42,9 @@ EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mise
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Of every model at every friction coefficient."""
     problem, runs = solved.problem, solved.runs.values()
-    figures = [f for run in runs for mu in problem.scene.friction for f in _of(problem, run, mu)]
+    figures = [
+        f for run in runs for mu in problem.scene.load.friction for f in _of(problem, run, mu)
+    ]
     statements = []
     for run in runs:
         converged = all(level.solution.converged for level in run.levels)
@@ -74,7 +76,7 @@ def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
     scene = problem.scene
     if level.mesh is None or scene.finite_element.geometry == "flat":
         return np.zeros(np.shape(x))
-    return scene.profile.spline()(x)
+    return problem.surface.profile.spline()(x)
 
 
 def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
@@ -117,9 +119,9 @@ def no_approach(problem: Problem, run: ModelRun) -> str | None:
     """Why there is no approach from first touch: a body has no datum; None where both have one."""
     if run.name == "half_plane":
         return "the displacement of a half-plane is known but for a constant"
-    if problem.scene.thickness is None:
+    if problem.scene.body.thickness is None:
         return "the body is unbounded: the value would grow with the size of its mesh"
-    if problem.scene.roller is not None:
+    if not problem.scene.roller.rigid:
         return "the elastic roller is unbounded: its share has no datum"
     return None
 
@@ -142,7 +144,7 @@ def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
             uncertainty = Uncertainty({"discretisation": level.grid.pitch / half_width})
         elif uncertainty is None:
             uncertainty = Uncertainty() if name == "load_per_length" and exact else worst
-        hardness = problem.scene.hardness
+        hardness = problem.scene.body.hardness
         capped = name == "peak_pressure" and hardness and value >= AT_HARDNESS * hardness
         yield Figure(
             study=NAME,
@@ -183,7 +185,7 @@ def _further(
 def _series(problem: Problem, run: ModelRun) -> Iterator[Series]:
     """Patches of contact, and what each level took beside what the laws of cost said."""
     level = run.finest
-    stated = uncertainties(run, problem, problem.scene.friction[0])["contact_length"].total
+    stated = uncertainties(run, problem, problem.scene.load.friction[0])["contact_length"].total
     edges = (stated * level.contact_length,) * len(level.patches)
     start, stop = (Column(tuple(ends), "m", edges) for ends in level.patches.T.tolist())
     yield Series("patches", {"start": start, "stop": stop}, run.name)

@@ -120,7 +120,7 @@ def couplings(
 ) -> Couplings:
     """From the finished half-plane."""
     found = []
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         why = no_coupling(problem, friction)
         if why is None:
             found.append(_coupling(problem, run.finest, friction, window, callback))
@@ -160,7 +160,7 @@ def _coupling(
 
 def _stretched(problem: Problem, grid: HatGrid, more: int) -> HatGrid:
     """The grid with so many more elements at either end, as far as the surface goes."""
-    start, stop = surface_ends(problem.scene)
+    start, stop = surface_ends(problem)
     first, last = grid.first - more, grid.last + more
     if np.isfinite(start):
         widest = HatGrid.within(start, stop, grid.pitch)

@@ -53,9 +53,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     }
     figures = figures_of(NAME, HERTZ, smooth, unsure)
     figures += figures_of(NAME, SCENE, _groups(problem), unsure)
-    if problem.scene.hardness is not None:
+    if (hardness := problem.scene.body.hardness) is not None:
         peaks = [f for f in known if f.quantity == "peak_pressure"]
-        over = {"peak_pressure_over_hardness": max(f.value for f in peaks) / problem.scene.hardness}
+        over = {"peak_pressure_over_hardness": max(f.value for f in peaks) / hardness}
         figures += figures_of(NAME, SCENE, over, _largest(peaks))
     figures += _surface(problem)
     return Findings(tuple(figures), (_planned(solved),), tuple(_statements(solved)))
@@ -68,21 +68,21 @@ def _largest(figures: tuple[Figure, ...] | list[Figure]) -> Uncertainty:
 
 
 def _groups(problem: Problem) -> dict[str, float | None]:
-    scene, half_width = problem.scene, problem.hertz.half_width
-    roughness = None if scene.profile_info is None else scene.profile_info.roughness
+    scene, info, half_width = problem.scene, problem.surface.info, problem.hertz.half_width
+    body, roughness = scene.body, info and info.roughness
     return {
-        "a_over_thickness": None if scene.thickness is None else half_width / scene.thickness,
-        "a_over_radius": half_width / scene.roller_radius,
-        "a_over_width": None if scene.width is None else half_width / scene.width,
+        "a_over_thickness": body.thickness and half_width / body.thickness,
+        "a_over_radius": half_width / scene.roller.radius,
+        "a_over_width": body.width and half_width / body.width,
         "rms_slope": None if roughness is None else roughness.rms_slope,
         "max_slope": None if roughness is None else roughness.max_slope,
-        "friction_dundurs": max(scene.friction) * problem.dundurs_beta,
+        "friction_dundurs": max(scene.load.friction) * problem.dundurs_beta,
     }
 
 
 def _surface(problem: Problem) -> list[Figure]:
     """The surface's figures, as pressed and by the standard."""
-    info = problem.scene.profile_info
+    info = problem.surface.info
     if info is None:
         return []
     filters = {"cutoff": info.cutoff, "short_cutoff": info.short_cutoff}
@@ -104,7 +104,7 @@ def _planned(solved: Solved) -> Series:
 
 def _statements(solved: Solved) -> list[Statement]:
     """What was assumed and skipped, why refinement stopped, why there are no standard figures."""
-    plan, info = solved.plan, solved.problem.scene.profile_info
+    plan, info = solved.plan, solved.problem.surface.info
     said = [Statement("assumed", text) for text in plan.assumptions]
     said += [Statement("skipped", each.because, each.step) for each in plan.skipped]
     said.append(Statement("refinement", solved.refinement))

@@ -205,7 +205,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     """Of every model at every friction coefficient: the dip, and those below single asperities."""
     problem, window, figures, series, states = solved.problem, solved.window, [], [], []
     for name, run in solved.runs.items():
-        for friction in problem.scene.friction:
+        for friction in problem.scene.load.friction:
             found, state = zone_figures(problem, run, window, friction)
             figures += found
             at = {"friction": friction}

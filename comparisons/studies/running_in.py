@@ -26,7 +26,8 @@ QUANTITIES = OF_SURFACES | {
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
-    scene, run_in = solved.problem.scene, solved.problem.scene.run_in
+    surface = solved.problem.surface
+    run_in = surface.run_in
     values = {
         "hardness": run_in.constraints.hardness,
         "load_per_length": run_in.constraints.load,
@@ -38,10 +39,10 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     }
     figures = figures_of(NAME, "half_plane", values)
     figures += figures_of(NAME, BEFORE, asdict(roughness(run_in.before)))
-    figures += figures_of(NAME, AFTER, asdict(scene.profile_info.roughness))
+    figures += figures_of(NAME, AFTER, asdict(surface.info.roughness))
     passes = {"volume": Column(tuple(one.volume for one in run_in.passes), "m^2")}
     series = [Series("passes", passes)]
-    if places := tuple(ended(scene)):
+    if places := tuple(ended(surface)):
         series.append(Series("at ends of the trace", {"position": Column(places, "m")}))
     said = (
         Statement("status", run_in.status),
@@ -51,5 +52,5 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 
 
 STUDY = Study(
-    NAME, QUANTITIES, solve, applies=lambda solved: solved.problem.scene.run_in is not None
+    NAME, QUANTITIES, solve, applies=lambda solved: solved.problem.surface.run_in is not None
 )

@@ -117,7 +117,7 @@ class Run:
         """The coefficient at which a judged model error exceeds its tolerance most, or comes
         nearest to it; the last one without any."""
         worst = max(self.model_errors, key=lambda f: abs(f.value) / f.tolerance, default=None)
-        return self.problem.scene.friction[-1] if worst is None else worst.friction
+        return self.problem.scene.load.friction[-1] if worst is None else worst.friction
 
     @property
     def exit_status(self) -> ExitStatus:

@@ -168,26 +168,27 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAssessment:
     """Of the half-plane where it was solved, else of the finite elements."""
     scene, run = problem.scene, runs.get("half_plane") or next(iter(runs.values()))
-    plastic, given = scene.finite_element.plastic, scene.yielding and scene.yielding.stress
-    hardness = scene.hardness or (given and TABOR * given)
-    yield_stress = given or (hardness and hardness / TABOR)
+    plastic, profile = scene.finite_element.plastic, problem.surface.profile
+    yield_stress, hardness = scene.body.yield_stress, scene.body.hardness
+    hardness = hardness or (yield_stress and TABOR * yield_stress)
+    yield_stress = yield_stress or (hardness and hardness / TABOR)
     summit = slope = None
-    if hardness and scene.profile is not None:
-        spread, curvature = summits(scene.profile)
+    if hardness and profile is not None:
+        spread, curvature = summits(profile)
         relative = problem.modulus / hardness
-        if spread > LEVEL * np.ptp(scene.profile.height):
+        if spread > LEVEL * np.ptp(profile.height):
             summit = float(relative * np.sqrt(spread * curvature))
-        slope = relative * scene.profile_info.roughness.rms_slope
+        slope = relative * problem.surface.info.roughness.rms_slope
     return FlowAssessment(
-        flow="plastic" if plastic else "elastic" if scene.hardness is None else "cap",
+        flow="plastic" if plastic else "elastic" if scene.body.hardness is None else "cap",
         yield_stress=yield_stress,
         hardness=hardness,
-        ideal_strength=scene.body.shear_modulus / (2.0 * pi)
+        ideal_strength=scene.body.material.shear_modulus / (2.0 * pi)
         if scene.body.youngs_modulus > STIFF
         else inf,
         summit_index=summit,
         slope_index=slope,
-        checks=tuple(_check(problem, run, mu, hardness) for mu in scene.friction),
+        checks=tuple(_check(problem, run, mu, hardness) for mu in scene.load.friction),
     )
 
 

@@ -87,9 +87,9 @@ def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
 
 
 def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressResult, ...]:
-    hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller_radius, modulus)
+    hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller.radius, modulus)
     found = []
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         known = hertz_extremes(hertz, friction)
         txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
         field = hertz_stress(hertz, window.x, window.z[:, None], friction)
@@ -110,8 +110,10 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
     mesh_field = None
     if mesh is not None and window is not None:
         zero = np.zeros(len(mesh.points))
-        nodal = {friction: StressState(zero, zero, zero) for friction in problem.scene.friction}
-        moved = dict.fromkeys(problem.scene.friction, 0.001 * mesh.points[:, ::-1])
+        nodal = {
+            friction: StressState(zero, zero, zero) for friction in problem.scene.load.friction
+        }
+        moved = dict.fromkeys(problem.scene.load.friction, 0.001 * mesh.points[:, ::-1])
         nu = np.full(len(mesh.points), 0.3)
         mesh_field = MeshField(mesh.points, mesh.triangles, nodal, moved, nu)
     return Level(
@@ -153,13 +155,13 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     plan = replace(plan, effects=False, coupling=False)
     resolved_all = "every judged quantity is resolved"
     solved = Solved(problem, plan, window, runs, resolved_all)
-    rows = {mu: dict.fromkeys(QUANTITIES, SAMPLING) for mu in scene.friction}
+    rows = {mu: dict.fromkeys(QUANTITIES, SAMPLING) for mu in scene.load.friction}
     with patch("comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows):
         found = studied(STUDIES, solved, {}, Tasks())
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
     }
-    return Run(solved, found, record_of(scene, runs, hashes), Path("results/made"))
+    return Run(solved, found, record_of(problem, runs, hashes), Path("results/made"))
 
 
 @pytest.fixture(scope="session")
@@ -192,7 +194,7 @@ def no_pictures() -> Callable[[Run], dict]:
     blank = Picture("data:image/svg+xml;base64,", "", "")
 
     def pictures(outcome: Run, beside: object = ()) -> dict[str, object]:
-        run_in = None if outcome.problem.scene.run_in is None else blank
+        run_in = None if outcome.problem.surface.run_in is None else blank
         budget = blank if outcome.plan.compares else None
         made = dict.fromkeys(PICTURES, blank) | {"running_in": run_in, "model_error": budget}
         return made | {name: [] for name in ("answers", "fields", "near", "sections", "mesh")}

@@ -16,7 +16,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.scenes.files import scene_titles
 
 HEAVY = (
-    "comparisons.scenes.schema.scene",
+    "comparisons.scenes.scene",
     "pint",
     "numpy",
     "scipy",
@@ -29,7 +29,7 @@ HEAVY = (
 
 
 class Run:
-    """Stands for `comparisons.runs.run`: remembers its call, then returns or raises `result`."""
+    """Stands for `runs.run`: remembers its call, then returns or raises `result`."""
 
     def __init__(self) -> None:
         self.calls = []
@@ -51,7 +51,7 @@ class Run:
 @pytest.fixture
 def solver(monkeypatch, tmp_path):
     run = Run()
-    monkeypatch.setitem(sys.modules, "comparisons.runs.run", run)
+    monkeypatch.setattr("comparisons.runs.run.run", lambda *given: run.run(*given))
     table = types.SimpleNamespace(summary=lambda outcome: "peak pressure agree")
     monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
     monkeypatch.setattr("comparisons.output.result_json.content_of", lambda run: run.result)

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 from tests.finite_strain_check.figures import ContactFigures, figures
 from tests.finite_strain_check.solve import Task, solutions
 
@@ -36,18 +37,19 @@ def scene_paths() -> dict[str, Path]:
     return {path.stem: path for path in sorted(HERE.glob("scenes/*.toml"))}
 
 
-def task_of(scene: ResolvedScene, friction: float, law: str = "neo-hookean") -> Task:
+def task_of(scene: Scene, friction: float, law: str = "neo-hookean") -> Task:
     """The scene's trace, bodies and load per length."""
 
     def constants(material) -> tuple[float, float]:
         return material.youngs_modulus / 1e9, material.poissons_ratio
 
+    surface = surface_of(scene)
     return Task(
-        x=scene.profile.x * 1e6,
-        height=scene.profile.height * 1e6,
-        body=constants(scene.body),
-        roller=scene.roller and constants(scene.roller),
-        radius=scene.roller_radius * 1e6,
+        x=surface.profile.x * 1e6,
+        height=surface.profile.height * 1e6,
+        body=constants(scene.body.material),
+        roller=scene.roller.material and constants(scene.roller.material),
+        radius=scene.roller.radius * 1e6,
         load=scene.load.value / 1e3,
         friction=friction,
         law=law,

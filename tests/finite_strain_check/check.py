@@ -82,7 +82,7 @@ def main(arguments: list[str] | None = None) -> int:
     if options.solve:
         for name in options.scenes:
             scene = api.load(paths[name])
-            task = cases.task_of(scene, scene.friction[0])
+            task = cases.task_of(scene, scene.load.friction[0])
             levels = cases.levels_of(task)
             found = cases.solved(task, levels, print)
             values = cases.read_values() if cases.VALUES.exists() else {}

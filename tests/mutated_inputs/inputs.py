@@ -11,7 +11,7 @@ import numpy as np
 from comparisons.figures.quantity import MODELS
 from comparisons.runs.run import run
 from comparisons.scenes.files import SCENES
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 
 from .mutations import (
     BODIES,
@@ -88,7 +88,7 @@ def results(folder: Path, numbers: Iterable[int], seed: int) -> Iterator[tuple[i
     (folder / "half_plane.toml").write_text(FULL[5] + STRESS)
     for base in bases:
         models = MODELS if base.name == "both" else ("half_plane",)
-        run(load_scene(base.with_suffix(".toml")), base, models)
+        run(Scene.read(base.with_suffix(".toml")), base, models)
     for number in numbers:
         draw = random.Random(f"result {seed} {number}")
         path = folder / "run"

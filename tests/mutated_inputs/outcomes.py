@@ -25,7 +25,8 @@ from comparisons.output.plausibility import warnings_about, warnings_about_resul
 from comparisons.output.recorded_run import read_record
 from comparisons.output.terminal import summary
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 
 PATIENCE = 20.0  # seconds of processor for one input
 LONGEST_LINE = 1500  # characters
@@ -37,12 +38,13 @@ class Refusal(Exception):
 
 def resolve(path: Path) -> str:
     """What becomes of a scene that is read, checked and resolved."""
-    scene = load_scene(path)
-    warnings_about(scene)
+    scene = Scene.read(path)
+    surface = surface_of(scene)
+    warnings_about(scene, surface)
     if scene.profile is not None:
-        figures = scene.profile_info.as_dict()
+        figures = surface.info.as_dict()
         roughness = [v for v in figures["roughness"].values() if isinstance(v, float)]
-        values = (scene.profile.x, scene.profile.height, [scene.profile_info.length, *roughness])
+        values = (surface.profile.x, surface.profile.height, [surface.info.length, *roughness])
         if not all(np.all(np.isfinite(each)) for each in values):
             raise Refusal("a resolved profile is not finite")
     return "resolved"
@@ -59,7 +61,7 @@ def look(path: Path) -> str:
 def solve(path: Path) -> str:
     """What becomes of a scene that is solved by the half-plane; every tenth writes its files."""
     out = path.with_name("out") if is_tenth(path) else None
-    found = run(load_scene(path), out, ("half_plane",))
+    found = run(Scene.read(path), out, ("half_plane",))
     warnings_about_result(found)
     shown = Console(file=io.StringIO(), width=100)
     shown.print(summary(found))

@@ -16,7 +16,8 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import ProcessEnded, Tasks, called
 from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 from meshes.block import MeshError
 
 FILES = ("cost.json", "cost.html")
@@ -25,7 +26,7 @@ GOES_ON = "measured settings are kept, the same command goes on from there"
 
 
 def cost(
-    scene: ResolvedScene,
+    scene: Scene,
     out: Path,
     repeats: int,
     callback: ProgressCallback = no_progress,
@@ -52,16 +53,17 @@ def cost(
     return found
 
 
-def _problem(scene: ResolvedScene, cache: Cache, callback: ProgressCallback) -> Problem:
+def _problem(scene: Scene, cache: Cache, callback: ProgressCallback) -> Problem:
     """The scene's problem, under the load of its approach where that is prescribed."""
     callback("finding the extent of the contact")
     try:
+        surface = surface_of(scene)
         if scene.load.kind != "approach":
-            return problem_of(scene)
+            return problem_of(scene, surface)
         callback("finite elements: load of the prescribed approach")
         with Tasks(ProcessWorker, 1, cache) as tasks:
             tasks.add(LOAD, called, _load_of_approach, scene)
-            return problem_of(scene, tasks.result(LOAD))
+            return problem_of(scene, surface, tasks.result(LOAD))
     except ProcessEnded as error:
         raise SolverError(
             f"{scene.source}: load.approach: the process that sought its load ended; allowed "
@@ -71,7 +73,7 @@ def _problem(scene: ResolvedScene, cache: Cache, callback: ProgressCallback) -> 
         raise SceneError(f"{scene.source}: {error}") from error
 
 
-def _load_of_approach(scene: ResolvedScene) -> float:
+def _load_of_approach(scene: Scene) -> float:
     """[N/m]; in a process of its own, which an interrupt ends at once."""
     from comparisons.models.finite_element.level import problem_of_approach
 

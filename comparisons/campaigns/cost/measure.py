@@ -16,7 +16,8 @@ from comparisons.common.errors import InputError
 from comparisons.common.progress import Stages, peak_memory, processor_seconds
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface
 
 # Methods that this process has run. The first solution loads libraries, and does not count.
 _begun: set[str] = set()
@@ -26,7 +27,8 @@ _begun: set[str] = set()
 class CostTask:
     """What to measure: as many `repeats` as `limit` seconds allow, at least one."""
 
-    scene: ResolvedScene
+    scene: Scene
+    surface: SceneSurface
     load: float | None  # [N/m] of a prescribed approach, else None
     method: str
     setting: float
@@ -79,7 +81,7 @@ def measure(task: CostTask) -> MeasuredRun:
     method = next(m for m in METHODS if m.name == task.method)
     first = processor_seconds()
     try:
-        problem = problem_of(task.scene, task.load)
+        problem = problem_of(task.scene, task.surface, task.load)
         window = window_of(problem) if task.scene.stress is not None else None
         contact, seconds, wall = _timed(method, problem, task, window)
         runs = [(seconds, wall)] if task.method in _begun else []

@@ -110,7 +110,7 @@ def _toml(sections: dict[str, dict]) -> str:
 
 def shown(cost: Cost) -> list[str]:
     """Quantities with a column: the usual ones, and those that the scene judges."""
-    judged = cost.problem.scene.tolerance
+    judged = cost.problem.scene.tolerances
     names = (*SHOWN, *(name for name in judged if name not in SHOWN))
     return [name for name in names if name in cost.references and name not in REDUNDANT]
 

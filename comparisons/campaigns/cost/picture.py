@@ -58,7 +58,7 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
         axes.set_ylim(bottom=low)
         look = {"ha": "right", "va": "top", "color": "#555555", **SMALL}
         axes.annotate(f"reference uncertain to {percent(floor)}", (last, floor), (-3, -3), **look)
-    tolerance = cost.problem.scene.tolerance.get(quantity)
+    tolerance = cost.problem.scene.tolerances.get(quantity)
     if tolerance is not None:
         axes.axhline(tolerance, **REFERENCE)
         axes.annotate(f"tolerance {given_percent(tolerance)}", (first, tolerance), (3, 3), **SMALL)

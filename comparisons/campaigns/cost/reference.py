@@ -55,7 +55,7 @@ def references(problem: Problem, study: CostRun, window: Window | None) -> dict[
 
 def is_exact(problem: Problem) -> bool:
     scene = problem.scene
-    capped = scene.hardness is not None and scene.hardness <= problem.hertz.peak_pressure
+    capped = scene.body.hardness is not None and scene.body.hardness <= problem.hertz.peak_pressure
     smooth = scene.profile is None and not problem.coupling and not capped
     return smooth and is_half_plane_problem(problem)
 
@@ -91,7 +91,7 @@ def _norms(
 
 
 def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
-    hertz, frictions = problem.hertz, problem.scene.friction
+    hertz, frictions = problem.hertz, problem.scene.load.friction
     x = np.linspace(*problem.extent, EXACT_POINTS)
     figures = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
     figures["contact_ratio"] = 1.0
@@ -129,7 +129,7 @@ def _finest(
         tuple(each.measured.solved.level for each in rows),
         None if check is None else check.solved.level,
     )
-    known = [uncertainties(run, problem, friction) for friction in problem.scene.friction]
+    known = [uncertainties(run, problem, friction) for friction in problem.scene.load.friction]
     tau1 = tuple(stress.field.tau1 for stress in solved.stresses)
     bare = Reference(f"{name} at {row.label}", 0.0, (), solved.x, solved.pressure, tau1, row)
     found = {}

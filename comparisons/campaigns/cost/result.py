@@ -62,7 +62,7 @@ def assess(problem: Problem, study: CostRun) -> Cost:
         references=known,
         assessed=rows,
         fronts={name: pareto(rows, name, known[name].floor) for name in known},
-        recommendations=recommendations(rows, known, scene.tolerance),
+        recommendations=recommendations(rows, known, scene.tolerances),
         versions=versions(),
         machine=measuring_machine(),
     )
@@ -73,7 +73,7 @@ def content_of(cost: Cost) -> dict:
     names = [name for name in QUANTITIES if name in cost.references]
     return {
         "schema": SCHEMA,
-        "scene": cost.problem.scene.as_dict(),
+        "scene": cost.problem.surface.as_dict(cost.problem.scene),
         "reference": {
             name: {"source": r.source, "values": list(r.values), "uncertainty": r.floor}
             for name, r in ((name, cost.references[name]) for name in names)

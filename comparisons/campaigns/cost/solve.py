@@ -52,8 +52,8 @@ def solved(
             plan = make_plan(problem, ("half_plane",))
             return _of_level(half_plane_level(problem, setting, window, stages), problem)
         return _of_level(_by_strips(problem, setting, window, stages), problem)
-    settings = replace(problem.scene.finite_element, element=method.element)
-    problem = replace(problem, scene=replace(problem.scene, finite_element=settings))
+    scene = problem.scene.unchecked({"finite_element.element": method.element})
+    problem = replace(problem, scene=scene)
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
@@ -66,7 +66,9 @@ def solved(
 def _of_level(level: Level, problem: Problem) -> SolvedContact:
     pressure = level.solution.pressure
     return SolvedContact(
-        figures=tuple(values_of(level, problem, friction) for friction in problem.scene.friction),
+        figures=tuple(
+            values_of(level, problem, friction) for friction in problem.scene.load.friction
+        ),
         x=level.grid.pitch * np.arange(level.grid.first - 1, level.grid.last + 2),
         pressure=np.concatenate([[0.0], pressure, [0.0]]),
         stresses=level.stresses,
@@ -114,7 +116,7 @@ def _stresses(problem: Problem, level: Level, window: Window) -> tuple[StressRes
         for points in (window, search_window(problem, window))
     )
     nu, results = problem.scene.body.poissons_ratio, []
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         found = stress_maxima(x, pressure, friction, searched.at(friction), nu, "strip")
         extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
         field = shown.at(friction).stress

@@ -24,7 +24,8 @@ from comparisons.common.provenance import LEVEL_CODE, key_of, machine, program_c
 from comparisons.common.tasks import ProcessEnded, Tasks, called
 from comparisons.models.level_cache import scene_key
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 
 FOLDER = "cost_points"
 # What shapes what is measured, beside versions of libraries and the machine.
@@ -81,10 +82,10 @@ def measuring_machine() -> dict:
     return machine() | {"threads": THREADS}
 
 
-def cost_cache(out: Path, scene: ResolvedScene, repeats: int) -> Cache:
+def cost_cache(out: Path, scene: Scene, repeats: int) -> Cache:
     """What was measured of `scene`, by task's name; and the load [N/m] of a prescribed approach."""
     program = versions(), program_code(*CODE)
-    key = key_of(scene_key(scene), measuring_machine(), repeats, *program)
+    key = key_of(scene_key(scene, surface_of(scene)), measuring_machine(), repeats, *program)
     return Cache(out / FOLDER, key, kinds_of(MeasuredRun))
 
 
@@ -169,11 +170,11 @@ def _task(problem: Problem, method: SolutionMethod, setting: float, **how: float
     """`how`: repeats, limit, half_block."""
     prescribed = problem.scene.load.kind == "approach"
     load = problem.hertz.load_per_length if prescribed else None
-    return CostTask(problem.scene, load, method.name, setting, **how)
+    return CostTask(problem.scene, problem.surface, load, method.name, setting, **how)
 
 
 def _wants_far_boundary_check(method: SolutionMethod, problem: Problem) -> bool:
     """Whether the finite elements are a reference, whose far boundary counts."""
     scene = problem.scene
-    unbounded = scene.thickness is None or scene.width is None
+    unbounded = scene.body.thickness is None or scene.body.width is None
     return method.model == "finite_element" and unbounded and not is_half_plane_problem(problem)

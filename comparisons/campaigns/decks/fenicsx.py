@@ -23,9 +23,9 @@ def fenicsx_files(deck: DeckProblem) -> dict[str, str | bytes]:
             f"{source}: asks for bodies of their own shapes; allowed in a deck for fenicsx are "
             "flat ones at small deformation"
         )
-    if scene.width is not None and scene.base == "frictionless":
+    if scene.body.width is not None and scene.body.base == "frictionless":
         raise SceneError(f'{scene.source}: body.base: allowed in a deck for fenicsx is "bonded"')
-    bodies = [deck.rough] if scene.roller is None else [deck.rough, deck.roller]
+    bodies = [deck.rough] if scene.roller.rigid else [deck.rough, deck.roller]
     points, triangles = zip(*(_corners(body) for body in bodies), strict=True)
     lowest = deck.rough.points[deck.rough.surface, 1].min()
     points[0][points[0][:, 1] >= lowest, 1] = 0.0  # the gap is apart from the mesh
@@ -42,7 +42,11 @@ def fenicsx_files(deck: DeckProblem) -> dict[str, str | bytes]:
         hats=_hats(deck, [np.sort(p[p[:, 1] == deck.edge * k, 0]) for k, p in enumerate(points)]),
         gap=np.column_stack([x, problem.finite_element_gap(x / MM) * MM]),
     )
-    materials = [scene.body, scene.coating and scene.coating.material, scene.roller]
+    materials = [
+        scene.body.material,
+        scene.coating and scene.coating.material,
+        scene.roller.material,
+    ]
     constants = {
         number: (each.youngs_modulus * MPA, each.poissons_ratio)
         for number, each in enumerate(materials)

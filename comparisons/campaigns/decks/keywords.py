@@ -39,7 +39,7 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
         materials=dict(_materials(deck, code)),
         stiffness=stiffness,
         stick=STICK * stiffness,
-        sliding=[(mu, SLIDE * mu * deck.load / modulus) for mu in scene.friction if mu],
+        sliding=[(mu, SLIDE * mu * deck.load / modulus) for mu in scene.load.friction if mu],
     )
     return {"job.inp": job, "mesh.inp": "\n".join(_mesh(deck, code)) + "\n"}
 
@@ -49,7 +49,7 @@ def _materials(deck: DeckProblem, code: str) -> Iterator[tuple[str, tuple[str, s
     for name, body in deck.bodies.items():
         for material, part in zip(body.materials, ("", "_COATING"), strict=False):
             keyword = LAWS[code].get(material.law.name) if deck.finite else ELASTIC
-            if name == "ROLLER" and scene.roller is None:
+            if name == "ROLLER" and scene.roller.rigid:
                 keyword = ELASTIC  # nothing in it deforms
             if keyword is None:
                 given = f'{"body" if name == "ROUGH" else "roller"}.law: is "{material.law.name}"'

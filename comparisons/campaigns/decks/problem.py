@@ -105,8 +105,8 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     gaps = np.sort(problem.finite_element_gap(np.linspace(*problem.extent, TOUCH_POINTS)))
     first, touching = float(gaps[0]), np.diff(patches, axis=1).sum() / np.ptp(problem.extent)
     flat = build_block(spec)
-    sides = "free" if scene.width is not None else UNBOUNDED_SIDES
-    support = Support(scene.base or "bonded", sides)
+    sides = "free" if scene.body.width is not None else UNBOUNDED_SIDES
+    support = Support(scene.body.base or "bonded", sides)
     rough = _body(problem, rough_mesh(problem, flat), support, flatter)
     if not shaped:
         top = flat.points[:, 1] == 0.0
@@ -130,7 +130,7 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
 def refuse_undescribed(problem: Problem) -> None:
     """Raise SceneError for what no deck has."""
     scene = problem.scene
-    if scene.finite_element.plastic or scene.hardness is not None:
+    if scene.finite_element.plastic or scene.body.hardness is not None:
         field = "finite_element.plastic" if scene.finite_element.plastic else "body.hardness"
         raise SceneError(f"{scene.source}: {field}: is given; allowed in a deck are elastic bodies")
 
@@ -138,7 +138,7 @@ def refuse_undescribed(problem: Problem) -> None:
 def _body(problem: Problem, mesh: BlockMesh, support: Support, flatter: float) -> DeckBody:
     """The rough body: y = -z, which turns the triangles over."""
     scene, coated = problem.scene, np.zeros(len(mesh.triangles), dtype=bool)
-    materials = [scene.body]
+    materials = [scene.body.material]
     if scene.coating is not None:
         coated = mesh.points[mesh.triangles[:, :3], 1].mean(axis=1) < scene.coating.thickness
         materials.append(scene.coating.material)
@@ -152,8 +152,8 @@ def _roller(
     """The body above, its lowest point at the origin: flat, or of its own shape."""
     scene, settings = problem.scene, problem.scene.finite_element
     reach = float(np.abs(problem.extent).max())
-    support, material = Support("bonded", UNBOUNDED_SIDES), scene.roller or RIGID
-    if scene.roller is None:
+    support, material = Support("bonded", UNBOUNDED_SIDES), scene.roller.material or RIGID
+    if scene.roller.rigid:
         wide = LEVEL * reach
         cells = int(np.ceil(2.0 * wide / spec.surface_size * FINER)) if shaped else 1
         mesh = structured(np.linspace(-wide, wide, cells + 1), np.array([0.0, 0.5 * wide]))
@@ -167,7 +167,7 @@ def _roller(
             flat = build_block(replace(wanted, surface_size=surface_edge(spec)))
         mesh = flat
         if settings.roller_body == "disc":
-            mesh = bent(mesh, scene.roller_radius)
+            mesh = bent(mesh, scene.roller.radius)
             support = Support("bonded", "free")
         elif shaped:
             mesh = roughen(mesh, levelled(roller_of(problem), reach))

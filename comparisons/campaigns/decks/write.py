@@ -9,7 +9,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, publish
 from comparisons.models.problem import Problem, problem_of
 from comparisons.output.page.html import rendered
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 
 FILES = ("README.md", "answer.toml", "job.inp", "mesh.inp", "solve.py", "mesh.npz")
 CODES = {"calculix": "CalculiX", "abaqus": "Abaqus", "fenicsx": "FEniCSx"}
@@ -35,7 +35,7 @@ class WrittenDeck:
         return found | {"files": files, "edge": self.deck.edge / MM}
 
 
-def write_deck(scene: ResolvedScene, code: str, out: Path, level: int = 1) -> WrittenDeck:
+def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> WrittenDeck:
     """Write the deck of a scene for one of CODES to the folder `out`.
 
     level  of the scene's own refinement, from 1, whose elements the contact gets
@@ -64,7 +64,7 @@ def _files(deck: DeckProblem, code: str) -> dict[str, str | bytes]:
     return keyword_files(deck, code)
 
 
-def _problem(scene: ResolvedScene) -> Problem:
+def _problem(scene: Scene) -> Problem:
     if scene.load.kind != "approach":
         return problem_of(scene)
     from comparisons.common.progress import no_progress

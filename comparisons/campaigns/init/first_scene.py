@@ -12,11 +12,10 @@ from comparisons.campaigns.init.picture import picture
 from comparisons.campaigns.init.scene_text import scene_text, toml, value_of
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
-from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import ResolvedScene
-from comparisons.scenes.schema.fields import field_type
-from comparisons.scenes.schema.scene import SECTIONS
+from comparisons.models.problem import Problem, problem_of
+from comparisons.scenes.fields import field_type
+from comparisons.scenes.scene import Origin, Scene, sections_of
+from comparisons.scenes.surface import SceneSurface
 
 # Options of `crosscheck init` by the fields that they are, both bodies' for moduli; others are
 # fields of [profile] by the same name.
@@ -37,6 +36,7 @@ def given_sections(options: Mapping[str, str | int | None]) -> Sections:
     """Fields as TOML by section; raises InputError for an option that is wrong."""
     found: Sections = {}
     given = {name: value for name, value in options.items() if value is not None}
+    kinds = sections_of(Scene)
     for name, value in given.items():
         if name in FIELDS:
             value = _number(value)
@@ -44,7 +44,7 @@ def given_sections(options: Mapping[str, str | int | None]) -> Sections:
             value = [int(w) if w.isdecimal() else w for w in map(str.strip, value.split(","))]
         for section, field in FIELDS.get(name, (("profile", name),)):
             try:
-                field_type(SECTIONS[section], field).read(value)
+                field_type(kinds[section], field).read(value)
             except ValueError as error:
                 raise InputError(f"{_option(name)}: {error}") from error
             found.setdefault(section, {})[field] = toml(value)
@@ -77,16 +77,17 @@ PEAK = '"1 GPa"'
 
 @dataclass(frozen=True)
 class FirstScene:
-    """A scene file that was written, what it resolves to, how its profile is read, a picture."""
+    """A scene file that was written, what it says, how its profile is read, a picture."""
 
     path: Path
     picture: Path | None
-    scene: ResolvedScene
+    scene: Scene
+    surface: SceneSurface
     profile: ProfileFields
 
     def as_dict(self) -> dict:
         """For JSON, SI units."""
-        info = self.scene.profile_info
+        info = self.surface.info
         trace = ("source", "format", "place", "samples", "length", "spacing", "bridged", "trimmed")
         plain = info.as_dict()
         return {
@@ -96,7 +97,7 @@ class FirstScene:
             "fields": {name: value_of(text) for name, text in self.profile.fields.items()},
             "guesses": self.profile.reasons,
             "surface": info.surface(),
-            "roller_radius": self.scene.roller_radius,
+            "roller_radius": self.scene.roller.radius,
         }
 
 
@@ -121,11 +122,11 @@ def write_first_scene(
         _check_place(profile, drawn, force)
     others = dict(sections or {})
     found = fields_of_profile(profile, others.pop("profile", {}))
-    text, scene = _fitting(profile, out, found, others)
+    text, problem = _fitting(profile, out, found, others)
     write_whole(out, text)
     if drawn is not None:
-        write_whole(drawn, picture(scene))
-    return FirstScene(out, drawn, scene, found)
+        write_whole(drawn, picture(problem.surface))
+    return FirstScene(out, drawn, problem.scene, problem.surface, found)
 
 
 def _check_place(profile: Path, out: Path, force: bool) -> None:
@@ -142,17 +143,15 @@ def _check_place(profile: Path, out: Path, force: bool) -> None:
 
 def _fitting(
     profile: Path, out: Path, found: ProfileFields, sections: Sections
-) -> tuple[str, ResolvedScene]:
+) -> tuple[str, Problem]:
     """The scene with the given roller, or the largest whose contact stays on the trace."""
     refusal = None
     given = sections.get("roller", {}).get("radius")
     for radius in RADII if given is None else (value_of(given),):
         text = _text(profile, out, found, toml(radius), sections)
         try:
-            tables = tomllib.loads(text)
-            scene = resolve_tables(tables, name=out.stem, folder=out.parent, source=str(out))
-            problem_of(scene)
-            return text, scene
+            scene = Scene.of(tomllib.loads(text), Origin(out.stem, out.parent, str(out)))
+            return text, problem_of(scene)
         except ContactError as error:
             refusal = SceneError(f"{out}: {error}")
         except SceneError as error:

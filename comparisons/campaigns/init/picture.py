@@ -8,7 +8,7 @@ from analytic.profile import Profile
 from analytic.surface.roughness import bearing_curve, power_spectrum
 from comparisons.common.numbers import scale_of
 from comparisons.drawing.style import WIDE, drawing, figure, svg
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.surface import SceneSurface
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,9 +18,9 @@ DECADES = 12  # of the spectrum below its largest value; what is lower is roundi
 POINTS = 4000  # of a drawn curve; more cannot be told apart
 
 
-def picture(scene: ResolvedScene) -> str:
-    """The trace of a scene as SVG, its heights as pressed, its x as on the trace."""
-    profile = Profile(scene.profile.x + scene.position, scene.profile.height)
+def picture(surface: SceneSurface) -> str:
+    """The trace of a surface as SVG, its heights as pressed, its x as on the trace."""
+    profile = Profile(surface.profile.x + surface.position, surface.profile.height)
     with drawing():
         drawn = figure(WIDE, HEIGHT)
         grid = drawn.add_gridspec(

@@ -10,7 +10,7 @@ from comparisons.common.numbers import significant, with_unit
 from comparisons.output.page.tables.problem import in_mm, sections_text, standard_text
 from comparisons.output.plausibility import warnings_about_surface
 from comparisons.output.terminal import PLAIN, plain_table
-from comparisons.scenes.scene import ProfileInfo
+from comparisons.scenes.surface import ProfileInfo
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -24,7 +24,7 @@ def init_table(made: FirstScene) -> "RenderableType":
     from rich.console import Group
     from rich.text import Text
 
-    info = made.scene.profile_info
+    info = made.surface.info
     read = f"{info.source}: {info.format}, {info.samples} samples, "
     read += f"{_length(info.length)} long, {_apart(info)} apart"
     parts: list[RenderableType] = [Text(read.translate(PLAIN), style="bold")]

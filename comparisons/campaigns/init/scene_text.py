@@ -1,7 +1,7 @@
 """A scene file with every field of a measured profile's scene in it, each explained.
 
 Meanings and examples are those of `fields.toml`; what a field may hold is said by
-`comparisons.scenes.schema.fields.allowed`, as in error messages."""
+`comparisons.scenes.fields.allowed`, as in error messages."""
 
 import json
 import re
@@ -10,9 +10,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from textwrap import wrap
 
-from comparisons.scenes.schema.fields import allowed
-from comparisons.scenes.schema.scene import SECTIONS as TABLES
-from comparisons.scenes.schema.scene import SceneFile
+from comparisons.scenes.fields import allowed
+from comparisons.scenes.scene import Scene, sections_of
 
 FIELDS = Path(__file__).with_name("fields.toml")
 WIDTH = 96
@@ -31,14 +30,14 @@ def scene_text(title: str, values: Values, notes: Values) -> str:
 
     values  by section and field: what it is set to, as TOML; other fields stand there unused
     notes   by section and field: a remark"""
-    sections = tomllib.loads(FIELDS.read_text(encoding="utf-8"))
-    heading = f"{sections.pop('title')}; allowed is {allowed(SceneFile, 'title')}"
+    sections, kinds = tomllib.loads(FIELDS.read_text(encoding="utf-8")), sections_of(Scene)
+    heading = f"{sections.pop('title')}; allowed is {allowed(Scene, 'title')}"
     lines = [HEAD, *_comment(heading), f"title = {toml(title)}"]
     for section, fields in sections.items():
         used = values.get(section, {})
         lines += ["", *_comment(fields.pop("section")), f"{'' if used else '#'}[{section}]"]
         for name, (meaning, example) in fields.items():
-            said = f"{meaning}; allowed is {allowed(TABLES[section], name)}"
+            said = f"{meaning}; allowed is {allowed(kinds[section], name)}"
             note = notes.get(section, {}).get(name)
             lines += _comment(f"{said} ({note})" if note else said)
             lines.append(f"{name} = {used[name]}" if name in used else f"#{name} = {example}")

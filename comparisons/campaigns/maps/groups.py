@@ -1,4 +1,4 @@
-"""The dimensionless groups of a map: how a scene's tables take a value of each; and its axes.
+"""The dimensionless groups of a map: how a scene takes a value of each; and its axes.
 
     a, p0   half-width [m] and peak pressure [Pa] of the smooth contact under the scene's load
     t, w    thickness and width of the body [m]        R   radius of relative curvature [m]
@@ -12,7 +12,6 @@ else stays as in the scene, but for what follows from its lengths: waves that ar
 their slopes. Groups that change a are set before those that are measured by it.
 """
 
-import copy
 import difflib
 import re
 import tomllib
@@ -28,7 +27,10 @@ from comparisons.common.errors import InputError, SceneError
 from comparisons.figures.quantity import HEAT_QUANTITIES
 from comparisons.models.heat import peclet_numbers
 from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.fields import SceneSection, plain
+from comparisons.scenes.profile import ProfileSection
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import surface_of
 
 # Fields of made profiles that are lengths along x, and the one that heights are proportional to.
 WAVES = {
@@ -41,15 +43,8 @@ SHORTEST = 4.0  # samples of a profile's shortest wave, where it names none
 FILTERS = ("cutoff", "short_cutoff")
 
 
-@dataclass(frozen=True)
-class Origin:
-    """Where tables come from: what messages call the scene, and the folder of its profile."""
-
-    source: str
-    folder: Path
-
-
-SetTo = Callable[[dict, float, Origin], None]
+Changes = dict[str, object]  # values of a scene's fields by their names
+SetTo = Callable[[Scene, float], Changes]
 ValueOf = Callable[[Problem], float]
 
 
@@ -57,7 +52,7 @@ ValueOf = Callable[[Problem], float]
 class Group:
     """A dimensionless group, one of groups.toml."""
 
-    set_to: SetTo  # gives the SI tables of a scene (changed in place) a value of the group
+    set_to: SetTo  # which fields give a scene a value of the group
     value_of: ValueOf | None  # the group's value of a scene, where it says how large an effect is
     # symbol, label: for axes, short and in words
     symbol: str
@@ -69,194 +64,191 @@ class Group:
     vanishes: bool = True  # the effect goes to zero with the group
 
 
-def smooth_problem(tables: Mapping, origin: Origin) -> Problem:
+def smooth_problem(scene: Scene) -> Problem:
     """The smooth contact of half-planes under a scene's load, which groups refer to."""
-    plain = {
-        "roller": tables["roller"],
-        "body": {name: tables["body"][name] for name in ("youngs_modulus", "poissons_ratio")},
-        "load": {k: v for k, v in tables["load"].items() if k not in ("friction", "position")},
-    }
-    if "approach" in plain["load"]:
+    body, load = scene.body, scene.load
+    if load.kind == "approach":
         raise SceneError(
-            f"{origin.source}: load.approach: is no load that groups can refer to; allowed for a "
+            f"{scene.source}: load.approach: is no load that groups can refer to; allowed for a "
             "map is per_length or hertz_peak_pressure"
         )
-    plain["load"].pop("coupled", None)
-    return problem_of(resolve_tables(plain, name="smooth", **vars(origin)))
+    tables = {
+        "roller": plain(scene.roller),
+        "body": {"youngs_modulus": body.youngs_modulus, "poissons_ratio": body.poissons_ratio},
+        "load": {load.kind: load.value},
+    }
+    return problem_of(Scene.of(tables, Origin("smooth", source=scene.source)))
 
 
-def tables_with(tables: Mapping, values: Mapping[str, float], origin: Origin) -> dict:
-    """SI tables of a scene in which every named group has its value. Raises SceneError where the
-    scene does not have what a group is about."""
-    changed = copy.deepcopy(dict(tables))
+def scene_with(scene: Scene, values: Mapping[str, float]) -> Scene:
+    """The scene in which every named group has its value. Raises SceneError where it does not have
+    what a group is about."""
+    draft, changes = scene, {}
     for name in sorted(values, key=lambda name: not GROUPS[name].early):
-        GROUPS[name].set_to(changed, values[name], origin)
-    return changed | {"finite_element": finite_elements(changed, values)}
+        fields = GROUPS[name].set_to(draft, values[name])
+        draft, changes = draft.unchecked(fields), changes | fields
+    return scene.changed(changes | {"finite_element": finite_elements(scene, values)})
 
 
-def finite_elements(tables: Mapping, names: Iterable[str]) -> dict:
+def finite_elements(scene: Scene, names: Iterable[str]) -> dict:
     """The scene's [finite_element] without the assumptions that the named groups are about."""
-    settings = dict(tables.get("finite_element", {}))
+    settings = scene.given.get("finite_element", {})
     for name in names:
         settings |= GROUPS[name].finite_element
-    if settings.get("deformation") == "finite" and tables.get("profile"):
+    if settings.get("deformation") == "finite" and scene.profile is not None:
         settings["geometry"] = "rough"
     return settings
 
 
-def _half_width(tables: dict, origin: Origin) -> float:
-    return smooth_problem(tables, origin).hertz.half_width
+def _half_width(scene: Scene) -> float:
+    return smooth_problem(scene).hertz.half_width
 
 
 def _size(name: str, problem: Problem) -> float:
-    extent = getattr(problem.scene, name)
+    extent = getattr(problem.scene.body, name)
     return 0.0 if extent is None else problem.hertz.half_width / extent
 
 
 def _radius(problem: Problem) -> float:
-    return problem.hertz.half_width / problem.scene.roller_radius
+    return problem.hertz.half_width / problem.scene.roller.radius
 
 
 def _friction(problem: Problem) -> float:
-    return max(problem.scene.friction) * abs(problem.dundurs_beta)
+    return max(problem.scene.load.friction) * abs(problem.dundurs_beta)
 
 
 def _slope(problem: Problem) -> float:
-    info = problem.scene.profile_info
+    info = problem.surface.info
     return 0.0 if info is None else info.roughness.rms_slope
 
 
 def _wavelength(problem: Problem) -> float:
-    profile = problem.scene.tables.get("profile") or {}
-    if profile.get("kind") in WAVES:
+    profile = problem.scene.profile
+    if profile is not None and profile.kind in WAVES:
         shortest = _shortest(profile)
     else:
-        shortest = shortest_wavelength(problem.scene.profile)
+        shortest = shortest_wavelength(problem.surface.profile)
     return shortest / problem.hertz.half_width
 
 
-def _shortest(profile: Mapping) -> float:
+def _shortest(profile: ProfileSection) -> float:
     """Wave [m] of a made profile."""
-    if profile["kind"] == "sinusoid":
-        return profile["wavelength"]
-    spacing = profile["length"] / (profile["samples"] - 1)
-    return profile.get("shortest_wavelength", SHORTEST * spacing)
+    if profile.kind == "sinusoid":
+        return profile.wavelength
+    spacing = profile.length / (profile.samples - 1)
+    return profile.shortest_wavelength or SHORTEST * spacing
 
 
-def _set_size(name: str, tables: dict, value: float, origin: Origin) -> None:
-    tables["body"][name] = _half_width(tables, origin) / value
+def _set_size(name: str, scene: Scene, value: float) -> Changes:
+    return {f"body.{name}": _half_width(scene) / value}
 
 
-def _set_radius(tables: dict, value: float, origin: Origin) -> None:
+def _set_radius(scene: Scene, value: float) -> Changes:
     """By the load: a = 2 p0 R / E*."""
-    if not tables["roller"].get("rigid"):
+    if not scene.roller.rigid:
         raise SceneError(
-            f"{origin.source}: roller: is elastic; allowed with a_over_radius, which takes finite "
+            f"{scene.source}: roller: is elastic; allowed with a_over_radius, which takes finite "
             "deformation, is roller.rigid = true"
         )
-    modulus = smooth_problem(tables, origin).modulus
-    tables["load"].pop("per_length", None)
-    tables["load"]["hertz_peak_pressure"] = 0.5 * value * modulus
+    peak = 0.5 * value * smooth_problem(scene).modulus
+    return {"load.per_length": None, "load.hertz_peak_pressure": peak}
 
 
-def _set_friction(tables: dict, value: float, origin: Origin) -> None:
-    beta = abs(smooth_problem(tables, origin).dundurs_beta)
+def _set_friction(scene: Scene, value: float) -> Changes:
+    beta = abs(smooth_problem(scene).dundurs_beta)
     if beta == 0.0:
         raise SceneError(
-            f"{origin.source}: body: has the roller's elastic constants, so that friction moves "
+            f"{scene.source}: body: has the roller's elastic constants, so that friction moves "
             "nothing; allowed with friction_dundurs are unlike bodies or a rigid roller"
         )
-    tables["load"]["friction"] = value / beta
-    tables["load"]["coupled"] = False
+    return {"load.friction": (value / beta,), "load.coupled": False}
 
 
-def _set_hardness(tables: dict, value: float, origin: Origin) -> None:
+def _set_hardness(scene: Scene, value: float) -> Changes:
     """By hardness, which caps the half-plane's pressure, and yield stress; their ratio stays."""
-    body = tables["body"]
-    if not {"hardness", "yield_stress"} <= body.keys():
+    body = scene.body
+    if body.hardness is None or body.yield_stress is None:
         raise SceneError(
-            f"{origin.source}: body.yield_stress: is missing; allowed with "
+            f"{scene.source}: body.yield_stress: is missing; allowed with "
             "peak_pressure_over_hardness are body.hardness and body.yield_stress"
         )
-    factor = smooth_problem(tables, origin).hertz.peak_pressure / value / body["hardness"]
-    for name in {"hardness", "yield_stress", "hardening_modulus"} & body.keys():
-        body[name] *= factor
+    factor = smooth_problem(scene).hertz.peak_pressure / value / body.hardness
+    names = ("hardness", "yield_stress", "hardening_modulus")
+    sizes = {name: getattr(body, name) for name in names}
+    return {f"body.{name}": size * factor for name, size in sizes.items() if size is not None}
 
 
-def _set_poissons_ratio(tables: dict, value: float, origin: Origin) -> None:
-    tables["body"]["poissons_ratio"] = value
+def _set_poissons_ratio(scene: Scene, value: float) -> Changes:
+    return {"body.poissons_ratio": value}
 
 
-def _set_modulus_ratio(tables: dict, value: float, origin: Origin) -> None:
-    if "youngs_modulus" not in tables["roller"]:
+def _set_modulus_ratio(scene: Scene, value: float) -> Changes:
+    if scene.roller.rigid:
         raise SceneError(
-            f"{origin.source}: roller.rigid: is true; allowed with modulus_ratio is an elastic one"
+            f"{scene.source}: roller.rigid: is true; allowed with modulus_ratio is an elastic one"
         )
-    tables["roller"]["youngs_modulus"] = value * tables["body"]["youngs_modulus"]
+    return {"roller.youngs_modulus": value * scene.body.youngs_modulus}
 
 
-def _section(name: str, tables: dict, origin: Origin) -> dict:
-    if name not in tables:
-        raise SceneError(f"{origin.source}: {name}: is missing; allowed for its groups is [{name}]")
-    return tables[name]
+def _section(name: str, scene: Scene) -> SceneSection:
+    if getattr(scene, name) is None:
+        raise SceneError(f"{scene.source}: {name}: is missing; allowed for its groups is [{name}]")
+    return getattr(scene, name)
 
 
 def _peclet(problem: Problem) -> float | None:
     return None if problem.scene.heat is None else peclet_numbers(problem)["body"]
 
 
-def _set_peclet(tables: dict, value: float, origin: Origin) -> None:
+def _set_peclet(scene: Scene, value: float) -> Changes:
     """By the speed."""
-    heat = _section("heat", tables, origin)
-    share = 1.0 / heat["slide_to_roll"] + 0.5  # of the speed, at which the body moves
+    heat = _section("heat", scene)
+    share = 1.0 / heat.slide_to_roll + 0.5  # of the speed, at which the body moves
     if share == 0.0:
         raise SceneError(
-            f"{origin.source}: heat.slide_to_roll: is -2, at which the contact stays on the body; "
+            f"{scene.source}: heat.slide_to_roll: is -2, at which the contact stays on the body; "
             "allowed with peclet is any other one"
         )
-    stored = heat["body_density"] * heat["body_specific_heat"]
-    diffusivity = heat["body_conductivity"] / stored
-    heat["speed"] = 2.0 * diffusivity * value / (_half_width(tables, origin) * abs(share))
+    diffusivity = heat.body_conductivity / (heat.body_density * heat.body_specific_heat)
+    return {"heat.speed": 2.0 * diffusivity * value / (_half_width(scene) * abs(share))}
 
 
-def _set_coating(tables: dict, value: float, origin: Origin) -> None:
-    _section("coating", tables, origin)["thickness"] = value * _half_width(tables, origin)
+def _set_coating(scene: Scene, value: float) -> Changes:
+    _section("coating", scene)
+    return {"coating.thickness": value * _half_width(scene)}
 
 
-def _set_conductivity(tables: dict, value: float, origin: Origin) -> None:
-    heat = _section("heat", tables, origin)
-    heat["coating_conductivity"] = value * heat["body_conductivity"]
+def _set_conductivity(scene: Scene, value: float) -> Changes:
+    return {"heat.coating_conductivity": value * _section("heat", scene).body_conductivity}
 
 
-def _made_profile(tables: dict, origin: Origin, group: str) -> dict:
-    profile = tables.get("profile") or {}
-    if profile.get("kind") not in WAVES:
+def _made_profile(scene: Scene, group: str) -> ProfileSection:
+    if scene.profile is None or scene.profile.kind not in WAVES:
         raise SceneError(
-            f"{origin.source}: profile: cannot be changed along {group}; allowed there is kind = "
+            f"{scene.source}: profile: cannot be changed along {group}; allowed there is kind = "
             + ", ".join(f'"{kind}"' for kind in WAVES)
         )
-    return profile
+    return scene.profile
 
 
-def _set_wavelength(tables: dict, value: float, origin: Origin) -> None:
+def _scaled(profile: ProfileSection, names: Iterable[str], factor: float) -> Changes:
+    """Those of the named fields of a profile that are sizes, times a factor."""
+    sizes = {name: getattr(profile, name) for name in names}
+    return {f"profile.{n}": size * factor for n, size in sizes.items() if isinstance(size, float)}
+
+
+def _set_wavelength(scene: Scene, value: float) -> Changes:
     """By scaling the profile: x and heights by one factor, so that slopes stay."""
-    profile = _made_profile(tables, origin, "wavelength_over_a")
-    kind = profile["kind"]
-    factor = value * _half_width(tables, origin) / _shortest(profile)
-    for name in (*WAVES[kind], *HEIGHTS[kind], *FILTERS):
-        if isinstance(profile.get(name), float):
-            profile[name] *= factor
-    if "position" in tables["load"]:
-        tables["load"]["position"] *= factor
+    profile, position = _made_profile(scene, "wavelength_over_a"), scene.load.position
+    factor = value * _half_width(scene) / _shortest(profile)
+    changes = _scaled(profile, (*WAVES[profile.kind], *HEIGHTS[profile.kind], *FILTERS), factor)
+    return changes if position is None else changes | {"load.position": position * factor}
 
 
-def _set_slope(tables: dict, value: float, origin: Origin) -> None:
-    profile = _made_profile(tables, origin, "rms_slope")
-    scene = resolve_tables(tables, name="slope", **vars(origin))
-    factor = value / scene.profile_info.roughness.rms_slope
-    for name in (*HEIGHTS[profile["kind"]], "rms_slope"):
-        if name in profile:
-            profile[name] *= factor
+def _set_slope(scene: Scene, value: float) -> Changes:
+    profile = _made_profile(scene, "rms_slope")
+    factor = value / surface_of(scene).info.roughness.rms_slope
+    return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 
 # How each group is set, and how large it is in a scene where it says how large an effect is.
@@ -352,13 +344,11 @@ def counts_of(given: str) -> tuple[int, int]:
     return counts
 
 
-def usual_axes(tables: dict, quantity: str) -> tuple[str, str]:
+def usual_axes(scene: Scene, quantity: str) -> tuple[str, str]:
     if quantity in HEAT_QUANTITIES:
-        return "peclet", "coating_over_a" if "coating" in tables else "a_over_thickness"
-    load, profile = tables["load"], tables.get("profile") or {}
-    if profile.get("kind") in WAVES:
+        return "peclet", "a_over_thickness" if scene.coating is None else "coating_over_a"
+    if scene.profile is not None and scene.profile.kind in WAVES:
         return "wavelength_over_a", "rms_slope"
-    rigid = tables["roller"].get("rigid", False)
-    if np.max(load.get("friction", 0.0)) > 0.0 and rigid:
+    if any(scene.load.friction) and scene.roller.rigid:
         return "a_over_thickness", "friction_dundurs"
-    return "a_over_thickness", "a_over_radius" if rigid else "a_over_width"
+    return "a_over_thickness", "a_over_radius" if scene.roller.rigid else "a_over_width"

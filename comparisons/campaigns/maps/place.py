@@ -19,7 +19,7 @@ from comparisons.common.progress import Stages
 from comparisons.figures.quantity import HEAT_QUANTITIES, label
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import select_effects
 
@@ -59,7 +59,7 @@ def finished_map(name: str) -> dict:
 
 
 def problem_named(scene: str) -> Problem:
-    return problem_of(load_scene(scene))
+    return problem_of(Scene.read(scene))
 
 
 def place_on(name: str, problem: Problem) -> Place | None:
@@ -69,7 +69,8 @@ def place_on(name: str, problem: Problem) -> Place | None:
         return None
     heat, of_map = problem.scene.heat, content["scene"].get("heat")
     if of_map and heat:
-        other_base = problem.scene.thickness and heat.base != of_map.get("base", heat.base)
+        base = heat.base or "held"
+        other_base = problem.scene.body.thickness and base != of_map.get("base", base)
         if other_base or heat.slide_to_roll != of_map["slide_to_roll"]:
             return None
     groups, shown = [], []
@@ -82,7 +83,7 @@ def place_on(name: str, problem: Problem) -> Place | None:
             return None
         groups.append(value)
         shown.append(max(value, axis["values"][0]))
-    wanted = (*problem.scene.tolerance, *(HEAT_QUANTITIES if of_map else ()))
+    wanted = (*problem.scene.tolerances, *(HEAT_QUANTITIES if of_map else ()))
     errors = {q: interpolated(content, q, *shown) for q in wanted}
     errors = {quantity: error for quantity, error in errors.items() if np.isfinite(error)}
     return Place(name, tuple(groups), tuple(shown), errors) if errors else None
@@ -141,7 +142,7 @@ def first_answer(problem: Problem) -> list[str]:
     level = half_plane_level(problem, problem.pitches[0], None, Stages())
     effects = select_effects(problem, float(level.solution.pressure.max()), ()).estimates
     bounds = []
-    for name in problem.scene.tolerance:
+    for name in problem.scene.tolerances:
         sizes = {effect: s[name] for effect, s in effects.items() if name in s and effect != LAW}
         if sizes:
             total, most = sum(sizes.values()), max(sizes, key=sizes.get)

@@ -23,7 +23,6 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
-from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import values_of
 from fem.solver.communicator import each_alone
@@ -85,11 +84,10 @@ def solve_point(point: PointRequest) -> dict:
 
 
 def _solved(point: PointRequest) -> dict:
-    scene = resolve_tables(point.tables, name="point", **vars(point.origin))
-    problem = problem_of(scene)
+    scene, problem = point.scene, problem_of(point.scene)
     plan, heats = make_plan(problem, MODELS), point.quantity in HEAT_QUANTITIES
     window = window_of(problem) if plan.stress and not heats else None
-    friction = max(scene.friction)
+    friction = max(scene.load.friction)
     for runs in _refined(problem, plan, window, heats):
         for run in runs:
             if not run.finest.solution.converged:
@@ -136,7 +134,7 @@ def _refined(
     pitch = problem.pitches[0]
     least = len(problem.pitches) + (ROUGH_MORE if problem.scene.profile is not None else 0)
     check = solved(pitch, half_block=True) if plan.domain_check else None
-    for number in range(1, problem.scene.resolution.most + 1):
+    for number in range(1, problem.most_levels + 1):
         try:
             finite_element.append(solved(pitch))
         except MeshError:

@@ -47,7 +47,7 @@ def paper_page(paper: "Paper", sections: tuple[Section, ...]) -> str:
 def _models(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
-        for friction in outcome.problem.scene.friction:
+        for friction in outcome.problem.scene.load.friction:
             compared = outcome.figures.of(study="comparison", friction=friction)
             found = {figure.quantity: _difference(figure) for figure in compared}
             cells = [found.get(quantity, UNKNOWN) for quantity in SHOWN]
@@ -69,7 +69,7 @@ def _difference(figure: Figure) -> str:
 def _surfaces(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
-        info = outcome.problem.scene.profile_info
+        info = outcome.problem.surface.info
         half_plane, finite_element = (run.finest for run in outcome.runs.values())
         profile = (UNKNOWN,) * 4
         if info is not None:

@@ -18,10 +18,10 @@ from comparisons.common.progress import ProgressCallback, Step, no_progress, wit
 from comparisons.common.provenance import as_json, versions
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.problem import Levels, problem_of
 from comparisons.output.result_json import content_of
 from comparisons.runs.run import solve
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 from comparisons.studies import comparison, contact, quiescent_zone
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run, unsolved
@@ -119,17 +119,18 @@ def solve_surfaces(
     """By the scene's name. Raises SolverError where a model finds no solution."""
     found = {}
     for number, name in enumerate(SCENES, start=1):
-        scene = load_scene(name)
-        scene = replace(
-            scene,
-            friction=FRICTIONS,
-            stress=replace(scene.stress, points=fineness.points),
-            resolution=replace(scene.resolution, pitch=fineness.pitch, levels=LEVELS, most=LEVELS),
+        scene = Scene.read(name)
+        scene = scene.changed(
+            {
+                "load.friction": FRICTIONS,
+                "stress.points": fineness.points,
+                "resolution.pitch": fineness.pitch,
+            }
         )
         part = within(callback, (number - 1) / len(SCENES), number / len(SCENES))
         try:
             part = _prefixed(part, f"{number} of {len(SCENES)}, {name}")
-            problem = problem_of(scene)
+            problem = problem_of(scene, levels=Levels(LEVELS))
             plan = replace(make_plan(problem, MODELS), effects=effects)
             solved = solve(unsolved(problem, plan), None, part)
             # figure 11 is drawn as the paper's, without the quiescent zone

@@ -5,7 +5,6 @@ for layers and coatings the analytic layer's contact on the same hats, which kno
 locking (and is held to its own references by the half-plane's rows)."""
 
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,7 +25,7 @@ from comparisons.models.nearest_operator import nearest_operator
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import Origin, Scene
 
 Tables = dict[str, dict[str, Any]]
 
@@ -48,9 +47,7 @@ def changed(tables: Tables) -> Tables:
 
 
 def problem_from(tables: Tables) -> Problem:
-    return problem_of(
-        resolve_tables(tables, name="stability", folder=Path("."), source="stability")
-    )
+    return problem_of(Scene.of(tables, Origin("stability", source="stability")))
 
 
 def finite_element_solution(tables: Tables, refinement: int = 0) -> tuple[Problem, Level]:
@@ -94,8 +91,8 @@ def shear_findings(**tables: dict) -> CaseFindings:
 def sliding_findings(**tables: dict) -> CaseFindings:
     """A rigid roller that slides, its traction moving the surface."""
     problem, level = finite_element_solution(changed(tables))
-    hertz, (friction,) = problem.hertz, problem.scene.friction
-    beta = dundurs_constants(problem.scene.body, None)[1]
+    hertz, (friction,) = problem.hertz, problem.scene.load.friction
+    beta = dundurs_constants(problem.scene.body.material, None)[1]
     exact = sliding_from_load(hertz.load_per_length, hertz.radius, problem.modulus, friction, beta)
     x, pressure, reference = level.grid.x, level.solution.pressure, "sliding cylinder, exact"
     place = abs(x @ pressure / pressure.sum() - exact.load_position) / exact.half_width

@@ -1,11 +1,9 @@
 """What a sweep is made of: a scene, values of some of its fields, and the scene of each point."""
 
-import copy
 import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -13,12 +11,11 @@ from comparisons.common.errors import InputError
 from comparisons.common.provenance import LEVEL_CODE, key_of, program_code, versions
 from comparisons.models.level_cache import scene_key
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 
 POSITION = "load.position"
 SHORT = {"position": POSITION, "friction": "load.friction"}  # beside "load", whichever it is
-LOADS = ("per_length", "hertz_peak_pressure", "approach")
 MOST = 10_000  # points
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
 STUDIES = "comparisons/figures", "comparisons/studies", "comparisons/output"
@@ -26,7 +23,6 @@ CODE = (*LEVEL_CODE, *STUDIES, __file__)
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
 
 Value = float | str
-Tables = Mapping[str, object]
 
 
 @dataclass(frozen=True)
@@ -46,10 +42,7 @@ class SweepPoint:
     """One scene of a sweep."""
 
     values: tuple[Value, ...]  # of the swept fields, in their order
-    # of the scene, as TOML has them; None where there is none with these values
-    tables: Tables | None
-    folder: Path
-    source: str
+    scene: Scene | None  # None where there is none with these values
     models: tuple[str, ...]
     why: str | None  # why there is none
     key: str  # hash of everything that shapes the answer
@@ -59,32 +52,20 @@ class SweepPoint:
 class SweepRequest:
     """A sweep: every combination of the values, those of the last field inside."""
 
-    name: str
-    title: str
-    source: str
+    scene: Scene
     models: tuple[str, ...]
     fields: tuple[SweptField, ...]
     points: tuple[SweepPoint, ...]
 
 
-def sweep_request(
-    tables: Tables,
-    over: Sequence[str],
-    models: tuple[str, ...],
-    *,
-    name: str,
-    folder: Path,
-    source: str,
-) -> SweepRequest:
+def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) -> SweepRequest:
     """The sweep that "FIELD=…" ask for.
 
-    tables   of the scene, as TOML has them; paths in them count from `folder`
     over     "position=40" placements along the trace, "FIELD=FROM:TO:N" or "FIELD=A,B,C"
     Raises InputError for anything that is wrong with them, or where no point has a scene."""
     if not over:
         raise InputError("--over: is missing; allowed is FIELD=A,B,C, FIELD=FROM:TO:N, position=N")
-    scene = resolve_tables(tables, name=name, folder=folder, source=source)
-    fields = tuple(_swept(given, tables, scene) for given in over)
+    fields = tuple(_swept(option, scene) for option in over)
     names = [field.name for field in fields]
     if len(set(names)) < len(names):
         raise InputError(f"--over: {names[0]} is given twice; allowed is every field once")
@@ -93,25 +74,24 @@ def sweep_request(
     program = [versions(), program_code(*CODE), models]
     points = []
     for values in itertools.product(*(field.values for field in fields)):
-        changed = _with(tables, dict(zip(names, values, strict=True)))
-        why, shape = None, []
+        changed, why, shape = None, None, []
         try:
-            posed = resolve_tables(changed, name=name, folder=folder, source=source)
-            shape = scene_key(posed)
+            changed = scene.changed(dict(zip(names, values, strict=True)))
+            shape = scene_key(changed, surface_of(changed))
         except InputError as error:
             changed, why = None, str(error)
         key = key_of(program, shape, values, why)[:24]
-        points.append(SweepPoint(values, changed, folder, source, models, why, key))
-    if all(point.tables is None for point in points):
+        points.append(SweepPoint(values, changed, models, why, key))
+    if all(point.scene is None for point in points):
         raise InputError(points[0].why)
-    return SweepRequest(name, scene.title, source, models, fields, tuple(points))
+    return SweepRequest(scene, models, fields, tuple(points))
 
 
-def _swept(given: str, tables: Tables, scene: ResolvedScene) -> SweptField:
+def _swept(given: str, scene: Scene) -> SweptField:
     short, equals, text = given.partition("=")
     name = SHORT.get(short.strip(), short.strip())
     if name == "load":
-        name = "load." + next(kind for kind in LOADS if kind in tables["load"])
+        name = f"load.{scene.load.kind}"
     if not equals or not text.strip() or "." not in name:
         raise InputError(
             f"--over: is {given!r}; allowed is FIELD=A,B,C, FIELD=FROM:TO:N or position=N, with "
@@ -149,31 +129,19 @@ def _between(given: str, first: str, last: str, count: str) -> tuple[Value, ...]
     return tuple(f"{value:.10g} {unit}" if unit else value for value in numbers)
 
 
-def _placements(count: int, scene: ResolvedScene) -> tuple[float, ...]:
+def _placements(count: int, scene: Scene) -> tuple[float, ...]:
     """Positions [m] of the roller, evenly over those where the contact stays on the trace."""
     if scene.profile is None:
         raise InputError("--over: position: a smooth scene is the same everywhere; allowed is a "
                          "scene with a profile")  # fmt: skip
     if not 2 <= count <= MOST:
         raise InputError(f"--over: position={count}; allowed are from 2 to {MOST} placements")
-    ends = scene.position + scene.profile.x[0], scene.position + scene.profile.x[-1]
-    reach = np.multiply(MARGIN, problem_of(scene).extent)
+    problem = problem_of(scene)
+    surface = problem.surface
+    ends = surface.position + surface.profile.x[0], surface.position + surface.profile.x[-1]
+    reach = np.multiply(MARGIN, problem.extent)
     first, last = ends[0] - reach[0], ends[1] - reach[1]
     if first >= last:
         raise InputError("--over: position: the contact is as wide as the trace; allowed is a "
                          "longer trace or a lighter load")  # fmt: skip
     return tuple(float(f"{place:.10g}") for place in np.linspace(first, last, count))
-
-
-def _with(tables: Tables, values: Mapping[str, Value]) -> dict:
-    """The tables with other values of some fields; lists such as friction become one value."""
-    changed = copy.deepcopy(dict(tables))
-    for name, value in values.items():
-        *path, last = name.split(".")
-        table = changed
-        for part in path:
-            table = table.setdefault(part, {})
-            if not isinstance(table, dict):
-                raise InputError(f"--over: {name}: {part} is no table; allowed is a scene's field")
-        table[last] = value
-    return changed

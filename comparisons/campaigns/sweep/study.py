@@ -1,7 +1,6 @@
 """A sweep from its request to its files: every point solved, the figures, and how they scatter."""
 
 from collections.abc import Iterable
-from functools import partial
 from math import isfinite
 from pathlib import Path
 from time import perf_counter
@@ -23,7 +22,6 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.output.flat_csv import COLUMNS, csv_text, harmless, rows_of
 from comparisons.output.result_json import result_of
-from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.bulge import QUANTITIES as BULGE_QUANTITIES
 from comparisons.studies.bulge import Bulge, bulges_of
 from comparisons.studies.quiescent_zone import QUANTITIES as ZONE_QUANTITIES
@@ -58,8 +56,7 @@ def make_sweep(
     cache.remove_leftovers()
     try:
         with Tasks(ProcessWorker, workers or cores(), cache) as tasks:
-            solve = partial(solved, name=request.name)
-            finish(request.points, solve, tasks, callback, "sweep")
+            finish(request.points, solved, tasks, callback, "sweep")
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     content = sweep_content(request, cache)
@@ -79,18 +76,17 @@ def make_sweep(
     return content
 
 
-def solved(point: SweepPoint, name: str) -> dict:
+def solved(point: SweepPoint) -> dict:
     """What was `found` at a point, or why nothing was; and the `seconds` that it took."""
     from comparisons.runs.run import run
 
     began = perf_counter()
     try:
-        if point.tables is None:
+        if point.scene is None:
             raise InputError(point.why)
-        place = {"folder": point.folder, "source": point.source}
-        scene = resolve_tables(point.tables, name=name, **place)
-        outcome = run(scene, None, point.models)
-        found = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), name))}
+        outcome = run(point.scene, None, point.models)
+        rows = tuple(rows_of(result_of(outcome), point.scene.name))
+        found = {"status": SOLVED, "rows": rows}
         if zones := _zones(outcome):
             found[ZONE] = zones
         if bulges := bulges_of(outcome.found.get(BULGE)):
@@ -137,8 +133,8 @@ def sweep_content(request: SweepRequest, cache: Cache) -> dict:
     asked = " ".join(f"--over {field.text!r}" for field in request.fields)
     return {
         "schema": SCHEMA,
-        "command": f"crosscheck sweep {request.source} {asked}",
-        "scene": {"name": request.name, "title": request.title},
+        "command": f"crosscheck sweep {request.scene.source} {asked}",
+        "scene": {"name": request.scene.name, "title": request.scene.title},
         "models": list(request.models),
         "over": over,
         "points": points,

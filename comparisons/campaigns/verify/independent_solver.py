@@ -14,7 +14,7 @@ from comparisons.campaigns.checks import BoundedFigure, CaseFindings, CheckedCas
 from comparisons.common.progress import Stages
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import Origin, Scene
 
 AGREE = 1e-6  # relative, in pressure and in load
 SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_text("utf-8"))
@@ -34,7 +34,7 @@ def independent_findings(name: str) -> CaseFindings:
     from fem.body.surface import hat_forces
     from fem.contact.variational_inequality import solve_variational_inequality
 
-    scene = resolve_tables(SCENES[name], name="verify", folder=Path("."), source=f"verify: {name}")
+    scene = Scene.of(SCENES[name], Origin("verify", source=f"verify: {name}"))
     problem = problem_of(scene)
     plan = make_plan(problem, ("finite_element",))
     refinement, body_cache = Refinement(problem.pitches[0]), BodyCache()
@@ -49,7 +49,7 @@ def independent_findings(name: str) -> CaseFindings:
         grid.hat_integrals(problem.finite_element_gap, problem.knots),
         grid.weights,
         load,
-        np.inf if scene.hardness is None else scene.hardness,
+        np.inf if scene.body.hardness is None else scene.body.hardness,
     )
     pressure = level.solution.pressure
     difference = float(np.abs(pressure - other.pressure).max() / pressure.max())

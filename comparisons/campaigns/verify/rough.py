@@ -30,7 +30,7 @@ from comparisons.campaigns.verify.scenes import (
     spread,
 )
 from comparisons.models.problem import Problem
-from comparisons.scenes.profile import KnownTrace
+from comparisons.scenes.surface import KnownTrace
 
 HALF_PLANES, FINITE_ELEMENTS, LAYERS = 20, 3, 4
 # Third level: pressure elements on half of a mean patch. With fewer the first level has not the

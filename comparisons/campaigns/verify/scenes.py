@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 
@@ -40,8 +39,8 @@ from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.run import solve
-from comparisons.scenes.profile import KnownTrace
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import KnownTrace, surface_of
 from comparisons.studies.comparison import relative_l2
 from comparisons.studies.contact import uncertainties, values_of
 from comparisons.studies.study import unsolved
@@ -229,14 +228,9 @@ def scene_cases(scenes: Iterable[ExactScene]) -> list[CheckedCase]:
 def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
     """Solve a scene with one model, as `run` does, and compare each figure with the exact one.
     Where the half-plane's are known too, both solve it, and its model error is compared."""
-    resolved = resolve_tables(
-        scene.tables,
-        name="verify",
-        folder=Path("."),
-        source=f"verify: {scene.name}",
-        trace=scene.trace,
-    )
-    problem, (friction,) = problem_of(resolved), resolved.friction
+    asked = Scene.of(scene.tables, Origin("verify", source=f"verify: {scene.name}"))
+    problem = problem_of(asked, surface_of(asked, scene.trace))
+    (friction,) = asked.load.friction
     posed = unsolved(problem, make_plan(problem, MODELS if scene.half_plane else (model,)))
     solved = solve(posed, None) if scene.half_plane else refined(posed, Tasks())
     runs = solved.runs
@@ -291,7 +285,7 @@ def smooth_half_plane(problem: Problem) -> dict[str, float]:
 
 def fine_half_plane(problem: Problem) -> dict[str, float]:
     """Figures of the half-plane on pressure elements FINER times as small as the third level's."""
-    pitch, (friction,) = problem.reference_pitch / FINER, problem.scene.friction
+    pitch, (friction,) = problem.reference_pitch / FINER, problem.scene.load.friction
     level = half_plane_level(problem, pitch, window_of(problem), Stages(no_progress))
     return values_of(level, problem, friction)
 

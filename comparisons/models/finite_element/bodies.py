@@ -110,8 +110,8 @@ def bodies_of(
         mesh = rough_mesh(problem, flat)
     shape = _key(spec) if mesh is flat else (_key(spec), rough_key(problem))
     coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
-    rough = body(mesh, shape, scene.body, support, coating)
-    if scene.roller is None:
+    rough = body(mesh, shape, scene.body.material, support, coating)
+    if scene.roller.rigid:
         return BodyPair(rough, None, 0.0)
     if plan.shared_factor:
         share = scene.body.youngs_modulus / scene.roller.youngs_modulus
@@ -126,7 +126,7 @@ def bodies_of(
     support = Support("bonded", UNBOUNDED_SIDES, within)
     if settings.roller_body == "disc":
         support = Support("bonded", "free", (np.inf, beyond * wanted.depth))
-    roller = body(mesh, shape, scene.roller, support)
+    roller = body(mesh, shape, scene.roller.material, support)
     return BodyPair(rough, roller, 0.0)
 
 
@@ -134,11 +134,11 @@ def rough_support(problem: Problem, spec: BlockSpec, beyond: float = np.inf) -> 
     """How the rough body is held; where it is unbounded, everywhere `beyond` this part of it."""
     scene = problem.scene
     within = (
-        beyond * spec.half_width if scene.width is None else np.inf,
-        beyond * spec.depth if scene.thickness is None else np.inf,
+        beyond * spec.half_width if scene.body.width is None else np.inf,
+        beyond * spec.depth if scene.body.thickness is None else np.inf,
     )
-    sides = "free" if scene.width is not None else UNBOUNDED_SIDES
-    return Support(scene.base or "bonded", sides, within)
+    sides = "free" if scene.body.width is not None else UNBOUNDED_SIDES
+    return Support(scene.body.base or "bonded", sides, within)
 
 
 def _key(spec: BlockSpec) -> Hashable:

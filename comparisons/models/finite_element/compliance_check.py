@@ -24,7 +24,7 @@ from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.common.numbers import given_percent, percent
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from comparisons.models.finite_element.contact import MutualCompliance
@@ -166,11 +166,13 @@ def operator_check(
         exact = np.stack([surface.apply(pressure) for pressure in pressures.T], axis=1)
         return _differences(grid, finite, exact, pressures, columns, waves, datum)
 
-    datum = scene.thickness is not None and scene.roller is None
+    datum = scene.body.thickness is not None and scene.roller.rigid
     nearest, not_modelled, bounds = against(model, datum), _not_modelled(scene), _finite(scene)
     effect = None
     if bounds:
-        size = problem.dundurs_beta * (scene.friction[0] if scene.finite_element.coupled else 0.0)
+        size = problem.dundurs_beta * (
+            scene.load.friction[0] if scene.finite_element.coupled else 0.0
+        )
         half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, size)
         effect = against(half_plane, datum=False)
     return ComplianceCheck(
@@ -178,9 +180,9 @@ def operator_check(
     )
 
 
-def no_check(scene: ResolvedScene) -> str | None:
+def no_check(scene: Scene) -> str | None:
     """Why the check is impossible in a scene, or None."""
-    slides = scene.base == "frictionless" and scene.width is not None
+    slides = scene.body.base == "frictionless" and scene.body.width is not None
     if slides and scene.finite_element.gap == "displaced":
         return "the body slides on its base: it bears no pressure that leans to one side"
     return None
@@ -250,24 +252,31 @@ def _packet(refined: np.ndarray, span: int, length: float) -> np.ndarray:
     return pressure
 
 
-def _not_modelled(scene: ResolvedScene) -> tuple[str, ...]:
+def _not_modelled(scene: Scene) -> tuple[str, ...]:
     """What the nearest analytic surface does not model of a scene's finite elements."""
     settings = scene.finite_element
-    shared = scene.roller is not None and is_layered(scene)
+    shared = not scene.roller.rigid and is_layered(scene)
     return tuple(
         name
         for name, there in (
             ("the rough boundary", settings.geometry == "rough" and scene.profile is not None),
             ("pressure along the roller's normal", settings.gap == "displaced"),
             ("the roller's round body", settings.roller_body == "disc"),
-            ("the body's sides", scene.width is not None),
-            ("the traction on the roller", shared and settings.coupled and any(scene.friction)),
+            ("the body's sides", scene.body.width is not None),
+            (
+                "the traction on the roller",
+                shared and settings.coupled and any(scene.load.friction),
+            ),
         )
         if there
     )
 
 
-def _finite(scene: ResolvedScene) -> tuple[str, ...]:
+def _finite(scene: Scene) -> tuple[str, ...]:
     """What makes the body other than a half-plane of one material."""
-    bounds = {"thickness": scene.thickness, "width": scene.width, "coating": scene.coating}
+    bounds = {
+        "thickness": scene.body.thickness,
+        "width": scene.body.width,
+        "coating": scene.coating,
+    }
     return tuple(name for name, bound in bounds.items() if bound is not None)

@@ -67,7 +67,7 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
     surface: to first order the displacement along it closes the gap there."""
     scene, settings = problem.scene, problem.scene.finite_element
     hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
-    friction = scene.friction[0] if settings.coupled else 0.0
+    friction = scene.load.friction[0] if settings.coupled else 0.0
     down = up = None
     if settings.gap == "displaced":
         down, up = roller_normal(problem), roller_normal(problem, mirrored=True)
@@ -110,7 +110,7 @@ def roller_of(problem: Problem) -> Roller:
     """The shape of the finite elements' roller."""
     scene = problem.scene
     shape = circle if scene.finite_element.roller_shape == "circle" else parabola
-    return shape(scene.roller_radius)
+    return shape(scene.roller.radius)
 
 
 def solve_mutual(

@@ -12,7 +12,7 @@ import numpy as np
 from analytic.heat.moving_source import line_source
 from analytic.material import ThermalMaterial
 from analytic.numerics import runs_of
-from comparisons.models.heat import FARTHEST, HeatedContact, heat_of_friction
+from comparisons.models.heat import FARTHEST, HeatedContact, heat_of_friction, reach_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from fem.body.coating import Coating
@@ -95,25 +95,25 @@ def _conduction(
 ) -> Conduction:
     """The rough body or the roller on a mesh of its own, finer on each level in every respect."""
     scene, settings = problem.scene, problem.scene.heat
-    thickness = scene.thickness if rough and "thickness" not in without else None
+    thickness = scene.body.thickness if rough and "thickness" not in without else None
     coated = scene.coating if rough and "coating" not in without else None
-    radius = np.inf if rough or "roller" in without else scene.roller_radius
+    radius = np.inf if rough or "roller" in without else scene.roller.radius
     half_width = block * BLOCK * float(np.abs(patches).max())
     layer = None if coated is None else Coating(settings.coating, coated.thickness)
     slower = min(m.diffusivity for m in (material, layer and layer.material) if m)
     length = slower / velocity if velocity else np.inf
     if thickness is not None:
-        depth, around = thickness, Surroundings(settings.base, "flow")
+        depth, around = thickness, Surroundings(settings.base or "held", "flow")
         half_width += block * BESIDE * thickness
         if settings.base == "insulated":
-            half_width = half_width + UPSTREAM * abs(length) if velocity else settings.reach
+            half_width = half_width + UPSTREAM * abs(length) if velocity else reach_of(problem)
     elif np.isfinite(radius):
-        reach = min(settings.reach, FARTHEST * radius)
+        reach = min(reach_of(problem), FARTHEST * radius)
         whole = reach * np.sqrt(1.0 - (0.5 * reach / radius) ** 2)  # x where the rim is that far
         depth = half_width = min(whole, max(half_width, block * EXIT * abs(length)))
         around = Surroundings("held", "flow" if depth > EXIT * abs(length) else "held")
     else:
-        half_width = half_width if velocity else min(half_width, 0.5 * settings.reach)
+        half_width = half_width if velocity else min(half_width, 0.5 * reach_of(problem))
         depth, around = half_width, Surroundings("open", "open")
     finer = problem.pitches[0] / pitch
     spec = thermal_spec(
@@ -129,4 +129,4 @@ def _conduction(
     mesh = build_block(spec)
     mesh = rounded(mesh, radius) if np.isfinite(radius) else mesh
     body = thermal_body(mesh, material, coating=layer, radius=radius)
-    return Conduction(body, velocity, around, float(patches.mean()), settings.reach)
+    return Conduction(body, velocity, around, float(patches.mean()), reach_of(problem))

@@ -24,9 +24,10 @@ from comparisons.models.finite_element.stress import pressed_linearly, stresses_
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.problem import Levels, Problem, problem_of
 from comparisons.models.window import Window
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface, surface_of
 from fem.solver.compilation import load_dolfinx
 from meshes.build import start_worker
 from meshes.refined_ranges import merge, unrefined_contact
@@ -60,7 +61,7 @@ def finite_element_level(
     or FemError where a mesh or a factorisation fails."""
     scene, grid = problem.scene, problem.grid(refinement.pitch)
     body_cache = body_cache or BodyCache()
-    friction = scene.friction[0] if scene.finite_element.coupled else 0.0
+    friction = scene.load.friction[0] if scene.finite_element.coupled else 0.0
     model = nearest_operator(scene, grid, friction)
     weighted_gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
     constraints = problem.constraints()
@@ -127,12 +128,17 @@ def finite_element_level(
     if window is None:
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
-        frictions, asperities = scene.friction, problem.asperities
+        frictions, asperities = scene.load.friction, problem.asperities
         stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 
 
-def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Problem:
+def problem_of_approach(
+    scene: Scene,
+    callback: ProgressCallback,
+    surface: SceneSurface | None = None,
+    levels: Levels | None = None,
+) -> Problem:
     """The scene's problem under the load [N/m] of its prescribed approach, to LAST_LOAD_CHANGE or
     better.
 
@@ -141,12 +147,12 @@ def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Pro
     the rounds do not settle."""
     wanted = scene.load.value
     # a rigid body of the roller's shape would cut the surface over twice this half-width
-    half_width = np.sqrt(scene.roller_radius * wanted)
-    modulus = scene.body.plane_strain_modulus
-    load = np.pi * modulus * half_width**2 / (4.0 * scene.roller_radius)
-    body_cache = BodyCache()
+    half_width = np.sqrt(scene.roller.radius * wanted)
+    modulus = scene.body.material.plane_strain_modulus
+    load = np.pi * modulus * half_width**2 / (4.0 * scene.roller.radius)
+    body_cache, surface = BodyCache(), surface or surface_of(scene)
     for _ in range(MOST_ROUNDS):
-        problem = problem_of(scene, load)
+        problem = problem_of(scene, surface, load, levels)
         plan = make_plan(problem, ("finite_element",))
         pitch = problem.pitches[-1]
         callback("finite elements: load of the prescribed approach")
@@ -158,7 +164,7 @@ def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Pro
         if level.patches[0, 0] < low + pitch or level.patches[-1, 1] > high - pitch:
             load = 2.0 * before  # the contact fills the grid: it carries more than that
         elif abs(load - before) <= LAST_LOAD_CHANGE * load:
-            return problem_of(scene, load)
+            return problem_of(scene, surface, load, levels)
     raise SceneError(
         f"{scene.source}: load.approach: no load was found that gives {wanted:g} m; allowed is a "
         "load (per_length) instead"

@@ -48,12 +48,12 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     coarser = problem.coarser(refinement.pitch)
     depth = problem.block
     across = 0.5 * depth
-    if scene.thickness is not None:
-        depth = scene.thickness
+    if scene.body.thickness is not None:
+        depth = scene.body.thickness
         # whole edges: the rounding of a predicted contact must not make another mesh
         across = edge * np.ceil((np.abs(problem.extent).max() + LAYER_EXTENT * depth) / edge)
-    if scene.width is not None:
-        across = 0.5 * scene.width
+    if scene.body.width is not None:
+        across = 0.5 * scene.body.width
     margin = MARGIN_HATS * refinement.pitch
     if is_rough(problem):  # wherever pressure may come to act
         patches, margin = np.array([problem.extent]), 0.0
@@ -83,14 +83,14 @@ def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
 
 def rough_key(problem: Problem) -> Hashable:
     """What shapes the rough boundary of a body, beside its flat mesh."""
-    profile = problem.scene.profile
+    profile = problem.surface.profile
     return profile.x.tobytes(), profile.height.tobytes(), problem.extent, problem.pitches[0]
 
 
 def roller_key(problem: Problem) -> Hashable:
     """What shapes the boundary of a roller, beside its flat mesh."""
     scene, settings = problem.scene, problem.scene.finite_element
-    return scene.roller_radius, settings.roller_shape, settings.roller_body, problem.extent
+    return scene.roller.radius, settings.roller_shape, settings.roller_body, problem.extent
 
 
 def is_rough(problem: Problem) -> bool:
@@ -107,7 +107,7 @@ def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
     if not disc and (spec.half_width, spec.depth, spec.interface) == (half_width, depth, None):
         return spec  # one mesh serves both
     if disc:
-        radius = scene.roller_radius
+        radius = scene.roller.radius
         depth = min(depth, DISC_DEPTH * radius)
         half_width = min(half_width, DISC_HALF_WIDTH * radius)
         farthest = np.abs(problem.extent).max()
@@ -123,7 +123,7 @@ def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
 def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     """The roller's mesh from the flat one: bent to its circle where it is a disc; at finite
     deformation a block with the roller's shape on it, which levels off beside the extent."""
-    settings, radius = problem.scene.finite_element, problem.scene.roller_radius
+    settings, radius = problem.scene.finite_element, problem.scene.roller.radius
     if settings.roller_body == "disc":
         return bent(flat, radius)
     if settings.deformation == "linear":
@@ -154,7 +154,7 @@ def expected_unknowns(
     """Displacements of a level, of all its bodies, before anything is meshed."""
     spec = block_spec(problem, refinement, patches)
     unknowns = estimate_unknowns(spec)
-    if problem.scene.roller is not None and not plan.shared_factor:
+    if not problem.scene.roller.rigid and not plan.shared_factor:
         unknowns += estimate_unknowns(roller_spec(problem, spec))
     # of a triangle's nodes two thirds are midpoints of edges; cubic elements have 9/4 as many
     return round(unknowns * {1: 0.25, 2: 1.0, 3: 2.25}[problem.scene.finite_element.degree])
@@ -164,10 +164,10 @@ def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:
     """Heights [m] of the rough boundary anywhere on the block's top, the same on every level. The
     profile wherever pressure may come to act; beyond it the roughness fades, so that elements which
     grow there need not follow waves that they cannot resolve."""
-    curve = problem.scene.profile.spline()
-    first, last = problem.scene.profile.x[[0, -1]]
+    curve = problem.surface.profile.spline()
+    first, last = problem.surface.profile.x[[0, -1]]
     start, stop = problem.extent
-    highest = np.abs(problem.scene.profile.height).max()
+    highest = np.abs(problem.surface.profile.height).max()
     fade = max(FADE_HATS * problem.pitches[0], FADE_HEIGHTS * highest)
 
     def height(x: np.ndarray) -> np.ndarray:

@@ -79,7 +79,7 @@ def _refuse_cut_off(
 ) -> None:
     """Raise FemError where pressures (count,) [Pa] reach the grid's ends, and the linear ones do
     not: on few elements these may."""
-    x, ends, profile = grid.x, [0, -1], problem.scene.profile
+    x, ends, profile = grid.x, [0, -1], problem.surface.profile
     if np.any(pressure[ends] * (linear.pressure[ends] == 0.0)):
         ended = profile is not None and (
             x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
@@ -98,9 +98,9 @@ def finite_contact(
     """The contact by the linear model and the linear bodies' own factors; where the strains are too
     large for that, by Newton's method. Raises FemError where that finds none either."""
     rough, roller = operator.rough, roller_of(problem)
-    if problem.scene.roller is not None:
+    if not problem.scene.roller.rigid:
         roller = operator.parts[1].compliance
-    friction, start = problem.scene.friction[0], linear.pressure
+    friction, start = problem.scene.load.friction[0], linear.pressure
     contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far)
     bodies = FiniteCompliance(contact)
     given = bodies, model, contact.gap, contact.weights, constraints, start
@@ -131,10 +131,10 @@ def pressed_plastically(
 
     Raises FemError where a load is not reached, and where contact spreads to the grid's ends."""
     scene, rough, weights = problem.scene, operator.rough, grid.weights
-    friction = scene.friction[0]
+    friction = scene.load.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
-    metal = ElasticPlastic(scene.body, scene.yielding.stress, scene.yielding.hardening)
-    loads = constraints.load, 0.0
+    body, loads = scene.body, (constraints.load, 0.0)
+    metal = ElasticPlastic(body.material, body.yield_stress, body.hardening_modulus or 0.0)
     given = rough, metal, gap, weights
     start = linear.pressure
     body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, travel)

@@ -70,7 +70,7 @@ def pressed_linearly(
         given = body.mesh, body.material, body.coating, body.degree, moved
         return RecoverableField(*given, rough.hats, pressure, frictions, ends)
 
-    dragged = problem.scene.friction[0] if settings.coupled else 0.0
+    dragged = problem.scene.load.friction[0] if settings.coupled else 0.0
     patches = contact_patches(x, pressure, solution.gap)
     if not displaced:
         if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap

@@ -24,7 +24,7 @@ def finite_element_stress(
     heat, friction, field = problem.scene.heat, friction_of(problem), level.mesh_field
     made = field.mesh, field.material, rough_support(problem, field.mesh.spec, beyond)
     body = elastic_body(*made, degree=field.degree, coating=field.coating)
-    expansion = np.where(body.coated, heat.coating_expansion or 0.0, heat.expansion)
+    expansion = np.where(body.coated, heat.coating_expansion or 0.0, heat.body_expansion)
     temperature = solved_heat(problem, level)[1]
     thermal, _ = thermal_stress(body, expansion, temperature(body.points))
     elastic = field.on(body)[field.frictions.index(friction)]

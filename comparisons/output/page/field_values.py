@@ -29,7 +29,7 @@ def field_explorer(outcome: Run) -> dict[str, object] | None:
 
     half_width, window = outcome.problem.hertz.half_width, outcome.window
     rows, columns = _spread(len(window.z), MOST_ROWS), _spread(len(window.x), MOST_COLUMNS)
-    frictions = outcome.problem.scene.friction
+    frictions = outcome.problem.scene.load.friction
     last = list(outcome.levels(frictions[-1]).values())[-1]
     largest = last.stress(frictions[-1]).extremes["tau1"]
     content = {

@@ -51,7 +51,7 @@ class Plots:
         names = [each.name for each in COMPONENTS]
         if component not in names:
             raise InputError(f"component: is {component}; allowed is {' or '.join(names)}")
-        frictions = list(self.outcome.problem.scene.friction)
+        frictions = list(self.outcome.problem.scene.load.friction)
         if friction not in (None, *frictions):
             raise InputError(f"friction: is {friction:g}; allowed is {listed(frictions)}")
         place = 0 if friction is None else frictions.index(friction)

@@ -22,6 +22,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.output import schema_2
 from comparisons.output.recorded_run import read_result, read_table
+from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies import STUDIES
 from comparisons.studies.study import MODEL_ERROR, Run, Solved
 
@@ -45,7 +46,9 @@ def save_shown(path: Path, run: Run) -> None:
     """Write report.npz."""
     arrays: dict[str, np.ndarray] = {}
     solved, data = _shown(run)
+    scene = solved.problem.scene
     problem = {f.name: getattr(solved.problem, f.name) for f in fields(Problem)}
+    problem["scene"] = {"tables": scene.tables, "name": scene.name, "source": scene.source}
     parts = {"problem": problem, "data": data} | {name: getattr(solved, name) for name in KEPT}
     outline = json.dumps({"schema": SCHEMA, "run": encoded(parts, arrays)})
     np.savez(path, outline=np.array(outline), **arrays)  # fields compress to nine tenths only
@@ -61,7 +64,7 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
     result, record = read_result(folder / "result.json"), read_table(folder / "record.json")
     content = _read(folder / FILE)
     try:
-        content["problem"] = Problem(**content["problem"])
+        content["problem"] = _problem(content["problem"], folder)
         data, found = content.pop("data", None), result.found
         if data is None:
             content, data, more = schema_2.parts_of_schema_2(content)
@@ -72,6 +75,13 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
     return _with_mesh(run, folder / MESH) if with_mesh else run
+
+
+def _problem(parts: dict, folder: Path) -> Problem:
+    said = parts.pop("scene")
+    scene = Scene.of(said["tables"], Origin(said["name"], folder, said["source"]))
+    surface = parts.pop("surface", None) or said["surface"]
+    return Problem(scene, surface, **parts)
 
 
 def _with_levels(
@@ -102,7 +112,7 @@ def _read(path: Path) -> dict:
             if outline["schema"] == SCHEMA:
                 return decoded(outline["run"], arrays, kinds)
             if outline["schema"] == schema_2.SCHEMA:
-                kinds |= schema_2.kinds_of_schema_2()
+                kinds = schema_2.kinds_of_schema_2(kinds)
                 return decoded(outline["outcome"], arrays, kinds)
     except FileNotFoundError:
         raise InputError(f"{path.parent}: holds no {path.name}; {REMEDY}") from None
@@ -113,7 +123,7 @@ def _read(path: Path) -> dict:
 
 def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
     """What is solved and the studies' data, without what no picture and no table shows."""
-    runs, frictions = {}, run.problem.scene.friction
+    runs, frictions = {}, run.problem.scene.load.friction
     wholes = {mu: run.levels(mu)[WHOLE] for mu in frictions if WHOLE in run.levels(mu)}
     drawn = [level for mu in frictions for level in run.pair(mu).values()]
     for name, model in run.runs.items():
@@ -126,11 +136,11 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
     if MODEL_ERROR in data:
         shown = {friction: _reduced(level, True) for friction, level in wholes.items()}
         data[MODEL_ERROR] = replace(data[MODEL_ERROR], wholes=shown)
-    scene = run.problem.scene
-    if scene.profile_info is not None:
+    surface = run.problem.surface
+    if surface.info is not None:
         # the trace as read stands in record.json; the file that it came from is not everybody's
-        scene = replace(scene, profile_info=replace(scene.profile_info, path=None, trace=None))
-    return replace(run.solved, problem=replace(run.problem, scene=scene), runs=runs), data
+        surface = replace(surface, info=replace(surface.info, path=None, trace=None))
+    return replace(run.solved, problem=replace(run.problem, surface=surface), runs=runs), data
 
 
 def _reduced(level: Level, with_fields: bool = False) -> Level:

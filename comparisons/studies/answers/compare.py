@@ -16,7 +16,7 @@ from comparisons.figures.uncertainty import (
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.scenes.scene import AnswerSource
+from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import Answer, AnswerRow, ComparedAnswer
 from comparisons.studies.answers.conditions import balance, conditions, operators_of
 from comparisons.studies.answers.hints import hints
@@ -38,17 +38,17 @@ def compare_answers(
     scatter  of the scene's figures by uncertain inputs; None: not known"""
     problem, run = solved.problem, list(solved.runs.values())[-1]
     operators, compared = operators_of(problem, solved.plan, solved.runs), []
-    for source in problem.scene.answers:
-        levels = answers[source.name]
+    for name, source in problem.scene.answers.items():
+        levels = answers[name]
         finest, validation = levels[-1], {}
-        frictions = problem.scene.friction if source.friction is None else (source.friction,)
+        frictions = problem.scene.load.friction if source.friction is None else (source.friction,)
         rows = [row for mu in frictions for row in _compared(solved, run, mu, source, levels)]
         if source.scatter is not None:
             measured = {mu: own_figures(finest, problem, mu) for mu in frictions}
             validation = validation_rows(problem, solved.runs, measured, source.scatter, scatter)
         compared.append(
             ComparedAnswer(
-                name=source.name,
+                name=name,
                 reference=run.name,
                 answers=levels,
                 measured=source.scatter is not None,
@@ -82,7 +82,7 @@ def _compared(
     solved: Solved,
     run: ModelRun,
     friction: float,
-    source: AnswerSource,
+    source: AnswerSection,
     answers: tuple[Answer, ...],
 ) -> list[AnswerRow]:
     """At one friction coefficient, in the order of QUANTITIES."""
@@ -115,7 +115,7 @@ def _compared(
             stated = (stated or 0.0) + source.scatter * size
         values = own.get(name), reference.get(name)
         unsure = model, read, stated
-        tolerance = problem.scene.tolerance.get(name)
+        tolerance = problem.scene.tolerances.get(name)
         rows.append(AnswerRow(name, friction, *values, difference, *unsure, tolerance))
     return rows
 

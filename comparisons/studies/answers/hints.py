@@ -144,11 +144,12 @@ def _shift(curve: Curve, reference: Curve) -> float:
 def _other_problems(curve: Curve, problem: Problem, grid: HatGrid) -> Iterator[Hint]:
     """The scene with twice or half its load, or its radius, on the half-plane."""
     scene = problem.scene
-    heights = None if scene.profile is None else surface(scene.profile)
+    profile = problem.surface.profile
+    heights = None if profile is None else surface(profile)
     half_plane = HalfPlane(grid.count, grid.pitch, problem.modulus)
     for kind, factor, words in PROBLEMS:
         load = problem.hertz.load_per_length * (factor if kind == "load" else 1.0)
-        radius = scene.roller_radius * (factor if kind == "radius" else 1.0)
+        radius = scene.roller.radius * (factor if kind == "radius" else 1.0)
         gap = grid.hat_integrals(roller_gap(radius, heights), problem.knots)
         with suppress(ContactError):  # more than the hardness carries
             solution = solve_on(half_plane, gap, grid.weights, problem.constraints(load))

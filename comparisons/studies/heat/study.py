@@ -43,7 +43,7 @@ def heat_study(
     contains = what_it_contains(problem) if "finite_element" in runs else {}
     figures, finest = heat_figures(problem, runs, effects=contains)
     stresses = {}
-    if problem.scene.heat.expansion is not None:
+    if problem.scene.heat.stresses:
         callback("thermal stresses")
         histories, moved = _stresses(problem, runs, window)
         figures += tuple(_figure(problem, runs, histories, moved, {}, name) for name in HEATED)

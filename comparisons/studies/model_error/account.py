@@ -69,8 +69,8 @@ def figure_of(
 
 def findings_of(budget: "ErrorBudget", problem: Problem, runs: Mapping[str, ModelRun]) -> Findings:
     """Of a finished comparison."""
-    figures = budget.figures(problem.scene.tolerance)
-    for friction in problem.scene.friction:
+    figures = budget.figures(problem.scene.tolerances)
+    for friction in problem.scene.load.friction:
         figures += _sideways(runs, budget.wholes.get(friction), friction)
     account = {name: effect_account(name, budget.selection) for name in EFFECTS}
     columns = {

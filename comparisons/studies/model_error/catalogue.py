@@ -9,12 +9,13 @@ flanks of asperities that do not flatten; no model error is put together of thes
 
 import tomllib
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from operator import attrgetter
 from pathlib import Path
 
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -27,9 +28,9 @@ class Effect:
     takes: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
 
-    def contained(self, scene: ResolvedScene) -> bool:
+    def contained(self, scene: Scene) -> bool:
         """Whether a scene's finite elements have it, and its half-plane has not."""
-        if "coupled" in self.sets and scene.coupled:
+        if "coupled" in self.sets and scene.load.coupled:
             return False
         given = {name: getattr(scene.finite_element, name) for name in self.sets}
         return given == self.sets if given else _any_of(scene, self.takes)
@@ -39,18 +40,17 @@ class Effect:
         scene = problem.scene
         if "coupled" in self.sets:
             moves = problem.dundurs_beta != 0.0 or is_layered(scene)
-            return moves and any(scene.friction) and not scene.coupled
+            return moves and any(scene.load.friction) and not scene.load.coupled
         return not self.needs or _any_of(scene, self.needs)
 
-    def give(self, scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
+    def give(self, scene: Scene, whole: Scene) -> Scene:
         """A plainer scene with what `whole` has of it."""
-        settings = replace(scene.finite_element, **self.sets)
-        taken = {name: getattr(whole, name) for name in self.takes}
-        return replace(scene, finite_element=settings, **taken)
+        sets = {f"finite_element.{name}": value for name, value in self.sets.items()}
+        return scene.unchecked(sets | {name: attrgetter(name)(whole) for name in self.takes})
 
 
-def _any_of(scene: ResolvedScene, parts: Iterable[str]) -> bool:
-    return any(getattr(scene, name) is not None for name in parts)
+def _any_of(scene: Scene, parts: Iterable[str]) -> bool:
+    return any(attrgetter(name)(scene) is not None for name in parts)
 
 
 _TABLE = tomllib.loads(Path(__file__).with_name("effects.toml").read_text(encoding="utf-8"))
@@ -58,46 +58,45 @@ EFFECTS = {name: Effect(**described) for name, described in _TABLE.items()}
 
 # What finite deformation contains in any scene, and with a profile.
 IN_FINITE_STRAIN = "deformed_gap"
+PLAIN = {
+    "finite_element.geometry": "flat",
+    "finite_element.gap": "reference",
+    "finite_element.roller_shape": "parabola",
+    "finite_element.roller_body": "half-plane",
+    "finite_element.deformation": "linear",
+    "finite_element.plastic": False,
+}
 COUPLED = "normal_tangential_coupling"
 KINEMATIC = ("deformed_gap", "rough_boundary", "finite_strain")
 
 
-def kinematic(scene: ResolvedScene) -> frozenset[str]:
+def kinematic(scene: Scene) -> frozenset[str]:
     """The effects of a scene that are finite deformation together."""
     return frozenset(KINEMATIC if scene.profile is not None else ("deformed_gap", "finite_strain"))
 
 
-def contained(scene: ResolvedScene) -> frozenset[str]:
+def contained(scene: Scene) -> frozenset[str]:
     """Names of the effects that the scene's own finite elements have."""
     names = {name for name, effect in EFFECTS.items() if effect.contained(scene)}
     return frozenset(names | ({IN_FINITE_STRAIN} if "finite_strain" in names else set()))
 
 
-def is_taken_apart(scene: ResolvedScene) -> bool:
+def is_taken_apart(scene: Scene) -> bool:
     """Whether the scene's finite elements are the plain ones with effects, and nothing else."""
     own = scene
     if scene.finite_element.deformation == "finite":
         own = EFFECTS[IN_FINITE_STRAIN].give(scene, scene)
-    return with_effects(scene, contained(scene)) == own
+    return with_effects(scene, contained(scene)).tables == own.tables
 
 
-def plain(scene: ResolvedScene) -> ResolvedScene:
+def plain(scene: Scene) -> Scene:
     """The scene as the half-plane assumes it."""
-    settings = replace(
-        scene.finite_element,
-        geometry="flat",
-        gap="reference",
-        roller_shape="parabola",
-        roller_body="half-plane",
-        coupled=scene.coupled,
-        deformation="linear",
-        plastic=False,
-    )
-    bare = dict.fromkeys(("thickness", "width", "base", "coating"))
-    return replace(scene, **bare, finite_element=settings)
+    bare = dict.fromkeys(("body.thickness", "body.width", "body.base", "coating"))
+    coupled = {"finite_element.coupled": scene.load.coupled}
+    return scene.unchecked(PLAIN | bare | coupled)
 
 
-def with_effects(scene: ResolvedScene, names: Iterable[str]) -> ResolvedScene:
+def with_effects(scene: Scene, names: Iterable[str]) -> Scene:
     """The scene with the named effects and no others."""
     made = plain(scene)
     for name in EFFECTS:

@@ -95,7 +95,7 @@ def error_budget(
     variants = _variants(solved, tasks, solved.runs["finite_element"])
     unsplit = None
     while True:
-        splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
+        splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.load.friction}
         variants.keep(split.whole for split in splits.values())
         try:
             frugal = selection if is_frugal else None
@@ -128,7 +128,7 @@ def announce_effects(
     process then stays with the bodies of one level."""
     problem, half_plane = solved.problem, solved.runs["half_plane"]
     selection, variants = _selected(solved, couplings), _variants(solved, tasks, None)
-    splits = [split_variants(problem, selection, mu) for mu in problem.scene.friction]
+    splits = [split_variants(problem, selection, mu) for mu in problem.scene.load.friction]
     variants.keep(split.whole for split in splits)
     wholes = [each for split in splits for each in split.wholes]
     every = [each for split in splits for each in split.all]
@@ -162,7 +162,8 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
 
 
 def _most_levels(problem: Problem) -> int:
-    return min(MOST_LEVELS, problem.scene.budget.levels or MOST_LEVELS)
+    most = None if problem.levels is None else problem.levels.effects
+    return min(MOST_LEVELS, most or MOST_LEVELS)
 
 
 def _refined(
@@ -180,9 +181,9 @@ def _refined(
     The split stays on the least levels, unless the whole and the scene's own finite elements are
     all that it takes. Raises NotComputedError where a whole has no solution on the least levels."""
     problem, runs = solved.problem, {"half_plane": half_plane, "finite_element": solved.own}
-    history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
+    history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.load.friction}
     own: list[ModelError] = []
-    left_out, tolerance = None, problem.scene.tolerance
+    left_out, tolerance = None, problem.scene.tolerances
     most = min(_most_levels(problem), len(solved.own.levels))
     every = dict.fromkeys(each for split in splits.values() for each in split.all)
     wholes = dict.fromkeys(each for split in splits.values() for each in split.wholes)
@@ -252,7 +253,7 @@ def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant
     spent = sum(level.expected_seconds for level in solved.own.levels)
     spent += sum(solved.expected_of(each) for each in range(1, number))
     finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
-    return spent + finer > solved.problem.scene.budget.time
+    return spent + finer > solved.problem.time
 
 
 def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:
@@ -302,7 +303,7 @@ def sampling_changes(
     level, found = levels[:SAMPLED][-1], {}
     for first, key in enumerate(_announce_sampling(problem, window, levels, tasks)):
         thinned, other = _thinned(problem, first), tasks.result(key)
-        for friction in problem.scene.friction:
+        for friction in problem.scene.load.friction:
             sizes = found.setdefault(friction, {})
             whole = quantities_of(level, problem, friction).largest()
             change = quantities_of(other, thinned, friction).largest() - whole
@@ -337,8 +338,9 @@ def _sampled(
 def _thinned(problem: Problem, first: int) -> Problem:
     """The problem with every other sample of its profile from the given one on, and both ends, so
     that nothing is cut off; on the same grids."""
-    profile, scene = problem.scene.profile, problem.scene
+    surface = problem.surface
+    profile = surface.profile
     last = len(profile.x) - 1
     samples = sorted({0, *range(first, last + 1, 2), last})
     profile = Profile(profile.x[samples], profile.height[samples])
-    return replace(problem, scene=replace(scene, profile=profile))
+    return replace(problem, surface=replace(surface, profile=profile))

@@ -63,7 +63,7 @@ def _equal(size: float) -> Sizes:
 
 
 def _curvature(problem: Problem) -> float:
-    return problem.hertz.half_width / problem.scene.roller_radius
+    return problem.hertz.half_width / problem.scene.roller.radius
 
 
 # Of second order in a/t and a/w in the contact, of first in stresses, which keep what the far
@@ -76,7 +76,7 @@ BROADER = 1.5  # reflected by free sides, of what a base reflects
 def _finite_size(problem: Problem) -> Sizes:
     found = _equal(0.0)
     for extent, factor in (("thickness", 1.0), ("width", BROADER)):
-        length = getattr(problem.scene, extent)
+        length = getattr(problem.scene.body, extent)
         if length is None:
             continue
         ratio = problem.hertz.half_width / length
@@ -89,7 +89,7 @@ def _finite_size(problem: Problem) -> Sizes:
 
 def _coating(problem: Problem) -> Sizes:
     """As much as the stiffness differs; of the contact's figures the deeper it reaches."""
-    coating, body = problem.scene.coating, problem.scene.body
+    coating, body = problem.scene.coating, problem.scene.body.material
     if coating is None:
         return {}
     ratio = coating.material.plane_strain_modulus / body.plane_strain_modulus
@@ -108,7 +108,7 @@ UNFLATTENED = BOUNDARY | {"tau1_max": 2.1, "txz_max_abs": 2.1}
 
 
 def _slope(problem: Problem) -> float:
-    info = problem.scene.profile_info
+    info = problem.surface.info
     return 0.0 if info is None else info.roughness.rms_slope
 
 
@@ -128,13 +128,13 @@ TILT, TILT_OF_STRESS, UNTURNED, SHIFTED = 0.25, 2.2, 5.0, 6.0
 
 
 def _deformed_gap(problem: Problem, peak: float) -> Sizes:
-    body, curvature = problem.scene.body, _curvature(problem)
+    body, curvature = problem.scene.body.material, _curvature(problem)
     strain = (1.0 - 2.0 * body.poissons_ratio) * (1.0 + body.poissons_ratio) / body.youngs_modulus
     size = TILT * curvature + strain * peak
     found = _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
     found["tau1_field_near"] += UNTURNED * curvature
     if problem.scene.profile is not None:
-        wave = shortest_wavelength(problem.scene.profile)
+        wave = shortest_wavelength(problem.surface.profile)
         hertz = problem.hertz
         found["pressure_l2"] += SHIFTED * strain * hertz.peak_pressure * hertz.half_width / wave
     return found
@@ -154,7 +154,7 @@ DISC, DISC_IN_NORMS = 0.8, 2.5
 
 
 def _finite_roller(problem: Problem) -> Sizes:
-    if problem.scene.roller is None:
+    if problem.scene.roller.rigid:
         return {}
     square = _curvature(problem) ** 2
     return _equal(DISC * square) | dict.fromkeys(NORMS, DISC_IN_NORMS * square)
@@ -193,7 +193,7 @@ LAW, LAW_OF_ASPERITIES, LAW_OF_DEPTH = 1.25, 2.1, 1.6
 def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
     """Of the bodies whose law is not given, each by its share of what closes the gap."""
     scene = problem.scene
-    bodies = [getattr(scene, name) for name in without_law(scene)]
+    bodies = [getattr(scene, name).material for name in without_law(scene)]
     strained = sum(
         problem.modulus / (body.plane_strain_modulus * body.youngs_modulus) for body in bodies
     )
@@ -219,10 +219,10 @@ FAR_SIDE, COAT_SIDE = 2.0, 3.0
 def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
     """The largest of any friction coefficient: measured, else estimated."""
     found: Sizes = {}
-    if problem.scene.coupled:
+    if problem.scene.load.coupled:
         return found
     measured = {coupling.friction: coupling.changes for coupling in couplings}
-    for friction in problem.scene.friction:
+    for friction in problem.scene.load.friction:
         sizes = _coupled(friction * abs(problem.dundurs_beta))
         for name, change in (measured.get(friction) or {}).items():
             if name in QUANTITIES:
@@ -249,12 +249,12 @@ def _layered_beta(problem: Problem) -> float:
     scene, half_width = problem.scene, problem.hertz.half_width
     found = 0.0
     if scene.coating is not None:
-        beta = dundurs_constants(scene.coating.material, scene.roller)[1]
+        beta = dundurs_constants(scene.coating.material, scene.roller.material)[1]
         found += abs(beta) * min(1.0, COAT_SIDE * scene.coating.thickness / half_width)
-    if scene.thickness is not None:
-        alone = abs(dundurs_constants(scene.body, None)[1])
-        share = 2.0 * problem.modulus / scene.body.plane_strain_modulus
-        found += alone * share * min(1.0, FAR_SIDE * half_width / scene.thickness)
+    if scene.body.thickness is not None:
+        alone = abs(dundurs_constants(scene.body.material, None)[1])
+        share = 2.0 * problem.modulus / scene.body.material.plane_strain_modulus
+        found += alone * share * min(1.0, FAR_SIDE * half_width / scene.body.thickness)
     return found
 
 
@@ -267,7 +267,8 @@ TABOR = 3.0  # hardness over yield stress (D. Tabor, The Hardness of Metals, 195
 
 def _plastic_flow(problem: Problem, peak: float) -> Sizes:
     scene = problem.scene
-    hardness = scene.hardness or (scene.yielding and TABOR * scene.yielding.stress)
+    yield_stress = scene.body.yield_stress
+    hardness = scene.body.hardness or (yield_stress and TABOR * yield_stress)
     if scene.finite_element.plastic or not hardness:
         return {}  # the scene's own finite elements flow, or nothing does
     beyond = (peak / hardness - FIRST_FLOW) / (1.0 - FIRST_FLOW)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from comparisons.common.mpi import is_several
 from comparisons.models.assumptions import laws
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 from comparisons.studies.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
 from comparisons.studies.model_error.estimates import Sizes, estimates
@@ -60,7 +60,7 @@ def select_effects(
 ) -> EffectSelection:
     """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure, `mean` the mean of
     its contact, by default the same."""
-    own, tolerance = contained(problem.scene), problem.scene.tolerance
+    own, tolerance = contained(problem.scene), problem.scene.tolerances
     found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
     sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
@@ -75,12 +75,12 @@ def select_effects(
             impossible[name] = why
         else:
             added.add(name)
-    if any(problem.scene.friction) and (added | own) & set(NONLINEAR):
+    if any(problem.scene.load.friction) and (added | own) & set(NONLINEAR):
         negligible.pop(COUPLED, None)  # these bodies have it
     return EffectSelection(own, frozenset(added), negligible, impossible, sized)
 
 
-def law_leaned_on(selection: EffectSelection, scene: ResolvedScene) -> str:
+def law_leaned_on(selection: EffectSelection, scene: Scene) -> str:
     """For the end of a sentence: the law of elasticity that the whole has, where the scene gives
     one and nothing is left of its spread; else nothing."""
     if "finite_strain" not in selection.whole or "law_of_elasticity" in selection.estimates:
@@ -94,14 +94,14 @@ def why_not(name: str, problem: Problem) -> str | None:
     if name == "law_of_elasticity":
         return "no law is given: it is taken for neo-Hookean"
     if name == "plastic_flow":
-        if scene.yielding is None:
+        if scene.body.yield_stress is None:
             return "the body has no yield stress"
         return "the scene says finite_element.plastic = false"
     if name != "finite_strain":
         return None
     reasons = {
         "flow is of small deformation": scene.finite_element.plastic,
-        "a cap on the pressure is of small deformation": scene.hardness is not None,
+        "a cap on the pressure is of small deformation": scene.body.hardness is not None,
         "the body is coated": scene.coating is not None,
         "it is solved on one process": is_several(),
     }

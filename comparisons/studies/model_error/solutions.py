@@ -87,7 +87,7 @@ class SolvedVariants:
 
     def is_open(self, variant: ModelVariant, number: int) -> bool:
         """Whether a level of a variant is yet to be solved."""
-        frictions = self.problem.scene.friction
+        frictions = self.problem.scene.load.friction
         solved = any((variant, number, mu) in self.solved for mu in frictions)
         return not (self._is_own(variant) or solved or (variant, number) in self.failed)
 
@@ -106,7 +106,7 @@ class SolvedVariants:
         return self.own.finest if self._is_own(variant) else self.wholes[variant]
 
     def _is_own(self, variant: ModelVariant) -> bool:
-        frictions = self.problem.scene.friction
+        frictions = self.problem.scene.load.friction
         shaped = variant.friction is None or frictions == (variant.friction,)
         return shaped and not variant.quadratic and variant.effects == self._own_effects
 
@@ -128,7 +128,7 @@ class SolvedVariants:
             self.wholes[variant] = level
         self.expected[variant, number] = level.expected_seconds
         problem = problem_with(self.problem, variant)
-        for each in problem.scene.friction:
+        for each in problem.scene.load.friction:
             self.solved[variant, number, each] = quantities_of(level, problem, each)
 
 

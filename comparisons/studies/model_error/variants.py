@@ -30,7 +30,7 @@ def problem_with(problem: Problem, variant: ModelVariant) -> Problem:
     """The problem of a variant, on the same pressure elements."""
     scene = with_effects(problem.scene, variant.effects)
     if variant.friction is not None:
-        scene = replace(scene, friction=(variant.friction,))
+        scene = scene.unchecked({"load.friction": (variant.friction,)})
     if variant.quadratic:
-        scene = replace(scene, finite_element=replace(scene.finite_element, element=STRAINED))
+        scene = scene.unchecked({"finite_element.element": STRAINED})
     return replace(problem, scene=scene)

@@ -13,7 +13,9 @@ from comparisons.common.progress import Stages, no_progress
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
-from comparisons.scenes.scene import CUT_OFF, ResolvedScene, Spread
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.studies.scatter import CUT_OFF, FIELDS, Spread
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.contact import values_of
 
 Found = dict[float, dict[str, float]]  # by friction coefficient of the scene, and by quantity
@@ -29,39 +31,35 @@ def values_at(spread: Spread, own: float, share: ArrayLike) -> np.ndarray:
     return own + spread.size(own) * ndtri(left_out + share * (1.0 - 2.0 * left_out))
 
 
-def sampled(scene: ResolvedScene, point: np.ndarray) -> ResolvedScene:
-    """The scene with its uncertain inputs at a point (d,) of the unit cube, in their order. Of the
-    noise the point chooses the seed. Noise comes before the tip, which rounds what it makes too
-    sharp, as a stylus would have."""
-    at = dict(zip(scene.scatter.inputs, point, strict=True))
+def sampled(scene: Scene, surface: SceneSurface, point: np.ndarray) -> tuple[Scene, SceneSurface]:
+    """Scene and surface with their uncertain inputs at a point (d,) of the unit cube, in their
+    order. Of the noise the point chooses the seed. Noise comes before the tip, which rounds what
+    it makes too sharp, as a stylus would have."""
+    spreads = scene.scatter.inputs
+    at = dict(zip(spreads, point, strict=True))
 
     def value(name: str, own: float) -> float:
-        spread = scene.scatter.inputs.get(name)
-        return own if spread is None else float(values_at(spread, own, at[name]))
+        return float(values_at(spreads[name], own, at[name])) if name in at else own
 
-    bodies = {}
-    for name in ("roller", "body"):
-        material = getattr(scene, name)
-        if material is not None:
-            bodies[name] = replace(
-                material,
-                youngs_modulus=value(f"{name}_youngs_modulus", material.youngs_modulus),
-                poissons_ratio=value(f"{name}_poissons_ratio", material.poissons_ratio),
-            )
-    friction = tuple(value("friction", mu) for mu in scene.friction)
-    load = replace(scene.load, value=value("load", scene.load.value))
-    radius = value("roller_radius", scene.roller_radius)
-    moved, profile = value("position", scene.position) - scene.position, scene.profile
-    if profile is not None:
-        if "noise" in at:
-            rng = np.random.default_rng(int(at["noise"] * 2.0**32))
-            size = scene.scatter.inputs["noise"].deviation
-            profile = with_noise(profile, size, scene.scatter.correlation_length, rng)
-        if "tip_radius" in at:
-            profile = opened(profile, value("tip_radius", 0.0))
-        profile = profile.shifted(moved)
-    own = {"friction": friction, "load": load, "roller_radius": radius, "profile": profile}
-    return replace(scene, **bodies, **own, position=scene.position + moved)
+    fields = {
+        f"{section}.{field}": value(name, getattr(getattr(scene, section), field))
+        for name, (section, field) in FIELDS.items()
+        if name in at and name != "friction"
+    }
+    fields["load.friction"] = tuple(value("friction", mu) for mu in scene.load.friction)
+    fields[f"load.{scene.load.kind}"] = value("load", scene.load.value)
+    scene = scene.unchecked(fields)
+    moved, profile = value("position", surface.position) - surface.position, surface.profile
+    if profile is None:
+        return scene, surface
+    if "noise" in at:
+        rng = np.random.default_rng(int(at["noise"] * 2.0**32))
+        size, correlation_length = spreads["noise"].deviation, scene.scatter.correlation_length
+        profile = with_noise(profile, size, correlation_length or 0.0, rng)
+    if "tip_radius" in at:
+        profile = opened(profile, value("tip_radius", 0.0))
+    position = surface.position + moved
+    return scene, replace(surface, profile=profile.shifted(moved), position=position)
 
 
 def solved(problem: Problem) -> tuple[Found, np.ndarray]:
@@ -71,11 +69,13 @@ def solved(problem: Problem) -> tuple[Found, np.ndarray]:
     window = None if scene.stress is None else window_of(problem)
     stages = Stages(no_progress)
     level = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
-    return {mu: values_of(level, problem, mu) for mu in scene.friction}, level.solution.pressure
+    return {
+        mu: values_of(level, problem, mu) for mu in scene.load.friction
+    }, level.solution.pressure
 
 
 def solve_samples(
-    scene: ResolvedScene, points: np.ndarray, places: np.ndarray
+    scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
 ) -> dict[str, object]:
     """What the half-plane finds at points (n, d): `figures`, at each a dictionary by quantity for
     every friction coefficient, or why there is none; and its `pressures` (n, k) [Pa] at places
@@ -83,7 +83,7 @@ def solve_samples(
     found, pressures = [], np.full((len(points), len(places)), np.nan)
     for number, point in enumerate(points):
         try:
-            problem = problem_of(sampled(scene, point))
+            problem = problem_of(*sampled(scene, surface, point))
             by_friction, pressure = solved(problem)
             x = problem.grid(problem.pitches[0]).x
             pressures[number] = np.interp(places, x, pressure, 0.0, 0.0)

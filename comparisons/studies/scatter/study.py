@@ -12,7 +12,8 @@ from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.contact import values_of
 from comparisons.studies.scatter.figures import NAME, InputScatter, ScatteredFigure
 from comparisons.studies.scatter.samples import solve_samples, solved, values_at
@@ -64,10 +65,10 @@ def _by(solved: Solved, tasks: Tasks) -> Tasks:
 
 
 def _batch(
-    here: Here, scene: ResolvedScene, points: np.ndarray, places: np.ndarray
+    here: Here, scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
 ) -> dict[str, object]:
     here.callback("half-plane: uncertain inputs")
-    return solve_samples(scene, points, places)
+    return solve_samples(scene, surface, points, places)
 
 
 def _gathered(

@@ -97,7 +97,7 @@ def _summits(profile: Profile, treatment: str, size: float, strict: bool = False
 def _cylinders(problem: Problem, load: float, row: SummitRow) -> "dict[str, RoughContact]":
     from analytic.statistics.rough_bodies import rough_cylinder
 
-    given = load, problem.scene.roller_radius, problem.modulus
+    given = load, problem.scene.roller.radius, problem.modulus
     each = (rough_cylinder(*given, summits) for summits in row.summits)
     return dict(zip(("moments", "peaks"), each, strict=True))
 
@@ -105,7 +105,7 @@ def _cylinders(problem: Problem, load: float, row: SummitRow) -> "dict[str, Roug
 def _loads(here: Here, problem: Problem, summits: SummitRow) -> tuple[LoadRow, ...]:
     """Every load, from the heaviest."""
     here.callback("half-plane: random traces")
-    own, wanted = problem.scene.profile, problem.scene.statistics
+    own, wanted = problem.surface.profile, problem.scene.statistics
     traces = [same_spectrum(own, wanted.seed + number) for number in range(wanted.traces)]
     rows = []
     for step in range(STEPS):
@@ -119,7 +119,7 @@ def _loads(here: Here, problem: Problem, summits: SummitRow) -> tuple[LoadRow, .
 
 def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> list[float]:
     """ContactFigures of the elastic half-plane, and how many patches there are."""
-    radius, relief = problem.scene.roller_radius, float(np.ptp(profile.height))
+    radius, relief = problem.scene.roller.radius, float(np.ptp(profile.height))
     half_width = hertz_from_load(load, radius, problem.modulus).half_width
     reach = 2.0 * half_width + np.sqrt(2.0 * radius * relief)
     grid = HatGrid.within(max(-reach, profile.x[0]), min(reach, profile.x[-1]), pitch)
@@ -140,7 +140,7 @@ def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> l
 
 def _row(problem: Problem, load: float, summits: SummitRow, solved: np.ndarray) -> LoadRow:
     """solved (2 + n, 4): the scene's trace on coarse and on fine elements, and random ones."""
-    radius, modulus, slope = problem.scene.roller_radius, problem.modulus, summits.rms_slope
+    radius, modulus, slope = problem.scene.roller.radius, problem.modulus, summits.rms_slope
     (coarse, fine), random = solved[:2], solved[2:]
     mean, count = random.mean(axis=0), len(random)
     error = stdtrit(count - 1, QUANTILE) * random.std(axis=0, ddof=1) / np.sqrt(count)

@@ -14,6 +14,7 @@ from comparisons.api.results import CostStudy, FinishedRun, Map
 from comparisons.campaigns.maps.content import read_map
 from comparisons.cli import main
 from comparisons.common.errors import InputError
+from comparisons.scenes.surface import surface_of
 
 SMALL = {
     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5, "tau1_max": 0.5},
@@ -83,8 +84,8 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
     Path("scene.toml").write_text(toml(SCENES["smooth, sliding"]))
     by_path, by_tables = api.load("scene.toml"), api.load(SCENES["smooth, sliding"])
     assert by_path.tables == by_tables.tables == api.load(by_path).tables
-    assert api.load("ground-unrun").profile_info.samples == 2237
-    assert set(api.load("smooth", tolerance=0.1).tolerance.values()) == {0.1}
+    assert surface_of(api.load("ground-unrun")).info.samples == 2237
+    assert set(api.load("smooth", tolerance=0.1).tolerances.values()) == {0.1}
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast
 from comparisons.models.plan import make_plan
+from comparisons.models.problem import Levels
 from comparisons.runs.refinement import refined
 from comparisons.studies.study import Solved
 
@@ -71,6 +72,5 @@ def test_the_half_plane_alone_takes_no_finite_elements():
 def test_a_smooth_body_has_no_waves():
     posed, plan, found = planned()
     assert found.per_wave is None and "wave" not in found.text
-    few = replace(posed.scene, resolution=replace(posed.scene.resolution, most=3))
-    limited = forecast(replace(posed, scene=few), plan)
+    limited = forecast(replace(posed, levels=Levels(3)), plan)
     assert limited.ends == "3 levels are the most"

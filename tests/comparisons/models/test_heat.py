@@ -53,8 +53,8 @@ def through_layers(given, level, held=True):
 
     below, decay = conduction(heat.body)
     resistance = 1.0 / below
-    if given.scene.thickness is not None:
-        across = np.tanh(decay * given.scene.thickness)
+    if given.scene.body.thickness is not None:
+        across = np.tanh(decay * given.scene.body.thickness)
         resistance = across / below if held else 1.0 / (below * across)
     if given.scene.coating is not None:
         above, decay = conduction(heat.coating)
@@ -141,10 +141,11 @@ def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
     as tests/fem/heat/test_conduction.py has it."""
     own = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
     given = made(slide_to_roll=2.0, **own, **({"reach": reach} if reach else {}))
-    level, heat, radius = level_of(given), given.scene.heat, given.scene.roller_radius
-    half = 0.5 * heat.reach / radius
-    height = np.sqrt(1.0 - half**2) / heat.reach
-    farther = 2.0 * (np.pi - np.arccos(half)) / (np.pi * height) / heat.reach
+    level, heat, radius = level_of(given), given.scene.heat, given.scene.roller.radius
+    far = heat.reach or radius
+    half = 0.5 * far / radius
+    height = np.sqrt(1.0 - half**2) / far
+    farther = 2.0 * (np.pi - np.arccos(half)) / (np.pi * height) / far
     disc, flat = (finite_element_heat(given, level, without=w) for w in (set(), {"roller"}))
     assert disc.fraction == pytest.approx(0.0, abs=1e-4)
     step = np.log(farther) * disc.heat.sum() * level.grid.pitch

@@ -18,7 +18,7 @@ def test_levels_are_inside_a_folder_that_exists(tmp_path, smooth_outcome):
     out = tmp_path / "out"
     out.mkdir()
     level = smooth_outcome.runs["half_plane"].levels[0]
-    cache = level_cache(out, smooth_outcome.problem.scene, smooth_outcome.plan)
+    cache = level_cache(out, smooth_outcome.problem, smooth_outcome.plan)
     cache.save("first", level)
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
     assert [path.relative_to(out) for path in out.rglob("*.npz")] == [
@@ -56,7 +56,7 @@ def keys() -> tuple[str, str, str]:
     """Of levels, of a cost study and of a map."""
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
-    levels = level_cache(Path("out"), posed.scene, make_plan(posed, ("half_plane",))).key
+    levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key
     cost, points = (provenance.program_code(*each.CODE) for each in (cost_study, map_request))
     return levels, cost, points
 

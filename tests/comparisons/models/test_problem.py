@@ -14,14 +14,14 @@ from analytic.profile import Profile
 from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.mesh import Refinement, block_spec
 from comparisons.models.problem import problem_of, standing_out
-from comparisons.scenes.resolve import load_scene
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface, surface_of
 from meshes.build import in_units
 
 
-def mesh_in_edges(scene: ResolvedScene) -> tuple:
+def mesh_in_edges(scene: Scene, surface: SceneSurface) -> tuple:
     """Everything that the coarsest mesh is made from, with lengths in surface edges."""
-    problem = problem_of(scene)
+    problem = problem_of(scene, surface)
     refinement = Refinement(problem.pitches[0])
     grid = problem.grid(refinement.pitch)
     solution = solve_contact(
@@ -39,20 +39,20 @@ def mesh_in_edges(scene: ResolvedScene) -> tuple:
 @pytest.mark.parametrize("load", [1.0, 0.1])
 @pytest.mark.parametrize("name", ["self-affine", "ground-unrun"])
 def test_rounding_of_the_surface_does_not_change_the_mesh(name, load, thickness):
-    scene = load_scene(name)
-    lighter = replace(scene.load, value=load * scene.load.value)
-    scene = replace(scene, thickness=thickness, load=lighter)
-    first = mesh_in_edges(scene)
+    scene = Scene.read(name)
+    surface, weight = surface_of(scene), f"load.{scene.load.kind}"
+    scene = scene.unchecked({weight: load * scene.load.value, "body.thickness": thickness})
+    first = mesh_in_edges(scene, surface)
     noise = np.random.default_rng(1)
     for _ in range(3):
-        rounding = 1.0 + 1e-14 * noise.standard_normal(len(scene.profile.height))
-        profile = Profile(scene.profile.x, scene.profile.height * rounding)
-        assert mesh_in_edges(replace(scene, profile=profile)) == first
+        rounding = 1.0 + 1e-14 * noise.standard_normal(len(surface.profile.height))
+        profile = Profile(surface.profile.x, surface.profile.height * rounding)
+        assert mesh_in_edges(scene, replace(surface, profile=profile)) == first
 
 
 def test_pitches_halve_and_the_finest_is_a_fortieth_of_the_shortest_wave():
     """A sinusoid's own spectrum finds its wave a little short: the trace is of finite length."""
-    pitches = np.array(problem_of(load_scene("sinusoid")).pitches)
+    pitches = np.array(problem_of(Scene.read("sinusoid")).pitches)
     assert pitches[:-1] / pitches[1:] == pytest.approx(2.0, rel=1e-15)
     assert 40.0 <= 50e-6 / pitches[-1] <= 44.0
 
@@ -90,7 +90,7 @@ def test_a_layer_under_a_prescribed_approach_is_measured_by_the_cut_that_it_make
     tables = SMOOTH | {"roller": {"radius": 8e-3, "rigid": True}, "load": {"approach": 1e-6}}
     for thickness in (1e-30, 1e30):
         with pytest.raises(SceneError, match=r"under a contact of 0\.000126 m half-width"):
-            problem_of(resolved(changed(tables, body={"thickness": thickness})), 1e6)
+            problem_of(resolved(changed(tables, body={"thickness": thickness})), load=1e6)
 
 
 def test_a_body_softer_than_the_load_allows_is_told_so():

@@ -10,13 +10,13 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import problem_of
 from comparisons.models.window import search_window, window_of
 from comparisons.scenes.files import SCENES, read_toml
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import Origin, Scene
 
 
 def problem(name="ground-unrun", **stress):
     tables = read_toml(SCENES / f"{name}.toml")
     tables["stress"] = {**tables["stress"], **stress}
-    return problem_of(resolve_tables(tables, name=name, folder=SCENES, source=name))
+    return problem_of(Scene.of(tables, Origin(name, SCENES, name)))
 
 
 @pytest.mark.parametrize("name", ["ground-unrun", "ground-run-in"])

@@ -140,7 +140,9 @@ def test_vtk_files_in_pyvista(field, tmp_path, ending):
 def test_notes_say_units_and_scene(outcome, model):
     field = field_of(outcome, outcome.runs[model].finest)
     assert field.notes["title"] == "Waves of 1 µm & <more>"
-    assert json.loads(field.notes["scene"]) == outcome.problem.scene.as_dict()
+    assert json.loads(field.notes["scene"]) == outcome.problem.surface.as_dict(
+        outcome.problem.scene
+    )
     assert json.loads(field.notes["units"]) == field.units
     assert list(field.units) == ["points", *names(field)] and field.units["points"] == "m"
 
@@ -277,7 +279,9 @@ def test_contact_curves_have_units_in_their_header(outcome, tmp_path):
     rows = (tmp_path / "contact.csv").read_text(encoding="utf-8").splitlines()[3:]
     assert notes[0].startswith(f"# crosscheck {versions()['crosscheck']}")
     assert notes[0].endswith(": Waves of 1 µm & <more>")
-    assert json.loads(notes[1].removeprefix("# scene: ")) == outcome.problem.scene.as_dict()
+    assert json.loads(notes[1].removeprefix("# scene: ")) == outcome.problem.surface.as_dict(
+        outcome.problem.scene
+    )
     assert header == "x [m],pressure [Pa],gap [m],deformed height [m]"
     read = np.array([row.split(",") for row in rows], dtype=float)
     assert read[:, 0] == pytest.approx(level.grid.x, rel=1e-11)

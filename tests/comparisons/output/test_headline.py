@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from scenes import posed, refound, unconverged
+from scenes import judging, posed, refound, unconverged
 
 from comparisons.output.headline import headline
 from comparisons.studies.model_error.model_error import Estimate, ModelError
@@ -23,7 +23,7 @@ def judged(outcome: Run, *errors: ModelError, selection: EffectSelection = NONE)
     """A run whose half-plane has these errors, all judged."""
     scene = outcome.problem.scene
     tolerance = {error.quantity: TOLERANCE for error in errors}
-    problem = replace(outcome.problem, scene=replace(scene, tolerance=tolerance))
+    problem = replace(outcome.problem, scene=judging(scene, tolerance))
     budget = replace(outcome.data("model_error"), model_errors=errors, selection=selection)
     figures = tuple(budget.figures(tolerance))
     return refound(posed(outcome, problem=problem), "model_error", figures=figures, data=budget)

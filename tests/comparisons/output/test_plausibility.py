@@ -8,7 +8,8 @@ import pytest
 from comparisons.cli import main
 from comparisons.output.plausibility import warnings_about
 from comparisons.scenes.files import scene_names
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import surface_of
 
 STEEL = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
 X = 0.5 * np.arange(801)  # um
@@ -31,13 +32,14 @@ def doubts(folder: Path, radius="8 mm", modulus="207 GPa", load="0.5 N/um", **pr
     }
     if profile:
         tables["profile"] = {"file": "trace.csv", "x_unit": "um", "z_unit": "um", **profile}
-    scene = resolve_tables(tables, name="made", folder=folder, source="made.toml")
-    return "; ".join(warnings_about(scene))
+    scene = Scene.of(tables, Origin("made", folder, "made.toml"))
+    return "; ".join(warnings_about(scene, surface_of(scene)))
 
 
 @pytest.mark.parametrize("name", scene_names())
 def test_scenes_that_come_along_are_not_doubted(name):
-    assert warnings_about(load_scene(name)) == []
+    scene = Scene.read(name)
+    assert warnings_about(scene, surface_of(scene)) == []
 
 
 @pytest.mark.parametrize(

@@ -125,6 +125,7 @@ def test_one_model_is_shown_without_a_comparison(finish: Callable[..., Run], smo
 
 
 def test_titles_are_not_taken_for_markup(smooth_outcome: Run):
-    scene = replace(smooth_outcome.problem.scene, title="[red]Roller[/red] [/] and more")
+    title = {"title": "[red]Roller[/red] [/] and more"}
+    scene = smooth_outcome.problem.scene.unchecked(title)
     outcome = posed(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
     assert printed(outcome).startswith("[red]Roller[/red] [/] and more\n")

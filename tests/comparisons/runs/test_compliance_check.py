@@ -17,7 +17,7 @@ from comparisons.models.problem import problem_of
 from comparisons.output.page.tables.verification import operator_note, operator_table
 from comparisons.output.recorded_run import read_result
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 
 LAYER = {
     "title": "Smooth layer",
@@ -92,6 +92,6 @@ def test_it_survives_an_interrupt(outcome, tmp_path):
 
 def test_a_body_that_deforms_finitely_is_not_pressed_linearly_as_well(monkeypatch):
     monkeypatch.setattr(finite_element, "pressed_linearly", lambda *given: 1 / 0)
-    problem = problem_of(load_scene("finite-strain"))
+    problem = problem_of(Scene.read("finite-strain"))
     plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[0])
     assert finite_element_level(problem, plan, refinement, None, Stages()).solution.converged

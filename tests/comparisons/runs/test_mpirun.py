@@ -131,7 +131,7 @@ from comparisons.common.errors import InputError
 
 from comparisons.output import plausibility
 
-def run(scene):
+def run(*scene):
     if mpi.from_first(lambda: mpi.from_first(lambda: MPI.COMM_WORLD.rank)) != 0:
         raise AssertionError("each has found its own")
     if MPI.COMM_WORLD.rank == int(sys.argv[1]):

@@ -17,7 +17,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.output.recorded_run import read_result
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 from comparisons.studies.study import MODEL_ERROR
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -178,7 +178,7 @@ class TestTrace:
         height = 0.2 * np.cos(x / 32.0) + 0.1 * np.sin(x / 53.0) + 1e-3 * x + 3.0
         np.savetxt(tmp_path / "trace.csv", np.column_stack([x, height]), delimiter=",")
         (tmp_path / "scene.toml").write_text(TRACED)
-        run(load_scene(tmp_path / "scene.toml"), tmp_path / "out", ("half_plane",))
+        run(Scene.read(tmp_path / "scene.toml"), tmp_path / "out", ("half_plane",))
         return tmp_path
 
     @pytest.mark.parametrize("fate", ["gone", "changed"])
@@ -188,7 +188,7 @@ class TestTrace:
         shutil.move(folder / "out", folder / "elsewhere")
         repetition = rerun(folder / "elsewhere")
         assert repetition.movement.moved == () and repetition.movement.rounding == 0
-        info = repetition.outcome.problem.scene.profile_info
+        info = repetition.outcome.problem.surface.info
         assert info.form.slope == pytest.approx(1e-3, rel=0.2)
         assert info.cutoff is not None and info.standard is not None
 
@@ -214,7 +214,7 @@ def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
     def other(**parameters):
         raise AssertionError("made again")
 
-    monkeypatch.setattr("comparisons.scenes.profile._MAKERS", {"self-affine": other})
+    monkeypatch.setattr("comparisons.scenes.surface._MAKERS", {"self-affine": other})
     assert rerun(folder).movement.moved == ()
 
 

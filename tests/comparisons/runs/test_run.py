@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import QUICK, changed, resolved
+from scenes import QUICK, changed, problem, resolved
 
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
@@ -19,7 +19,7 @@ from comparisons.output.headline import verdict_of
 from comparisons.output.recorded_run import read_result
 from comparisons.output.result_json import content_of
 from comparisons.runs.run import run, solve
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 from comparisons.studies.study import unsolved
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -234,8 +234,8 @@ def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smoot
 
 
 def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
-    plan, scene = smooth.plan, smooth.problem.scene
-    kept = level_cache(tmp_path / "out", scene, plan)
+    plan, posed = smooth.plan, smooth.problem
+    kept = level_cache(tmp_path / "out", posed, plan)
     level = smooth.runs["finite_element"].levels[0]
     kept.save("level", level)
     again = kept.load("level")
@@ -243,10 +243,10 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert again.solution.residuals == level.solution.residuals
     assert np.array_equal(again.mesh.points, level.mesh.points)
     assert again.stresses[0].extremes == level.stresses[0].extremes
-    other = resolved(changed(QUICK, load={"per_length": 3.56e6}))
+    other = problem(changed(QUICK, load={"per_length": 3.56e6}))
     assert level_cache(tmp_path / "out", other, plan).load("level") is None
     whole = replace(plan, shared_factor=False)
-    assert level_cache(tmp_path / "out", scene, whole).load("level") is None
+    assert level_cache(tmp_path / "out", posed, whole).load("level") is None
     path = tmp_path / ".out.unfinished" / "level.npz"
     path.write_bytes(path.read_bytes()[:1000])
     assert kept.load("level") is None
@@ -255,8 +255,8 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
 
 
 def test_plan_says_what_it_leaves_out():
-    plan = make_plan(problem_of(load_scene("smooth")), MODELS)
+    plan = make_plan(problem_of(Scene.read("smooth")), MODELS)
     steps = {s.step for s in plan.skipped}
     assert {"refinement under asperities", "hardness cap"} <= steps
-    sliding = make_plan(problem_of(load_scene("ground-unrun")), MODELS)
+    sliding = make_plan(problem_of(Scene.read("ground-unrun")), MODELS)
     assert "refinement under asperities" not in {s.step for s in sliding.skipped}

@@ -15,7 +15,7 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import _refuse_cut_off
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import uncertainties, values_of
 from fem.solver.mumps import FemError
 
@@ -159,7 +159,7 @@ def test_contact_that_leaves_the_grid_is_refused(outcome):
 def test_the_shipped_scene_is_solved_below_its_elastic_roller():
     """Its pressure elements reach beyond the fine mesh; a third beyond first flow the body bears
     less than Hertz's peak, on a longer contact."""
-    [finite_element] = run(load_scene("yielding"), None, ("finite_element",)).runs.values()
+    [finite_element] = run(Scene.read("yielding"), None, ("finite_element",)).runs.values()
     level, hertz = finite_element.finest, 2.4e9
     assert level.solution.converged
     assert 0.9 * hertz < level.solution.pressure.max() < 0.94 * hertz

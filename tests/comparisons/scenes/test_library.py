@@ -1,10 +1,10 @@
 """The scenes that come with the project, and measured traces, through both models."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import judging
 
 from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
@@ -16,16 +16,16 @@ from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.problem import Levels, problem_of
 from comparisons.output.headline import verdict_of
-from comparisons.runs.run import run
+from comparisons.runs.run import Known, run
 from comparisons.scenes.files import scene_names
-from comparisons.scenes.resolve import load_scene
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import values_of
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
+FEW = Known(levels=Levels(3, effects=2))
 MEASURED = Path(__file__).parents[4] / "shared" / "profiles"
 
 
@@ -39,7 +39,7 @@ MEASURED = Path(__file__).parents[4] / "shared" / "profiles"
 )
 def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, peak):
     """Contact ratio and peak pressure over p0, at a limit that five grids approach."""
-    problem = problem_of(load_scene(name))
+    problem = problem_of(Scene.read(name))
     found = []
     for refinement in range(5):
         pitch = problem.pitches[0] / 2.0**refinement
@@ -51,24 +51,17 @@ def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, pe
     assert peaks.limit / problem.hertz.peak_pressure == pytest.approx(peak, rel=0.02)
 
 
-def quick(name: str, effects: bool) -> ResolvedScene:
-    """A scene that comes along, with fewer points of the fields, which are not looked at here, and
-    no more levels of models and effects than it takes to tell."""
-    scene = load_scene(name)
-    return replace(
-        scene,
-        resolution=replace(scene.resolution, most=3),
-        stress=replace(scene.stress, points=(150, 60)),
-        budget=replace(scene.budget, effects=effects, levels=2),
-    )
+def quick(name: str, effects: bool) -> Scene:
+    """A scene that comes along, with fewer points of the fields, which are not looked at here."""
+    return Scene.read(name).unchecked({"stress.points": (150, 60), "budget.effects": effects})
 
 
 @pytest.fixture(scope="module")
 def unrun():
     """With tolerances that the third level meets."""
     scene = quick("ground-unrun", effects=False)
-    wide = scene.tolerance | {"contact_length": 0.05, "tau1_max": 0.05}
-    return run(replace(scene, tolerance=wide), None, MODELS)
+    wide = scene.tolerances | {"contact_length": 0.05, "tau1_max": 0.05}
+    return run(judging(scene, wide), None, MODELS, known=FEW)
 
 
 class TestGroundUnrun:
@@ -126,7 +119,7 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
     from analytic.operators.half_plane import HalfPlane
     from fem.contact.variational_inequality import solve_variational_inequality
 
-    problem = problem_of(load_scene("sinusoid"))
+    problem = problem_of(Scene.read("sinusoid"))
     plan = make_plan(problem, MODELS)
     grid: HatGrid = problem.grid(problem.pitches[0])
     weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
@@ -159,7 +152,7 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
 
 @pytest.mark.parametrize("name", ["self-affine", "sinusoid", "smooth-sliding"])
 def test_other_scenes_agree(name, tmp_path):
-    outcome = run(quick(name, effects=False), tmp_path / "out", MODELS)
+    outcome = run(quick(name, effects=False), tmp_path / "out", MODELS, known=FEW)
     assert outcome.exit_status == ExitStatus.INCONCLUSIVE  # no effect is computed
     assert "agree" in {
         row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance
@@ -225,7 +218,7 @@ def test_measured_traces_from_a_scene_of_five_lines(trace, load, tmp_path):
         "tolerance = {peak_pressure = 0.05, contact_length = 0.05}\n"
         "budget = {effects = false}\n"
     )
-    outcome = run(load_scene(scene), tmp_path / "out", MODELS)
+    outcome = run(Scene.read(scene), tmp_path / "out", MODELS)
     assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.INCONCLUSIVE)
     assert {row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance} == {
         "agree"

@@ -8,12 +8,13 @@ import pytest
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
 from comparisons.scenes.files import SCENES, scene_names
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import surface_of
 
 
 @pytest.mark.parametrize("name", scene_names())
 def test_scenes_that_come_along_resolve(name):
-    scene = load_scene(name)
+    scene = Scene.read(name)
     assert scene.name == name
     assert scene.title != name
     assert scene.stress is not None or scene.heat is not None
@@ -22,40 +23,40 @@ def test_scenes_that_come_along_resolve(name):
 def test_scenes_of_the_ground_disc_share_their_load():
     """p0 = 4.15 GPa and a = 544.6 um, half of the trace: Bailey and Sayles (1991)."""
     for name in ("smooth", "smooth-sliding", "ground-unrun", "ground-run-in", "ground-polished"):
-        scene = load_scene(name)
-        modulus = combined_modulus(scene.roller, scene.body)
-        hertz = hertz_from_load(scene.load.value, scene.roller_radius, modulus)
+        scene = Scene.read(name)
+        modulus = combined_modulus(scene.roller.material, scene.body.material)
+        hertz = hertz_from_load(scene.load.value, scene.roller.radius, modulus)
         assert hertz.peak_pressure == pytest.approx(4.15e9, rel=1e-5)
         assert hertz.half_width == pytest.approx(544.578e-6, rel=1e-5)
         if scene.profile is not None:
-            assert scene.position == 1118e-6
-            assert scene.profile.x[[0, -1]] == pytest.approx([-1118e-6, 1118e-6], rel=1e-12)
-            assert scene.profile_info.samples == 2237
+            surface = surface_of(scene)
+            assert surface.position == 1118e-6
+            assert surface.profile.x[[0, -1]] == pytest.approx([-1118e-6, 1118e-6], rel=1e-12)
+            assert surface.info.samples == 2237
 
 
 @pytest.mark.parametrize("name", scene_names())
 def test_written_out_tables_of_a_scene_that_comes_along(name):
-    scene = load_scene(name)
-    again = resolve_tables(
-        json.loads(json.dumps(scene.tables)),
-        name=name,
-        folder=SCENES,
-        source="record.json",
-    )
-    assert again == scene
+    scene = Scene.read(name)
+    surface = surface_of(scene)
+    tables = surface.completed(scene.tables)
+    again = Scene.of(json.loads(json.dumps(tables)), Origin(name, SCENES))
+    assert again.tables == tables
     if scene.profile is not None:
-        assert np.array_equal(again.profile.x, scene.profile.x)
-        assert np.array_equal(again.profile.height, scene.profile.height)
+        traced = surface_of(again).profile
+        assert np.array_equal(traced.x, surface.profile.x)
+        assert np.array_equal(traced.height, surface.profile.height)
 
 
 @pytest.mark.parametrize("name", scene_names())
 def test_as_dict_survives_json(name):
-    scene = load_scene(name)
-    plain = scene.as_dict()
+    scene = Scene.read(name)
+    surface = surface_of(scene)
+    plain = surface.as_dict(scene)
     assert json.loads(json.dumps(plain, allow_nan=False)) == plain
     assert plain["name"] == name and plain["title"] == scene.title
-    assert plain["roller"]["radius"] == scene.roller_radius
-    assert plain["load"]["position"] == scene.position
-    assert plain["load"]["friction"] == list(scene.friction)
+    assert plain["roller"]["radius"] == scene.roller.radius
+    assert plain["load"]["position"] == surface.position
+    assert plain["load"]["friction"] == list(scene.load.friction)
     assert (plain["profile"] is None) == (scene.profile is None)
     assert len(json.dumps(plain)) < 4000

@@ -12,8 +12,13 @@ from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
 from analytic.surface.synthetic import ground_texture, self_affine
 from comparisons.common.errors import SceneError
-from comparisons.scenes.profile import SINUSOID_REACH, SINUSOID_WAVES
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import (
+    SINUSOID_REACH,
+    SINUSOID_WAVES,
+    SceneSurface,
+    surface_of,
+)
 
 REAL = MEASURED / "real_stylus_dektak.csv"
 BARE = changed(SMOOTH, roller={"radius": 8e-3}, load={"per_length": 1e6})
@@ -21,13 +26,14 @@ X = np.arange(201.0)  # um
 WAVES = 0.3 * np.cos(2.0 * np.pi * X / 20.0)  # um, whole waves
 
 
-def with_profile(folder: Path = Path("."), position=None, **profile):
+def with_profile(folder: Path = Path("."), position=None, **profile) -> SceneSurface:
+    """The surface of a scene with this profile."""
     place = {} if position is None else {"position": position}
-    return resolved(changed(BARE, profile=profile, load=place), "mine", folder)
+    return surface_of(resolved(changed(BARE, profile=profile, load=place), "mine", folder))
 
 
 def measured(folder: Path, height: np.ndarray, **profile):
-    """A scene with a trace of these heights [um] over X."""
+    """The surface of a scene with a trace of these heights [um] over X."""
     rows = np.column_stack([X, height]).tolist()
     (folder / "trace.csv").write_text("\n".join(f"{x!r},{z!r}" for x, z in rows))
     given = {"file": "trace.csv", "x_unit": "um", "z_unit": "um", **profile}
@@ -35,57 +41,55 @@ def measured(folder: Path, height: np.ndarray, **profile):
 
 
 def test_units_of_the_file(tmp_path):
-    scene = measured(tmp_path, WAVES, z_unit="nm", x_unit="mm", form="none")
-    assert scene.profile.x == pytest.approx((X - 100.0) * 1e-3, rel=1e-12, abs=1e-18)
-    assert np.ptp(scene.profile.height) == pytest.approx(0.6e-9, rel=1e-12)
+    surface = measured(tmp_path, WAVES, z_unit="nm", x_unit="mm", form="none")
+    assert surface.profile.x == pytest.approx((X - 100.0) * 1e-3, rel=1e-12, abs=1e-18)
+    assert np.ptp(surface.profile.height) == pytest.approx(0.6e-9, rel=1e-12)
 
 
 def test_the_roller_stands_on_the_middle_of_the_trace(tmp_path):
-    scene = measured(tmp_path, WAVES)
-    assert scene.position == pytest.approx(100e-6, rel=1e-15)
-    assert scene.profile.x[100] == pytest.approx(0.0, abs=1e-20)
+    surface = measured(tmp_path, WAVES)
+    assert surface.position == pytest.approx(100e-6, rel=1e-15)
+    assert surface.profile.x[100] == pytest.approx(0.0, abs=1e-20)
 
 
 def test_the_roller_stands_where_it_is_put(tmp_path):
-    scene = measured(tmp_path, WAVES, position="30 um")
-    assert scene.position == 30e-6
-    assert scene.profile.x[30] == pytest.approx(0.0, abs=1e-20)
-    assert scene.profile.x[[0, -1]] == pytest.approx([-30e-6, 170e-6], rel=1e-14)
+    surface = measured(tmp_path, WAVES, position="30 um")
+    assert surface.position == 30e-6
+    assert surface.profile.x[30] == pytest.approx(0.0, abs=1e-20)
+    assert surface.profile.x[[0, -1]] == pytest.approx([-30e-6, 170e-6], rel=1e-14)
 
 
 @pytest.mark.parametrize("form", ["none", "mean", "line", "arc"])
 def test_height_zero_is_the_mean_line(tmp_path, form):
-    scene = measured(tmp_path, WAVES + 250.0, form=form)
+    surface = measured(tmp_path, WAVES + 250.0, form=form)
     trapezoids = np.array([0.5, *np.ones(199), 0.5])
-    mean = np.average(scene.profile.height, weights=trapezoids)
+    mean = np.average(surface.profile.height, weights=trapezoids)
     assert mean == pytest.approx(0.0, abs=1e-12 * 250e-6)
-    assert scene.profile_info.form.kind == form
-    assert scene.profile_info.form.mean == pytest.approx(250e-6, rel=1e-4)
+    assert surface.info.form.kind == form
+    assert surface.info.form.mean == pytest.approx(250e-6, rel=1e-4)
 
 
 def test_forms_take_off_what_they_say(tmp_path):
     tilted = WAVES + 0.01 * X
-    assert measured(tmp_path, tilted, form="line").profile_info.form.slope == pytest.approx(
-        0.01, rel=1e-2
-    )
+    assert measured(tmp_path, tilted, form="line").info.form.slope == pytest.approx(0.01, rel=1e-2)
     kept = measured(tmp_path, tilted, form="none").profile
     assert kept.height[200] - kept.height[0] == pytest.approx(2e-6, rel=1e-12)
     arc = np.sqrt(50e3**2 - (X - 100.0) ** 2) - 50e3
-    assert measured(
-        tmp_path, 0.01 * WAVES + arc, form="arc"
-    ).profile_info.form.radius == pytest.approx(50e-3, rel=2e-2)
+    assert measured(tmp_path, 0.01 * WAVES + arc, form="arc").info.form.radius == pytest.approx(
+        50e-3, rel=2e-2
+    )
 
 
 def test_a_line_is_removed_unless_the_scene_says_otherwise(tmp_path):
     tilted = WAVES + 0.01 * X
     plain, line = measured(tmp_path, tilted), measured(tmp_path, tilted, form="line")
     assert np.array_equal(plain.profile.height, line.profile.height)
-    assert plain == line
+    assert plain.info == line.info
 
 
 def test_account_of_a_measured_profile(tmp_path):
-    scene = measured(tmp_path, WAVES)
-    info = scene.profile_info
+    surface = measured(tmp_path, WAVES)
+    info = surface.info
     assert info.source == "trace.csv"
     assert info.path == tmp_path / "trace.csv"
     assert info.sha256 == hashlib.sha256((tmp_path / "trace.csv").read_bytes()).hexdigest()
@@ -94,7 +98,7 @@ def test_account_of_a_measured_profile(tmp_path):
     assert info.spacing == pytest.approx(1e-6, rel=1e-9)
     assert info.roughness.rq == pytest.approx(0.3e-6 / np.sqrt(2.0), rel=1e-2)
     assert info.roughness.max_slope == pytest.approx(0.3 * 2.0 * np.pi / 20.0, rel=2e-2)
-    plain = scene.as_dict()["profile_info"]
+    plain = info.as_dict()
     assert "path" not in plain
     assert plain["form"] == {"kind": "line", "mean": info.form.mean, "slope": info.form.slope,
                              "radius": None}  # fmt: skip
@@ -102,8 +106,8 @@ def test_account_of_a_measured_profile(tmp_path):
 
 def test_heights_alone_with_a_spacing(tmp_path):
     (tmp_path / "trace.txt").write_text("\n".join(map(repr, WAVES.tolist())))
-    scene = with_profile(tmp_path, file="trace.txt", z_unit="um", spacing="0.5 um")
-    assert scene.profile_info.length == pytest.approx(100e-6, rel=1e-14)
+    surface = with_profile(tmp_path, file="trace.txt", z_unit="um", spacing="0.5 um")
+    assert surface.info.length == pytest.approx(100e-6, rel=1e-14)
 
 
 def test_lost_samples_are_bridged_on_request(tmp_path):
@@ -115,7 +119,7 @@ def test_lost_samples_are_bridged_on_request(tmp_path):
     given = {"file": "trace.csv", "x_unit": "um", "z_unit": "um"}
     with pytest.raises(SceneError, match=r"profile\.file: .*trace\.csv, line 1: height"):
         with_profile(tmp_path, **given)
-    info = with_profile(tmp_path, **given, dropouts="bridge").profile_info
+    info = with_profile(tmp_path, **given, dropouts="bridge").info
     assert (info.samples, info.bridged, info.trimmed) == (200, 2, 1)
 
 
@@ -129,15 +133,15 @@ def test_paths_start_from_the_scene(tmp_path, monkeypatch):
         "[load]\nper_length = 1e6\n"
         "[profile]\nfile = 'trace.csv'\nx_unit = 'um'\nz_unit = 'um'\n"
     )
-    assert load_scene("scenes/mine.toml").profile_info.samples == 201
+    assert surface_of(Scene.read("scenes/mine.toml")).info.samples == 201
 
 
 def test_a_measured_trace():
     if not REAL.exists():
         pytest.skip(f"{REAL.name} is not beside the checkout")
-    scene = with_profile(REAL.parent, file=REAL.name, x_unit="um", z_unit="um")
-    assert scene.profile_info.samples == 9600
-    assert scene.profile_info.roughness.rq == pytest.approx(0.0942e-6, rel=1e-2)
+    surface = with_profile(REAL.parent, file=REAL.name, x_unit="um", z_unit="um")
+    assert surface.info.samples == 9600
+    assert surface.info.roughness.rq == pytest.approx(0.0942e-6, rel=1e-2)
 
 
 @pytest.mark.parametrize(
@@ -152,37 +156,41 @@ def test_a_sinusoid_outlasts_its_contact(load, wavelength):
     tables = {**copy.deepcopy(BARE), "load": load}
     tables["profile"] = {"kind": "sinusoid", "wavelength": wavelength, "amplitude": 2e-7}
     scene = resolved(tables)
-    modulus = combined_modulus(scene.roller, scene.body)
+    surface = surface_of(scene)
+    modulus = combined_modulus(scene.roller.material, scene.body.material)
     force = load.get("per_length", np.pi * 1e9**2 * 8e-3 / modulus)
     half_width = hertz_from_load(force, 8e-3, modulus).half_width
     widest = np.sqrt(half_width**2 + 4.0 * 8e-3 * 2e-7)
     wanted = max(SINUSOID_REACH * widest, SINUSOID_WAVES * wavelength)
-    assert wanted <= scene.profile.length * (1.0 + 1e-12)
-    assert scene.profile.length <= wanted + wavelength / 16.0
-    assert scene.tables["profile"]["length"] == pytest.approx(wanted, rel=1e-12)
+    assert wanted <= surface.profile.length * (1.0 + 1e-12)
+    assert surface.profile.length <= wanted + wavelength / 16.0
+    assert surface.completed(scene.tables)["profile"]["length"] == pytest.approx(wanted, rel=1e-12)
 
 
 def test_a_sinusoid_has_a_crest_under_the_roller():
-    scene = with_profile(kind="sinusoid", wavelength="50 um", amplitude="0.2 um", length="1.01 mm")
-    middle = len(scene.profile.x) // 2
-    assert scene.profile.x[middle] == 0.0
-    assert scene.profile.height[middle] == 2e-7
-    assert scene.profile.height == pytest.approx(
-        2e-7 * np.cos(2.0 * np.pi * scene.profile.x / 50e-6), abs=1e-18
+    surface = with_profile(
+        kind="sinusoid", wavelength="50 um", amplitude="0.2 um", length="1.01 mm"
     )
-    assert (scene.profile_info.source, scene.profile_info.sha256) == ("sinusoid", None)
-    assert scene.profile_info.form.kind == "none"
+    middle = len(surface.profile.x) // 2
+    assert surface.profile.x[middle] == 0.0
+    assert surface.profile.height[middle] == 2e-7
+    assert surface.profile.height == pytest.approx(
+        2e-7 * np.cos(2.0 * np.pi * surface.profile.x / 50e-6), abs=1e-18
+    )
+    assert (surface.info.source, surface.info.sha256) == ("sinusoid", None)
+    assert surface.info.form.kind == "none"
 
 
 def test_a_self_affine_profile_is_that_of_its_seed():
     given = {"hurst": 0.8, "rms_slope": 0.03, "samples": 257, "length": 1e-3}
-    scene = with_profile(kind="self-affine", seed=5, **given)
+    surface = with_profile(kind="self-affine", seed=5, **given)
     wanted = self_affine(seed=5, **given)
-    assert np.array_equal(scene.profile.height, wanted.height)
-    assert scene.profile_info.roughness.rms_slope == pytest.approx(0.03, rel=1e-12)
+    assert np.array_equal(surface.profile.height, wanted.height)
+    assert surface.info.roughness.rms_slope == pytest.approx(0.03, rel=1e-12)
     other = with_profile(kind="self-affine", seed=6, **given)
     assert not np.allclose(other.profile.height, wanted.height, atol=1e-9)
-    assert with_profile(kind="self-affine", **given).tables["profile"]["seed"] == 0
+    unseeded = resolved(changed(BARE, profile={"kind": "self-affine", **given}))
+    assert unseeded.tables["profile"]["seed"] == 0
 
 
 def test_a_ground_texture():
@@ -194,6 +202,6 @@ def test_a_ground_texture():
         "roll_off_wavelength": 8e-5,
         "longest_wavelength": 2.5e-4,
     }
-    scene = with_profile(kind="ground", seed=3, **given)
-    assert np.array_equal(scene.profile.height, ground_texture(seed=3, **given).height)
-    assert scene.profile_info.roughness.rsk < 0.0
+    surface = with_profile(kind="ground", seed=3, **given)
+    assert np.array_equal(surface.profile.height, ground_texture(seed=3, **given).height)
+    assert surface.info.roughness.rsk < 0.0

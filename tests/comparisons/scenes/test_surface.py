@@ -17,6 +17,8 @@ from analytic.surface.turned import turned, turned_height
 from comparisons.common.errors import SceneError
 from comparisons.output.page.tables.problem import filter_text, problem_sheet
 from comparisons.output.terminal import summary, surface_text
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface, surface_of
 
 BARE = changed(SMOOTH, roller={"radius": 8e-3}, load={"per_length": 1e6})
 ROUGH = {"kind": "self-affine", "hurst": 0.8, "rms_height": 3e-6, "samples": 2001, "length": 4e-3}
@@ -24,8 +26,13 @@ TURNED = {"kind": "turned", "feed": "0.1 mm", "nose_radius": "0.8 mm", "length":
 HEIGHTS = np.random.default_rng(2).standard_normal((6, 41))  # nm, columns 1 um and rows 2 um apart
 
 
-def with_profile(folder: Path = Path("."), **profile):
+def scene_with(folder: Path = Path("."), **profile) -> Scene:
     return resolved(changed(BARE, profile=profile), "mine", folder)
+
+
+def with_profile(folder: Path = Path("."), **profile) -> SceneSurface:
+    """The surface of a scene with this profile."""
+    return surface_of(scene_with(folder, **profile))
 
 
 @pytest.fixture
@@ -49,12 +56,12 @@ def complaint(*folder, **profile) -> str:
 
 class TestMaps:
     def test_a_row(self, mapped):
-        scene = with_profile(mapped, file="map.sdf", row=3, form="none")
+        surface = with_profile(mapped, file="map.sdf", row=3, form="none")
         wanted = 1e-9 * HEIGHTS[3]
-        found = scene.profile.height
+        found = surface.profile.height
         np.testing.assert_allclose(found - found[0], wanted - wanted[0], rtol=0.0, atol=1e-20)
-        assert scene.profile_info.place == "row 3 of 6 rows and 41 columns, 4e-05 m by 1e-05 m"
-        assert scene.profile_info.format == "SDF (ISO 25178-71)"
+        assert surface.info.place == "row 3 of 6 rows and 41 columns, 4e-05 m by 1e-05 m"
+        assert surface.info.format == "SDF (ISO 25178-71)"
 
     def test_a_line_between_two_points(self, mapped):
         line = [["0 um", "4 um"], ["40 um", "4 um"]]
@@ -64,12 +71,13 @@ class TestMaps:
 
     def test_the_choice_survives_a_record(self, mapped):
         line = [["0 um", "1 um"], ["40 um", "9 um"]]
-        scene = with_profile(mapped, file="map.sdf", line=line)
+        scene = scene_with(mapped, file="map.sdf", line=line)
         tables = json.loads(json.dumps(scene.tables))
         assert tables == scene.tables
         again = resolved(tables, "mine", mapped)
-        assert again == scene
-        assert np.array_equal(again.profile.height, scene.profile.height)
+        assert again.tables == scene.tables
+        surface = surface_of(scene)
+        assert np.array_equal(surface_of(again).profile.height, surface.profile.height)
 
     @pytest.mark.parametrize(
         ("given", "words"),
@@ -125,33 +133,35 @@ class TestFilter:
         plain, found = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
         wanted = filtered(plain.profile, 0.8e-3)
         assert np.array_equal(found.profile.height, wanted.height)
-        assert found.profile_info.cutoff == 0.8e-3
-        assert found.profile_info.roughness.rq < 0.6 * plain.profile_info.roughness.rq
-        assert found.profile_info.roughness == roughness(wanted)
+        assert found.info.cutoff == 0.8e-3
+        assert found.info.roughness.rq < 0.6 * plain.info.roughness.rq
+        assert found.info.roughness == roughness(wanted)
 
     def test_both_cutoffs(self):
         plain = with_profile(**ROUGH)
         found = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um")
         wanted = filtered(plain.profile, 0.8e-3, 25e-6)
         assert np.array_equal(found.profile.height, wanted.height)
-        slope = found.profile_info.roughness.rms_slope
-        assert slope < 0.7 * plain.profile_info.roughness.rms_slope
-        assert found.profile_info.standard == standard_roughness(plain.profile, 0.8e-3, 25e-6)
+        slope = found.info.roughness.rms_slope
+        assert slope < 0.7 * plain.info.roughness.rms_slope
+        assert found.info.standard == standard_roughness(plain.profile, 0.8e-3, 25e-6)
 
     def test_an_automatic_cutoff_is_written_out(self):
-        found = with_profile(**ROUGH, cutoff="auto")
-        assert found.tables["profile"]["cutoff"] == found.profile_info.cutoff == 0.8e-3
-        assert found == with_profile(**ROUGH, cutoff="0.8 mm")
+        scene = scene_with(**ROUGH, cutoff="auto")
+        surface = surface_of(scene)
+        assert surface.info == with_profile(**ROUGH, cutoff="0.8 mm").info
+        assert surface.completed(scene.tables)["profile"]["cutoff"] == surface.info.cutoff == 0.8e-3
+        assert scene.tables["profile"]["cutoff"] == "auto"
 
     def test_the_standards_figures_do_not_hang_on_what_is_pressed(self):
         plain, found = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
-        assert plain.profile_info.cutoff is None
-        assert plain.profile_info.standard == found.profile_info.standard
-        assert plain.profile_info.standard.cutoff == 0.8e-3
-        assert plain.profile_info.standard.short_cutoff is None  # samples 2 um apart
+        assert plain.info.cutoff is None
+        assert plain.info.standard == found.info.standard
+        assert plain.info.standard.cutoff == 0.8e-3
+        assert plain.info.standard.short_cutoff is None  # samples 2 um apart
 
     def test_a_trace_too_short_for_the_standard_says_so(self):
-        info = with_profile(**ROUGH | {"length": 1e-3}).profile_info
+        info = with_profile(**ROUGH | {"length": 1e-3}).info
         assert info.standard is None
         assert info.standard_why == (
             "the trace of 0.001 m is too short for the standard's cut-off of 0.0008 m, which its "
@@ -180,17 +190,17 @@ class TestFilter:
         assert complaint(**ROUGH, **given).startswith(f"mine.toml: profile.{message}")
 
     def test_it_is_told(self):
-        info = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um").profile_info
+        info = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um").info
         words = "waves longer than 0.8 mm removed, waves shorter than 25 µm removed"
         assert filter_text(info) == words
-        assert filter_text(with_profile(**ROUGH).profile_info) == "none"
+        assert filter_text(with_profile(**ROUGH).info) == "none"
         ra = 1e9 * info.standard.ra
         assert surface_text(info).endswith(f" as pressed, {ra:.3g} nm at the cut-off 0.8 mm")
-        short = with_profile(**ROUGH | {"length": 1e-3}).profile_info
+        short = with_profile(**ROUGH | {"length": 1e-3}).info
         assert surface_text(short).endswith(" as pressed")
 
     def test_figures_for_json(self):
-        info = with_profile(**ROUGH, cutoff="0.8 mm").profile_info
+        info = with_profile(**ROUGH, cutoff="0.8 mm").info
         found = json.loads(json.dumps(info.surface(), allow_nan=False))
         assert found["pressed"]["ra"] == info.roughness.ra
         assert found["standard"]["rz"] == info.standard.rz
@@ -199,13 +209,13 @@ class TestFilter:
 
 class TestTurned:
     def test_it_is_what_the_tool_leaves(self):
-        scene = with_profile(**TURNED, phase=0.25)
+        surface = with_profile(**TURNED, phase=0.25)
         wanted = turned(feed=1e-4, nose_radius=8e-4, length=4e-3, phase=0.25)
-        assert np.array_equal(scene.profile.height, wanted.height)
-        figures = scene.profile_info.roughness
+        assert np.array_equal(surface.profile.height, wanted.height)
+        figures = surface.info.roughness
         assert figures.rt == pytest.approx(turned_height(1e-4, 8e-4, 8e-5), rel=1e-3)
-        assert scene.profile_info.standard.rsm == pytest.approx(1e-4, rel=1e-3)
-        assert scene.tables["profile"]["seed"] == 0
+        assert surface.info.standard.rsm == pytest.approx(1e-4, rel=1e-3)
+        assert scene_with(**TURNED).tables["profile"]["seed"] == 0
 
     def test_noise_is_that_of_its_seed(self):
         given = {**TURNED, "noise": "50 nm", "noise_wavelength": "10 um"}
@@ -247,8 +257,8 @@ class TestResults:
     def test_result_has_the_surface_as_pressed_and_by_the_standard(self, outcome):
         known = outcome.figures.of(study="problem", quantity="rq")
         pressed, standard = (known.one(source=s).value for s in ("as pressed", "standard"))
-        assert pressed == roughness(outcome.problem.scene.profile).rq
-        assert standard == outcome.problem.scene.profile_info.standard.rq
+        assert pressed == roughness(outcome.problem.surface.profile).rq
+        assert standard == outcome.problem.surface.info.standard.rq
         cutoffs = outcome.figures.of(study="problem", quantity="cutoff")
         assert [figure.value for figure in cutoffs] == [0.8e-3, 0.8e-3]
 
@@ -261,7 +271,7 @@ class TestResults:
 
     def test_sheet_has_one_short_table(self, outcome):
         rows = dict(dict(problem_sheet(outcome))["Roughness (ISO 21920-2)"])
-        standard = outcome.problem.scene.profile_info.standard
+        standard = outcome.problem.surface.info.standard
         assert rows["cut-offs λc, λs"] == "0.8 mm, 2.5 µm"
         assert rows["section lengths"] == "4 where the standard asks for 5"
         assert rows["Ra, Rq"].startswith(f"{1e9 * standard.ra:#.4g} nm, ")
@@ -276,7 +286,7 @@ class TestResults:
 
     def test_terminal_has_one_line(self, outcome):
         lines = [line for line in printed(outcome).splitlines() if line.startswith("surface ")]
-        ra = outcome.problem.scene.profile_info.standard.ra
+        ra = outcome.problem.surface.info.standard.ra
         assert len(lines) == 1
         assert lines[0].endswith(f" as pressed, {1e9 * ra:.3g} nm at the cut-off 0.8 mm")
 

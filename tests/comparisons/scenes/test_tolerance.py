@@ -1,24 +1,21 @@
 """Another tolerance for every judged figure: where it is taken, and where refinement ends."""
 
-import sys
-import types
-
 import pytest
 from scenes import SMOOTH, changed, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene, with_tolerance
+from comparisons.scenes.scene import Scene, with_tolerance
 
 
 class TestTolerance:
     def test_it_replaces_each_that_the_scene_has(self):
-        found = with_tolerance(load_scene("smooth"), 0.005)
-        assert found.tolerance == dict.fromkeys(
+        found = with_tolerance(Scene.read("smooth"), 0.005)
+        assert found.tolerances == dict.fromkeys(
             ("peak_pressure", "contact_length", "tau1_max"), 5e-3
         )
-        assert found.tables["tolerance"] == found.tolerance
+        assert found.tables["tolerance"] == found.tolerances
 
     @pytest.mark.parametrize("wrong", ["0", "1", "-0.1", "nan"])
     def test_not_every_number_is_one(self, wrong, capsys):
@@ -40,12 +37,10 @@ class TestTolerance:
         given = []
 
         def stand_in(scene, out, models, *rest):
-            given.append(scene.tolerance)
+            given.append(scene.tolerances)
             raise KeyboardInterrupt
 
-        monkeypatch.setitem(
-            sys.modules, "comparisons.runs.run", types.SimpleNamespace(run=stand_in)
-        )
+        monkeypatch.setattr("comparisons.runs.run.run", stand_in)
         command = ["run", "smooth", "--json", "--out", str(tmp_path / "out")]
         assert main([*command, "--tolerance", "0.01"]) == ExitStatus.INTERRUPTED
         assert set(given[0].values()) == {0.01}

@@ -128,7 +128,7 @@ class TestFigures:
         )
 
     def test_the_model_s_own_figures_stay_without_it(self, rigid):
-        every = [own(rigid, friction) for friction in rigid.problem.scene.friction]
+        every = [own(rigid, friction) for friction in rigid.problem.scene.load.friction]
         every = [{n: v for n, v in each.items() if n[0] != "t" and n[0] != "v"} for each in every]
         assert every[0] == every[1] == every[2]
         assert every[0]["peak_pressure"] == pytest.approx(
@@ -213,8 +213,8 @@ class TestSwitch:
             assert one[name].difference == pytest.approx(other[name].difference, rel=0.03)
 
     def test_default_is_the_published_way(self):
-        assert not scene_of(RIGID).coupled
-        assert scene_of(RIGID).as_dict()["load"]["coupled"] is False
+        assert not scene_of(RIGID).load.coupled
+        assert scene_of(RIGID).tables["load"]["coupled"] is False
         assert problem_of(RIGID).coupling == 0.0
 
     def test_strong_coupling_finds_its_extent(self):
@@ -243,10 +243,10 @@ class TestRoughBody:
     @staticmethod
     def cut(problem, start: float, stop: float):
         """The problem on a trace that ends there [m]."""
-        trace = problem.scene.profile
+        trace = problem.surface.profile
         kept = (trace.x >= start) & (trace.x <= stop)
         short = replace(trace, x=trace.x[kept], height=trace.height[kept])
-        return replace(problem, scene=replace(problem.scene, profile=short))
+        return replace(problem, surface=replace(problem.surface, profile=short))
 
     def test_change_under_a_hardness(self, wavy):
         [found] = couplings(*wavy[::-1], None, no_progress).changes
@@ -282,7 +282,7 @@ class TestRoughBody:
         level = levels.finest
         edge = level.patches[0, 0] - 0.5e-6
         ended = self.cut(problem, edge, -edge)
-        trace, pitch = ended.scene.profile, level.grid.pitch
+        trace, pitch = ended.surface.profile, level.grid.pitch
         first, last = int(np.ceil(trace.x[0] / pitch)), int(np.floor(trace.x[-1] / pitch))
         grid = replace(level.grid, first=first + 1, last=last - 1)
         inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)

@@ -288,7 +288,7 @@ def error_on_rough_surface(element: Element, largest: bool = False) -> Reading:
 
     def reading(view: LevelView) -> float:
         grid, pressure, hertz = view.level.grid, view.level.solution.pressure, view.problem.hertz
-        coarser = max(1, round(view.problem.scene.profile_info.spacing / grid.pitch))
+        coarser = max(1, round(view.problem.surface.info.spacing / grid.pitch))
         nodes = slice(grid.count // 2 % coarser, None, coarser)
         pitch, reach = coarser * grid.pitch, EDGE * hertz.half_width
         x = grid.x[nodes]

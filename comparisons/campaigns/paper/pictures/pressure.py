@@ -35,14 +35,14 @@ MICRO = 1e-6
 
 def trace_picture(outcome: Run, scales: Scales) -> Picture:
     """Figure 1: pressures over the whole trace, and both bodies under load below them."""
-    scene, hertz = outcome.problem.scene, outcome.problem.hertz
+    surface, hertz = outcome.problem.surface, outcome.problem.hertz
     drawn, (above, below) = _panels(WIDE, 4.4)
-    origin = scene.position / MICRO
+    origin = surface.position / MICRO
     _pressures(above, outcome, MICRO, origin, scales.pressure)
     x, body, roller = trace_surfaces(outcome)
     heights = [(part - body.max()) / MICRO for part in (body, roller)]
     _bodies(below, origin + x / MICRO, *heights)
-    start, stop = origin + scene.profile.x[[0, -1]] / MICRO
+    start, stop = origin + surface.profile.x[[0, -1]] / MICRO
     bar_at = start + 0.93 * (stop - start)
     low = below.get_ylim()[0] + 0.1 * BAR / MICRO
     below.plot([bar_at, bar_at], [low, low + BAR / MICRO], color="black", linewidth=2.2)

@@ -33,7 +33,7 @@ def trace_surfaces(outcome: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     half-plane's pressures, beyond the contact too; of a smooth body over the range of its pressure
     elements. The datum of the heights is arbitrary."""
     problem, level = outcome.problem, outcome.runs["half_plane"].finest
-    profile, pitch, grid = problem.scene.profile, level.grid.pitch, level.grid
+    profile, pitch, grid = problem.surface.profile, level.grid.pitch, level.grid
     if profile is not None:
         grid = HatGrid.within(float(profile.x[0]), float(profile.x[-1]), pitch)
     pressure = np.zeros(grid.count)
@@ -42,7 +42,7 @@ def trace_surfaces(outcome: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     of_both = HalfPlane(grid.count, pitch, problem.modulus).apply(pressure) / grid.weights
     gap = grid.hat_integrals(problem.gap, problem.knots) / grid.weights + of_both
     gap -= np.median(gap[pressure > 0.0])
-    displacement = problem.modulus / problem.scene.body.plane_strain_modulus * of_both
+    displacement = problem.modulus / problem.scene.body.material.plane_strain_modulus * of_both
     body = mean_height(problem, grid) - displacement
     return grid.x, body, body + np.maximum(gap, 0.0)
 
@@ -53,7 +53,7 @@ def scales_of(outcomes: dict[str, Run]) -> Scales:
         fields = [
             values_of(outcome, component, "half_plane", friction)
             for outcome in outcomes.values()
-            for friction in outcome.problem.scene.friction
+            for friction in outcome.problem.scene.load.friction
         ]
         bands[component.name] = round_bands(fields, component.signed)
     pressure = 1.12 * max(map(_highest, outcomes.values()))

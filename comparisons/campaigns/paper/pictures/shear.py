@@ -18,7 +18,7 @@ def contour_picture(outcome: Run, component: Component, scales: Scales, of: str)
     hertz, window = outcome.problem.hertz, outcome.window
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     near = np.abs(window.x) <= 1.01 * RANGE * hertz.half_width
-    frictions = outcome.problem.scene.friction
+    frictions = outcome.problem.scene.load.friction
     bands = scales.bands[component.name]
     total = FOOT + len(frictions) * (TALL + TITLE)
     drawn = figure(COLUMN, total)

@@ -206,7 +206,7 @@ def field_pictures(outcome: Run) -> list[tuple[float, list[Picture]]]:
     by_component = [_pictures(outcome, component, view) for component in COMPONENTS]
     return [
         (friction, [pictures[k] for pictures in by_component])
-        for k, friction in enumerate(outcome.problem.scene.friction)
+        for k, friction in enumerate(outcome.problem.scene.load.friction)
     ]
 
 
@@ -229,14 +229,14 @@ def _pictures(outcome: Run, component: Component, view: FieldView) -> list[Pictu
             name: component.of(level.stress(friction).field)[: view.rows] / p0
             for name, level in outcome.pair(friction).items()
         }
-        for friction in outcome.problem.scene.friction
+        for friction in outcome.problem.scene.load.friction
     ]
     bands = round_bands([f for models in fields for f in models.values()], component.signed)
     differences = [sub(*models.values()) for models in fields if len(models) > 1]
     other_bands = round_bands(differences, signed=True) if differences else None
     return [
         _picture(outcome, friction, component, view, models, bands, other_bands)
-        for friction, models in zip(outcome.problem.scene.friction, fields, strict=True)
+        for friction, models in zip(outcome.problem.scene.load.friction, fields, strict=True)
     ]
 
 
@@ -277,7 +277,7 @@ def _picture(
         largest += " Of the whole model each point stands where it was before loading."
     pointed = {
         "component": COMPONENTS.index(component),
-        "friction": outcome.problem.scene.friction.index(friction),
+        "friction": outcome.problem.scene.load.friction.index(friction),
         "boxes": [_box(place) for place in places],
         "x": [round(float(end), 6) for end in x[[0, -1]]],
         "z": [round(float(end), 6) for end in z[[0, -1]]],

@@ -63,7 +63,7 @@ def waterfalls(run: Run) -> list[Waterfall]:
     names = dict.fromkeys(error.quantity for error in run.model_errors or errors)
     for quantity in (name for name in QUANTITIES if name in names):
         for same in grouped(errors.of(quantity=quantity), _drawn_of):
-            some = len(same) < len(run.problem.scene.friction)
+            some = len(same) < len(run.problem.scene.load.friction)
             frictions = listed(error.friction for error in same)
             found.append(
                 Waterfall(

@@ -116,7 +116,7 @@ def _norm(outcome: Run) -> str:
         f"{size} from the {LABELS[name]}" for size, name in zip(sizes, names, strict=True)
     )
     left = "".join(f" ({text} on average)" for text in moved_text(outcome, friction))
-    at = f" at friction {plain(friction)}" if len(outcome.problem.scene.friction) > 1 else ""
+    at = f" at friction {plain(friction)}" if len(outcome.problem.scene.load.friction) > 1 else ""
     return f"The half-plane's pressures differ by {said}{left}{at} (relative L2 norms). "
 
 
@@ -170,7 +170,7 @@ def draw_pressures(
     nodes  whether the nodes of the pressures are marked
     """
     hertz = outcome.problem.hertz
-    several = len(outcome.problem.scene.friction) > 1
+    several = len(outcome.problem.scene.load.friction) > 1
     sliding = f", μ = {plain(outcome.deciding_friction)}" if several else ""
     for name, level in shown_levels(outcome).items():
         x, pressure = _closed(level)
@@ -198,7 +198,7 @@ def draw_pressures(
 
 def _cap_and_legend(axes: "Axes", outcome: Run) -> None:
     """The hardness, if it is near; the lines' names above the curves, in two rows if narrow."""
-    hardness, p0 = outcome.problem.scene.hardness, outcome.problem.hertz.peak_pressure
+    hardness, p0 = outcome.problem.scene.body.hardness, outcome.problem.hertz.peak_pressure
     peak = max(level.solution.pressure.max() for level in shown_levels(outcome).values())
     if hardness is not None and hardness < FARTHEST_CAP * peak:
         look = {"color": "#777777", "linestyle": "-.", "linewidth": 0.9}

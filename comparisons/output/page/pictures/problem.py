@@ -13,7 +13,7 @@ from comparisons.output.page.tables.problem import (
     yielding_text,
 )
 from comparisons.output.page.tables.text import listed
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
@@ -38,11 +38,13 @@ def problem_picture(outcome: Run) -> style.Picture:
     _to_scale(to_scale, outcome)
     stretch = _close_up(close_up, outcome)
     body = "the rough body" if scene.profile is not None else "the smooth body"
-    sliding = f", sliding with friction {listed(scene.friction)}" if any(scene.friction) else ""
+    sliding = (
+        f", sliding with friction {listed(scene.load.friction)}" if any(scene.load.friction) else ""
+    )
     return style.Picture(
         source=style.data_uri(drawn),
         alternative=(
-            f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {body} by "
+            f"A roller of radius {given(scene.roller.radius, 'm')} pressed on {body} by "
             f"{load_text(outcome.problem)}"
             f"{sliding}; {'; '.join(_body_in_words(scene))}."
         ),
@@ -58,14 +60,14 @@ def _to_scale(axes: "Axes", outcome: Run) -> None:
     from matplotlib.patches import Circle
 
     scene, hertz = outcome.problem.scene, outcome.problem.hertz
-    radius = scene.roller_radius
+    radius = scene.roller.radius
     view = VIEW * radius
-    if scene.thickness is not None:
-        view = min(view, max(LAYERS_IN_VIEW * scene.thickness, 4.0 * hertz.half_width))
+    if scene.body.thickness is not None:
+        view = min(view, max(LAYERS_IN_VIEW * scene.body.thickness, 4.0 * hertz.half_width))
     unit = scale_of([view], "m")
     view /= unit.factor
-    half = view if scene.width is None else min(view, 0.5 * scene.width / unit.factor)
-    depth = np.inf if scene.thickness is None else scene.thickness / unit.factor
+    half = view if scene.body.width is None else min(view, 0.5 * scene.body.width / unit.factor)
+    depth = np.inf if scene.body.thickness is None else scene.body.thickness / unit.factor
     below = min(depth, 0.42 * view)
     height = 0.73 * view  # the picture's, above the body
     for look in (style.ROLLER, {"fill": False, **EDGE}):
@@ -76,26 +78,26 @@ def _to_scale(axes: "Axes", outcome: Run) -> None:
     axes.fill_between(across, bottom - below, 0.0, **style.BODY)
     axes.plot([-half, half], [0.0, 0.0], **style.OUTLINE)
     for side in (-half, half):
-        if scene.width is not None and half < view:
+        if scene.body.width is not None and half < view:
             axes.plot([side, side], [-below, 0.0], **style.OUTLINE)
     if not torn:
-        _base(axes, half, below, scene.base == "frictionless")
+        _base(axes, half, below, scene.body.base == "frictionless")
     _arrow(axes, (0.0, 0.62 * view), (0.0, 0.06 * view))
     note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
     load = f"P = {load_text(outcome.problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
-    material = "rigid" if scene.roller is None else elastic_text(scene.roller)
+    material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
     roller = f"roller\nR = {given(radius, 'm')}\n{material}"
     axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
     # words stand in the body where it is large, else under it
     roomy = torn and half == view
     rough = "rough body" if scene.profile is not None else "body"
-    said = "\n".join([f"{rough}, {elastic_text(scene.body)}", *_body_in_words(scene)])
+    said = "\n".join([f"{rough}, {elastic_text(scene.body.material)}", *_body_in_words(scene)])
     tall = LINE * view * (1 + said.count("\n"))
     words = -0.5 * below if roomy else -1.2 * below - 0.03 * view - 0.5 * tall
     axes.text(-0.97 * view, words, said, **note)
-    if any(scene.friction):
-        traction = f"q = µ p,  µ = {listed(scene.friction)}"
+    if any(scene.load.friction):
+        traction = f"q = µ p,  µ = {listed(scene.load.friction)}"
         start, end = (0.71, 0.97) if roomy else (0.08, 0.34)
         _arrow(axes, (start * half, -0.32 * below), (end * half, -0.32 * below))
         above = -0.55 * below if roomy else words + 0.5 * (tall - LINE * view)
@@ -127,17 +129,18 @@ def _close_up(axes: "Axes", outcome: Run) -> float:
     """Surfaces at first touch; returns how much more heights are stretched than lengths."""
     problem = outcome.problem
     scene, half_width = problem.scene, problem.hertz.half_width
-    relief = 0.0 if scene.profile is None else np.ptp(scene.profile.height)
-    reach = np.sqrt(2.0 * scene.roller_radius * RISE * relief) if relief else np.inf
+    profile = problem.surface.profile
+    relief = 0.0 if profile is None else np.ptp(profile.height)
+    reach = np.sqrt(2.0 * scene.roller.radius * RISE * relief) if relief else np.inf
     reach = np.clip(reach / half_width, *CLOSE_UP) * half_width
     low, high = -reach, reach
-    if scene.profile is not None:
-        low, high = max(low, scene.profile.x[0]), min(high, scene.profile.x[-1])
-    if scene.width is not None:
-        low, high = max(low, -0.5 * scene.width), min(high, 0.5 * scene.width)
+    if profile is not None:
+        low, high = max(low, profile.x[0]), min(high, profile.x[-1])
+    if scene.body.width is not None:
+        low, high = max(low, -0.5 * scene.body.width), min(high, 0.5 * scene.body.width)
     x = np.linspace(low, high, POINTS)
-    body = np.zeros_like(x) if scene.profile is None else scene.profile.spline()(x)
-    parabola = x**2 / (2.0 * scene.roller_radius)
+    body = np.zeros_like(x) if profile is None else profile.spline()(x)
+    parabola = x**2 / (2.0 * scene.roller.radius)
     roller = parabola + np.max(body - parabola)
     along, up = scale_of([high], "m"), scale_of([np.max(roller), np.ptp(body)], "m")
     bottom, top = body.min() - 0.35 * (roller.max() - body.min()), roller.max()
@@ -164,21 +167,21 @@ def _arrow(axes: "Axes", tail: tuple[float, float], tip: tuple[float, float]) ->
     axes.annotate("", tip, tail, arrowprops={**ARROW, "color": FORCE, "linewidth": 1.8})
 
 
-def _body_in_words(scene: ResolvedScene) -> list[str]:
+def _body_in_words(scene: Scene) -> list[str]:
     """Its size and support, and what the finite elements' body has besides."""
     size = []
-    if scene.thickness is not None:
-        base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.base]
-        size.append(f"{given(scene.thickness, 'm')} thick, {base} a rigid base")
-    elif scene.width is None:
+    if scene.body.thickness is not None:
+        base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.body.base]
+        size.append(f"{given(scene.body.thickness, 'm')} thick, {base} a rigid base")
+    elif scene.body.width is None:
         size.append("unbounded (half-plane)")
     else:
         size.append("unbounded in depth")
-    if scene.width is not None:
-        size.append(f"{given(scene.width, 'm')} wide")
+    if scene.body.width is not None:
+        size.append(f"{given(scene.body.width, 'm')} wide")
     found = [", ".join(size)]
     if scene.coating is not None:
         found.append(f"coating {coating_text(scene.coating)}")
-    if scene.yielding is not None:
-        found.append(f"yields {yielding_text(scene.yielding)}")
+    if scene.body.yield_stress is not None:
+        found.append(f"yields {yielding_text(scene.body.material)}")
     return found

@@ -7,7 +7,8 @@ import numpy as np
 from comparisons.common.numbers import given, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.models.running_in import ended
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
@@ -20,10 +21,10 @@ AFTER = {**style.OUTLINE, "color": style.LINES["half_plane"]["color"]}
 
 def running_in_picture(outcome: Run) -> style.Picture | None:
     """Both surfaces over the stretch that the contact may reach; None without running-in."""
-    scene = outcome.problem.scene
-    if scene.run_in is None:
+    scene, surface = outcome.problem.scene, outcome.problem.surface
+    if surface.run_in is None:
         return None
-    said = running_in_in_words(scene)
+    said = running_in_in_words(scene, surface)
     drawn = _drawn(outcome, style.WIDE)
     return style.Picture(
         source=style.data_uri(drawn),
@@ -35,9 +36,9 @@ def running_in_picture(outcome: Run) -> style.Picture | None:
     )
 
 
-def running_in_in_words(scene: ResolvedScene) -> str:
+def running_in_in_words(scene: Scene, surface: SceneSurface) -> str:
     """What running-in did, in one sentence, and in more where it fell short."""
-    run_in, places = scene.run_in, len(scene.running_in.positions)
+    run_in, places = surface.run_in, len(scene.running_in.places(surface.position))
     sweeps = f"{run_in.sweeps} sweep{'s' * (run_in.sweeps > 1)}"
     took = f"{len(run_in.passes)} passes ({sweeps} over {places} place{'s' * (places > 1)})"
     unfinished = "" if run_in.status == "settled" else "; it has not settled"
@@ -46,8 +47,8 @@ def running_in_in_words(scene: ResolvedScene) -> str:
         f"{area(run_in.volume)} off it, up to {with_unit(run_in.largest_lowering, 'm', 3)} deep"
         f"{unfinished}."
     )
-    if ended(scene):
-        ends = ", ".join(given(place, "m") for place in ended(scene))
+    if ended(surface):
+        ends = ", ".join(given(place, "m") for place in ended(surface))
         sentence += f" From {ends} the roller touched an end of the trace, where support ends."
     return sentence
 
@@ -58,7 +59,7 @@ def area(volume: float) -> str:
 
 
 def _drawn(outcome: Run, width: float) -> "Figure":
-    problem, run_in = outcome.problem, outcome.problem.scene.run_in
+    problem, run_in = outcome.problem, outcome.problem.surface.run_in
     x = np.linspace(*problem.extent, POINTS)
     before, after = run_in.before.spline()(x), run_in.profile.spline()(x)
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")

@@ -40,7 +40,7 @@ def section_pictures(outcome: Run) -> list[style.Picture]:
 
 
 def _picture(outcome: Run, column: int, words: str) -> style.Picture:
-    frictions, hertz = outcome.problem.scene.friction, outcome.problem.hertz
+    frictions, hertz = outcome.problem.scene.load.friction, outcome.problem.hertz
     drawn = style.figure(style.COLUMN, TOP + FOOT + (TITLE + TALL) * len(frictions))
     depths = [outcome.window.z[-1] / hertz.half_width]
     if outcome.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:

@@ -70,7 +70,7 @@ def _over_load(outcome: Run) -> style.Picture:
 def _asperities(outcome: Run) -> style.Picture:
     """The profile, its patches of contact in the colour of their kind."""
     (name, patches), problem = list(outcome.data("statistics").patches.items())[-1], outcome.problem
-    x, spline = np.linspace(*problem.extent, POINTS), problem.scene.profile.spline()
+    x, spline = np.linspace(*problem.extent, POINTS), problem.surface.profile.spline()
     along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
     drawn = style.figure(style.WIDE, 3.2)
     [axes] = style.stacked(drawn, [(0.35, 2.34)], 0.8, 0.12)

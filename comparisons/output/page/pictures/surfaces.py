@@ -35,7 +35,7 @@ class Surfaces:
 def surfaces_of(problem: Problem, level: Level) -> Surfaces:
     """Surfaces of a solved level; the body's displacement vanishes at the mean of both ends."""
     before = mean_height(problem, level.grid)
-    parabola = level.grid.x**2 / (2.0 * problem.scene.roller_radius)
+    parabola = level.grid.x**2 / (2.0 * problem.scene.roller.radius)
     body = deformed_height(problem, level)
     return Surfaces(
         x=level.grid.x,

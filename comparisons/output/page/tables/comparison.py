@@ -148,10 +148,10 @@ def coupling_line(run: Run) -> str | None:
     """The change at the largest friction in one sentence; None where friction moves nothing."""
     if coupling.NAME not in run.found:
         return None
-    friction = max(run.problem.scene.friction, key=abs)
+    friction = max(run.problem.scene.load.friction, key=abs)
     if (why := run.found[coupling.NAME].said(WHY_NOT, friction=friction)) is not None:
         return f"not known: {why}"
-    contained = "contained" if run.problem.scene.coupled else "not modelled"
+    contained = "contained" if run.problem.scene.load.coupled else "not modelled"
     shift, of_a = _cells(run, coupling.SHIFT, friction, digits=3)
     peak, length = (_cells(run, n, friction)[1] for n in ("peak_pressure", "contact_length"))
     return (

@@ -44,8 +44,8 @@ class JudgedSequence:
 def judged_sequences(run: Run) -> list[JudgedSequence]:
     """In the order of quantities, then of friction coefficients and models."""
     sequences = []
-    for quantity in (name for name in QUANTITIES if name in run.problem.scene.tolerance):
-        for friction in run.problem.scene.friction:
+    for quantity in (name for name in QUANTITIES if name in run.problem.scene.tolerances):
+        for friction in run.problem.scene.load.friction:
             if name := row_name(run, quantity, friction):
                 known = run.figures.of(quantity=quantity, friction=friction)
                 of_models = [known.one(study=contact.NAME, source=model) for model in MODELS]
@@ -59,7 +59,7 @@ def judged_sequences(run: Run) -> list[JudgedSequence]:
 
 def row_name(run: Run, name: str, friction: float) -> str:
     """A quantity and its friction; what does not depend on that is empty but at the first."""
-    frictions = run.problem.scene.friction
+    frictions = run.problem.scene.load.friction
     if not QUANTITIES[name].needs_stress:
         return label(name) if friction == frictions[0] else ""
     return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")

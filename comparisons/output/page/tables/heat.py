@@ -8,6 +8,7 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.figures.quantity import LABELS, MODELS
+from comparisons.models.heat import reach_of
 from comparisons.studies.heat.figures import NAME, QUANTITIES, HeatFigure
 from comparisons.studies.study import Run, TextTable
 
@@ -55,7 +56,8 @@ def heat_facts(outcome: Run) -> list[tuple[str, str]]:
     body, roller = (f"{significant(abs(v), 3)} m/s" for v in heat.velocities)
     numbers = (f"{name} {significant(number, 3)}" for name, number in study.peclet.items())
     places = (each.figures["flash_position"] for each in study.contacts.values())
-    datum = f"{plain(heat.bulk_temperature)} K, at rest {with_unit(heat.reach, 'm')} away"
+    reach = with_unit(reach_of(outcome.problem), "m")
+    datum = f"{plain(heat.bulk_temperature)} K, at rest {reach} away"
     found = [
         ("surfaces pass the contact at", f"body {body}, roller {roller}"),
         ("Peclet number V a / 2κ", ", ".join(numbers)),

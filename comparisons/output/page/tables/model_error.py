@@ -147,5 +147,5 @@ def effects_table(run: Run) -> TextTable | None:
 
 def _largest(run: Run, estimate: dict[str, float]) -> float:
     """Of the estimates of an effect on what is judged, or on anything where nothing is."""
-    judged = set(run.problem.scene.tolerance) & set(estimate)
+    judged = set(run.problem.scene.tolerances) & set(estimate)
     return max(estimate[name] for name in judged or estimate)

@@ -5,7 +5,9 @@ from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, plain, significant, with_unit
 from comparisons.models.problem import Problem
 from comparisons.output.page.tables.text import listed, wording
-from comparisons.scenes.scene import Coated, ProfileInfo, ResolvedScene, Yielding
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.sections import BodySection, CoatingSection
+from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
 
@@ -14,11 +16,11 @@ Rows = list[tuple[str, str]]
 
 def problem_sheet(outcome: Run) -> list[tuple[str, Rows]]:
     """Headings, each with its rows of a name and a value."""
-    scene = outcome.problem.scene
-    info = scene.profile_info
-    before = "" if scene.run_in is None else " before running-in"
+    surface = outcome.problem.surface
+    info = surface.info
+    before = "" if surface.run_in is None else " before running-in"
     return [
-        ("Geometry", _geometry(scene)),
+        ("Geometry", _geometry(outcome.problem.scene, surface)),
         *([] if info is None else [(f"Roughness{before} (ISO 21920-2)", _standard(info))]),
         ("Materials", _materials(outcome)),
         ("Load", _load(outcome)),
@@ -26,18 +28,20 @@ def problem_sheet(outcome: Run) -> list[tuple[str, Rows]]:
     ]
 
 
-def _geometry(scene: ResolvedScene) -> Rows:
-    rows = [("radius of relative curvature R", given(scene.roller_radius, "m"))]
-    if scene.thickness is None:
+def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
+    rows = [("radius of relative curvature R", given(scene.roller.radius, "m"))]
+    body = scene.body.material
+    if body.thickness is None:
         rows.append(("body, thickness", "unbounded"))
     else:
-        base = {"bonded": "bonded to", "frictionless": "free to slide on"}[scene.base]
-        rows.append(("body, thickness t", f"{given(scene.thickness, 'm')}, {base} a rigid base"))
-    rows.append(("body, width w", "unbounded" if scene.width is None else given(scene.width, "m")))
-    if scene.profile_info is None:
+        base = {"bonded": "bonded to", "frictionless": "free to slide on"}[body.base]
+        rows.append(("body, thickness t", f"{given(body.thickness, 'm')}, {base} a rigid base"))
+    width = "unbounded" if body.width is None else given(body.width, "m")
+    rows.append(("body, width w", width))
+    if surface.info is None:
         return [*rows, ("surface", "smooth")]
-    place = ("place of the roller on the trace", given(scene.position, "m"))
-    return [*rows, *_profile(scene.profile_info), place]
+    place = ("place of the roller on the trace", given(surface.position, "m"))
+    return [*rows, *_profile(surface.info), place]
 
 
 def _profile(info: ProfileInfo) -> Rows:
@@ -117,16 +121,16 @@ def _materials(outcome: Run) -> Rows:
     problem = outcome.problem
     scene = problem.scene
     rows = [
-        ("roller", "rigid" if scene.roller is None else elastic_text(scene.roller)),
-        ("body", elastic_text(scene.body)),
+        ("roller", "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)),
+        ("body", elastic_text(scene.body.material)),
         *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
         ("combined modulus E*", with_unit(problem.modulus, "Pa")),
         ("Dundurs' β", significant(problem.dundurs_beta, 3)),
     ]
-    if scene.hardness is not None:
-        rows.append(("hardness of the body", given(scene.hardness, "Pa")))
-    if scene.yielding is not None:
-        rows.append(("body yields", yielding_text(scene.yielding)))
+    if scene.body.hardness is not None:
+        rows.append(("hardness of the body", given(scene.body.hardness, "Pa")))
+    if scene.body.yield_stress is not None:
+        rows.append(("body yields", yielding_text(scene.body.material)))
     return rows
 
 
@@ -135,26 +139,27 @@ def elastic_text(material: Material) -> str:
     return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
 
 
-def coating_text(coating: Coated) -> str:
+def coating_text(coating: CoatingSection) -> str:
     """A coating in one phrase."""
     return f"{given(coating.thickness, 'm')} thick, {elastic_text(coating.material)}"
 
 
-def yielding_text(yielding: Yielding) -> str:
+def yielding_text(body: BodySection) -> str:
     """How a body flows, in one phrase."""
-    harder = f", hardening by {given(yielding.hardening, 'Pa')}" if yielding.hardening else ""
-    return f"at {given(yielding.stress, 'Pa')}{harder}"
+    modulus = body.hardening_modulus
+    harder = f", hardening by {given(modulus, 'Pa')}" if modulus else ""
+    return f"at {given(body.yield_stress, 'Pa')}{harder}"
 
 
 def _load(outcome: Run) -> Rows:
     scene, hertz = outcome.problem.scene, outcome.problem.hertz
     label, unit = wording()["loads"][scene.load.kind]
     rows = [(f"{label} (given)", given(scene.load.value, unit))]
-    if scene.load.kind != "load_per_length":
+    if scene.load.kind != "per_length":
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))
     return [
         *rows,
-        ("friction coefficient µ", listed(scene.friction)),
+        ("friction coefficient µ", listed(scene.load.friction)),
         ("Hertz half-width a", with_unit(hertz.half_width, "m")),
         ("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")),
         (
@@ -166,7 +171,7 @@ def _load(outcome: Run) -> Rows:
 
 def load_text(problem: Problem) -> str:
     """Load per length, in the digits of the scene where the scene gives it."""
-    write = given if problem.scene.load.kind == "load_per_length" else with_unit
+    write = given if problem.scene.load.kind == "per_length" else with_unit
     return write(problem.hertz.load_per_length, "N/m")
 
 

@@ -52,7 +52,7 @@ def scatter_lines(outcome: Run) -> list[str]:
     friction = outcome.deciding_friction
     scatter = outcome.data(NAME)
     for figure in scatter.figures if scatter else ():
-        if figure.friction == friction and figure.quantity in outcome.problem.scene.tolerance:
+        if figure.friction == friction and figure.quantity in outcome.problem.scene.tolerances:
             most = ", ".join(largest_shares(figure, 1))
             found.append(f"{label(figure.quantity)} ±{percent(figure.relative)}, most by {most}")
     return found

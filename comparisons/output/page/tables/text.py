@@ -21,7 +21,7 @@ def wording() -> dict[str, dict]:
 def is_shown(outcome: Run, quantity: str) -> bool:
     """Whether a figure has a row beside the contact length, which stands over Hertz's: the contact
     ratio, that over a constant, has one only where it is judged."""
-    return quantity != REPEATED or quantity in outcome.problem.scene.tolerance
+    return quantity != REPEATED or quantity in outcome.problem.scene.tolerances
 
 
 def listed(numbers: Iterable[float]) -> str:

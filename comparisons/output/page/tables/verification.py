@@ -38,7 +38,7 @@ def _of_model(run: Run, model: ModelRun) -> TextTable:
         ("time", *(with_unit(sum(v.seconds.values()), "s", 3) for v in levels)),
     ]
     rows = [row + ("",) * (len(head) - len(row)) for row in rows]
-    for friction in run.problem.scene.friction:
+    for friction in run.problem.scene.load.friction:
         checked = {} if check is None else values_of(check, run.problem, friction)
         for figure in _rows(run, contact.NAME, model.name, friction):
             known = [checked[figure.quantity]] if checked else []
@@ -52,7 +52,7 @@ def _of_model(run: Run, model: ModelRun) -> TextTable:
 
 def _of_pair(run: Run) -> TextTable:
     model, rows = run.runs["finite_element"], []
-    for friction in run.problem.scene.friction:
+    for friction in run.problem.scene.load.friction:
         for figure in _rows(run, comparison.NAME, "half_plane", friction):
             shown = {"digits": 3, "signed": not QUANTITIES[figure.quantity].of_pair}
             numbers = (percent(value, **shown) for value in figure.levels)

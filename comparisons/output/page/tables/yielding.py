@@ -17,7 +17,7 @@ def flow_sentence(outcome: Run) -> str:
         shear = with_unit(worst.tau1, "Pa", 2)
         return f"elastic; first flow at a shear yield below {shear}{where}"
     stress = with_unit(flow.yield_stress, "Pa", 3)
-    third = "" if outcome.problem.scene.yielding else ", a third of the hardness"
+    third = "" if outcome.problem.scene.body.yield_stress else ", a third of the hardness"
     largest = f"the half-plane's largest shear is {significant(flow.ratio, 2)} times that of first "
     largest += f"flow{where} (Y = {stress}{third})"
     if flow.flow == "cap":

@@ -6,12 +6,12 @@ import numpy as np
 
 from analytic.surface.readers.source import MAX_BYTES
 from analytic.surface.readers.text import read_table
-from comparisons.scenes.scene import AnswerSource
+from comparisons.scenes.studies.answers import AnswerSection
 
 FEWEST = 5  # points that show a pressure
 
 
-def read_curve(path: Path, source: AnswerSource) -> tuple[np.ndarray, np.ndarray]:
+def read_curve(path: Path, source: AnswerSection) -> tuple[np.ndarray, np.ndarray]:
     """x (n,) [m], ascending, and pressure (n,) [Pa] in a table."""
     table = read_table(path, MAX_BYTES, one_column=False, columns=source.columns)
     lost = np.flatnonzero(np.isnan(table.numbers).any(axis=1))

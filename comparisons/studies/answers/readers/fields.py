@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.scenes.scene import AnswerSource
+from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import OutsideStress
 from comparisons.studies.answers.readers.curves import checked
 from comparisons.studies.answers.readers.meshes import read_mesh
@@ -54,11 +54,11 @@ class PlaneMesh:
 
 
 def read_fields(
-    path: Path, source: AnswerSource, problem: Problem, window: Window | None
+    path: Path, source: AnswerSection, problem: Problem, window: Window | None
 ) -> tuple[np.ndarray, np.ndarray, OutsideStress | None]:
     """x (n,) [m] and pressure (n,) [Pa] along the surface, and the stresses on the window.
     Raises ValueError with what is wrong."""
-    frictions = problem.scene.friction
+    frictions = problem.scene.load.friction
     friction = frictions[0] if source.friction is None else source.friction
     if friction not in frictions or (source.friction is None and len(frictions) > 1):
         listed = ", ".join(f"{each:g}" for each in frictions)
@@ -78,7 +78,7 @@ def read_fields(
     return x, pressure, _stresses(body, nodes, friction, problem, window)
 
 
-def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSource, friction: float) -> PlaneMesh:
+def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float) -> PlaneMesh:
     """The rough body of a mesh: what hangs together and lies below the surface."""
     if mesh.cell_data:
         mesh = mesh.cell_data_to_point_data()
@@ -119,7 +119,7 @@ def _faces(mesh: "UnstructuredGrid") -> "PolyData":
     return pyvista.wrap(faces.GetOutput()).triangulate()
 
 
-def _up(points: np.ndarray, source: AnswerSource) -> tuple[int, int]:
+def _up(points: np.ndarray, source: AnswerSection) -> tuple[int, int]:
     """The axis out of the body, and its sign: the body is what reaches far to one side."""
     if source.up is not None:
         return AXES[source.up[-1]], -1 if source.up.startswith("-") else 1

@@ -73,10 +73,10 @@ class TestWholeStudy:
                 ("contact_length", 2.0 * HERTZ.half_width),
             ):
                 figure = outcome.figures.one(study="contact", quantity=name)
-                assert abs(figure.value / exact - 1.0) <= found.problem.scene.tolerance[name]
+                assert abs(figure.value / exact - 1.0) <= found.problem.scene.tolerances[name]
                 error = abs(reached[name] / exact - 1.0)
                 assert error == pytest.approx(picked.errors[name], rel=0.02, abs=1e-9)
-                assert error <= found.problem.scene.tolerance[name]
+                assert error <= found.problem.scene.tolerances[name]
 
     def test_files(self, small):
         found, folder = small

@@ -19,6 +19,7 @@ from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.study import FOLDER, cost_cache
 from comparisons.common.progress import no_progress
 from comparisons.models.finite_element.level import problem_of_approach
+from comparisons.scenes.surface import surface_of
 
 SMALL = tuple(method for method in METHODS if method.name in (FINEST.name, "P2"))
 # The command line, with methods and settings left out that would only take time.
@@ -71,7 +72,7 @@ def here(monkeypatch) -> Here:
 def measured() -> tuple[CostTask, MeasuredRun]:
     """A setting with stresses under two frictions."""
     made = resolved(changed(SMOOTH, stress={"points": [60, 20]}, load={"friction": [0.0, 0.1]}))
-    task = CostTask(made, None, FINEST.name, 1e-5, repeats=2)
+    task = CostTask(made, surface_of(made), None, FINEST.name, 1e-5, repeats=2)
     return task, measure(task)
 
 

@@ -25,6 +25,7 @@ from comparisons.campaigns.cost.study import OK, CostRow, CostRun
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
 from comparisons.models.problem import problem_of
+from comparisons.scenes.surface import surface_of
 
 WAVY = SMOOTH | {
     "profile": {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6},
@@ -71,7 +72,9 @@ class TestMethods:
         errors = []
         for part in (1.0, 0.125):
             pitch = part * problem_of(made).pitches[0]
-            found = measure(CostTask(made, None, f"{element}, FFT", pitch)).solved.figures[0]
+            found = measure(
+                CostTask(made, surface_of(made), None, f"{element}, FFT", pitch)
+            ).solved.figures[0]
             errors.append([abs(found[name] / value - 1.0) for name, value in exact.items()])
         assert np.all(np.array(errors[0]) < [1e-3, 1.5e-2, 1e-3])
         assert np.all(np.array(errors[1]) < np.array(errors[0]) / 4.0)
@@ -90,7 +93,10 @@ def study():
     made = resolved(WAVY)
     pitches = FINEST.settings(problem_of(made))[:5]
     rows = [
-        CostRow(FINEST, p, OK, None, measure(CostTask(made, None, FINEST.name, p))) for p in pitches
+        CostRow(
+            FINEST, p, OK, None, measure(CostTask(made, surface_of(made), None, FINEST.name, p))
+        )
+        for p in pitches
     ]
     return problem_of(made), CostRun(tuple(rows), {})
 
@@ -103,7 +109,9 @@ class TestReference:
         for name, reference in found.items():
             assert reference.row is last and reference.source.startswith("hats, FFT at ")
             assert 0.0 < reference.floor < 0.05, name
-        finer = measure(CostTask(made.scene, None, FINEST.name, 0.25 * last.setting)).solved
+        finer = measure(
+            CostTask(made.scene, surface_of(made.scene), None, FINEST.name, 0.25 * last.setting)
+        ).solved
         for name in ("peak_pressure", "contact_length"):
             true = error_of(finer, name, found[name], made, None)
             assert true <= found[name].floor
@@ -139,14 +147,45 @@ class TestMeasure:
         return calls
 
     def test_the_first_solution_does_not_count(self, calls):
-        found = measure(CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5, repeats=3, limit=60.0))
+        found = measure(
+            CostTask(
+                resolved(SMOOTH),
+                surface_of(resolved(SMOOTH)),
+                None,
+                FINEST.name,
+                1e-5,
+                repeats=3,
+                limit=60.0,
+            )
+        )
         assert (len(calls), found.repeats) == (4, 3)
-        found = measure(CostTask(resolved(SMOOTH), None, FINEST.name, 5e-6, repeats=3, limit=60.0))
+        found = measure(
+            CostTask(
+                resolved(SMOOTH),
+                surface_of(resolved(SMOOTH)),
+                None,
+                FINEST.name,
+                5e-6,
+                repeats=3,
+                limit=60.0,
+            )
+        )
         assert (len(calls), found.repeats) == (7, 3)
 
     def test_no_more_than_fit_and_at_least_one(self, calls):
         assert (
-            measure(CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5, 3, limit=0.0)).repeats == 1
+            measure(
+                CostTask(
+                    resolved(SMOOTH),
+                    surface_of(resolved(SMOOTH)),
+                    None,
+                    FINEST.name,
+                    1e-5,
+                    3,
+                    limit=0.0,
+                )
+            ).repeats
+            == 1
         )
         assert len(calls) == 2
 
@@ -155,7 +194,7 @@ class TestMeasure:
             raise SceneError("made.toml: budget.memory: is too small")
 
         monkeypatch.setattr(cost_measure, "solved", solved)
-        task = CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5)
+        task = CostTask(resolved(SMOOTH), surface_of(resolved(SMOOTH)), None, FINEST.name, 1e-5)
         with pytest.raises(RefusedError) as refused:
             measure(task)
         assert refused.value.args == ("made.toml: budget.memory: is too small", True)

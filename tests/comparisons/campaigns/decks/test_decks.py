@@ -88,7 +88,7 @@ def test_a_deck_is_complete(tmp_path, scene, code):
     (load,) = {row[2] for keyword, _, data in found if keyword == "CLOAD" for row in data}
     assert float(load) == pytest.approx(-1e-3 * scenes_load(resolved))
     steps = [keyword for keyword, *_ in found].count("STEP")
-    slides = [mu for mu in resolved.friction if mu]
+    slides = [mu for mu in resolved.load.friction if mu]
     assert steps == 1 + len(slides) + (code == "abaqus" or deck.finite)
     finite = {bool(given.get("NLGEOM")) for keyword, given, _ in found if keyword == "STEP"}
     assert finite == {deck.finite}

@@ -15,10 +15,10 @@ from comparisons.campaigns.init.first_scene import write_first_scene
 from comparisons.campaigns.init.picture import picture
 from comparisons.campaigns.init.scene_text import FIELDS, scene_text
 from comparisons.cli import main
-from comparisons.scenes.resolve import load_scene
-from comparisons.scenes.schema.fields import field_type
-from comparisons.scenes.schema.profile import VARIETIES
-from comparisons.scenes.schema.scene import SECTIONS, SceneFile
+from comparisons.scenes.fields import field_type
+from comparisons.scenes.profile import VARIETIES
+from comparisons.scenes.scene import Scene, sections_of
+from comparisons.scenes.surface import surface_of
 
 SHIPPED = sorted(PROFILES.glob("*.csv"))
 X = 0.5 * np.arange(801)  # um
@@ -95,20 +95,20 @@ def undrawn(monkeypatch) -> None:
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_a_shipped_profile_makes_a_scene_that_loads_as_it_was_read(path, tmp_path):
     made = write_first_scene(path, tmp_path / "mine.toml")
-    scene = load_scene(tmp_path / "mine.toml")
-    assert scene.profile_info.roughness == made.scene.profile_info.roughness
-    assert scene.profile_info.path.samefile(path)
+    surface = surface_of(Scene.read(tmp_path / "mine.toml"))
+    assert surface.info.roughness == made.surface.info.roughness
+    assert surface.info.path.samefile(path)
     assert made.profile.fields == {"x_unit": '"um"', "z_unit": '"um"', "form": '"line"'}
     assert all("x_um,height_um" in made.profile.reasons[name] for name in ("x_unit", "z_unit"))
     given = np.loadtxt(path, delimiter=",", skiprows=3)
-    np.testing.assert_allclose(scene.profile_info.trace.height, 1e-6 * given[:, 1], rtol=1e-12)
+    np.testing.assert_allclose(surface.info.trace.height, 1e-6 * given[:, 1], rtol=1e-12)
 
 
 @pytest.mark.parametrize("content", FILES.values(), ids=FILES)
 def test_every_format_is_read_in_its_own_units(folder, content):
     (folder / "trace.dat").write_bytes(content)
     assert main(["init", "trace.dat"]) == 0
-    info = load_scene(folder / "trace.toml").profile_info
+    info = surface_of(Scene.read(folder / "trace.toml")).info
     assert info.length == pytest.approx(400e-6, rel=1e-9)
     assert info.roughness.rq == pytest.approx(RMS, rel=0.02)
     assert (info.bridged > 0) == (b"NaN" in content)
@@ -122,10 +122,11 @@ def test_units_that_a_header_names_count(folder, head, capsys):
     (folder / "trace.csv").write_text(f"{head}\n" + rows(X / x_unit, Z / z_unit))
     assert main(["init", "trace.csv"]) == 0
     assert "guessed by size" not in capsys.readouterr().out
-    scene = load_scene("trace.toml")
+    scene = Scene.read("trace.toml")
+    surface = surface_of(scene)
     assert [scene.tables["profile"][name] for name in ("x_unit", "z_unit")] == names
-    assert scene.profile_info.length == pytest.approx(400e-6, rel=1e-5)
-    assert scene.profile_info.roughness.rq == pytest.approx(RMS, rel=0.02)
+    assert surface.info.length == pytest.approx(400e-6, rel=1e-5)
+    assert surface.info.roughness.rq == pytest.approx(RMS, rel=0.02)
 
 
 @pytest.mark.parametrize(
@@ -150,7 +151,7 @@ def test_a_missing_stretch_is_told_bridged_and_refused_without(folder, capsys):
     said = capsys.readouterr().out
     assert "801 samples, 400.0 um long, 500.0 nm apart" in said
     assert "nothing was measured from 99.50 um to 300.5 um: what is pressed there is a" in said
-    info = load_scene("trace.toml").profile_info
+    info = surface_of(Scene.read("trace.toml")).info
     assert info.bridged == 401 and info.roughness.rt < 1.5 * np.ptp(Z) * 1e-6
     text = Path("trace.toml").read_text().replace('\ndropouts = "bridge"', "")
     Path("trace.toml").write_text(text)
@@ -194,13 +195,13 @@ def test_bodies_and_load_are_options(folder):
     options = ["--radius", "4 mm", "--load", "0.05 N/um", "--youngs-modulus", "70 GPa"]
     options += ["--poissons-ratio", "0.33", "--hardness", "2 GPa", "--friction", "0.2"]
     assert main(["init", "trace.csv", *options]) == 0
-    scene = load_scene("trace.toml")
-    assert (scene.roller_radius, scene.load.kind, scene.load.value) == (
-        pytest.approx(4e-3), "load_per_length", pytest.approx(5e4)
+    scene = Scene.read("trace.toml")
+    assert (scene.roller.radius, scene.load.kind, scene.load.value) == (
+        pytest.approx(4e-3), "per_length", pytest.approx(5e4)
     )  # fmt: skip
-    for material in (scene.roller, scene.body):
+    for material in (scene.roller.material, scene.body.material):
         assert (material.youngs_modulus, material.poissons_ratio) == (pytest.approx(70e9), 0.33)
-    assert (scene.hardness, list(scene.friction)) == (pytest.approx(2e9), [0.2])
+    assert (scene.body.hardness, list(scene.load.friction)) == (pytest.approx(2e9), [0.2])
 
 
 @pytest.mark.parametrize(
@@ -241,7 +242,7 @@ def test_a_small_map_gets_a_load_that_fits_it(folder):
     """As an atomic force microscope has it: 100 nm long, some tenths of a nanometre rough."""
     (folder / "trace.csv").write_text("x_nm,z_nm\n" + rows(X / 4.0, Z))
     assert main(["init", "trace.csv"]) == 0
-    assert 0.0 < load_scene("trace.toml").roller_radius < 10e-6
+    assert 0.0 < Scene.read("trace.toml").roller.radius < 10e-6
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -260,7 +261,7 @@ def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
         f"the middle one of 70, across the lay: slopes along {name}s are all that there are, none "
         "the other way"
     )
-    assert made.scene.profile_info.roughness.rq == pytest.approx(1e-7 / np.sqrt(2.0), rel=0.05)
+    assert made.surface.info.roughness.rq == pytest.approx(1e-7 / np.sqrt(2.0), rel=0.05)
 
 
 def test_the_scene_runs_unchanged(folder, monkeypatch):
@@ -274,7 +275,7 @@ def test_the_scene_runs_unchanged(folder, monkeypatch):
 
 def test_a_short_trace_gets_a_small_roller(folder):
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(0.1 * X, 0.01 * Z))
-    radius = write_first_scene(Path("trace.csv")).scene.roller_radius
+    radius = write_first_scene(Path("trace.csv")).scene.roller.radius
     assert 1e-5 <= radius <= 1e-3
 
 
@@ -282,13 +283,13 @@ def test_the_form_of_a_round_specimen_is_an_arc(folder):
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z - (X - 200.0) ** 2 / 1e4))
     made = write_first_scene(Path("trace.csv"))
     assert made.profile.fields["form"] == '"arc"'
-    assert made.scene.profile_info.form.radius == pytest.approx(5e-3, rel=0.01)
+    assert made.surface.info.form.radius == pytest.approx(5e-3, rel=0.01)
 
 
 def test_what_is_asked_for_is_not_guessed(folder):
     (folder / "trace.csv").write_text(rows(X, Z))
     assert main(["init", "trace.csv", "--x-unit", "mm", "--z-unit", "nm"]) == 0
-    info = load_scene("trace.toml").profile_info
+    info = surface_of(Scene.read("trace.toml")).info
     assert info.length == pytest.approx(0.4)
     assert info.roughness.rq == pytest.approx(1e-3 * RMS, rel=0.02)
 
@@ -341,7 +342,7 @@ def test_a_scene_is_not_overwritten_but_by_force(folder, capsys):
     assert "trace.toml: is there already; allowed is --force" in capsys.readouterr().err
     assert (folder / "trace.toml").read_text() == "mine"
     assert main(["init", "trace.csv", "--force"]) == 0
-    assert load_scene("trace.toml").profile_info.samples == 801
+    assert surface_of(Scene.read("trace.toml")).info.samples == 801
 
 
 DESCRIBED = tomllib.loads(FIELDS.read_text(encoding="utf-8"))
@@ -349,15 +350,16 @@ DESCRIBED = tomllib.loads(FIELDS.read_text(encoding="utf-8"))
 
 def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
     of_a_file = VARIETIES["file"].fields()
-    for section, table in SECTIONS.items():
+    tables = sections_of(Scene)
+    del tables["answers"]  # from other codes, each in a section of its own name
+    for section, table in tables.items():
         names = set(table.model_fields) if section != "profile" else of_a_file
         fields = dict(DESCRIBED[section])
         assert fields.pop("section") and set(fields) == names
         for name, (_, example) in fields.items():
             value = tomllib.loads(f"value = {example}")["value"]
             field_type(table, name).read(value)
-    # answers come from other codes, each in a section of its own name
-    assert set(SceneFile.model_fields) == {*DESCRIBED, "answers"}
+    assert set(Scene.model_fields) == {*DESCRIBED, "answers"}
 
 
 def test_unused_sections_come_alive_when_their_signs_are_taken_away():

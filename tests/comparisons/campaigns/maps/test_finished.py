@@ -46,7 +46,7 @@ def test_each_map_has_its_scene_and_picture():
 def test_the_command_asks_for_the_same_points(finished):
     name, content = finished
     request = asked_for(name)
-    assert request.scene == name
+    assert request.scene.source == name
     assert described(request) == content["scene"]
     assert request.finite_element == content["finite_element"]
     assert [(p.x, p.y) for p in request.points] == [(p["x"], p["y"]) for p in content["points"]]

@@ -1,15 +1,13 @@
 """Groups of a map: a scene takes their values; and its axes."""
 
-from pathlib import Path
-
 import pytest
 
-from comparisons.campaigns.maps.groups import Origin, axis_of, counts_of, tables_with
+from comparisons.campaigns.maps.groups import axis_of, counts_of, scene_with
 from comparisons.common.errors import InputError, SceneError
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 
-HERE = Origin("made.toml", Path("."))
 RIGID = {
     "roller": {"radius": 0.01, "rigid": True},
     "body": {"youngs_modulus": 2e11, "poissons_ratio": 0.3},
@@ -20,6 +18,11 @@ CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
 HEAT = {f"{b}_{name}": v for b in ("body", "roller", "coating") for name, v in CONSTANTS.items()}
 HEAT |= {"speed": 1.0, "slide_to_roll": 1.0}
 COATING = {"thickness": 1e-5, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+ROLLING = RIGID | {
+    "load": {"hertz_peak_pressure": 1e9, "friction": 0.1},
+    "coating": COATING,
+    "heat": HEAT | {"slide_to_roll": -2.0},
+}
 WAVES = {
     "sinusoid": {"kind": "sinusoid", "wavelength": 4e-5, "amplitude": 1e-7},
     "self-affine": {
@@ -43,14 +46,14 @@ WAVES = {
 
 def set_to(tables: dict, **values: float):
     """The problem of a scene whose groups have these values."""
-    return problem_of(resolve_tables(tables_with(tables, values, HERE), name="m", **vars(HERE)))
+    return problem_of(scene_with(Scene.of(tables), values))
 
 
 class TestGroups:
     @pytest.mark.parametrize("name", ["a_over_thickness", "a_over_width"])
     def test_sizes_of_the_body_follow_the_half_width_that_the_curvature_gives(self, name):
         problem = set_to(RIGID, **{name: 0.25}, a_over_radius=0.02)
-        size = getattr(problem.scene, name.removeprefix("a_over_"))
+        size = getattr(problem.scene.body, name.removeprefix("a_over_"))
         assert problem.hertz.half_width == pytest.approx(0.02 * 0.01, rel=1e-12)
         assert problem.hertz.half_width / size == pytest.approx(0.25, rel=1e-12)
         settings = problem.scene.finite_element
@@ -61,8 +64,8 @@ class TestGroups:
             ELASTIC | {"load": {"per_length": 1e5, "coupled": True}},
             **{"friction_dundurs": 0.05, "a_over_thickness": 1.0},
         )
-        assert problem.scene.friction[0] * abs(problem.dundurs_beta) == pytest.approx(0.05)
-        assert problem.scene.finite_element.coupled and not problem.scene.coupled
+        assert problem.scene.load.friction[0] * abs(problem.dundurs_beta) == pytest.approx(0.05)
+        assert problem.scene.finite_element.coupled and not problem.scene.load.coupled
         assert problem.hertz.load_per_length == pytest.approx(1e5)
 
     def test_materials_take_their_constants(self):
@@ -76,8 +79,8 @@ class TestGroups:
         tables = RIGID | {"body": body}
         problem = set_to(tables, peak_pressure_over_hardness=0.8, poissons_ratio=0.2)
         scene = problem.scene
-        assert problem.hertz.peak_pressure / scene.hardness == pytest.approx(0.8)
-        assert scene.hardness / scene.yielding.stress == pytest.approx(3.0)
+        assert problem.hertz.peak_pressure / scene.body.hardness == pytest.approx(0.8)
+        assert scene.body.hardness / scene.body.yield_stress == pytest.approx(3.0)
         assert scene.finite_element.plastic
 
     @pytest.mark.parametrize("kind", WAVES)
@@ -87,14 +90,13 @@ class TestGroups:
         for slope in (None, 0.03):
             asked = values | ({} if slope is None else {"rms_slope": slope})
             problem = set_to(tables, **asked)
-            given = problem.scene.tables["profile"]
+            given = problem.tables["profile"]
             name = "wavelength" if kind == "sinusoid" else "shortest_wavelength"
             length = given.get(name, 4.0 * given["length"] / (given.get("samples", 2) - 1))
             assert length / problem.hertz.half_width == pytest.approx(0.5)
             if slope is None:  # a likeness
-                plain = resolve_tables(tables, name="m", **vars(HERE))
-                slope = plain.profile_info.roughness.rms_slope
-            found = problem.scene.profile_info.roughness.rms_slope
+                slope = surface_of(Scene.of(tables)).info.roughness.rms_slope
+            found = problem.surface.info.roughness.rms_slope
             assert found == pytest.approx(slope, rel=0.02 if kind == "sinusoid" else 1e-9)
             assert problem.scene.finite_element.geometry == "rough"
             assert problem.scene.finite_element.gap == "displaced"
@@ -122,8 +124,8 @@ class TestGroups:
             (RIGID, "peak_pressure_over_hardness", "body.yield_stress:"),
             (RIGID, "peclet", r"heat: is missing; allowed for its groups is \[heat\]"),
             (RIGID, "coating_over_a", r"coating: is missing"),
-            (RIGID | {"heat": {"slide_to_roll": -2.0}}, "peclet", "is -2, at which the contact"),
-            (RIGID | {"coating": {}}, "conductivity_ratio", "heat: is missing"),
+            (ROLLING, "peclet", "is -2, at which the contact"),
+            (RIGID | {"coating": COATING}, "conductivity_ratio", "heat: is missing"),
             (ELASTIC, "a_over_radius", "a_over_radius, which takes finite"),
             (ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]}, "friction_dundurs", "body:"),
             (

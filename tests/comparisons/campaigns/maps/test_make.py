@@ -15,7 +15,6 @@ import pytest
 from rich.console import Console
 
 from comparisons.campaigns.maps.content import MAP, PICTURE, map_table
-from comparisons.campaigns.maps.groups import Origin
 from comparisons.campaigns.maps.make import TIMES, exit_status, make_map
 from comparisons.campaigns.maps.point import NOT_CONVERGED, solve_point
 from comparisons.campaigns.maps.request import FOLDER, PointRequest, point_cache, request_of
@@ -166,7 +165,7 @@ class Fragile(Executor):
 
 
 def point_at(x: float) -> PointRequest:
-    return PointRequest(x, 0.0, "peak_pressure", {}, Origin("made", Path(".")), None, f"key{x:g}")
+    return PointRequest(x, 0.0, "peak_pressure", None, None, f"key{x:g}")
 
 
 class Solved(list[float]):

@@ -19,12 +19,12 @@ from comparisons.campaigns.maps.place import (
 from comparisons.campaigns.maps.request import request_of
 from comparisons.cli import main
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.scene import Origin, Scene
 
 
 def problem(name: str, **changes):
-    tables = load_scene(name).tables | changes
-    return problem_of(resolve_tables(tables, name=name, folder=Path(), source=name))
+    tables = Scene.read(name).tables | changes
+    return problem_of(Scene.of(tables, Origin(name, Path(), name)))
 
 
 @pytest.mark.parametrize("name", finished_names())
@@ -40,8 +40,7 @@ def test_a_point_of_a_map_lies_there_with_its_own_error(name):
     )
     for number in (3 * columns + 4, 6 * columns + 1):
         point = request.points[number]
-        scene = resolve_tables(point.tables, name="point", **vars(point.origin))
-        place = place_on(name, problem_of(scene))
+        place = place_on(name, problem_of(point.scene))
         assert place.groups == pytest.approx((point.x, point.y), rel=0.01)
         quantity = content["quantity"]
         expected = content["points"][number]["quantities"][quantity]["difference"]
@@ -88,11 +87,11 @@ def test_smooth_scenes_take_the_map_of_what_they_have():
 
 def test_scenes_with_heat_take_its_maps_beside():
     """Of the scene's own base and of its slide-to-roll ratio."""
-    heat = load_scene("frictional-heat").tables["heat"]
-    slab = load_scene("smooth").tables["body"] | {"thickness": 4e-4}
+    heat = Scene.read("frictional-heat").tables["heat"]
+    slab = Scene.read("smooth").tables["body"] | {"thickness": 4e-4}
     for base, name in (("held", "peclet-thickness"), ("insulated", "peclet-insulated")):
         given = {"body": slab, "heat": heat | {"base": base, "speed": 0.02}}
-        load = load_scene("smooth").tables["load"] | {"friction": [0.1]}
+        load = Scene.read("smooth").tables["load"] | {"friction": [0.1]}
         found = {p.name: p for p in places_of(problem("smooth", **given, load=load))}
         assert found.keys() == {"curvature-thickness", "peclet-radius", name}
         error = found[name].errors["flash_temperature"]
@@ -103,7 +102,7 @@ def test_scenes_with_heat_take_its_maps_beside():
 
 
 def test_friction_of_unlike_bodies_is_on_the_other_map():
-    tables = load_scene("smooth-sliding").tables
+    tables = Scene.read("smooth-sliding").tables
     roller = tables["roller"] | {"youngs_modulus": 10.0 * tables["body"]["youngs_modulus"]}
     load = tables["load"] | {"friction": [0.5]}
     names = {place.name for place in places_of(problem("smooth-sliding", roller=roller, load=load))}
@@ -112,9 +111,9 @@ def test_friction_of_unlike_bodies_is_on_the_other_map():
 
 def test_a_scene_on_no_map_gets_bounds_by_estimates():
     for name in ("layer", "ground-unrun", "coated"):
-        [line] = first_answer(problem_of(load_scene(name)))
+        [line] = first_answer(problem_of(Scene.read(name)))
         assert line.startswith("by estimates, on no finished map: model error at most about peak")
-    assert "100 % or more" in first_answer(problem_of(load_scene("layer")))[0]
+    assert "100 % or more" in first_answer(problem_of(Scene.read("layer")))[0]
 
 
 def test_a_finished_map_is_shown_and_not_solved(tmp_path, capsys, monkeypatch):

@@ -1,21 +1,18 @@
 """A point of a map: its model error is the exact one where that is known."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from analytic.exact.layers import layer_references
 from analytic.exact.sliding import sliding_from_load
-from comparisons.campaigns.maps.groups import Origin, tables_with
+from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.point import PointError, solve_point
 from comparisons.campaigns.maps.request import PointRequest
 from comparisons.campaigns.points import FAILED, SOLVED
 from comparisons.figures.quantity import HEAT_QUANTITIES
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import Scene
 
-HERE = Origin("made.toml", Path("."))
 RIGID = {
     "roller": {"radius": 0.01, "rigid": True},
     "body": {"youngs_modulus": 2e11, "poissons_ratio": 0.3},
@@ -26,16 +23,16 @@ STEEL = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
 HEAT = {f"{body}_{name}": value for body in ("body", "roller") for name, value in STEEL.items()}
 HEAT |= {"roller_conductivity": 1e-6, "roller_density": 2e-4}  # an insulator
 HEAT |= {"speed": 1.0, "slide_to_roll": 2.0}
-COATED_HEAT = {f"coating_{name}": HEAT[f"body_{name}"] for name in ("density", "specific_heat")}
+COATED_HEAT = {f"coating_{name}": HEAT[f"body_{name}"] for name in STEEL}
 
 
-def found_at(tables: dict, quantity: str = "peak_pressure") -> dict:
-    point = PointRequest(0.0, 0.0, quantity, tables, HERE, None, "key")
+def found_at(scene: Scene, quantity: str = "peak_pressure") -> dict:
+    point = PointRequest(0.0, 0.0, quantity, scene, None, "key")
     return solve_point(point)["found"]
 
 
-def solved(tables: dict) -> dict:
-    found = found_at(tables)
+def solved(scene: Scene) -> dict:
+    found = found_at(scene)
     assert found["status"] == SOLVED, found
     return found["quantities"]
 
@@ -59,7 +56,7 @@ class TestModelError:
         smooth = 2.0 * np.sqrt(case.load / np.pi)  # a/t
         nu = 0.3 if case.poissons_ratio is None else case.poissons_ratio
         body = RIGID["body"] | {"poissons_ratio": nu, "thickness": 1.0, "base": case.base}
-        found = solved(tables_with(RIGID | {"body": body}, {"a_over_thickness": smooth}, HERE))
+        found = solved(scene_with(Scene.of(RIGID | {"body": body}), {"a_over_thickness": smooth}))
         exact = {
             "peak_pressure": 0.5 * smooth / case.peak_pressure - 1.0,
             "contact_length": smooth / case.half_width - 1.0,
@@ -70,16 +67,15 @@ class TestModelError:
             assert abs(exact[name]) > error["uncertainty"]
 
     def test_of_friction_that_moves_the_surfaces_it_is_the_exact_one(self):
-        tables = tables_with(RIGID, {"friction_dundurs": 0.25}, HERE)
-        problem = problem_of(resolve_tables(tables, name="m", **vars(HERE)))
+        problem = problem_of(scene_with(Scene.of(RIGID), {"friction_dundurs": 0.25}))
         moved = sliding_from_load(
             problem.hertz.load_per_length,
             0.01,
             problem.modulus,
-            problem.scene.friction[0],
+            problem.scene.load.friction[0],
             problem.dundurs_beta,
         )
-        error = solved(problem.scene.tables)["peak_pressure"]
+        error = solved(problem.scene)["peak_pressure"]
         exact = problem.hertz.peak_pressure / moved.peak_pressure - 1.0
         assert abs(error["difference"] - exact) <= error["uncertainty"] < 0.1 * abs(exact)
 
@@ -99,7 +95,7 @@ class TestModelError:
         tables = RIGID | {"heat": HEAT, "load": RIGID["load"] | {"friction": [0.1]}}
         tables |= {"coating": coating} if "coating_over_a" in groups else {}
         tables["heat"] = HEAT | (COATED_HEAT if "coating_over_a" in groups else {})
-        found = found_at(tables_with(tables, groups, HERE), "flash_temperature")
+        found = found_at(scene_with(Scene.of(tables), groups), "flash_temperature")
         assert found["status"] == SOLVED, found
         error = found["quantities"]["flash_temperature"]
         step, ring = 1.0 / 256, 2**18
@@ -141,6 +137,6 @@ class TestModelError:
         assert PointError(1.0, 1.0, difference, uncertainty).is_open is is_open
 
     def test_what_cannot_be_solved_is_an_answer(self):
-        found = found_at(tables_with(RIGID, {"a_over_width": 1.0}, HERE))
+        found = found_at(scene_with(Scene.of(RIGID), {"a_over_width": 1.0}))
         assert found["status"] == FAILED
         assert "reaches the end of the body" in found["why"]

@@ -86,8 +86,8 @@ class TestMeasured:
     def outcome(self, values, check=None):
         levels = [SimpleNamespace(value=v, solution=self.solution()) for v in values]
         level = None if check is None else SimpleNamespace(value=check, solution=None)
-        again = {"far_boundary_check": level, "longer_increments": ()}
-        run = SimpleNamespace(levels=levels, finest=levels[-1], **again)
+        checks = {"far_boundary_check": level, "longer_increments": ()}
+        run = SimpleNamespace(levels=levels, finest=levels[-1], **checks)
         return SimpleNamespace(runs={"m": run}, problem=None, window=None)
 
     def solution(self):

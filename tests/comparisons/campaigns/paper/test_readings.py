@@ -119,8 +119,8 @@ def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
 def view_of(
     fields=None, every: int = 1, wave: float = 0.0, model: str = "half_plane"
 ) -> r.LevelView:
-    scene = SimpleNamespace(profile_info=SimpleNamespace(spacing=A / 16.0))
-    problem = SimpleNamespace(hertz=HERTZ, scene=scene)
+    surface = SimpleNamespace(info=SimpleNamespace(spacing=A / 16.0))
+    problem = SimpleNamespace(hertz=HERTZ, surface=surface)
     return r.LevelView(model, problem, hertz_level(A / 64.0, fields or {}, wave), WINDOW, every)
 
 

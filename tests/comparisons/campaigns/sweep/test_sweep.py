@@ -15,6 +15,7 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.drawing import style
 from comparisons.models.problem import problem_of
+from comparisons.scenes.surface import surface_of
 
 WAVES = {
     "roller": {"radius": 8e-3, "rigid": True},
@@ -26,17 +27,16 @@ WAVES = {
 }  # fmt: skip
 
 
-def request(over, tables=WAVES, **place):
-    given = {"name": "scene", "folder": None, "source": "scene"} | place
-    return sweep_request(tables, over, ("half_plane",), **given)
+def request(over, tables=WAVES):
+    return sweep_request(api.load(tables), over, ("half_plane",))
 
 
 def test_placements_keep_the_contact_on_the_trace():
     asked = request(["position=5"])
     [swept] = asked.fields
-    scene = api.load(WAVES)
-    reach = problem_of(scene).extent
-    start, end = scene.position + scene.profile.x[[0, -1]]
+    problem = problem_of(api.load(WAVES))
+    reach, surface = problem.extent, problem.surface
+    start, end = surface.position + surface.profile.x[[0, -1]]
     assert swept.values[0] + MARGIN * reach[0] == pytest.approx(start)
     assert swept.values[-1] + MARGIN * reach[1] == pytest.approx(end)
     assert np.ptp(np.diff(swept.values)) < 1e-12
@@ -198,7 +198,8 @@ def test_a_smooth_scene_has_no_placements_and_a_field_is_swept_once(capsys, tmp_
 def test_tables_of_a_named_scene_run_anywhere(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     tables = api.tables("ground-polished")
-    assert api.load(tables).profile_info.samples == api.load("ground-polished").profile_info.samples
+    found = [surface_of(api.load(each)).info.samples for each in (tables, "ground-polished")]
+    assert found[0] == found[1]
 
 
 def test_stresses_as_arrays():

@@ -1,7 +1,5 @@
 """A wrong scene in the working folder of a run that must never begin to solve."""
 
-import sys
-import types
 from collections.abc import Callable
 from pathlib import Path
 
@@ -48,7 +46,7 @@ def folder(tmp_path, monkeypatch) -> Path:
     def run(*arguments):
         pytest.fail("a wrong scene was solved")
 
-    monkeypatch.setitem(sys.modules, "comparisons.runs.run", types.SimpleNamespace(run=run))
+    monkeypatch.setattr("comparisons.runs.run.run", run)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 
 MEASURED = {"profile.file": '"trace.csv"', "profile.x_unit": '"um"', "profile.z_unit": '"um"'}
 SINUSOID = {
@@ -229,4 +229,4 @@ def test_every_base_scene_is_right_without_its_mistake(folder, toml, trace):
     (folder / "trace.csv").write_text(trace)
     for changes in ({}, MEASURED, SINUSOID, SELF_AFFINE, LAYER):
         (folder / "scene.toml").write_text(toml(changes))
-        assert load_scene("scene.toml").name == "scene"
+        assert Scene.read("scene.toml").name == "scene"

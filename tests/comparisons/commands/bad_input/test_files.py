@@ -85,7 +85,7 @@ def test_arc_that_fits_nothing(folder, monkeypatch, toml, trace, complaint):
     def remove_form(profile, form):
         raise ValueError("no circular arc fits the profile; remove a line instead")
 
-    monkeypatch.setattr("comparisons.scenes.profile.remove_form", remove_form)
+    monkeypatch.setattr("comparisons.scenes.surface.remove_form", remove_form)
     (folder / "scene.toml").write_text(toml(MEASURED))
     (folder / "trace.csv").write_text(trace)
     assert "profile.form: no circular arc" in complaint("run", "scene.toml")

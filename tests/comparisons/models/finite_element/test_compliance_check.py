@@ -27,7 +27,7 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 from fem.body.elasticity import elastic_body
 
 SMOOTH = {
@@ -126,12 +126,11 @@ class TestScenes:
             (scene(body={"poissons_ratio": 0.4999}, finite_element={"element": "P2"}), 0.1, 4e-3),
             (scene(load={"friction": 0.3}, finite_element={"coupled": True}), 0.05, 2e-3),
             (scene(finite_element={"far_field": "half-plane"}), 0.05, 1e-3),
-            (load_scene("yielding"), 0.05, 1e-3),
+            (Scene.read("yielding"), 0.05, 1e-3),
         ],
     )
     def test_mesh_and_body_are_right(self, given, shortest, beyond):
-        given = replace(given, finite_element=replace(given.finite_element, plastic=False))
-        found = checked(given)
+        found = checked(given.unchecked({"finite_element.plastic": False}))
         assert found.verdict == "neither"
         waves = [wave.difference for wave in found.nearest.waves]
         assert -shortest < waves[0] < waves[1] < waves[2] < 0.0 and abs(waves[-1]) < 5e-3
@@ -143,7 +142,7 @@ class TestScenes:
         [
             (scene(body={"thickness": HALF_WIDTH}), "thickness", True, 0.42, -0.22),
             (scene(body={"thickness": 1e-3}, roller=ELASTIC), "thickness", False, 0.047, -0.039),
-            (load_scene("coated"), "coating", False, 0.05, -0.22),
+            (Scene.read("coated"), "coating", False, 0.05, -0.22),
         ],
     )
     def test_what_a_finite_body_does_is_told_apart(self, given, finite, datum, column, wave):

@@ -34,11 +34,11 @@ def pressed(problem, shift: float):
     alone = np.where(np.arange(len(grid.x)) == len(grid.x) // 2, 1.0, 0.0)
     linear = SimpleNamespace(pressure=alone)
     found = SimpleNamespace(pressure=np.ones(len(grid.x)))
-    profile = problem.scene.profile
+    profile = problem.surface.profile
     if profile is not None:
         end = profile.x[-1] - grid.x[-1] - shift
-        scene = replace(problem.scene, profile=profile.shifted(end))
-        problem = replace(problem, scene=scene)
+        surface = replace(problem.surface, profile=profile.shifted(end))
+        problem = replace(problem, surface=surface)
     with patch.object(finite_element_nonlinear, "finite_contact", return_value=found):
         return pressed_finitely(problem, WHOLE, grid, linear, problem.constraints(), None)
 

@@ -112,10 +112,10 @@ def test_finite_deformation_takes_no_factorisation_of_its_own():
 def test_friction_coefficients_and_rollers_share_rough_bodies_and_profiles_do_not():
     one = problem_with(SINUSOID, deformation="finite")
     scene = one.scene
-    disc = replace(scene.finite_element, roller_body="disc")
-    other = replace(one, scene=replace(scene, friction=(0.1,), finite_element=disc))
-    higher = replace(scene.profile, height=1.5 * scene.profile.height)
-    third = replace(one, scene=replace(scene, profile=higher))
+    sliding = {"load.friction": (0.1,), "finite_element.roller_body": "disc"}
+    other = replace(one, scene=scene.unchecked(sliding))
+    higher = replace(one.surface.profile, height=1.5 * one.surface.profile.height)
+    third = replace(one, surface=replace(one.surface, profile=higher))
     held, patches, rough = BodyCache(), np.array([one.extent]), []
     for each in (one, other, third):
         plan, refinement = make_plan(each, ("finite_element",)), Refinement(each.pitches[0])

@@ -15,7 +15,7 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 
 STEEL = {"youngs_modulus": 200e9, "poissons_ratio": 0.3}
 RADIUS, HALF_WIDTH = 10e-3, 200e-6  # a/R = 0.02 under a rigid roller
@@ -143,14 +143,14 @@ def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisatio
 
 
 def test_a_roller_like_the_body_that_flows_shares_its_factor():
-    problem = problem_of(load_scene("yielding"))
+    problem = problem_of(Scene.read("yielding"))
     plan, half = make_plan(problem, ("finite_element",)), problem.hertz.half_width
     patches, refinement = np.array([[-half, half]]), Refinement(problem.pitches[0])
     bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
     assert bodies.roller is bodies.rough
     assert bodies.factor_memory == bodies.rough.factor.bytes
-    disc = replace(problem.scene.finite_element, roller_body="disc")
-    problem = replace(problem, scene=replace(problem.scene, finite_element=disc))
+    disc = problem.scene.unchecked({"finite_element.roller_body": "disc"})
+    problem = replace(problem, scene=disc)
     bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
     assert bodies.roller is not bodies.rough
 

@@ -8,7 +8,7 @@ import scenes
 from scenes import STEEL
 
 from analytic.exact.hertz import HertzContact, hertz_from_load
-from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.scene import Scene
 
 LOAD, RADIUS = 2e5, 10e-3
 PAIR = hertz_from_load(LOAD, RADIUS, 210e9 / 1.82)
@@ -41,11 +41,11 @@ def hardness() -> float:
 
 
 @pytest.fixture(scope="session")
-def resolved(wavy) -> Callable[..., ResolvedScene]:
+def resolved(wavy) -> Callable[..., Scene]:
     """`resolved(changes)`: it with fields of sections replaced; None takes a field or a section
     away."""
 
-    def changed(changes: dict | None = None) -> ResolvedScene:
+    def changed(changes: dict | None = None) -> Scene:
         tables = copy.deepcopy(wavy)
         for section, fields in (changes or {}).items():
             if fields is None:

@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,36 +11,44 @@ from analytic.profile import Profile
 from analytic.running_in import run_in
 from analytic.surface.roughness import roughness
 from comparisons.models.problem import problem_of
-from comparisons.models.running_in import run_in_scene
+from comparisons.models.running_in import run_in_surface
 from comparisons.output.recorded_run import read_result
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.runs.run import Known
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface, surface_of
 from comparisons.studies.study import Run
+
+
+def run_in_of(scene: Scene) -> SceneSurface:
+    """Its surface, run in."""
+    return run_in_surface(scene, surface_of(scene))
 
 
 class TestProblem:
     def test_the_run_in_surface_is_the_one_that_is_pressed(self, resolved, pair):
         scene = resolved()
-        problem = problem_of(scene)
-        found = problem.scene.run_in
+        problem, surface = problem_of(scene), surface_of(scene)
+        found = problem.surface.run_in
         assert found.volume > 0.0 and found.converged and found.status == "settled"
-        assert problem.scene.profile is found.profile
-        assert problem.scene.profile_info.roughness == roughness(found.profile)
+        assert problem.surface.profile is found.profile
+        assert problem.surface.info.roughness == roughness(found.profile)
         x = np.linspace(-50e-6, 50e-6, 999)
-        lowered = scene.profile.spline()(x) - found.profile.spline()(x)
+        lowered = surface.profile.spline()(x) - found.profile.spline()(x)
         assert problem.gap(x) == pytest.approx(
-            x**2 / (2.0 * pair.radius) - scene.profile.spline()(x) + lowered, abs=1e-18
+            x**2 / (2.0 * pair.radius) - surface.profile.spline()(x) + lowered, abs=1e-18
         )
         assert lowered.max() > 1e-9
 
     def test_it_is_run_in_under_the_scenes_pair_load_and_places(self, resolved, pair, hardness):
         scene = resolved({"load": {"position": 5e-6}})
-        found = run_in_scene(scene).run_in
+        surface = surface_of(scene)
+        found = run_in_surface(scene, surface).run_in
         other = run_in(
-            scene.profile.shifted(-5e-6),
+            surface.profile.shifted(-5e-6),
             pair.radius,
             pair.combined_modulus,
             found.constraints,
-            np.array(scene.running_in.positions),
+            np.array(scene.running_in.places(0.0)),
             pitch=found.pitch,
         )
         assert (
@@ -53,12 +60,13 @@ class TestProblem:
 
     def test_the_load_is_the_scenes(self, resolved, pair):
         by_peak = {"per_length": None, "hertz_peak_pressure": pair.peak_pressure}
-        scene = run_in_scene(resolved({"load": by_peak}))
-        assert scene.run_in.constraints.load == pytest.approx(pair.load_per_length, rel=1e-12)
+        surface = run_in_of(resolved({"load": by_peak}))
+        assert surface.run_in.constraints.load == pytest.approx(pair.load_per_length, rel=1e-12)
 
     def test_the_load_is_its_own_where_it_has_one(self, resolved, pair):
-        scene = run_in_scene(resolved({"running_in": {"load": 1.5 * pair.load_per_length}}))
-        assert scene.run_in.constraints.load == pytest.approx(1.5 * pair.load_per_length, rel=1e-12)
+        load = 1.5 * pair.load_per_length
+        surface = run_in_of(resolved({"running_in": {"load": load}}))
+        assert surface.run_in.constraints.load == pytest.approx(load, rel=1e-12)
 
     def test_running_in_is_done_once(self, monkeypatch, resolved):
         problem = problem_of(resolved())
@@ -67,11 +75,11 @@ class TestProblem:
             pytest.fail("run in twice")
 
         monkeypatch.setattr(comparisons.models.running_in, "run_in", again)
-        assert problem_of(problem.scene).scene is problem.scene
+        assert problem_of(problem.scene, problem.surface).surface is problem.surface
 
     def test_hats_are_fine_enough_for_the_volume_and_nest_in_the_samples(self, resolved, pair):
-        scene = run_in_scene(resolved())
-        found = scene.run_in
+        scene = resolved()
+        found = run_in_of(scene).run_in
         octaves = np.log2(found.pitch / found.before.spacing)
         assert octaves == pytest.approx(round(octaves), abs=1e-9)
         finer = run_in(
@@ -79,7 +87,7 @@ class TestProblem:
             pair.radius,
             pair.combined_modulus,
             found.constraints,
-            np.array(scene.running_in.positions),
+            np.array(scene.running_in.places(0.0)),
             pitch=0.25 * found.pitch,
         )
         assert found.volume == pytest.approx(finer.volume, rel=5e-3)
@@ -90,8 +98,8 @@ class TestProblem:
         scene = resolved()
         x = np.linspace(-2e-3, 2e-3, 2001)
         waves = Profile(x, 1e-12 * np.cos(2.0 * np.pi * x / 8e-6))
-        scene = run_in_scene(replace(scene, profile=waves))
-        assert scene.run_in.pitch > pair.half_width / 2500.0
+        surface = run_in_surface(scene, replace(surface_of(scene), profile=waves))
+        assert surface.run_in.pitch > pair.half_width / 2500.0
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -108,7 +116,7 @@ class TestRun:
         return outcome
 
     def test_files_hold_the_surface_before_and_after(self, done: Run):
-        found, out = done.problem.scene.run_in, done.directory
+        found, out = done.problem.surface.run_in, done.directory
         table = np.loadtxt(out / "run_in_profile.csv", delimiter=",", skiprows=1)
         header = (out / "run_in_profile.csv").read_text().splitlines()[0]
         assert header == "x [m],height before running-in [m],height [m]"
@@ -121,12 +129,13 @@ class TestRun:
         from comparisons.runs.run import run
 
         record = json.loads((done.directory / "record.json").read_text())
-        trace = done.problem.scene.run_in.before
+        trace = done.problem.surface.run_in.before
         assert record["profile"]["x"] == trace.x.tolist()
         assert record["profile"]["height"] == trace.height.tolist()
-        scene = resolve_tables(record["scene"], name="wavy", folder=Path("."), source="record")
+        scene = Scene.of(record["scene"])
         placed = Profile(np.array(record["profile"]["x"]), np.array(record["profile"]["height"]))
-        again = run(replace(scene, profile=placed), tmp_path / "again", ("half_plane",))
+        known = Known(replace(surface_of(scene), profile=placed))
+        again = run(scene, tmp_path / "again", ("half_plane",), known=known)
         assert again.record["hashes"] == done.record["hashes"]
         assert set(done.record["hashes"]) == {"half_plane_pressure", "run_in_profile"}
         assert again.found["running_in"] == done.found["running_in"]
@@ -134,9 +143,9 @@ class TestRun:
 
 def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness():
     """On ground as steep as the unrun, peaks end at the hardness, and little material goes."""
-    scene = load_scene("ground-running-in")
+    scene = Scene.read("ground-running-in")
     problem = problem_of(scene)
-    found = problem.scene.run_in
+    found = problem.surface.run_in
     assert found.status == "settled" and found.converged
     assert not any(one.at_end for one in found.passes)
     assert 1e-12 * 30.0 < found.volume < 1e-12 * 45.0
@@ -146,7 +155,7 @@ def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness()
     level = half_plane_level(problem, problem.pitches[-1], None, Stages())
     peak = level.solution.pressure.max()
     assert peak == pytest.approx(scene.running_in.hardness, rel=0.02)
-    unrun = problem_of(load_scene("ground-unrun"))
+    unrun = problem_of(Scene.read("ground-unrun"))
     before = half_plane_level(unrun, unrun.pitches[-1], None, Stages())
     assert before.solution.pressure.max() > 1.5 * peak
     ratios = [found.contact_length / problem.hertz.half_width / 2.0 for found in (before, level)]

@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,38 +11,38 @@ from comparisons.common.errors import ExitStatus, SceneError
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.models.running_in import run_in_scene
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.models.running_in import run_in_surface
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 
 
 class TestReading:
     def test_a_stroke_is_centred_on_the_roller(self, resolved, hardness):
         scene = resolved({"load": {"position": 5e-6}})
-        assert scene.running_in.positions == pytest.approx([-25e-6, -10e-6, 5e-6, 20e-6, 35e-6])
+        assert scene.running_in.places(5e-6) == pytest.approx([-25e-6, -10e-6, 5e-6, 20e-6, 35e-6])
         assert scene.running_in.hardness == hardness
         assert scene.running_in.sweeps == 10 and scene.running_in.load is None
 
     def test_positions_are_places_on_the_trace_in_their_order(self, resolved):
         positions = [20e-6, -30e-6, 0.0]
         scene = resolved({"running_in": {"positions": positions, "stroke": None, "passes": None}})
-        assert scene.running_in.positions == tuple(positions)
+        assert scene.running_in.places(0.0) == tuple(positions)
 
     def test_defaults_are_written_out_and_read_again(self, resolved):
         scene = resolved(
             {"body": {"hardness": 3e9}, "running_in": {"hardness": None, "passes": None}}
         )
         assert scene.running_in.hardness == 3e9
-        assert len(scene.running_in.positions) == 15
+        assert len(scene.running_in.places(0.0)) == 15
         table = scene.tables["running_in"]
         assert table == {"hardness": 3e9, "stroke": 60e-6, "passes": 15, "sweeps": 10}
-        again = resolve_tables(
-            json.loads(json.dumps(scene.tables)), name="wavy", folder=Path("."), source="x"
-        )
-        assert again == scene and np.array_equal(again.profile.x, scene.profile.x)
+        again = Scene.of(json.loads(json.dumps(scene.tables)))
+        assert again.running_in == scene.running_in
+        assert np.array_equal(surface_of(again).profile.x, surface_of(scene).profile.x)
 
     def test_without_the_section_nothing_is_there(self, resolved):
         scene = resolved({"running_in": None})
-        assert scene.running_in is None and scene.as_dict()["running_in"] is None
+        assert scene.running_in is None and surface_of(scene).as_dict(scene)["running_in"] is None
         assert "running_in" not in scene.tables
         problem = problem_of(scene)
         plan = make_plan(problem, MODELS)
@@ -52,10 +51,10 @@ class TestReading:
         assert not any("running" in skipped.step for skipped in plan.skipped)
 
     def test_a_made_trace_is_long_enough_for_the_stroke(self, resolved):
-        one = resolved({"running_in": None}).profile.length
-        assert resolved().profile.length - one == pytest.approx(60e-6, abs=2e-6)
+        one = surface_of(resolved({"running_in": None})).profile.length
+        assert surface_of(resolved()).profile.length - one == pytest.approx(60e-6, abs=2e-6)
         places = {"positions": [-50e-6, 10e-6], "stroke": None, "passes": None}
-        longer = resolved({"running_in": places}).profile.length
+        longer = surface_of(resolved({"running_in": places})).profile.length
         assert longer - one == pytest.approx(100e-6, abs=2e-6)
 
 
@@ -104,7 +103,7 @@ def test_a_wrong_field_is_named_with_what_is_allowed(fields, line, resolved):
 def test_pressures_too_few_or_too_many_for_the_trace_are_refused(resolved, load):
     scene = resolved({"running_in": {"load": load}, "profile": {"length": 2e-3}})
     with pytest.raises(SceneError, match=r"running_in: takes .* of .* m; allowed are 8 to 4e\+06"):
-        run_in_scene(scene)
+        run_in_surface(scene, surface_of(scene))
 
 
 class TestRestOfTheScene:
@@ -112,7 +111,7 @@ class TestRestOfTheScene:
     def refused(self, resolved) -> Callable[[dict], str]:
         def said(changes: dict) -> str:
             with pytest.raises(SceneError) as error:
-                resolved(changes)
+                surface_of(resolved(changes))
             return str(error.value)
 
         return said
@@ -149,7 +148,7 @@ class TestRestOfTheScene:
 
     def test_a_body_too_soft_to_carry_the_load(self, resolved):
         with pytest.raises(SceneError, match=r"^wavy.toml: running_in.hardness: the load 200000 N"):
-            run_in_scene(resolved({"running_in": {"hardness": 1e8}}))
+            problem_of(resolved({"running_in": {"hardness": 1e8}}))
 
     def test_the_command_line_says_one_line_and_writes_nothing(self, tmp_path, monkeypatch, capsys):
         monkeypatch.chdir(tmp_path)

@@ -32,7 +32,7 @@ def outcome(finish: Callable[..., Run], wavy) -> Run:
 
 class TestTelling:
     def test_result(self, outcome: Run, hardness):
-        found, run_in = outcome.found["running_in"], outcome.problem.scene.run_in
+        found, run_in = outcome.found["running_in"], outcome.problem.surface.run_in
         told = {f.quantity: f.value for f in found.figures if f.source == "half_plane"}
         assert told["passes"] == len(run_in.passes) == 5 * told["sweeps"]
         volumes = found.table("passes").columns["volume"].values
@@ -66,7 +66,7 @@ class TestTelling:
             lambda figure: figures.append(figure) or "data:",
         )
         picture = running_in_picture(outcome)
-        run_in = outcome.problem.scene.run_in
+        run_in = outcome.problem.surface.run_in
         assert len(figures) == 2  # wide and narrow
         for figure in figures:
             [axes] = figure.axes
@@ -77,7 +77,7 @@ class TestTelling:
                 assert points[:, 1] * 1e-9 == pytest.approx(
                     profile.spline()(points[:, 0] * 1e-6), abs=1e-15
                 )
-        said = running_in_in_words(outcome.problem.scene)
+        said = running_in_in_words(outcome.problem.scene, outcome.problem.surface)
         assert picture.caption.endswith(said)
         assert f"In {len(run_in.passes)} passes ({run_in.sweeps} sweeps over 5 places)" in said
         assert said.count(". ") == 0 and said.endswith(" deep.")
@@ -91,12 +91,12 @@ class TestTelling:
         console.print(summary(outcome))
         shown = console.export_text().splitlines()
         [row] = [line for line in shown if line.startswith("run in")]
-        run_in = outcome.problem.scene.run_in
+        run_in = outcome.problem.surface.run_in
         assert f"moved in {len(run_in.passes)} passes, settled" in row
         peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
         softer = replace(run_in.constraints, hardness=peak / 1.8)
-        scene = replace(outcome.problem.scene, run_in=replace(run_in, constraints=softer))
-        sharp = posed(outcome, problem=replace(outcome.problem, scene=scene))
+        surface = replace(outcome.problem.surface, run_in=replace(run_in, constraints=softer))
+        sharp = posed(outcome, problem=replace(outcome.problem, surface=surface))
         assert run_in_text(sharp).endswith("; pressed afterwards by up to 1.80 times its hardness")
         assert "times its hardness" not in row
         [surface] = [line for line in shown if line.startswith("surface")]
@@ -105,19 +105,20 @@ class TestTelling:
 
     def test_what_fell_short_is_told(self, outcome: Run):
         problem = outcome.problem
-        run_in = problem.scene.run_in
+        run_in = problem.surface.run_in
         passes = (replace(run_in.passes[0], at_end=True), *run_in.passes[1:])
-        scene = replace(problem.scene, run_in=replace(run_in, status="passes spent", passes=passes))
-        plan = make_plan(replace(problem, scene=scene), MODELS)
+        run_in = replace(run_in, status="passes spent", passes=passes)
+        surface = replace(problem.surface, run_in=run_in)
+        plan = make_plan(replace(problem, surface=surface), MODELS)
         short = [text for text in plan.assumptions if text.startswith("running-in")][1:]
         assert "has not settled in" in short[0] and "from −30 µm" in short[1]
-        said = running_in_in_words(scene)
+        said = running_in_in_words(problem.scene, surface)
         assert "it has not settled." in said and "an end of the trace" in said
 
     def test_hats_too_coarse_for_the_surface_are_told(self, monkeypatch, resolved):
         monkeypatch.setattr(comparisons.models.running_in, "MOST_HATS", 100)
         problem = problem_of(resolved())
-        run_in = problem.scene.run_in
+        run_in = problem.surface.run_in
         [said] = [
             text
             for text in make_plan(problem, MODELS).assumptions
@@ -128,10 +129,10 @@ class TestTelling:
     def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Run):
         assert outcome.exit_status != ExitStatus.NOT_CONVERGED
         problem = outcome.problem
-        run_in = problem.scene.run_in
+        run_in = problem.surface.run_in
         passes = (replace(run_in.passes[0], converged=False), *run_in.passes[1:])
-        scene = replace(problem.scene, run_in=replace(run_in, passes=passes))
-        failed = posed(outcome, problem=replace(problem, scene=scene))
+        surface = replace(problem.surface, run_in=replace(run_in, passes=passes))
+        failed = posed(outcome, problem=replace(problem, surface=surface))
         failed = refound(failed, "running_in", statements=(Statement("converged", "no"),))
         assert not failed.converged
         assert failed.exit_status == ExitStatus.NOT_CONVERGED

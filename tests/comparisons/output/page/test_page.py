@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
-from scenes import posed
+from scenes import judging, posed
 
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.page import render
@@ -67,7 +67,7 @@ def test_the_contact_ratio_is_shown_once(wavy_page, smooth_page, half_plane_page
     for page in (wavy_page, smooth_page, half_plane_page):
         assert "contact length over Hertz 2a" not in page.text
         assert "× 2a" in page.text
-    scene = replace(wavy_outcome.problem.scene, tolerance={"contact_ratio": 0.02})
+    scene = judging(wavy_outcome.problem.scene, {"contact_ratio": 0.02})
     judged = posed(wavy_outcome, problem=replace(wavy_outcome.problem, scene=scene))
     assert is_shown(judged, "contact_ratio") and is_shown(wavy_outcome, "peak_pressure")
 
@@ -231,7 +231,7 @@ def test_only_tables_scroll_sideways_and_are_named(wavy_page):
 def test_a_title_cannot_add_markup(smooth_outcome: Run, page_of, monkeypatch, no_pictures):
     monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
     title = '<script>alert("x")</script> & <b>more'
-    scene = replace(smooth_outcome.problem.scene, title=title)
+    scene = smooth_outcome.problem.scene.unchecked({"title": title})
     outcome = posed(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
     page = page_of(render(outcome))
     assert title in page.headings

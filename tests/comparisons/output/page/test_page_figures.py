@@ -107,10 +107,10 @@ def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Run
 
 def capped(outcome: Run, one: float, other: float) -> Run:
     """The outcome with these peaks over the hardness."""
-    levels = {}
+    levels, hardness = {}, outcome.problem.scene.body.hardness
     for (name, run), size in zip(outcome.runs.items(), (one, other), strict=True):
-        pressure = np.minimum(run.finest.solution.pressure, size * outcome.problem.scene.hardness)
-        pressure[pressure.argmax()] = size * outcome.problem.scene.hardness
+        pressure = np.minimum(run.finest.solution.pressure, size * hardness)
+        pressure[pressure.argmax()] = size * hardness
         finest = replace(run.finest, solution=replace(run.finest.solution, pressure=pressure))
         levels[name] = replace(run, levels=(*run.levels[:-1], finest))
     solved = replace(outcome.solved, runs=levels)

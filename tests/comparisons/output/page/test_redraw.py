@@ -76,13 +76,13 @@ def test_what_is_kept_is_exact_and_small(written, wavy_outcome: Run):
     for name, run in wavy_outcome.runs.items():
         found = again.runs[name].finest
         np.testing.assert_array_equal(found.solution.pressure, run.finest.solution.pressure)
-        for friction in wavy_outcome.problem.scene.friction:
+        for friction in wavy_outcome.problem.scene.load.friction:
             mine, own = found.stress(friction).field, run.finest.stress(friction).field
             np.testing.assert_array_equal(mine.tau1, own.tau1)
             np.testing.assert_array_equal(mine.txz, own.txz)
     assert again.exit_status == wavy_outcome.exit_status
     points = wavy_outcome.window.x.size * wavy_outcome.window.z.size
-    fields = 2 * 2 * len(wavy_outcome.problem.scene.friction) * points * 8  # bytes
+    fields = 2 * 2 * len(wavy_outcome.problem.scene.load.friction) * points * 8  # bytes
     assert (folder / FILE).stat().st_size < fields + 250_000
 
 
@@ -113,7 +113,7 @@ def spoil(folder: Path, what: str) -> None:
         (
             lambda f: np.savez(
                 f / FILE,
-                outline=np.array(json.dumps({"schema": 2, "outcome": {"dict": [["x", 1]]}})),
+                outline=np.array(json.dumps({"schema": 3, "outcome": {"dict": [["x", 1]]}})),
             ),
             "report.npz: 'problem'; allowed is",
         ),

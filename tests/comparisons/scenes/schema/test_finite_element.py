@@ -9,8 +9,7 @@ from analytic.material import Law
 from comparisons.common.errors import SceneError
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import Yielding
+from comparisons.scenes.scene import Origin, Scene
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 ELASTIC = {
@@ -26,7 +25,7 @@ def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict)
     for name, fields in {**sections, "finite_element": finite_element or {}}.items():
         merged = {**tables.get(name, {}), **fields}
         tables[name] = {key: value for key, value in merged.items() if value is not None}
-    return resolve_tables(tables, name="mine", folder=Path("."), source="mine.toml")
+    return Scene.of(tables, Origin("mine", Path("."), "mine.toml"))
 
 
 @pytest.mark.parametrize(
@@ -68,7 +67,7 @@ def test_a_rough_boundary_is_met_where_it_has_come_to():
 def test_a_body_that_yields():
     steel = {"yield_stress": "2.5 GPa", "hardening_modulus": "1 GPa"}
     scene = scene_of(RIGID, {"plastic": True, "coupled": True}, body=steel)
-    assert scene.yielding == Yielding(2.5e9, 1e9)
+    assert (scene.body.yield_stress, scene.body.hardening_modulus) == (2.5e9, 1e9)
 
 
 @pytest.mark.parametrize("load", [False, True])
@@ -76,7 +75,7 @@ def test_a_body_that_yields():
 def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
     given = {} if own is None else {"coupled": own}
     scene = scene_of(RIGID, given, load={"coupled": load})
-    assert scene.coupled == load
+    assert scene.load.coupled == load
     assert scene.finite_element.coupled == (load if own is None else own)
 
 
@@ -176,11 +175,11 @@ def test_laws_of_elasticity_are_the_bodies_own():
     """And come back from the record as they were."""
     law = {"law": "murnaghan", "murnaghan": CONSTANTS}
     scene = scene_of(ELASTIC, body=law, roller={"law": "hencky"})
-    assert scene.body.law == Law("murnaghan", (-150e9, -600e9, -700e9))
-    assert scene.roller.law == Law("hencky")
-    again = resolve_tables(scene.tables, name="mine", folder=Path("."), source="mine.toml")
+    assert scene.body.material.law == Law("murnaghan", (-150e9, -600e9, -700e9))
+    assert scene.roller.material.law == Law("hencky")
+    again = Scene.of(scene.tables, Origin("mine", Path("."), "mine.toml"))
     assert (again.body, again.roller) == (scene.body, scene.roller)
-    assert scene_of(ELASTIC).body.law.name == "neo-hookean"
+    assert scene_of(ELASTIC).body.material.law.name == "neo-hookean"
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,9 @@ import pytest
 from scenes import PROJECT, SMOOTH, changed, problem, resolved
 
 from comparisons.common.errors import SceneError
+from comparisons.models.heat import reach_of
 from comparisons.models.plan import make_plan
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
 STEEL = {
@@ -21,7 +22,7 @@ def test_defaults():
     heat = resolved(HOT).heat
     assert resolved(resolved(HOT).tables).heat == heat
     assert heat.body.diffusivity == pytest.approx(46.0 / (7850.0 * 460.0))
-    assert (heat.base, heat.coating, heat.reach) == ("held", None, SMOOTH["roller"]["radius"])
+    assert reach_of(problem(HOT)) == SMOOTH["roller"]["radius"]
     assert resolved(SMOOTH).heat is None
 
 
@@ -60,8 +61,8 @@ STRESSED = changed(HOT, heat={"stresses": True, "body_expansion": "12 um/m/K"}, 
 @pytest.mark.parametrize("given", ["12 um/m/K", "12e-6 1/K", "12 ppm/K", 12e-6])
 def test_thermal_stresses_are_asked_for(given):
     heat = resolved(changed(STRESSED, heat={"body_expansion": given})).heat
-    assert (heat.expansion, heat.coating_expansion) == (pytest.approx(12e-6), None)
-    assert resolved(HOT).heat.expansion is None
+    assert (heat.body_expansion, heat.coating_expansion) == (pytest.approx(12e-6), None)
+    assert resolved(HOT).heat.body_expansion is None
 
 
 COAT = {"thickness": 1e-5, "youngs_modulus": 4e11, "poissons_ratio": 0.2}
@@ -137,8 +138,8 @@ def test_a_scene_without_heat_says_so_and_loads_none_of_it():
     }
     code = (
         "import sys; from comparisons.runs.run import run; import comparisons.output.page.page\n"
-        "from comparisons.scenes.resolve import load_scene\n"
-        "run(load_scene('smooth'), None, ('half_plane',))\n"
+        "from comparisons.scenes.scene import Scene\n"
+        "run(Scene.read('smooth'), None, ('half_plane',))\n"
         "print([name for name in sys.modules if name.startswith(('analytic.heat', 'fem.heat'))])"
     )
     done = subprocess.run(
@@ -148,4 +149,4 @@ def test_a_scene_without_heat_says_so_and_loads_none_of_it():
 
 
 def test_the_library_scene():
-    assert load_scene("frictional-heat").heat.velocities == (-1.0, 0.0)
+    assert Scene.read("frictional-heat").heat.velocities == (-1.0, 0.0)

@@ -15,7 +15,8 @@ from analytic.exact.hertz import hertz_stress
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.models.window import window_of
-from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.studies.answers import answers_named
 from comparisons.studies.answers.readers.files import read_answers
 from meshes.block import structured
 
@@ -296,12 +297,13 @@ def test_med_is_read_beside_another_hdf5(hertz, tmp_path):
 def test_answers_on_the_command_line(tmp_path, hertz, capsys):
     (tmp_path / "a.csv").write_text(text(ROWS))
     (tmp_path / "a.toml").write_text('file = "a.csv"\nunits = {length = "mm"}\n')
-    scene = load_scene("smooth", [f"one={tmp_path / 'a.csv'}", f"two={tmp_path / 'a.toml'}"])
-    one, two = scene.answers
-    assert one.files == two.files == (str(tmp_path / "a.csv"),)
+    tables = answers_named([f"one={tmp_path / 'a.csv'}", f"two={tmp_path / 'a.toml'}"], None)
+    answers = Scene.read("smooth").changed("answers", tables).answers
+    one, two = answers["one"], answers["two"]
+    assert one.file == two.file == (str(tmp_path / "a.csv"),)
     assert (one.length, two.length) == (1.0, 1e-3)
-    both = load_scene("smooth", [f"one={tmp_path / name}" for name in ("a.csv", "b.csv")])
-    assert len(both.answers[0].files) == 2
+    both = answers_named([f"one={tmp_path / name}" for name in ("a.csv", "b.csv")], tables)
+    assert len(both["one"]["file"]) == 2 and both["two"] == tables["two"]
     out = tmp_path / "out"
     assert main(["run", "smooth", "--answer", "nothing", "--out", str(out)]) == 2
     assert main(["run", "smooth", "--answer", f"a={out}/no.csv", "--out", str(out)]) == 2
@@ -311,4 +313,4 @@ def test_answers_on_the_command_line(tmp_path, hertz, capsys):
 
 
 def test_a_scene_without_answers_names_none():
-    assert resolved(QUICK).answers == () and "answers" not in resolved(QUICK).tables
+    assert resolved(QUICK).answers is None and "answers" not in resolved(QUICK).tables

@@ -97,7 +97,7 @@ class TestFiniteDeformation:
         assert split.whole == ModelVariant(frozenset(together), 0.2)
         assert set(solutions.asked) == {split.whole, PLAIN, own}
         scene = body_problem(problem, split.whole).scene
-        assert scene.finite_element.coupled and scene.friction == (0.2,)
+        assert scene.finite_element.coupled and scene.load.friction == (0.2,)
         assert scene.finite_element.geometry == "rough"
 
     def test_coupling_that_matters_is_no_part_of_it(self, problem_with, made_solutions):

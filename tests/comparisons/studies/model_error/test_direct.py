@@ -4,8 +4,6 @@ them all.
 Here they are switched on in the scene, from the first level to the last: nothing is added up.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scenes import RUBBER, STEEL, problem, resolved
@@ -16,8 +14,9 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
+from comparisons.models.problem import Levels
 from comparisons.models.window import window_of
-from comparisons.runs.run import run
+from comparisons.runs.run import Known, run
 from comparisons.studies.comparison import norms
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.catalogue import contained
@@ -93,12 +92,7 @@ def outcome_of(tables: dict, levels: int) -> Run:
     """On three levels, its effects on so many."""
     judged = {*QUANTITIES, *(STRESSES if "stress" in tables else ())}
     scene = resolved(tables | {"tolerance": dict.fromkeys(judged, 1e-5)})
-    scene = replace(
-        scene,
-        resolution=replace(scene.resolution, most=3),
-        budget=replace(scene.budget, levels=levels, time=1e4),
-    )
-    return run(scene, None, MODELS)
+    return run(scene, None, MODELS, known=Known(levels=Levels(3, levels)))
 
 
 def direct_errors(tables: dict) -> dict[str, float]:
@@ -106,7 +100,7 @@ def direct_errors(tables: dict) -> dict[str, float]:
     posed = problem(tables)
     plan, pitch = make_plan(posed, MODELS), posed.pitches[2]
     window = window_of(posed) if plan.stress else None
-    friction = posed.scene.friction[0]
+    friction = posed.scene.load.friction[0]
     one = half_plane_level(posed, pitch, window, Stages())
     other = finite_element_level(posed, plan, Refinement(pitch), window, Stages())
     flat, real = (values_of(level, posed, friction) for level in (one, other))
@@ -122,7 +116,7 @@ def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, floa
     tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}
     added, switched = outcome_of(tables, levels), tables | {"finite_element": switches}
     assert added.data("model_error").levels == levels and added.data("model_error").unsplit is None
-    friction = added.problem.scene.friction[0]
+    friction = added.problem.scene.load.friction[0]
     split = split_variants(added.problem, added.data("model_error").selection, friction)
     assert split.whole.effects == contained(resolved(switched))
     errors = direct_errors(switched)

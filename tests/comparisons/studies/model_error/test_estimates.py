@@ -7,12 +7,13 @@ import pytest
 from scenes import STEEL, problem, resolved
 
 import comparisons.campaigns.maps
-from comparisons.campaigns.maps.groups import Origin, tables_with
+from comparisons.campaigns.maps.groups import scene_with
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
 from comparisons.scenes.files import read_toml
 from comparisons.studies.model_error.estimates import estimates
 
@@ -28,18 +29,16 @@ def test_there_are_maps():
 def test_they_bound_every_point_of_a_finished_map(name):
     """What the half-plane is off by, beyond its uncertainty, is at most the sum of estimates."""
     content = json.loads((FINISHED / f"{name}.json").read_text(encoding="utf-8"))
-    origin = Origin(name, FINISHED)
     base = resolved(read_toml(FINISHED / f"{name}.toml"), name, FINISHED)
     checked, tight = 0, 0.0
     for point in content["points"]:
         if point["status"] != "solved":
             continue
         groups = {content[axis]["group"]: point[axis] for axis in ("x", "y")}
-        tables = tables_with(base.tables, groups, origin)
-        posed = problem(tables)
+        posed = problem_of(scene_with(base, groups))
         found = point["quantities"]
         peak = found["peak_pressure"]["half_plane"]
-        linear = {"rough_boundary"} if "profile" in base.tables else set()  # which the maps have
+        linear = {"rough_boundary"} if base.profile else set()  # which the maps have
         sums = [estimates(posed, peak, peak, had) for had in (set(), linear)]
         for sizes in sums:
             del sizes["law_of_elasticity"]  # the maps take one law

@@ -54,10 +54,10 @@ def budgets(problem_with, tmp_path_factory):
         solved = refined(Solved(problem, plan, None, {}), Tasks(kept=cache))
         rows, found = compared(problem, solved.runs, None), []
         for effects in (True, "all"):
-            scene = replace(problem.scene, budget=replace(problem.scene.budget, effects=effects))
+            scene = problem.scene.unchecked({"budget.effects": effects})
             posed = replace(solved, problem=replace(problem, scene=scene))
             found.append(error_budget(posed, rows, (), Tasks(kept=cache)))
-        return *found, problem.scene.tolerance
+        return *found, problem.scene.tolerances
 
     return made
 

@@ -203,7 +203,7 @@ def test_without_a_solution_free_of_effects_nothing_is_split():
     solve = comparisons.models.finite_element.level.finite_element_level
 
     def bounded_alone(problem, *arguments, **others):
-        if problem.scene.thickness is None:
+        if problem.scene.body.thickness is None:
             raise MeshError("no mesh")
         return solve(problem, *arguments, **others)
 

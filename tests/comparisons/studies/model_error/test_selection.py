@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from scenes import judging
 
 from comparisons.common.mpi import RANKS
 from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE, select_effects
@@ -15,7 +16,7 @@ def chosen(problem, peak=None, couplings=()):
 
 
 def judged(problem, **tolerance):
-    return replace(problem, scene=replace(problem.scene, tolerance=tolerance))
+    return replace(problem, scene=judging(problem.scene, tolerance))
 
 
 def test_an_effect_is_computed_from_a_tenth_of_a_tolerance_on(problem_with):

@@ -20,7 +20,8 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
-from comparisons.scenes.scene import Spread
+from comparisons.scenes.studies.scatter import Spread
+from comparisons.scenes.surface import surface_of
 from comparisons.studies.scatter.samples import sampled, values_at
 from comparisons.studies.scatter.shares import designs
 from comparisons.studies.scatter.study import begin, solve
@@ -41,11 +42,12 @@ def outcome():
 def exact():
     """Hertz's peak pressure and contact length of many random samples of the same inputs."""
     scene, rng = resolved(SCENE), np.random.default_rng(0)
+    surface = surface_of(scene)
     found = []
     for point in rng.random((20_000, 3)):
-        one = sampled(scene, point)
-        modulus = combined_modulus(one.roller, one.body)
-        hertz = hertz_from_load(one.load.value, one.roller_radius, modulus)
+        one, _ = sampled(scene, surface, point)
+        modulus = combined_modulus(one.roller.material, one.body.material)
+        hertz = hertz_from_load(one.load.value, one.roller.radius, modulus)
         found.append((hertz.peak_pressure, 2.0 * hertz.half_width))
     return dict(zip(("peak_pressure", "contact_length"), np.array(found).T, strict=True))
 
@@ -157,18 +159,20 @@ class TestASample:
     def test_the_roller_moves_along_the_trace(self):
         scene = resolved(changed(ROUGH, scatter={"position": 20e-6}))
         [left] = designs(8, 1, 0)[0][:1]
-        moved = sampled(scene, left)
+        surface = surface_of(scene)
+        _, moved = sampled(scene, surface, left)
         far = values_at(Spread(20e-6), 0.0, left[0])
-        assert moved.position == pytest.approx(scene.position + far)
-        assert moved.profile.x == pytest.approx(scene.profile.x - far)
-        assert np.array_equal(moved.profile.height, scene.profile.height)
+        assert moved.position == pytest.approx(surface.position + far)
+        assert moved.profile.x == pytest.approx(surface.profile.x - far)
+        assert np.array_equal(moved.profile.height, surface.profile.height)
 
     def test_noise_and_tip_change_the_heights(self):
         inputs = {"noise": 10e-9, "tip_radius": {"range": [5e-6, 6e-6]}}
         scene = resolved(changed(ROUGH, scatter=inputs))
-        one, other = (sampled(scene, np.array(p)).profile.height for p in ((0.5, 0.2), (0.5, 0.7)))
+        surface, points = surface_of(scene), np.array([(0.5, 0.2), (0.5, 0.7), (0.5, 0.2)])
+        one, other, again = (sampled(scene, surface, p)[1].profile.height for p in points)
         assert (one - other).std() == pytest.approx(np.sqrt(2.0) * 10e-9, rel=0.3)
-        assert np.array_equal(one, sampled(scene, np.array((0.5, 0.2))).profile.height)
+        assert np.array_equal(one, again)
 
     def test_what_has_no_solution_is_counted(self):
         beyond = {"position": {"range": [0.0, 1.5e-3]}, "samples": 8}

@@ -14,10 +14,11 @@ from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.problem import Levels, problem_of
 from comparisons.output.recorded_run import read_result
-from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene
+from comparisons.runs.run import Known, run
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 from comparisons.studies.statistics.figures import LoadRow
 from comparisons.studies.statistics.patches import patch_states
 from comparisons.studies.statistics.study import summit_rows
@@ -44,7 +45,7 @@ def test_loads_go_down_three_decades_from_the_scenes(loads):
 
 
 def test_a_run_that_goes_on_need_not_solve_them_again(tmp_path, outcome, loads):
-    cache = level_cache(tmp_path / "out", outcome.problem.scene, outcome.plan, LoadRow)
+    cache = level_cache(tmp_path / "out", outcome.problem, outcome.plan, LoadRow)
     cache.save("statistics", loads)
     assert cache.load("statistics") == loads
 
@@ -118,7 +119,7 @@ def test_filters_take_the_sharpest_summits_first(outcome):
 
 
 def test_cutoffs_can_be_asked_for():
-    profile = resolved(SCENE).profile
+    profile = surface_of(resolved(SCENE)).profile
     rows = summit_rows(profile, (20e-6, 50e-6))
     assert [row.size for row in rows if row.treatment == "cut-off"] == [20e-6, 50e-6]
     with pytest.raises(ValueError, match="does not suit the trace"):
@@ -144,7 +145,7 @@ class TestPatches:
         """Hertz: h/R of a ridge is (a/R)^2, its radius the roller's."""
         found = run(resolved(SMOOTH), None, ("half_plane",))
         wanted = SimpleNamespace(metal="ferrous", lubricated=False)
-        scene = replace(found.problem.scene, statistics=wanted)
+        scene = found.problem.scene.unchecked({"statistics": wanted})
         (patch,) = patch_states(
             replace(found.problem, scene=scene), found.runs["half_plane"].finest
         )
@@ -167,9 +168,8 @@ class TestPatches:
             "stress": {"points": [30, 10]}, "finite_element": {"plastic": True},
             "resolution": {"levels": 2, "pitch": 8e-6}, "budget": {"effects": False},
         }  # fmt: skip
-        scene = resolved(tables)
-        scene = replace(scene, resolution=replace(scene.resolution, most=2))
-        patches = run(scene, None, MODELS).data("statistics").patches
+        known = Known(levels=Levels(2))
+        patches = run(resolved(tables), None, MODELS, known=known).data("statistics").patches
         elastic, flowing = patches["half_plane"], patches["finite_element"]
         assert all(patch.plastic_strain is None for patch in elastic)
         assert {patch.kinds["exact"] for patch in flowing} == {"elastic"}
@@ -262,7 +262,7 @@ def test_statistics_of_a_smooth_profile_end_with_two_and_write_nothing(tmp_path,
 
 
 def test_the_scene_that_comes_along_has_both_kinds_of_asperities():
-    scene = load_scene("rough-statistics")
+    scene = Scene.read("rough-statistics")
     assert scene.statistics.traces >= 8
     (patches,) = run(scene, None, ("half_plane",)).data("statistics").patches.values()
     assert {patch.kinds["exact"] for patch in patches} == {"elastic", "plastic"}

@@ -48,7 +48,7 @@ def test_the_depth_that_is_chosen_is_the_one_that_is_shown(tab, wavy_file, wavy_
     page = tab(wavy_file, WIDTH)
     depths = set()
     for component in (0, 1):
-        for friction, coefficient in enumerate(wavy_outcome.problem.scene.friction):
+        for friction, coefficient in enumerate(wavy_outcome.problem.scene.load.friction):
             for row in (0, 3, 7):
                 text = page.value(
                     f"""(() => {{
@@ -113,7 +113,7 @@ def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_o
           return links.map((link, k) => [drawn(link), link.textContent, link.download, texts[k]]);
         })()"""
     )
-    frictions, a = wavy_outcome.problem.scene.friction, wavy_outcome.problem.hertz.half_width
+    frictions, a = wavy_outcome.problem.scene.load.friction, wavy_outcome.problem.hertz.half_width
     assert len(files) == 6
     for drawn, words, name, text in files:
         header, *rows = csv.reader(text.splitlines())
@@ -143,7 +143,7 @@ def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_o
 
 def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: Run):
     page = tab(wavy_file, WIDTH)
-    frictions, a = wavy_outcome.problem.scene.friction, wavy_outcome.problem.hertz.half_width
+    frictions, a = wavy_outcome.problem.scene.load.friction, wavy_outcome.problem.hertz.half_width
     count = page.value("document.querySelectorAll('[data-field]').length")
     assert count == 6  # two components and next to the surface, twice
     for number in range(count):

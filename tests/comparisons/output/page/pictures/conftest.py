@@ -54,10 +54,10 @@ def wavy(wavy_outcome: Run) -> dict[str, list]:
 
 @pytest.fixture(scope="session")
 def with_scene() -> Callable[..., Run]:
-    """`with_scene(outcome, **fields)`: a run that says so of its scene."""
+    """`with_scene(outcome, fields)`: a run that says so of its scene."""
 
-    def changed(outcome: Run, **fields: object) -> Run:
-        scene = replace(outcome.problem.scene, **fields)
+    def changed(outcome: Run, fields: dict[str, object]) -> Run:
+        scene = outcome.problem.scene.unchecked(fields)
         return posed(outcome, problem=replace(outcome.problem, scene=scene))
 
     return changed

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import posed
+from scenes import judging, posed
 
 from comparisons.output.page.pictures.convergence import convergence_picture
 from comparisons.output.page.tables.convergence import judged_sequences
@@ -69,7 +69,7 @@ def test_the_bar_is_the_stated_uncertainty(wavy_outcome: Run, panels):
 
 
 def test_nothing_judged_is_no_picture(wavy_outcome: Run, drawn_by):
-    scene = replace(wavy_outcome.problem.scene, tolerance={})
+    scene = judging(wavy_outcome.problem.scene, {})
     problem = replace(wavy_outcome.problem, scene=scene)
     figures, picture = drawn_by(convergence_picture, posed(wavy_outcome, problem=problem))
     assert figures == [] and picture is None

@@ -48,7 +48,7 @@ def test_pressures_are_drawn_over_x_in_units_of_hertz(wavy: dict[str, list], wav
         wavy_outcome.problem.hertz.pressure(hertz[:, 0] * 1e-6) / p0, abs=1e-6
     )
     hardness = line(wide.axes[0], "hardness")
-    assert hardness[:, 1] == pytest.approx(wavy_outcome.problem.scene.hardness / p0)
+    assert hardness[:, 1] == pytest.approx(wavy_outcome.problem.scene.body.hardness / p0)
 
 
 def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(
@@ -88,7 +88,7 @@ def test_sections_hold_both_fields_and_the_exact_smooth_one(
     through_edge = wavy["section_pictures"][1]
     column = int(np.argmin(np.abs(window.x - hertz.half_width)))
     whole = [axes for axes in through_edge.axes if axes.get_xlim()[1] > 0.5]
-    for axes, friction in zip(whole, wavy_outcome.problem.scene.friction, strict=True):
+    for axes, friction in zip(whole, wavy_outcome.problem.scene.load.friction, strict=True):
         for name, label in (("half_plane", "half-plane"), ("finite_element", "finite elements")):
             field = wavy_outcome.runs[name].finest.stress(friction).field
             drawn = line(axes, label)
@@ -124,7 +124,7 @@ def test_the_problem_is_drawn_to_the_scene(wavy: dict[str, list], wavy_outcome: 
     to_scale, close = wavy["problem_picture"][0].axes
     assert to_scale.get_aspect() == 1.0
     roller = to_scale.patches[0]
-    assert roller.get_radius() == pytest.approx(wavy_outcome.problem.scene.roller_radius / 1e-3)
+    assert roller.get_radius() == pytest.approx(wavy_outcome.problem.scene.roller.radius / 1e-3)
     texts = " ".join(text.get_text() for text in to_scale.texts)
     assert "R = 10 mm" in texts and "E = 210 GPa" in texts and "µ = 0, 0.1" in texts
     surfaces = [line.get_ydata() for line in close.lines[:2]]
@@ -132,6 +132,8 @@ def test_the_problem_is_drawn_to_the_scene(wavy: dict[str, list], wavy_outcome: 
 
 
 def test_a_rigid_roller_and_a_base_are_described(drawn_by, with_scene, smooth_outcome: Run):
-    outcome = with_scene(smooth_outcome, roller=None, thickness=1e-3, base="bonded")
+    outcome = with_scene(
+        smooth_outcome, {"roller.rigid": True, "body.thickness": 1e-3, "body.base": "bonded"}
+    )
     _, picture = drawn_by(problem_picture, outcome)
     assert "1 mm thick, bonded to a rigid base" in picture.alternative

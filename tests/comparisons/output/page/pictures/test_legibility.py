@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
-from analytic.material import Material
 from comparisons.drawing.style import (
     LINES,
     REFERENCE,
@@ -19,10 +18,11 @@ from comparisons.drawing.style import (
 from comparisons.output.page.pictures.pressures import TICKS, close_up_picture, pressure_picture
 from comparisons.output.page.pictures.problem import problem_picture
 from comparisons.output.page.tables.problem import problem_sheet
-from comparisons.scenes.scene import Coated, Yielding
+from comparisons.scenes.sections import CoatingSection
 from comparisons.studies.study import Run
 
-HARD = Coated(Material(400e9, 0.22), 20e-6)
+HARD = CoatingSection(thickness=20e-6, youngs_modulus=400e9, poissons_ratio=0.22)
+FLOWS = {"body.yield_stress": 1e9, "body.hardening_modulus": 20e9}
 
 
 def rows_of(outcome: Run) -> dict[str, str]:
@@ -30,13 +30,13 @@ def rows_of(outcome: Run) -> dict[str, str]:
 
 
 def test_a_coating_and_a_yield_stress_are_described(smooth_outcome, with_scene, drawn_by):
-    changed = {"coating": HARD, "yielding": Yielding(1e9, 20e9)}
-    rows = rows_of(with_scene(smooth_outcome, **changed))
+    changed = {"coating": {"coating": HARD}, "yielding": FLOWS}
+    rows = rows_of(with_scene(smooth_outcome, {"coating": HARD} | FLOWS))
     assert rows["coating"] == "20 µm thick, E = 400 GPa, ν = 0.22"
     assert rows["body yields"] == "at 1 GPa, hardening by 20 GPa"
     assert not {"coating", "body yields"} & set(rows_of(smooth_outcome))
-    for name, value in changed.items():
-        [figure], picture = drawn_by(problem_picture, with_scene(smooth_outcome, **{name: value}))
+    for name, fields in changed.items():
+        [figure], picture = drawn_by(problem_picture, with_scene(smooth_outcome, fields))
         words = " ".join(text.get_text() for text in figure.axes[0].texts)
         for said in (words, picture.alternative):
             assert ("coating 20 µm thick" in said) == (name == "coating")
@@ -62,9 +62,9 @@ def lines_of(text) -> list[Bbox]:
 @pytest.mark.parametrize("friction", [(0.1,), (0.0, 0.1), (0.05, 0.2, 0.4)])
 @pytest.mark.parametrize("thickness", [None, 2e-3])
 def test_words_in_the_drawing_stand_apart(wavy_outcome, drawn_by, with_scene, friction, thickness):
-    fields = {"coating": HARD, "friction": friction, "thickness": thickness}
-    base = None if thickness is None else "frictionless"
-    [figure], _ = drawn_by(problem_picture, with_scene(wavy_outcome, base=base, **fields))
+    fields = {"coating": HARD, "load.friction": friction, "body.thickness": thickness}
+    fields["body.base"] = None if thickness is None else "frictionless"
+    [figure], _ = drawn_by(problem_picture, with_scene(wavy_outcome, fields))
     axes = figure.axes[0]
     texts = [text for text in axes.texts if text.get_text()]
     assert len(texts) == 4  # load, roller, body, traction

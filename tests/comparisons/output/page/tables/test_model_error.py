@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 from matplotlib import pyplot
 from rich.console import Console
-from scenes import budgeted, posed, refound
+from scenes import budgeted, judging, posed, refound
 
 from comparisons.drawing.style import collected_figures, drawing
 from comparisons.output.page.page import render
@@ -133,7 +133,7 @@ def test_one_model_has_no_budget(finish: Callable[..., Run], smooth_tables: dict
 
 
 def judged_by(outcome: Run, tolerance: dict[str, float]) -> Run:
-    scene = replace(outcome.problem.scene, tolerance=tolerance)
+    scene = judging(outcome.problem.scene, tolerance)
     judged = posed(outcome, problem=replace(outcome.problem, scene=scene))
     return budgeted(judged, outcome.data("model_error"))
 

@@ -13,8 +13,7 @@ from comparisons.common.units import (
     SPEED,
     TEMPERATURE,
 )
-from comparisons.scenes.scene import Heat
-from comparisons.scenes.schema.fields import (
+from comparisons.scenes.fields import (
     Fraction,
     Length,
     Number,
@@ -34,7 +33,9 @@ CONSTANTS = ("conductivity", "density", "specific_heat")
 class HeatSection(SceneSection):
     """By default the roller takes the contact with it: the body sees a moving source."""
 
-    speed: Annotated[float, Number(SPEED, above=0.0)]
+    speed: Annotated[float, Number(SPEED, above=0.0)]  # [m/s] of sliding
+    # speed over the mean of both surfaces' speeds past the contact: -2, the contact stays on the
+    # body; 2, it stays on the roller
     slide_to_roll: Annotated[float, Number(DIMENSIONLESS, at_least=-2.0, at_most=2.0)] = 2.0
     body_conductivity: Conductivity
     body_density: Density
@@ -46,19 +47,43 @@ class HeatSection(SceneSection):
     coating_density: Density | None = None
     coating_specific_heat: SpecificHeat | None = None
     bulk_temperature: Annotated[float, Number(TEMPERATURE, at_least=0.0)] = 293.15
+    # of a body with thickness, by default held at that temperature
     base: Annotated[str, OneOf(("held", "insulated"))] | None = None
+    # from the contact to where a body that it stays on has that temperature: by default the radius
     reach: Length | None = None
-    tolerance: Fraction = 0.05
+    tolerance: Fraction = 0.05  # relative, of temperatures and thermal stresses
     stresses: Annotated[bool, Truth()] = False
     body_expansion: Expansion | None = None
     coating_expansion: Expansion | None = None
+
+    @property
+    def velocities(self) -> tuple[float, float]:
+        """[m/s] of the body's and the roller's surface past the contact, towards +x. Their
+        difference is minus the speed: the roller drags the body towards +x."""
+        mean = -self.speed / self.slide_to_roll
+        return mean - 0.5 * self.speed, mean + 0.5 * self.speed
+
+    @property
+    def body(self) -> ThermalMaterial:
+        return self._material("body")
+
+    @property
+    def roller(self) -> ThermalMaterial:
+        return self._material("roller")
+
+    @property
+    def coating(self) -> ThermalMaterial | None:
+        """None without one."""
+        return None if self.coating_conductivity is None else self._material("coating")
+
+    def _material(self, body: str) -> ThermalMaterial:
+        return ThermalMaterial(*(getattr(self, f"{body}_{name}") for name in CONSTANTS))
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.slide_to_roll == 0.0:
             yield "slide_to_roll", "is 0, which slides nowhere; allowed is from -2 to 2 but for 0"
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
-        """What the rest of the scene lacks, or has too much of."""
         if not any(scene.load.friction):
             yield "heat", "is given without friction; allowed with load.friction above 0"
         if self.base is not None and scene.body.thickness is None:
@@ -95,24 +120,3 @@ class HeatSection(SceneSection):
         ):
             if there:
                 yield "heat.stresses", f"is true {what}"
-
-
-def heat_of(table: HeatSection, radius: float) -> Heat:
-    """The section as both sides of the program know it; `radius` [m] of the roller."""
-
-    def material(body: str) -> ThermalMaterial:
-        return ThermalMaterial(*(getattr(table, f"{body}_{name}") for name in CONSTANTS))
-
-    return Heat(
-        speed=table.speed,
-        slide_to_roll=table.slide_to_roll,
-        body=material("body"),
-        roller=material("roller"),
-        coating=None if table.coating_conductivity is None else material("coating"),
-        bulk_temperature=table.bulk_temperature,
-        base=table.base or "held",
-        reach=table.reach or radius,
-        tolerance=table.tolerance,
-        expansion=table.body_expansion,
-        coating_expansion=table.coating_expansion,
-    )

@@ -22,7 +22,6 @@ from comparisons.common.units import (
     to_si,
     unit_in_si,
 )
-from comparisons.scenes.scene import Extent
 
 # Of a number in SI, but for 0. Products of some of them still fit a double.
 SMALLEST, LARGEST = 1e-30, 1e30
@@ -178,6 +177,22 @@ class Unit(FieldType):
 
 
 @dataclass(frozen=True)
+class Extent:
+    """A positive length, in m or in Hertz half-widths as the scene has it."""
+
+    value: float
+    in_half_widths: bool
+
+    def metres(self, half_width: float) -> float:
+        """The length [m] where the Hertz half-width is `half_width` [m]."""
+        return self.value * half_width if self.in_half_widths else self.value
+
+    def plain(self) -> float | str:
+        """As a scene file has it."""
+        return self.value if self.in_half_widths else f"{self.value!r} m"
+
+
+@dataclass(frozen=True)
 class ExtentField(FieldType):
     """A length above 0: a number counts Hertz half-widths, a string has a unit."""
 
@@ -279,6 +294,14 @@ class SceneSection(BaseModel):
         """Rules between fields that do not hold: the field to change, and what is wrong with it."""
         yield from ()
 
+    def misfits(self, scene: "SceneSection") -> Iterator[tuple[str, str]]:
+        """What does not fit the rest of the scene: "section.field" to change, and what is wrong."""
+        yield from ()
+
+    def completed(self, scene: "SceneSection") -> Self:
+        """With the fields that it leaves out and that follow from the rest of the scene."""
+        return self
+
     @model_validator(mode="after")
     def _hold_to_rules(self) -> Self:
         for field, problem in self.broken_rules():
@@ -306,3 +329,16 @@ def field_type(table: type[SceneSection], name: str) -> FieldType:
     info = table.model_fields[name]
     inner = [note for part in get_args(info.annotation) for note in get_args(part)[1:]]
     return next(note for note in (*info.metadata, *inner) if isinstance(note, FieldType))
+
+
+def plain(value: object) -> object:
+    """A section, or a value of a field, as a scene file would have it: defaults written out, SI
+    numbers, lists, no None."""
+    if isinstance(value, SceneSection):
+        pairs = ((name, getattr(value, name)) for name in type(value).model_fields)
+        return {name: plain(item) for name, item in pairs if item is not None}
+    if isinstance(value, dict):
+        return {name: plain(item) for name, item in value.items()}
+    if isinstance(value, tuple):
+        return [plain(item) for item in value]
+    return value.plain() if hasattr(value, "plain") else value

@@ -1,11 +1,10 @@
 """The [finite_element] section: which of the half-plane's assumptions the finite elements keep."""
 
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, Self
 
 from comparisons.common.units import DIMENSIONLESS
-from comparisons.scenes.scene import FiniteElementSettings
-from comparisons.scenes.schema.fields import Number, OneOf, SceneSection, Truth
+from comparisons.scenes.fields import Number, OneOf, SceneSection, Truth
 
 HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
 # Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
@@ -18,15 +17,24 @@ SEVERAL_FRICTIONS = "is true with {} friction coefficients; allowed is one, each
 class FiniteElementSection(SceneSection):
     """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
 
+    # flat: the roughness is in the gap | rough: it is the boundary
     geometry: Annotated[str, OneOf(("flat", "rough"))] = "flat"
+    # reference: at the place before loading, pressure along the mean normal | displaced: on the
+    # deformed surface, pressure along the roller's normal
     gap: Annotated[str, OneOf(("reference", "displaced"))] | None = None
     roller_shape: Annotated[str, OneOf(("parabola", "circle"))] = "parabola"
+    # of an elastic roller: half-plane, a block | disc, a sector of its circle
     roller_body: Annotated[str, OneOf(("half-plane", "disc"))] = "half-plane"
-    coupled: Annotated[bool, Truth()] | None = None
+    coupled: Annotated[bool, Truth()] | None = None  # the sliding traction moves the surfaces
+    # finite: current shape and normals, hyperelastic
     deformation: Annotated[str, OneOf(("linear", "finite"))] = "linear"
-    plastic: Annotated[bool, Truth()] = False
-    element: Annotated[str, OneOf(("P1", "P2", "P3"))] | None = None
+    plastic: Annotated[bool, Truth()] = False  # the body yields where its yield stress is reached
+    element: Annotated[str, OneOf(("P1", "P2", "P3"))] | None = None  # degree of displacements
+    # held: an unbounded body ends at a fixed boundary | half-plane: at one that moves as a
+    # half-plane does there
     far_field: Annotated[str, OneOf(("held", "half-plane"))] = "held"
+    # width and depth, in Hertz half-widths, of the stand-in for an unbounded body; element size
+    # gained per distance from the contact
     block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] | None = None
     growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
 
@@ -41,28 +49,36 @@ class FiniteElementSection(SceneSection):
     def nonlinear(self) -> bool:
         return self.deformation == "finite" or self.plastic
 
-    def defaults(self, poissons_ratio: float) -> dict:
-        """Fields that follow from others and from the bodies' largest Poisson's ratio."""
-        found = {}
-        if self.element is None:
-            cubic = poissons_ratio > QUADRATIC_UP_TO and not self.nonlinear
-            found["element"] = "P3" if cubic else "P2"
-        if self.gap is None:
-            found["gap"] = "displaced" if self.geometry == "rough" else "reference"
-        if self.block is None:
-            found["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
-        return found
+    @property
+    def degree(self) -> int:
+        """Of the displacements' polynomials."""
+        return int(self.element[1:])
 
-    def conflicts(
-        self,
-        roller: SceneSection,
-        body: SceneSection,
-        load: SceneSection,
-        profile: SceneSection | None,
-        coating: SceneSection | None,
-    ) -> Iterator[tuple[str, str]]:
+    def completed(self, scene: SceneSection) -> Self:
+        bodies = [body for body in (scene.roller, scene.body, scene.coating) if body is not None]
+        largest = max(each.poissons_ratio for each in bodies if each.poissons_ratio is not None)
+        update: dict[str, object] = {}
+        if self.element is None:
+            cubic = largest > QUADRATIC_UP_TO and not self.nonlinear
+            update["element"] = "P3" if cubic else "P2"
+        if self.gap is None:
+            update["gap"] = "displaced" if self.geometry == "rough" else "reference"
+        if self.block is None:
+            update["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
+        if self.coupled is None:
+            # where [load] says so of both models, at finite deformation, and where a body flows
+            slides = max(scene.load.friction) > 0.0
+            update["coupled"] = scene.load.coupled or (self.nonlinear and slides)
+        return self.model_copy(update=update)
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        for field, problem in self._conflicts(scene):
+            yield f"finite_element.{field}", problem
+
+    def _conflicts(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         """Fields of this section that do not fit the rest of the scene, and what is wrong."""
-        coated, finite = coating is not None, self.deformation == "finite"
+        roller, body, load, profile = scene.roller, scene.body, scene.load, scene.profile
+        coated, finite = scene.coating is not None, self.deformation == "finite"
         far = self.far_field == "half-plane"
         frictions, apart = len(load.friction), max(load.friction) > 0.0 and self.coupled is False
         if self.geometry == "rough" and profile is None:
@@ -97,14 +113,3 @@ class FiniteElementSection(SceneSection):
             yield "plastic", "is true with load.approach; allowed with per_length"
         if self.plastic and apart:
             yield "coupled", "is false for a body that yields under friction; allowed is true"
-
-
-def settings_of(
-    table: FiniteElementSection, load: SceneSection, poissons_ratio: float
-) -> FiniteElementSettings:
-    """The section with its defaults. Friction moves the contact where [load] says so of both
-    models, at finite deformation, and where a body flows."""
-    given = dict(table) | table.defaults(poissons_ratio)
-    if table.coupled is None:
-        given["coupled"] = load.coupled or (table.nonlinear and max(load.friction) > 0.0)
-    return FiniteElementSettings(**given)

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Annotated
 
 from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, Dimension, describe
-from comparisons.scenes.scene import CUT_OFF, Scatter, Spread
-from comparisons.scenes.schema.fields import (
+from comparisons.scenes.fields import (
     FieldType,
     Length,
     Number,
@@ -15,6 +15,7 @@ from comparisons.scenes.schema.fields import (
     field_type,
 )
 
+CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
 FEWEST, MOST = 8, 4096  # samples
 LOADS = ("per_length", "hertz_peak_pressure")
 # Inputs that are fields of the scene, with their section; the load is a field of two kinds.
@@ -27,6 +28,31 @@ FIELDS = {
     "friction": ("load", "friction"),
 }
 OF_PROFILE = ("position", "noise", "tip_radius")
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How uncertain an input is: normal by a standard `deviation`, `relative` to the scene's own
+    value or in SI, cut off at CUT_OFF deviations; or uniform over a `range` in SI."""
+
+    deviation: float = 0.0
+    relative: bool = False
+    range: tuple[float, float] | None = None
+
+    def size(self, own: float) -> float:
+        """Standard deviation about the scene's `own` value, in SI."""
+        return self.deviation * (abs(own) if self.relative else 1.0)
+
+    def ends(self, own: float) -> tuple[float, float]:
+        """The smallest and the largest value that is sampled."""
+        far = CUT_OFF * self.size(own)
+        return self.range or (own - far, own + far)
+
+    def plain(self) -> dict | str | float:
+        """As a scene file has it."""
+        if self.range:
+            return {"range": list(self.range)}
+        return f"{100 * Decimal(repr(self.deviation))} %" if self.relative else self.deviation
 
 
 @dataclass(frozen=True)
@@ -72,7 +98,8 @@ Ratio = Annotated[Spread, SpreadField(DIMENSIONLESS)] | None
 
 
 class ScatterSection(SceneSection):
-    """Inputs by name. `samples` of each of two independent designs, a power of two, after Sobol."""
+    """Inputs by name. `samples` of each of two independent designs, a power of two, after Sobol;
+    `correlation_length` [m] of the noise, by default white."""
 
     samples: Annotated[int, Whole(FEWEST, MOST)] = 64
     seed: Annotated[int, Whole(0, 2**32 - 1)] = 0
@@ -105,7 +132,6 @@ class ScatterSection(SceneSection):
             yield "correlation_length", "is given without noise; allowed beside it"
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
-        """Inputs that the scene does not have, and values that it could not have."""
         if scene.load.approach is not None:
             yield "scatter", "is given beside load.approach; allowed with another kind of load"
         for name in OF_PROFILE:
@@ -139,8 +165,3 @@ class ScatterSection(SceneSection):
                 deviations = f" (normal, cut off at {CUT_OFF:g} deviations)"
                 how = "" if getattr(self, name).range else deviations
                 yield f"scatter.{name}", f"reaches {end:g}{how}; allowed is {field.allowed()}"
-
-
-def scatter_of(table: ScatterSection) -> Scatter:
-    """The section as both sides of the program know it."""
-    return Scatter(table.samples, table.seed, table.inputs, table.correlation_length or 0.0)

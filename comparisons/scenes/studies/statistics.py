@@ -1,9 +1,10 @@
 """The [statistics] section: theories of rough contact beside the solved one."""
 
+from collections.abc import Iterator
 from typing import Annotated
 
 from comparisons.common.units import LENGTH
-from comparisons.scenes.schema.fields import Number, OneOf, SceneSection, Several, Truth, Whole
+from comparisons.scenes.fields import Number, OneOf, SceneSection, Several, Truth, Whole
 
 METALS = ("ferrous", "nonferrous")
 
@@ -16,3 +17,7 @@ class StatisticsSection(SceneSection):
     cutoffs: Annotated[tuple[float, ...], Several(Number(LENGTH, above=0.0))] | None = None
     metal: Annotated[str, OneOf(METALS)] = METALS[0]
     lubricated: Annotated[bool, Truth()] = False
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        if scene.profile is None:
+            yield "statistics", "is given for a smooth surface; allowed only with [profile]"

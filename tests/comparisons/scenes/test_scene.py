@@ -1,29 +1,27 @@
-"""Scenes as resolved: one meaning in any units, defaults, and tables that give the scene again."""
+"""Scenes: one meaning in any units, defaults, tables that give the scene again, other values."""
 
 import copy
 import datetime
 import json
+import subprocess
+import sys
 from decimal import Decimal
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenes import resolved
+from scenes import PROJECT, resolved
 
 from analytic.material import Material
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.scenes.scene import (
-    Budget,
-    Coated,
-    Extent,
-    FiniteElementSettings,
-    Load,
-    Resolution,
-    RunningIn,
-)
-from comparisons.scenes.schema.scene import SECTIONS, ToleranceSection
+from comparisons.scenes.fields import Extent
+from comparisons.scenes.finite_element import FiniteElementSection
+from comparisons.scenes.running_in import RunningInSection
+from comparisons.scenes.scene import Scene, sections_of
+from comparisons.scenes.sections import BudgetSection, ResolutionSection, ToleranceSection
+from comparisons.scenes.surface import surface_of
 
 STEEL = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
 BARE = {
@@ -75,6 +73,10 @@ FULL = {
 }
 
 
+SECTIONS = {name: part for name, part in sections_of(Scene).items() if name != "answers"}
+PLACES = [(section, name) for section, table in SECTIONS.items() for name in table.model_fields]
+
+
 def changed(tables: dict, section: str, **fields) -> dict:
     """The tables with fields of one section replaced, None taking one away."""
     new = copy.deepcopy(tables)
@@ -86,14 +88,15 @@ def changed(tables: dict, section: str, **fields) -> dict:
 def test_a_bare_scene_has_the_defaults():
     scene = resolved(BARE)
     assert (scene.name, scene.title) == ("made", "made")
-    assert scene.roller == scene.body == Material(207e9, 0.3)
-    assert scene.roller_radius == 0.0082
-    assert scene.load == Load("load_per_length", 3.85e6)
-    assert scene.friction == (0.0,)
-    assert (scene.profile, scene.profile_info, scene.stress) == (None, None, None)
-    assert (scene.hardness, scene.thickness, scene.width, scene.base) == (None,) * 4
-    assert scene.tolerance == {"peak_pressure": 0.02, "contact_length": 0.02, "tau1_max": 0.02}
-    assert scene.finite_element == FiniteElementSettings(
+    assert scene.roller.material == scene.body.material == Material(207e9, 0.3)
+    assert scene.roller.radius == 0.0082
+    assert (scene.load.kind, scene.load.value) == ("per_length", 3.85e6)
+    assert scene.load.friction == (0.0,)
+    assert (scene.profile, scene.stress, surface_of(scene).profile) == (None, None, None)
+    body = scene.body
+    assert (body.hardness, body.thickness, body.width, body.base) == (None,) * 4
+    assert scene.tolerances == {"peak_pressure": 0.02, "contact_length": 0.02, "tau1_max": 0.02}
+    assert scene.finite_element == FiniteElementSection(
         geometry="flat",
         gap="reference",
         roller_shape="parabola",
@@ -106,30 +109,32 @@ def test_a_bare_scene_has_the_defaults():
         block=400.0,
         growth=0.2,
     )
-    assert (scene.yielding, scene.coating) == (None, None)
-    assert scene.resolution == Resolution(None, 3)
-    assert scene.budget == Budget(300.0, 8e9)
+    assert (scene.body.yield_stress, scene.coating) == (None, None)
+    assert scene.resolution == ResolutionSection(levels=3)
+    assert scene.budget == BudgetSection(time=300.0, memory=8e9)
 
 
 def test_everything_that_can_be_said():
     scene = resolved(FULL)
     assert scene.title == "All of it"
-    assert (scene.hardness, scene.thickness, scene.width) == (7e9, 0.005, 0.04)
-    assert scene.load == Load("hertz_peak_pressure", 2e9)
-    assert scene.friction == (0.0, 0.1)
-    assert scene.position == 1e-4
-    assert scene.running_in == RunningIn(6e9, 3e6, (-2e-4, 3e-4), 3)
+    assert (scene.body.hardness, scene.body.thickness, scene.body.width) == (7e9, 0.005, 0.04)
+    assert (scene.load.kind, scene.load.value) == ("hertz_peak_pressure", 2e9)
+    assert scene.load.friction == (0.0, 0.1)
+    assert surface_of(scene).position == 1e-4
+    assert scene.running_in == RunningInSection(
+        hardness=6e9, load=3e6, positions=(-2e-4, 3e-4), sweeps=3
+    )
     assert scene.stress.depth == Extent(512.3456789e-6, in_half_widths=False)
     assert scene.stress.half_range == Extent(1.5, in_half_widths=True)
     assert scene.stress.points == (30, 20)
-    assert scene.tolerance == {
+    assert scene.tolerances == {
         "peak_pressure": 0.01,
         "contact_length": 0.02,
         "tau1_max": 0.02,
         "tau1_field_deep": 0.05,
     }
-    assert scene.coating == Coated(Material(400e9, 0.2), 2e-6)
-    assert scene.finite_element == FiniteElementSettings(
+    assert (scene.coating.material, scene.coating.thickness) == (Material(400e9, 0.2), 2e-6)
+    assert scene.finite_element == FiniteElementSection(
         geometry="rough",
         gap="reference",
         roller_shape="circle",
@@ -142,8 +147,8 @@ def test_everything_that_can_be_said():
         block=200.0,
         growth=0.1,
     )
-    assert scene.resolution == Resolution(1e-6, 4)
-    assert scene.budget == Budget(600.0, 2.0**31)
+    assert scene.resolution == ResolutionSection(pitch=1e-6, levels=4)
+    assert scene.budget == BudgetSection(time=600.0, memory=2.0**31)
 
 
 def test_every_compared_quantity_can_be_judged():
@@ -157,28 +162,28 @@ def test_extent_in_metres():
 
 def test_a_rigid_roller_has_no_material():
     scene = resolved({**BARE, "roller": {"radius": "8.2 mm", "rigid": True}})
-    assert scene.roller is None
+    assert scene.roller.material is None
 
 
 def test_a_layer_is_bonded_unless_it_says_otherwise():
     layer = resolved(changed(BARE, "body", thickness="5 mm"))
-    assert layer.base == layer.as_dict()["body"]["base"] == "bonded"
+    assert layer.body.base == layer.tables["body"]["base"] == "bonded"
     loose = changed(BARE, "body", thickness="5 mm", base="frictionless")
-    assert resolved(loose).base == "frictionless"
+    assert resolved(loose).body.base == "frictionless"
 
 
 def test_a_layer_may_be_given_an_approach():
     layer = changed(BARE, "body", thickness="5 mm")
     layer["roller"] = {"radius": "8.2 mm", "rigid": True}
     scene = resolved(changed(layer, "load", per_length=None, approach="2 um"))
-    assert scene.load == Load("approach", 2e-6)
+    assert (scene.load.kind, scene.load.value) == ("approach", 2e-6)
 
 
 def test_a_loose_base_carries_friction_where_the_body_has_no_end():
     loose = changed(BARE, "body", thickness="5 mm", base="frictionless")
-    assert resolved(changed(loose, "load", friction=0.1)).friction == (0.1,)
+    assert resolved(changed(loose, "load", friction=0.1)).load.friction == (0.1,)
     ended = changed(loose, "body", width="40 mm")
-    assert resolved(changed(ended, "load", friction=0)).friction == (0.0,)
+    assert resolved(changed(ended, "load", friction=0)).load.friction == (0.0,)
     with pytest.raises(SceneError, match=r"load\.friction: is 0\.1 on a body of finite width"):
         resolved(changed(ended, "load", friction=[0, 0.1]))
 
@@ -204,6 +209,7 @@ CHOICES = st.fixed_dictionaries(
 
 
 IN_NUMBERS = resolved(FULL)
+HEIGHTS = surface_of(IN_NUMBERS).profile.height
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)
@@ -215,8 +221,8 @@ def test_units_do_not_matter(units):
         unit = units[section, name]
         tables[section][name] = f"{value.scaleb(-powers[unit])} {unit}"
     scene = resolved(tables)
-    assert scene == IN_NUMBERS
-    assert np.array_equal(scene.profile.height, IN_NUMBERS.profile.height)
+    assert scene.tables == IN_NUMBERS.tables
+    assert np.array_equal(surface_of(scene).profile.height, HEIGHTS)
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)
@@ -224,7 +230,7 @@ def test_units_do_not_matter(units):
 def test_any_length_in_any_unit(value, unit):
     in_metres = {"mm": 1e-3, "um": 1e-6, "km": 1e3, "inch": 0.0254, "thou": 2.54e-5, "ft": 0.3048}
     scene = resolved(changed(BARE, "roller", radius=f"{value!r} {unit}"))
-    assert scene.roller_radius == pytest.approx(value * in_metres[unit], rel=1e-15, abs=0.0)
+    assert scene.roller.radius == pytest.approx(value * in_metres[unit], rel=1e-15, abs=0.0)
 
 
 def test_a_number_is_si_and_equals_its_string():
@@ -233,14 +239,13 @@ def test_a_number_is_si_and_equals_its_string():
         "body": {"youngs_modulus": 207000000000, "poissons_ratio": 0.3},
         "load": {"per_length": 3.85e6},
     }
-    assert resolved(in_numbers) == resolved(BARE)
+    assert resolved(in_numbers).tables == resolved(BARE).tables
 
 
 @pytest.mark.parametrize("tables", [BARE, FULL], ids=["bare", "full"])
 def test_written_out_tables_give_the_scene_again(tables):
     scene = resolved(tables)
     again = resolved(json.loads(json.dumps(scene.tables)))
-    assert again == scene
     assert again.tables == scene.tables
 
 
@@ -253,10 +258,66 @@ def test_tolerances_of_stresses_are_written_out_with_stress_alone():
         resolved({**BARE, "tolerance": {"tau1_max": 0.02}})
 
 
-def test_as_dict_is_a_copy():
+def test_tables_are_a_copy():
     scene = resolved(BARE)
-    scene.as_dict()["load"]["friction"].append(0.5)
-    assert scene.as_dict()["load"]["friction"] == [0.0]
+    scene.tables["load"]["friction"].append(0.5)
+    scene.given["load"]["friction"] = 0.5
+    assert scene.tables["load"]["friction"] == [0.0]
+    assert scene.changed("load.coupled", True).load.friction == (0.0,)
+
+
+class TestChanged:
+    def test_what_was_not_given_follows_again(self):
+        plain = resolved(BARE)
+        rough = plain.changed({"finite_element.geometry": "rough", "profile": FULL["profile"]})
+        assert plain.finite_element.gap == "reference" and rough.finite_element.gap == "displaced"
+        assert rough.changed("finite_element.gap", "reference").finite_element.gap == "reference"
+        soft = plain.changed("body.poissons_ratio", 0.4999)
+        assert (plain.finite_element.element, soft.finite_element.element) == ("P2", "P3")
+        assert soft.given["body"] == {"youngs_modulus": "207 GPa", "poissons_ratio": 0.4999}
+        assert (plain.name, plain.source) == (soft.name, soft.source)
+
+    def test_it_is_checked_as_a_file_is(self):
+        with pytest.raises(SceneError, match=r"^made.toml: load.frictoin: is no known field; the"):
+            resolved(BARE).changed("load.frictoin", 0.1)
+        with pytest.raises(SceneError, match=r"^made.toml: body.base: is given for a half-plane"):
+            resolved(BARE).changed("body.base", "bonded")
+        with pytest.raises(SceneError, match=r"^made.toml: title.x: title is no table; allowed is"):
+            resolved(FULL).changed("title.x", 1)
+
+    def test_none_takes_a_field_away(self):
+        scene = resolved(FULL).changed("body.hardness", None)
+        assert scene.body.hardness is None and "hardness" not in scene.tables["body"]
+        assert resolved(BARE).changed("stress", None).tables == resolved(BARE).tables
+
+    @settings(max_examples=50, deadline=None, derandomize=True)
+    @given(st.sampled_from(PLACES))
+    def test_a_field_changed_to_its_own_value_changes_nothing(self, place):
+        scene = resolved(FULL)
+        section, name = place
+        value = scene.tables.get(section, {}).get(name)
+        if value is not None:
+            assert scene.changed(f"{section}.{name}", value).tables == scene.tables
+
+    def test_unchecked_is_what_it_is_set_to(self):
+        scene = resolved(BARE)
+        odd = scene.unchecked({"finite_element.geometry": "rough", "body.thickness": 1.0})
+        assert (odd.finite_element.geometry, odd.finite_element.gap) == ("rough", "reference")
+        assert (odd.body.thickness, odd.body.base) == (1.0, None)
+        assert odd.given == scene.given and scene.body.thickness is None
+
+
+def test_reading_a_scene_loads_no_physics():
+    """Nor anything else that takes time."""
+    code = (
+        "import sys, comparisons; comparisons.Scene.read('ground-running-in'); print(*sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, check=True
+    )
+    loaded = set(done.stdout.split())
+    assert "comparisons.scenes.scene" in loaded
+    assert loaded.isdisjoint({"analytic.contact", "comparisons.models", "fem", "dolfinx", "scipy"})
 
 
 TOML_VALUES = st.recursive(
@@ -270,7 +331,6 @@ TOML_VALUES = st.recursive(
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner),
     max_leaves=5,
 )
-PLACES = [(section, name) for section, table in SECTIONS.items() for name in table.model_fields]
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)

@@ -1,0 +1,56 @@
+"""The [running_in] section: how a surface is run in before both models press it."""
+
+from collections.abc import Iterator
+from typing import Annotated, Self
+
+import numpy as np
+
+from comparisons.common.units import LENGTH, LOAD, PRESSURE
+from comparisons.scenes.fields import Length, Number, SceneSection, Several, Whole
+
+PASSES = 15  # of a stroke that does not say how many
+MOST_PASSES = 1000  # of a sweep, and sweeps at most
+
+
+class RunningInSection(SceneSection):
+    """Places of the roller one by one (`positions`), or evenly along a `stroke` about its own."""
+
+    hardness: Annotated[float, Number(PRESSURE, above=0.0)] | None = None  # by default the body's
+    load: Annotated[float, Number(LOAD, above=0.0)] | None = None  # by default the scene's
+    positions: Annotated[tuple[float, ...], Several(Number(LENGTH))] | None = None
+    stroke: Length | None = None
+    passes: Annotated[int, Whole(2, MOST_PASSES)] | None = None
+    sweeps: Annotated[int, Whole(1, MOST_PASSES)] = 10
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from self.unless_one_of(("positions", "stroke"), " and ")
+        if self.positions is not None and self.passes is not None:
+            problem = "is given beside positions, which are one pass each; allowed with stroke"
+            yield "passes", problem
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        if scene.profile is None:
+            yield "running_in", "is given for a smooth surface; allowed only with [profile]"
+        if self.hardness is None and scene.body.hardness is None:
+            where = "here or as body.hardness"
+            yield "running_in.hardness", f"is missing; allowed is a pressure above 0, {where}"
+        if self.load is None and scene.load.kind == "approach":
+            problem = "is missing; allowed is a load per length, which load.approach is not"
+            yield "running_in.load", problem
+
+    def completed(self, scene: SceneSection) -> Self:
+        passes = self.passes if self.stroke is None else self.passes or PASSES
+        hardness = self.hardness or scene.body.hardness
+        return self.model_copy(update={"hardness": hardness, "passes": passes})
+
+    def travel(self, position: float) -> float:
+        """Twice the roller's largest distance from `position` [m]: so much longer is a trace."""
+        if self.stroke is not None:
+            return self.stroke
+        return 2.0 * float(np.abs(np.array(self.positions) - position).max())
+
+    def places(self, position: float) -> tuple[float, ...]:
+        """The roller's centre [m] on the trace, in order, where the scene's own is `position`."""
+        if self.positions is not None:
+            return self.positions
+        return tuple((position + self.stroke * np.linspace(-0.5, 0.5, self.passes)).tolist())

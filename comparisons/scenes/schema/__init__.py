@@ -1,1 +1,0 @@
-"""The sections and fields of a scene file, and how each is checked."""

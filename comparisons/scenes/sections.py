@@ -1,0 +1,201 @@
+"""The sections of a scene that both models need: bodies, load, fields, tolerances, resolution."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Self
+
+from analytic.material import LAWS, Law, Material
+from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.scenes.fields import (
+    Extent,
+    ExtentField,
+    Fraction,
+    Grid,
+    Length,
+    Named,
+    Number,
+    OneOf,
+    SceneSection,
+    Several,
+    Truth,
+    Whole,
+    allowed,
+)
+from comparisons.scenes.finite_element import SEVERAL_FRICTIONS
+
+MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
+MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
+
+Pressure = Annotated[float, Number(PRESSURE, above=0.0)]
+Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=0.0, at_most=1.5))]
+PoissonsRatio = Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=0.5)]
+# Compared quantities that there are with [stress] alone.
+OF_STRESS = [name for name, quantity in QUANTITIES.items() if quantity.needs_stress]
+
+
+class ElasticSection(SceneSection):
+    """A body and its law of elasticity at finite strains, neo-Hookean by default."""
+
+    law: Annotated[str, OneOf(LAWS)] | None = None
+    murnaghan: Annotated[dict[str, float], Named(("l", "m", "n"), Number(PRESSURE))] | None = None
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if self.law == "murnaghan" and self.murnaghan is None:
+            yield "murnaghan", f"is missing; allowed is {allowed(type(self), 'murnaghan')}"
+        if self.law != "murnaghan" and self.murnaghan is not None:
+            yield "murnaghan", 'is given for another law; allowed with law = "murnaghan"'
+
+    @property
+    def material(self) -> Material | None:
+        """None of a rigid body."""
+        law = Law()
+        if self.law is not None:
+            law = Law(self.law, self.murnaghan and tuple(self.murnaghan.values()))
+        return Material(self.youngs_modulus, self.poissons_ratio, law)
+
+
+class RollerSection(ElasticSection):
+    radius: Length
+    rigid: Annotated[bool, Truth()] = False
+    youngs_modulus: Pressure | None = None
+    poissons_ratio: PoissonsRatio | None = None
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from super().broken_rules()
+        if self.rigid and self.law is not None:
+            yield "law", "is given beside rigid = true; allowed is one of the two"
+        for name in ("youngs_modulus", "poissons_ratio"):
+            given = getattr(self, name) is not None
+            if self.rigid and given:
+                yield name, "is given beside rigid = true; allowed is one of the two"
+            if not self.rigid and not given:
+                both = "youngs_modulus with poissons_ratio, or rigid = true"
+                yield name, f"is missing; allowed is {both}"
+
+    @property
+    def material(self) -> Material | None:
+        return None if self.rigid else super().material
+
+
+class BodySection(ElasticSection):
+    youngs_modulus: Pressure
+    poissons_ratio: PoissonsRatio
+    hardness: Pressure | None = None
+    yield_stress: Pressure | None = None
+    hardening_modulus: Annotated[float, Number(PRESSURE, at_least=0.0)] | None = None
+    thickness: Length | None = None
+    width: Length | None = None
+    base: Annotated[str, OneOf(("bonded", "frictionless"))] | None = None
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from super().broken_rules()
+        if self.base is not None and self.thickness is None:
+            yield "base", "is given for a half-plane, which has none; allowed only with thickness"
+        if self.hardening_modulus is not None and self.yield_stress is None:
+            problem = "is given for a body that does not yield; allowed only with yield_stress"
+            yield "hardening_modulus", problem
+
+    def completed(self, scene: SceneSection) -> Self:
+        is_layer = self.thickness is not None
+        return self.model_copy(update={"base": self.base or "bonded"}) if is_layer else self
+
+
+class CoatingSection(SceneSection):
+    """Bonded to the body."""
+
+    thickness: Length
+    youngs_modulus: Pressure
+    poissons_ratio: PoissonsRatio
+
+    @property
+    def material(self) -> Material:
+        return Material(self.youngs_modulus, self.poissons_ratio)
+
+
+class LoadSection(SceneSection):
+    """One kind of load: `per_length` [N/m], `hertz_peak_pressure` [Pa] of the smooth pair, or
+    `approach` [m]."""
+
+    per_length: Annotated[float, Number(LOAD, above=0.0)] | None = None
+    hertz_peak_pressure: Pressure | None = None
+    approach: Length | None = None
+    friction: Frictions = (0.0,)
+    position: Annotated[float, Number(LENGTH)] | None = None
+    coupled: Annotated[bool, Truth()] = False
+
+    KINDS: ClassVar[tuple[str, ...]] = ("per_length", "hertz_peak_pressure", "approach")
+
+    @property
+    def kind(self) -> str:
+        """The one load that is given."""
+        return next(name for name in self.KINDS if getattr(self, name) is not None)
+
+    @property
+    def value(self) -> float:
+        return getattr(self, self.kind)
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from self.unless_one_of(self.KINDS, ", ")
+        if self.coupled and len(self.friction) != 1:
+            yield "coupled", SEVERAL_FRICTIONS.format(len(self.friction))
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        for there, where, needed in (
+            (scene.body.thickness is not None, "on a half-plane", "body.thickness"),
+            (scene.roller.rigid, "for an elastic roller", "roller.rigid = true"),
+        ):
+            if self.approach is not None and not there:
+                why = f"has no meaning {where}, whose displacement has no datum"
+                yield "load.approach", f"{why}; allowed is per_length, or approach with {needed}"
+
+
+class StressSection(SceneSection):
+    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz).
+    `bulge` asks for what sliding raises ahead of the contact."""
+
+    depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
+    half_range: Annotated[Extent, ExtentField()] = Extent(1.5, in_half_widths=True)
+    points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS, MOST_STRESS_LINES)] = (600, 200)
+    bulge: Annotated[bool, Truth()] = False
+
+
+class ToleranceSection(SceneSection):
+    peak_pressure: Fraction = 0.02
+    contact_length: Fraction = 0.02
+    tau1_max: Fraction = 0.02
+    contact_ratio: Fraction | None = None
+    pressure_l2: Fraction | None = None
+    tau1_max_depth: Fraction | None = None
+    txz_max_abs: Fraction | None = None
+    tau1_field_near: Fraction | None = None
+    tau1_field_deep: Fraction | None = None
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        for name in OF_STRESS:
+            if scene.stress is None and name in self.model_fields_set:
+                others = ", ".join(sorted(set(QUANTITIES) - set(OF_STRESS)))
+                problem = f"needs a [stress] section; allowed is {others} without one"
+                yield f"tolerance.{name}", problem
+
+
+class ResolutionSection(SceneSection):
+    """`pitch` [m] of the coarsest pressure elements, or `elements` of them on a half-width of the
+    smooth contact (neither: automatic), and `levels` to begin with."""
+
+    pitch: Length | None = None
+    elements: Annotated[float, Number(DIMENSIONLESS, at_least=1.0, at_most=1e4)] | None = None
+    levels: Annotated[int, Whole(2, 6)] = 3
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if self.pitch is not None and self.elements is not None:
+            yield "elements", "is given beside pitch; allowed is one of the two"
+
+
+class BudgetSection(SceneSection):
+    """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
+    whether it computes `effects` that the scene's finite elements do not model, and where "all",
+    those too that cannot change a verdict."""
+
+    time: Annotated[float, Number(TIME, above=0.0)] = 300.0
+    memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
+    effects: Annotated[bool | str, Truth(("all",))] = True

@@ -1,0 +1,121 @@
+"""The [answers.NAME] sections: where an answer from outside is, and how to read it."""
+
+import os
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import AfterValidator
+
+from comparisons.common.errors import InputError
+from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, describe, unit_in_si
+from comparisons.figures.quantity import LABELS
+from comparisons.scenes.fields import (
+    FieldType,
+    Fraction,
+    Number,
+    OneOf,
+    SceneSection,
+    Text,
+    Unit,
+    Whole,
+)
+from comparisons.scenes.files import read_toml
+from comparisons.scenes.profile import Columns
+
+NAME = re.compile(r"[A-Za-z][\w-]{0,39}", re.ASCII)
+PATH = Text("the path of a file, from the scene's folder")
+UNITS = {"length": Unit(LENGTH), "stress": Unit(PRESSURE)}
+
+
+@dataclass(frozen=True)
+class Files(FieldType):
+    """A path, or one for each resolution."""
+
+    def read(self, given: object) -> tuple[str, ...]:
+        values = given if isinstance(given, list | tuple) and given else [given]
+        return tuple(PATH.read(value) for value in values)
+
+    def allowed(self) -> str:
+        return f"{PATH.allowed()}, or a list of such, one for each resolution"
+
+
+@dataclass(frozen=True)
+class Units(FieldType):
+    """A table of the file's units, {length = "mm", stress = "MPa"}; those of SI where not named."""
+
+    def read(self, given: object) -> dict[str, str]:
+        if not isinstance(given, dict) or set(given) - set(UNITS):
+            raise self.wrong(f"is {describe(given)}")
+        return {name: UNITS[name].read(unit) for name, unit in given.items()}
+
+    def allowed(self) -> str:
+        return 'a table such as {length = "mm", stress = "MPa"}'
+
+
+class AnswerSection(SceneSection):
+    file: Annotated[tuple[str, ...], Files()]  # one for each resolution
+    columns: Annotated[tuple, Columns()] = (0, 1)  # of a table: those of x and pressure
+    units: Annotated[dict[str, str], Units()] | None = None
+    # axis of the file out of the rough body, with its sign; None: found out
+    up: Annotated[str, OneOf(("y", "-y", "z", "-z"))] | None = None
+    # [m] where the scene's origin lies in the file, along its x and along `up`
+    x_origin: Annotated[float, Number(LENGTH)] = 0.0
+    z_origin: Annotated[float, Number(LENGTH)] = 0.0
+    # array of a mesh that holds it; None: minus the stress on its top
+    pressure: Annotated[str, Text("the name of an array, or of a component of one")] | None = None
+    step: Annotated[int, Whole(0, 10**6)] | None = None  # of several in time; None: the last
+    # coefficient that it is of; None: the only one
+    friction: Annotated[float, Number(DIMENSIONLESS, at_least=0.0)] | None = None
+    scatter: Fraction | None = None  # relative, of measured data
+
+    @property
+    def length(self) -> float:
+        """The file's unit [m]."""
+        return unit_in_si((self.units or {}).get("length", "m"), LENGTH)
+
+    @property
+    def stress(self) -> float:
+        """The file's unit [Pa]."""
+        return unit_in_si((self.units or {}).get("stress", "Pa"), PRESSURE)
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if len(self.columns) != 2:
+            yield "columns", "is one column; allowed are two, those of x and pressure"
+
+
+def checked_names(answers: dict) -> dict:
+    """The answers themselves; raises ValueError for the first name that is none for an answer."""
+    wrong = next((n for n in answers if n in LABELS or not NAME.fullmatch(n)), None)
+    if wrong is not None:
+        short = "a letter and up to 39 letters, digits, - and _, and no model's name"
+        raise ValueError(f"has the name {describe(wrong)}; allowed is {short}")
+    return answers
+
+
+Answers = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
+
+
+def answers_named(options: Sequence[str], known: object) -> dict:
+    """The tables [answers.NAME] of answers given as NAME=FILE.
+    A FILE takes the place of those that the `known` tables have under its name; of several each
+    is a resolution. A FILE.toml holds the table itself, with files from its own folder. Raises
+    InputError for what is neither."""
+    tables = dict(known) if isinstance(known, dict) else {}
+    named: dict[str, list] = {}
+    for text in options:
+        name, _, file = text.partition("=")
+        if not (name and file):
+            raise InputError(f"--answer: is {describe(text)}; allowed is NAME=FILE")
+        path = Path(file).absolute()
+        files = [os.fspath(path)]
+        if path.suffix == ".toml":
+            tables[name] = read_toml(path)
+            files = tables[name].get("file", [])
+            files = [files] if isinstance(files, str) else files
+            files = [os.fspath(path.parent / each) for each in map(str, files)]
+        named.setdefault(name, []).extend(files)
+        tables[name] = dict(tables.get(name) or {}) | {"file": named[name]}
+    return tables

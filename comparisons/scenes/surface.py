@@ -1,0 +1,291 @@
+"""The surface of a scene: its trace read or made, without form, filtered, under the roller.
+
+x along the surface with its origin under the roller's centre, heights positive out of the body
+with their zero on the mean line."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from math import hypot, sqrt
+from pathlib import Path
+
+from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.material import combined_modulus
+from analytic.profile import Profile
+from analytic.running_in import RunIn
+from analytic.surface.filters import check_cutoff, filtered
+from analytic.surface.form import RemovedForm, remove_form
+from analytic.surface.readers.files import MeasuredProfile, MissingUnitError, read_measured
+from analytic.surface.readers.topography import MapLine
+from analytic.surface.roughness import Roughness, roughness
+from analytic.surface.roughness_standard import (
+    StandardRoughness,
+    standard_cutoff,
+    standard_roughness,
+    standard_short_cutoff,
+)
+from analytic.surface.synthetic import ground_texture, self_affine, sinusoid
+from analytic.surface.turned import turned
+from comparisons.common.errors import SceneError
+from comparisons.common.numbers import finite
+from comparisons.common.units import LENGTH, unit_in_si
+from comparisons.scenes.fields import allowed, plain
+from comparisons.scenes.profile import AUTOMATIC, FILTER, ProfileSection
+from comparisons.scenes.scene import SceneBase
+
+SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
+SINUSOID_WAVES = 3.0  # and at least so many wavelengths
+
+_MAKERS = {"sinusoid": sinusoid, "self-affine": self_affine}
+_MAKERS |= {"ground": ground_texture, "turned": turned}
+# What a message allows for a field that neither the file nor the scene gives.
+_ALLOWED = {
+    "x_unit": "exactly one of x_unit and spacing",
+    "z_unit": allowed(ProfileSection, "z_unit"),
+    "spacing": allowed(ProfileSection, "spacing"),
+}
+
+
+@dataclass(frozen=True)
+class KnownTrace:
+    """A trace that is read or made already, and the SHA-256 of its file, None for a made one."""
+
+    read: MeasuredProfile
+    sha256: str | None
+
+
+@dataclass(frozen=True)
+class ProfileInfo:
+    """Where the profile comes from, and its figures after the form was removed."""
+
+    source: str  # the file as the scene names it, or the kind of a made profile
+    samples: int  # of the whole trace
+    length: float  # [m]
+    spacing: float  # [m], median
+    form: RemovedForm  # what was taken away
+    roughness: Roughness  # figures of what is left and is pressed
+    path: Path | None = field(default=None, compare=False)  # of the file, None for a made profile
+    # as read or made: with its form, unfiltered, at its own positions
+    trace: Profile | None = field(default=None, compare=False, repr=False)
+    sha256: str | None = None  # of the file
+    bridged: int = 0  # lost samples that were interpolated between their neighbours
+    trimmed: int = 0  # lost samples that were dropped at the ends
+    stretch: tuple[float, float] | None = None  # [m] of the longest bridge, from where to where
+    format: str | None = None  # of the file
+    place: str | None = None  # the line of a map that it is, in words
+    cutoff: float | None = None  # [m] of the filter, None where there is none
+    short_cutoff: float | None = None  # [m]
+    # parameters after ISO 21920-2 of the whole trace, whatever is pressed
+    standard: StandardRoughness | None = None
+    standard_why: str | None = None  # why there are none
+
+    def as_dict(self) -> dict:
+        """The same for JSON, without `path`, which another machine does not have, and `trace`."""
+        figures = asdict(replace(self, path=None, trace=None))
+        del figures["path"], figures["trace"]
+        nested = ("form", "roughness", "standard")
+        return figures | {name: finite(figures[name]) for name in nested if figures[name]}
+
+    def surface(self) -> dict:
+        """The surface's figures, as pressed and by the standard, for JSON."""
+        plain = self.as_dict()
+        names = ("cutoff", "short_cutoff", "standard", "standard_why")
+        return {"pressed": plain["roughness"], **{name: plain[name] for name in names}}
+
+
+@dataclass(frozen=True)
+class SceneSurface:
+    """What a scene presses on."""
+
+    profile: Profile | None  # None: smooth
+    info: ProfileInfo | None
+    position: float  # [m] where x = 0 lies on the trace as it was given
+    length: float | None = None  # [m] asked for a sinusoid that says none itself
+    # what running-in did, None until it was done; then the profile and its figures are after it
+    run_in: RunIn | None = None
+
+    @property
+    def as_measured(self) -> Profile | None:
+        """The profile before any running-in."""
+        return self.profile if self.run_in is None else self.run_in.before
+
+    def completed(self, tables: dict) -> dict:
+        """The tables of the scene with the fields that follow from its surface: reading them
+        again, in a folder that holds the profile's file, gives scene and surface."""
+        found = dict(tables) | {"load": tables["load"] | {"position": self.position}}
+        if self.profile is not None:
+            follows = {"length": self.length, "cutoff": self.info.cutoff}
+            known = {name: value for name, value in follows.items() if value is not None}
+            found["profile"] = tables["profile"] | known
+        return found
+
+    def as_dict(self, scene: SceneBase) -> dict:
+        """The scene for JSON: its completed tables, its name, what became of its profile."""
+        return {
+            "name": scene.name,
+            "title": scene.title,
+            "profile": None,
+            "running_in": None,
+            "stress": None,
+            **self.completed(scene.tables),
+            "profile_info": self.info.as_dict() if self.info else None,
+        }
+
+
+def surface_of(scene: SceneBase, known: KnownTrace | None = None) -> SceneSurface:
+    """The surface that a scene asks for, as measured: not run in yet.
+
+    known  trace to take in place of the profile's file
+    Raises SceneError where the profile cannot be read or made, or the roller leaves the trace."""
+    if scene.profile is None:
+        return SceneSurface(None, None, scene.load.position or 0.0)
+    table, length = plain(scene.profile), None
+    if scene.profile.variety == "sinusoid" and scene.profile.length is None:
+        length = table["length"] = _sinusoid_length(scene)
+    if scene.profile.file is not None:
+        trace, origin = _measured(table, scene, known)
+    else:
+        trace, origin = _made(table, scene.source, known)
+    position = _position(scene, trace)
+    pressed, filtering = _filtered(trace, table, scene.source)
+    info = ProfileInfo(
+        **origin,
+        **filtering,
+        samples=len(trace.x),
+        length=trace.length,
+        spacing=trace.spacing,
+        roughness=roughness(pressed),
+    )
+    surface = SceneSurface(pressed.shifted(position), info, position, length)
+    if scene.running_in is not None:
+        _check_places(scene, surface)
+    return surface
+
+
+def _sinusoid_length(scene: SceneBase) -> float:
+    """Length [m] of a sinusoid that outlasts its contact, and the roller's way while it runs in.
+    Crests touch where the roller is no higher than Hertz' compression and the waves make up
+    for: x^2 < a^2 + 4 R amplitude, a the Hertz half-width, R = `radius` [m]."""
+    radius, load = scene.roller.radius, scene.load
+    if load.kind == "approach":
+        half_width = sqrt(2.0 * radius * load.value)
+    else:
+        hertz = hertz_from_load if load.kind == "per_length" else hertz_from_peak_pressure
+        modulus = combined_modulus(scene.body.material, scene.roller.material)
+        half_width = hertz(load.value, radius, modulus).half_width
+    widest = hypot(half_width, sqrt(4.0 * radius * scene.profile.amplitude))
+    length = max(SINUSOID_REACH * widest, SINUSOID_WAVES * scene.profile.wavelength)
+    if scene.running_in is not None:
+        length += scene.running_in.travel(load.position or 0.0)
+    return length
+
+
+def _measured(table: Mapping, scene: SceneBase, known: KnownTrace | None) -> tuple[Profile, dict]:
+    """The profile in a file without its form, and where it comes from."""
+    path, source = scene.folder / table["file"], scene.source
+    try:
+        known = known or _read(table, path)
+    except MissingUnitError as error:
+        raise SceneError(
+            f"{source}: profile.{error.field}: is missing; allowed is {_ALLOWED[error.field]} "
+            f"({table['file']} {error.message})"
+        ) from error
+    except (ValueError, OSError) as error:
+        raise SceneError(f"{source}: profile.file: {error}") from error
+    try:
+        trace, form = _without_form(known.read.profile, table["form"])
+    except ValueError as error:
+        raise SceneError(f"{source}: profile.form: {error}") from error
+    names = ("bridged", "trimmed", "stretch", "format", "place")
+    how = {name: getattr(known.read, name) for name in names}
+    origin = {"source": table["file"], "path": path, "trace": known.read.profile, "form": form}
+    return trace, origin | how | {"sha256": known.sha256}
+
+
+def _read(table: Mapping, path: Path) -> KnownTrace:
+    place = {name: table[name] for name in ("row", "column", "line") if name in table}
+    x_scale, height_scale = (
+        unit_in_si(table[unit], LENGTH) if unit in table else None for unit in ("x_unit", "z_unit")
+    )
+    read = read_measured(
+        path,
+        x_scale=x_scale,
+        height_scale=height_scale,
+        spacing=table.get("spacing"),
+        columns=table.get("columns"),
+        channel=table.get("channel"),
+        dropouts=table["dropouts"],
+        chosen=MapLine(**place) if place else None,
+    )
+    return KnownTrace(read, hashlib.sha256(path.read_bytes()).hexdigest())
+
+
+def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profile, dict]:
+    """The profile that `analytic.surface.synthetic` makes, about its mean line, and its origin."""
+    parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
+    try:
+        trace = known.read.profile if known else _MAKERS[table["kind"]](**parameters)
+    except ValueError as error:
+        raise SceneError(f"{source}: profile: {error}") from error
+    return trace, {"source": table["kind"], "form": RemovedForm("none"), "trace": trace}
+
+
+def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dict]:
+    """What is pressed of the trace, and the filter and the standard's figures for the account."""
+    cutoff, short = table.get("cutoff"), table.get("short_cutoff")
+    field = "cutoff"
+    try:
+        if cutoff == AUTOMATIC:
+            cutoff = standard_cutoff(trace)
+        field = "short_cutoff"
+        if short is not None:
+            check_cutoff(trace, short)
+        field = "cutoff" if cutoff is not None else field
+        pressed = filtered(trace, cutoff, short)
+    except ValueError as error:
+        raise SceneError(f"{source}: profile.{field}: {error}") from error
+    account = {"cutoff": cutoff, "short_cutoff": short}
+    try:
+        cutoff = standard_cutoff(trace) if cutoff is None else cutoff
+        short = short or standard_short_cutoff(trace, cutoff)
+        account["standard"] = standard_roughness(trace, cutoff, short)
+    except ValueError as error:
+        account["standard_why"] = str(error).partition(";")[0]
+    return pressed, account
+
+
+def _without_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:
+    """As `remove_form`, but heights count from the mean line even where no form is removed."""
+    if form == "none":
+        level, removed = remove_form(profile, "mean")
+        return level, replace(removed, kind="none")
+    return remove_form(profile, form)
+
+
+def _position(scene: SceneBase, trace: Profile) -> float:
+    """Of the roller's centre on the trace [m], by default the middle."""
+    first, last, wanted = float(trace.x[0]), float(trace.x[-1]), scene.load.position
+    if wanted is None:
+        return 0.5 * (first + last)
+    if not first < wanted < last:
+        raise SceneError(
+            f"{scene.source}: load.position: is {wanted:g} m; allowed is inside the trace, "
+            f"above {first:g} m and below {last:g} m"
+        )
+    return wanted
+
+
+def _check_places(scene: SceneBase, surface: SceneSurface) -> None:
+    """Raise SceneError where running-in would take the roller off the trace."""
+    position, stroke = surface.position, scene.running_in.stroke
+    first, last = position + surface.profile.x[[0, -1]]
+    for place in scene.running_in.places(position):
+        if first < place < last:
+            continue
+        field, wrong = "positions", place
+        where = f"inside the trace, above {first:g} m and below {last:g} m"
+        if stroke is not None:
+            field, wrong = "stroke", stroke
+            room = 2.0 * min(position - first, last - position)
+            where = f"below {room:g} m, to stay on the trace about the roller's centre"
+        raise SceneError(f"{scene.source}: running_in.{field}: is {wrong:g} m; allowed is {where}")
