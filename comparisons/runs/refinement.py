@@ -49,7 +49,7 @@ def refined(
         why = levels.spent(now.runs)
         if why is None and unresolved_now and _stuck(before, unresolved_now):
             why = "refinement no longer lowers their uncertainty"
-        if why is None and number == scene.problem.scene.resolution.most:
+        if why is None and number == scene.problem.most_levels:
             why = f"{number} levels are the most"
         if why is not None:
             names = ", ".join(unresolved_now) or "judged quantities"

@@ -55,7 +55,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     if solved.runs:
         return
     try:
-        rows = summit_rows(scene.profile, scene.statistics.cutoffs)
+        rows = summit_rows(problem.surface.profile, scene.statistics.cutoffs)
         _cylinders(problem, problem.hertz.load_per_length, rows[0])
     except (ValueError, ArithmeticError) as error:
         raise SceneError(f"{scene.source}: statistics: {error}") from None
@@ -67,7 +67,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     problem, wanted = solved.problem, solved.problem.scene.statistics
     patches = {name: patch_states(problem, run.finest) for name, run in solved.runs.items()}
-    rows = summit_rows(problem.scene.profile, wanted.cutoffs)
+    rows = summit_rows(problem.surface.profile, wanted.cutoffs)
     found = RoughContactStatistics(rows, tasks.result(NAME), wanted.traces, patches)
     return replace(found.findings(before[contact.NAME]), data=found)
 

@@ -183,5 +183,5 @@ def _body_in_words(scene: Scene) -> list[str]:
     if scene.coating is not None:
         found.append(f"coating {coating_text(scene.coating)}")
     if scene.body.yield_stress is not None:
-        found.append(f"yields {yielding_text(scene.body.material)}")
+        found.append(f"yields {yielding_text(scene.body)}")
     return found

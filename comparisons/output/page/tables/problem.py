@@ -30,7 +30,7 @@ def problem_sheet(outcome: Run) -> list[tuple[str, Rows]]:
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
     rows = [("radius of relative curvature R", given(scene.roller.radius, "m"))]
-    body = scene.body.material
+    body = scene.body
     if body.thickness is None:
         rows.append(("body, thickness", "unbounded"))
     else:
@@ -130,7 +130,7 @@ def _materials(outcome: Run) -> Rows:
     if scene.body.hardness is not None:
         rows.append(("hardness of the body", given(scene.body.hardness, "Pa")))
     if scene.body.yield_stress is not None:
-        rows.append(("body yields", yielding_text(scene.body.material)))
+        rows.append(("body yields", yielding_text(scene.body)))
     return rows
 
 
