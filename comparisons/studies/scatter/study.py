@@ -27,13 +27,14 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     """Make the samples known, before anything is solved."""
     if solved.runs:
         return
-    scene, points = solved.problem.scene, _points(solved.problem)
+    scene, surface = solved.problem.scene, solved.problem.surface
+    points = _points(solved.problem)
     x = solved.problem.grid(solved.problem.pitches[0]).x
     cost = expected_of(len(x)).seconds * TOGETHER
     for start in _starts(points):
         batch = points.reshape(-1, len(scene.scatter.inputs))[start : start + TOGETHER]
         by = _by(solved, tasks)
-        by.add(_key(start), _batch, scene, batch, x, seconds=cost, urgency=LATER)
+        by.add(_key(start), _batch, scene, surface, batch, x, seconds=cost, urgency=LATER)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:

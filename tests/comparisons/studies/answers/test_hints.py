@@ -36,7 +36,7 @@ def test_units_signs_and_factors(answered, curve, change, kinds):
 def test_another_load_and_the_diameter_for_the_radius(answered, curve, hertz, load, radius):
     given = load * hertz.load_per_length, radius * QUICK["roller"]["radius"]
     contact = hertz_from_load(*given, hertz.combined_modulus)
-    (hint,) = answered(curve(contact=contact)).answers[0].hints
+    (hint,) = answered(curve(contact=contact)).data("answers").answers[0].hints
     assert hint.value == load * radius
     assert hint.kind == ("load" if load < 1.0 else "radius")
 

@@ -176,9 +176,10 @@ class TestASample:
 
     def test_what_has_no_solution_is_counted(self):
         beyond = {"position": {"range": [0.0, 1.5e-3]}, "samples": 8}
-        found = run(resolved(changed(ROUGH, scatter=beyond)), None, ("half_plane",)).scatter
-        assert 0 < found.failed < found.solutions and "end of the trace" in found.why
-        assert np.isfinite(found.of("peak_pressure", 0.0).mean)
+        outcome = run(resolved(changed(ROUGH, scatter=beyond)), None, ("half_plane",))
+        scatter = outcome.data("scatter")
+        assert 0 < scatter.failed < scatter.solutions and "end of the trace" in scatter.why
+        assert np.isfinite(scatter.of("peak_pressure", 0.0).mean)
 
 
 @pytest.mark.parametrize(
