@@ -232,10 +232,13 @@ def _unknown(sections: dict[str, type[SceneSection]], location: tuple, value: ob
     if not section and isinstance(value, dict):
         return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
     fields = {
-        table: {field: f"{table}.{field}" for field in model.model_fields}
-        for table, model in sections.items()
+        table: {field: f"{table}.{field}" for field in sections[table].model_fields}
+        for table in titles
     }
-    own = fields[section[0]] if section else {"title": "title", **titles}
+    own = {"title": "title", **titles}
+    if section:
+        within = ".".join(section)
+        own = {field: f"{within}.{field}" for field in sections[section[0]].model_fields}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
     near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)
