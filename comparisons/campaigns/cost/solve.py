@@ -54,12 +54,12 @@ def solved(
         return _of_level(_by_strips(problem, setting, window, stages), problem)
     scene = problem.scene.unchecked({"finite_element.element": method.element})
     problem = replace(problem, scene=scene)
-    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
     plan = make_plan(problem, ("finite_element",))
     given = problem, plan, Refinement(setting, half_block), window, stages
-    level = finite_element_level(*given, fields=False)
+    level = finite_element_level(*given, options=LevelOptions(fields=False))
     return _of_level(replace(level, mesh=None), problem)
 
 
