@@ -56,7 +56,7 @@ def run(
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
     """Solve a scene with both models, compare them and judge."""
-    from comparisons.common.files import check_writable
+    from comparisons.common.files import check_writable, holds_comparison
     from comparisons.common.processes import uncollected
 
     with uncollected():
@@ -78,6 +78,8 @@ def run(
     directory = out or RESULTS / asked.name
     from_first(lambda: check_writable(directory))
     from_first(lambda: check_place(junit))
+    if len(chosen) == 1 and is_first() and holds_comparison(directory):
+        tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
     warnings = warnings_about(asked, surface)
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
