@@ -22,7 +22,6 @@ from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import SceneError, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, models_named
-from comparisons.runs.run import Known
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
@@ -65,6 +64,7 @@ def run(
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.output.result_json import content_of
         from comparisons.output.terminal import summary
+        from comparisons.runs.run import Known
         from comparisons.runs.run import run as run_scene
         from comparisons.scenes.scene import with_tolerance
         from comparisons.scenes.surface import surface_of

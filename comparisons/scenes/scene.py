@@ -115,9 +115,20 @@ class SceneBase(SceneSection):
             update[section] = value
         return self.model_copy(update=update)
 
+    def __repr__(self) -> str:
+        """The title, and a line for each section that was given, as it was."""
+        sections = ((n, table) for n, table in self._given.items() if isinstance(table, Mapping))
+        lines = (
+            f"{name:<14} " + ", ".join(f"{field} {_shown(value)}" for field, value in table.items())
+            for name, table in sections
+        )
+        return "\n".join([str(self.title), *lines])
+
+    __str__ = __repr__
+
     @property
     def given(self) -> dict:
-        """The tables as they were given."""
+        """The tables as they were given; paths in them count from `folder`."""
         return copy.deepcopy(self._given)
 
     @property
@@ -173,6 +184,13 @@ class Scene(SceneBase):
     statistics: StatisticsSection | None = None
     heat: HeatSection | None = None
     answers: Answers | None = None
+
+
+def _shown(value: object) -> str:
+    """A field's value in a line: of long lists the first entries."""
+    if isinstance(value, list | tuple):
+        return ", ".join(map(str, value[:3])) + (", …" if len(value) > 3 else "")
+    return str(value)
 
 
 def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from comparisons import api
+import comparisons as crosscheck
 from comparisons.campaigns.decks.write import write_deck
 from comparisons.campaigns.verify.form import COLUMNS, export_form, form_cases, judged_form
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
+from comparisons.notebook import scene_of
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +59,7 @@ def test_an_exported_trace_has_the_pressures_that_it_was_made_from(folder, seed)
 
 def solved_as_expected(folder: Path, name: str, bound: float) -> None:
     """By the half-plane, from the files alone."""
-    found = api.run(folder / f"{name}.toml", "half-plane")
+    found = crosscheck.run(folder / f"{name}.toml", "half-plane")
     (case,) = (case for case in form_cases() if case.name == name)
     for quantity in ("peak_pressure", "contact_length"):
         value = found.figure(quantity, "half_plane").value
@@ -71,7 +72,7 @@ def solved_as_expected(folder: Path, name: str, bound: float) -> None:
 def test_exported_scenes_make_decks(folder, tmp_path):
     for number, name in enumerate(("rough-hard-coating-2", "layer-bonded-nu-0.3-a-1-t")):
         assert write_deck(
-            api.load(folder / f"{name}.toml"), "calculix", tmp_path / str(number)
+            scene_of(folder / f"{name}.toml"), "calculix", tmp_path / str(number)
         ).nodes
 
 
