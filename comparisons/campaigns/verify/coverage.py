@@ -37,7 +37,7 @@ CEILINGS = {
 }
 # Times these: rough contacts have fewer elements to a patch; a model error is made of two figures.
 ROUGH_FACTOR, MODEL_ERROR_FACTOR = 4.0, 2.0
-PARTS = ("iteration", "discretisation", "domain", "total")  # of an uncertainty
+PARTS = ("iteration", "discretisation", "domain")  # of an uncertainty
 FIGURE, MODEL_ERROR = "figure", "model error"  # what a run's two tables are made of
 # Expected order and how far the observed one may lie from it, both ways. Hertz's contact: the
 # figures of smooth fields have order 2, of the edge's place 1, of the pressure in L2 1, by the
@@ -126,7 +126,7 @@ class Pair:
         stated = self.uncertainty
         return asdict(self) | {
             "error": self.error,
-            "uncertainty": {name: getattr(stated, name) for name in PARTS},
+            "uncertainty": {name: stated.parts[name] for name in PARTS} | {"total": stated.total},
             "covered": self.covered,
             "overestimation_ratio": self.overestimation,
             "behaviour": stated.convergence.behaviour,
