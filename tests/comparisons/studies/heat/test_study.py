@@ -77,7 +77,7 @@ def test_what_is_judged_has_a_case_for_continuous_integration(rough):
     assert {f.verdict for f in differs.judged.of(study="heat")} == {"differ"}
     assert differs.exit_status == 1
     cases = [case for case in run_cases_of(differs) if case.classname.endswith(".heat")]
-    assert {case.result for case in cases} == {"failed"}
+    assert {case.result for case in cases} == {"failure"}
 
 
 def test_temperatures_as_csv(rough):
