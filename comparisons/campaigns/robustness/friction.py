@@ -6,7 +6,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.exact.sliding import sliding_from_load
 from analytic.material import Material, combined_modulus, dundurs_constants
 from analytic.operators.tangential import CoupledHalfPlane
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
+from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
 from comparisons.campaigns.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
     Constants,
@@ -23,7 +23,7 @@ SOFT = (1e5, 0.0)  # of the largest Dundurs' constant under a rigid roller
 
 def sliding_findings(
     body: Constants = SOFT, roller: Constants | None = None, friction: float = 1.0
-) -> CaseFindings:
+) -> CaseFigures:
     """A cylinder that slides (`roller` None: rigid) against the exact one."""
     materials = Material(*body), Material(*roller) if roller else None
     modulus, beta = combined_modulus(*materials), dundurs_constants(*materials)[1]
@@ -39,14 +39,14 @@ def sliding_findings(
     place = abs(x @ pressure / pressure.sum() - exact.load_position) / size
     return contact.findings(
         relative_error("peak pressure", pressure.max(), exact.peak_pressure, HIGH, reference),
-        BoundedFigure("trailing edge", abs(start - left) / size, 1e-2, reference),
-        BoundedFigure("leading edge", abs(stop - right) / size, 1e-2, reference),
-        BoundedFigure("place of the load", place, HIGH, reference),
+        bounded("trailing edge", abs(start - left) / size, 1e-2, reference),
+        bounded("leading edge", abs(stop - right) / size, 1e-2, reference),
+        bounded("place of the load", place, HIGH, reference),
         dense_violation(contact, modulus, friction * beta),
     )
 
 
-def rough_findings(friction_dundurs: float) -> CaseFindings:
+def rough_findings(friction_dundurs: float) -> CaseFigures:
     operator = CoupledHalfPlane(COUNT, 1.0, 1.0, friction_dundurs)
     contact = load_line(operator, rough(COUNT), Constraints(load=LOAD))
     return contact.findings(dense_violation(contact, 1.0, friction_dundurs))

@@ -8,7 +8,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.campaigns.checks import CaseFindings
+from comparisons.campaigns.cases import CaseFigures
 from comparisons.campaigns.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
     Constants,
@@ -23,7 +23,7 @@ COUNT = 2 * int(1.5 * HATS_PER_HALF_WIDTH) + 1
 
 def coated_findings(
     coating: Constants, thickness: float, base: Constants, equivalent: Constants, high: float
-) -> CaseFindings:
+) -> CaseFigures:
     """A coating so thin or thick (over a) that it is a half-plane of the `equivalent` material."""
     body = LayeredBody(Material(*coating), thickness, Material(*base))
     modulus = Material(*equivalent).plane_strain_modulus

@@ -8,7 +8,7 @@ import numpy as np
 from analytic.contact.equilibrium import Constraints
 from analytic.operators.half_plane import HalfPlane
 from analytic.surface.synthetic import self_affine
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
+from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
 from comparisons.campaigns.robustness.loaded_contact import (
     SAME,
     LoadedContact,
@@ -38,20 +38,20 @@ def pressed(
     return load_line(HalfPlane(len(height), pitch, modulus), height, Constraints(load=load))
 
 
-def vanishing_findings(load: float) -> CaseFindings:
+def vanishing_findings(load: float) -> CaseFigures:
     """Under next to no load one node alone carries it, and the gap is as it was."""
     height = rough(COUNT)
     contact = pressed(height, load)
     opened = np.abs(contact.solution.gap - (height.max() - height)).max() / np.ptp(height)
     touching, reference = np.count_nonzero(contact.pressure), "the load over the node's weight"
     return contact.findings(
-        BoundedFigure("nodes in contact", touching, 1, "one", low=1),
+        bounded("nodes in contact", touching, 1, "one", low=1),
         relative_error("pressure", contact.pressure.max(), load, 4e-16, reference),
-        BoundedFigure("gap", opened, max(1e-14, 10.0 * load), "the initial gap"),
+        bounded("gap", opened, max(1e-14, 10.0 * load), "the initial gap"),
     )
 
 
-def shape_findings(shape: str, load: float) -> CaseFindings:
+def shape_findings(shape: str, load: float) -> CaseFigures:
     """Few nodes against bounded least squares, which needs no iteration of ours."""
     contact = pressed(SHAPES[shape](FEW), load)
     return contact.findings(least_squares_deviation(contact, 1.0), dense_violation(contact, 1.0))
@@ -79,7 +79,7 @@ SHAPES = {"plateau": plateau, "spike": spike, "steps": steps, "flat": np.zeros}
 
 def scaled_findings(
     metre: float = TRACE, pascal: float = 1.0, same: float = SAME, amplitude: float | None = None
-) -> CaseFindings:
+) -> CaseFigures:
     """All lengths times `metre`, all stresses times `pascal`, and heights, to which pressures are
     in proportion, up to an `amplitude` [m]; `same` is how well figures agree."""
     usual = pressed(rough(COUNT), LOAD)
@@ -94,5 +94,5 @@ def scaled_findings(
         deviation(pressure, usual.pressure, "pressure", same, reference),
         relative_error("contact length", length, metre, max(1e2 * same, 1e-15), reference),
         relative_error("approach", approach, metre * slope, same, reference),
-        BoundedFigure("applications", spent / most, 1.0, reference, low=1.0),
+        bounded("applications", spent / most, 1.0, reference, low=1.0),
     )

@@ -12,7 +12,7 @@ from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.material import Material, combined_modulus
 from analytic.operators.half_plane import HalfPlane
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
+from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
 from comparisons.campaigns.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
     SAME,
@@ -24,6 +24,7 @@ from comparisons.campaigns.robustness.loaded_contact import (
     load_cylinder,
     peak_and_length,
 )
+from comparisons.figures.figure import Figure
 
 COUNT = 2 * int(1.5 * HATS_PER_HALF_WIDTH) + 1  # hats on 1.5 half-widths to either side
 STEEL = (207e9, 0.3)
@@ -52,7 +53,7 @@ def hertz_findings(
     roller: Constants | None = None,
     radius: float = 8.2e-3,
     load: float = 1e6,
-) -> CaseFindings:
+) -> CaseFigures:
     hertz, contact = smooth_contact(body, roller, radius, load)
     peak, half_width = hertz.peak_pressure, hertz.half_width
     (shape, length), reference = ordinary_shape(), "the ordinary case"
@@ -65,7 +66,7 @@ def hertz_findings(
     )
 
 
-def sized_findings(points: int) -> CaseFindings:
+def sized_findings(points: int) -> CaseFigures:
     """Hertz on so many hats, a third of which touch; few of them by least squares, too."""
     half_width = points / 6.0 + 0.3
     hertz = hertz_from_peak_pressure(1.0, 0.5 * half_width, 1.0)
@@ -75,13 +76,13 @@ def sized_findings(points: int) -> CaseFindings:
     error = contact.pressure - hertz.pressure(contact.x)
     distance = float(np.linalg.norm(error) / np.linalg.norm(hertz.pressure(contact.x)))
     reference = "Hertz, exact, order 1 in the pitch"
-    figures = [BoundedFigure("pressure, L2", distance, 0.4 / half_width, reference)]
+    figures = [bounded("pressure, L2", distance, 0.4 / half_width, reference)]
     if points <= 64:
         figures.append(least_squares_deviation(contact, 1.0))
     return contact.findings(*figures)
 
 
-def hardness_findings(over_peak: float) -> CaseFindings:
+def hardness_findings(over_peak: float) -> CaseFigures:
     """Hardness just above or below the peak: 1 + `over_peak` of the highest pressure found."""
     pitch = 1.0 / HATS_PER_HALF_WIDTH
     operator = HalfPlane(COUNT, pitch, 1.0)
@@ -102,7 +103,7 @@ def hardness_findings(over_peak: float) -> CaseFindings:
     return capped.findings(deviation(capped.pressure, plain.pressure, "pressure", high, reference))
 
 
-def flowed_figure(flowed: np.ndarray, pitch: float, half_width: float) -> BoundedFigure:
+def flowed_figure(flowed: np.ndarray, pitch: float, half_width: float) -> Figure:
     """Length of the hats at the hardness (n,) against 2 `half_width` [m], in hats."""
     off = abs(np.count_nonzero(flowed) * pitch - 2.0 * half_width) / pitch
-    return BoundedFigure("flowed length", off, 2.0, "flattened cylinder, exact, in hats")
+    return bounded("flowed length", off, 2.0, "flattened cylinder, exact, in hats")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, CheckedCase
+from comparisons.campaigns.cases import Case, CaseFigures, bounded
 from comparisons.common.progress import Stages
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
@@ -20,12 +20,12 @@ AGREE = 1e-6  # relative, in pressure and in load
 SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_text("utf-8"))
 
 
-def independent_cases(names: Iterable[str] = SCENES) -> list[CheckedCase]:
+def independent_cases(names: Iterable[str] = SCENES) -> list[Case]:
     model, group = "finite_element", "independent solver"
-    return [CheckedCase(group, n, model, partial(independent_findings, n)) for n in names]
+    return [Case(group, n, model, partial(independent_findings, n)) for n in names]
 
 
-def independent_findings(name: str) -> CaseFindings:
+def independent_findings(name: str) -> CaseFigures:
     """Largest difference of the pressures under one load, over the largest pressure; and relative
     difference of the loads at one approach."""
     from comparisons.models.finite_element.bodies import BodyCache, bodies_of
@@ -60,9 +60,7 @@ def independent_findings(name: str) -> CaseFindings:
     if not all(mesh is level.mesh for mesh in (bodies.rough.mesh, again.mesh)):
         raise RuntimeError(f"{name}: the solvers were on different meshes")
     reference = "PETSc's vinewtonrsls on the whole system"
-    return CaseFindings(
-        (
-            BoundedFigure("pressure", difference, AGREE, reference),
-            BoundedFigure("load", loads, AGREE, reference),
-        )
+    return (
+        bounded("pressure", difference, AGREE, reference),
+        bounded("load", loads, AGREE, reference),
     )

@@ -13,7 +13,7 @@ from analytic.contact import problem as contact
 from analytic.layers import kernel
 from analytic.operators import half_plane as operators
 from analytic.operators.elements import hat_galerkin
-from comparisons.campaigns.checks import run_case
+from comparisons.campaigns.cases import carried_out
 from comparisons.campaigns.robustness import (
     algebra,
     friction,
@@ -31,7 +31,7 @@ SLOW = ("1000000 p", "65536 points")
 @pytest.mark.parametrize("module", [smooth, rough, friction, layers, algebra])
 def test_quick_cases_hold(module):
     cases = [case for case in all_cases() if case.solve.func in vars(module).values()]
-    rows = [run_case(case) for case in cases if not case.name.startswith(SLOW)]
+    rows = [carried_out(case) for case in cases if not case.name.startswith(SLOW)]
     assert rows and [fault for row in rows for fault in row.faults] == []
 
 
@@ -53,7 +53,7 @@ def test_a_broken_kernel_fails_the_rows(monkeypatch, row_of):
         for each in cached:
             each.cache_clear()
     assert not any(row.holds for row in broken)
-    assert broken[0].decisive.name == "gap against pressure"
+    assert broken[0].decisive.quantity == "gap against pressure"
 
 
 def test_a_broken_solver_fails_the_rows(monkeypatch, row_of):
