@@ -208,14 +208,14 @@ def sweep(
     over: str | Sequence[str] | Mapping[str, Sequence[float | str]],
     models: str | Sequence[str] = "half-plane",
     *,
-    workers: int | None = None,
+    workers: int | str | None = None,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> Sweep:
     """One scene at many placements, loads, or values of any field: what `crosscheck sweep` does.
 
     over     "position=40", "FIELD=FROM:TO:N", "FIELD=A,B,C", several of them, or values by field
-    workers  processes, one a core by default
+    workers  processes, one a core by default, or a Dask scheduler's address
     `out` keeps each point, and goes on from there.
 
     >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}

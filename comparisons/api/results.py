@@ -220,7 +220,7 @@ class Sweep(Printed):
 
     def plot(self) -> "list[Axes]":
         """Each figure over the first swept field."""
-        from comparisons.campaigns.sweep.picture import sweep_figure
+        from comparisons.campaigns.sweep.pictures import sweep_figure
         from comparisons.drawing.style import collected_figures
 
         with collected_figures():
