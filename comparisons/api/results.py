@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.cost.result import Cost
+from comparisons.campaigns.cost.recommend import Cost
 from comparisons.common.errors import InputError
 from comparisons.figures.figure import Figure, Figures
 from comparisons.output.flat_csv import Row, rows_of
@@ -175,7 +175,7 @@ class CostStudy(Printed):
         return drawn[0].axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.cost.page import cost_table
+        from comparisons.campaigns.cost.show import cost_table
 
         return cost_table(self.study)
 

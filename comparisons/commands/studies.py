@@ -43,7 +43,7 @@ def cost(
 ) -> int:
     """Measure error against time of every method; name the cheapest for each tolerance."""
     from comparisons.campaigns.cost.cost import cost as measured_cost
-    from comparisons.campaigns.cost.page import cost_table
+    from comparisons.campaigns.cost.show import cost_table
     from comparisons.scenes.scene import Scene
 
     asked = Scene.read(scene)
