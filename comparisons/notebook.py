@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.cost.result import Cost
+from comparisons.campaigns.cost.recommend import Cost
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, write_whole
 from comparisons.common.numbers import percent, with_unit
@@ -241,7 +241,7 @@ class CostStudy(Printed):
         return drawn[0].axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.cost.page import cost_table
+        from comparisons.campaigns.cost.show import cost_table
 
         return cost_table(self.study)
 
@@ -286,7 +286,7 @@ class Sweep(Printed):
 
     def plot(self) -> "list[Axes]":
         """Each figure over the first swept field."""
-        from comparisons.campaigns.sweep.picture import sweep_figure
+        from comparisons.campaigns.sweep.pictures import sweep_figure
         from comparisons.drawing.style import collected_figures
 
         with collected_figures():
@@ -413,14 +413,14 @@ def sweep(
     over: str | Sequence[str] | Mapping[str, Sequence[float | str]],
     models: str | Sequence[str] = "half-plane",
     *,
-    workers: int | None = None,
+    workers: int | str | None = None,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> Sweep:
     """One scene at many placements, loads, or values of any field: what `crosscheck sweep` does.
 
     over     "position=40", "FIELD=FROM:TO:N", "FIELD=A,B,C", several of them, or values by field
-    workers  processes, one a core by default
+    workers  processes, one a core by default, or a Dask scheduler's address
     `out` keeps each point, and goes on from there.
 
     >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}

@@ -8,10 +8,10 @@ from typing import get_args
 import pytest
 from pydantic.fields import FieldInfo
 
-from comparisons.api import run
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
+from comparisons.notebook import run
 from comparisons.scenes.fields import SceneSection, allowed
 from comparisons.scenes.finite_element import HELD_BLOCK
 from comparisons.scenes.profile import FILTER, VARIETIES

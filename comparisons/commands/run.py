@@ -59,7 +59,7 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
-        from comparisons.campaigns.points import cluster
+        from comparisons.common.executors import cluster
         from comparisons.output.junit import check_place, junit_xml, run_cases_of, write_junit
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.output.result_json import content_of
@@ -123,8 +123,9 @@ def _read(scene: str, answers: Sequence[str]) -> "Scene":
 
 
 def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:
-    """What maps or estimates say of the model error; not of a surface that must be run in first."""
-    if scene.running_in is not None or not is_first():
+    """What maps or estimates say of the model error; not of a surface that must be run in first,
+    nor under a load that must be found first."""
+    if scene.running_in is not None or scene.load.kind == "approach" or not is_first():
         return
     from comparisons.campaigns.maps.place import first_answer
     from comparisons.models.problem import problem_of

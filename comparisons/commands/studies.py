@@ -28,6 +28,9 @@ Axis = Annotated[
         help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=complete_groups
     ),
 ]
+Workers = Annotated[
+    str | None, Option(help="Processes, or a Dask scheduler's address.", show_default="one a core")
+]
 MAPPED = "As for `run`, or the name of a finished map."
 
 
@@ -40,7 +43,7 @@ def cost(
 ) -> int:
     """Measure error against time of every method; name the cheapest for each tolerance."""
     from comparisons.campaigns.cost.cost import cost as measured_cost
-    from comparisons.campaigns.cost.page import cost_table
+    from comparisons.campaigns.cost.show import cost_table
     from comparisons.scenes.scene import Scene
 
     asked = Scene.read(scene)
@@ -70,10 +73,7 @@ def map_of(
             show_default="peak_pressure, or the finished map's",
         ),
     ] = None,
-    workers: Annotated[
-        str | None,
-        Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
-    ] = None,
+    workers: Workers = None,
     mark: Annotated[
         str | None, Option(help="A scene to be marked on the map.", autocompletion=complete_scenes)
     ] = None,
@@ -96,7 +96,7 @@ def map_of(
         content = from_first(lambda: show_finished(scene, quantity, marked, directory))
     else:
         request = from_first(lambda: request_of(scene, points or SIZE, x, y, quantity))
-        directory = out or RESULTS / request.name
+        directory = out or RESULTS / request.scene.name
         with progress() as callback:
             content = make_map(request, directory, workers, callback, marked)
     if content is None:  # it worked for the first process
@@ -116,9 +116,7 @@ def sweep(
         ),
     ],
     models: Models = "half-plane",
-    workers: Annotated[
-        int | None, Option(help="Processes.", show_default="one a core", min=1)
-    ] = None,
+    workers: Workers = None,
     out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
@@ -129,10 +127,12 @@ def sweep(
     from comparisons.scenes.scene import Scene
 
     chosen = models_named(models, "--models")
-    request = sweep_request(Scene.read(scene), over, chosen)
+    request = from_first(lambda: sweep_request(Scene.read(scene), over, chosen))
     directory = out or RESULTS / f"sweep-{request.scene.name}"
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)
+    if content is None:  # it worked for the first process
+        return ExitStatus.DONE
     show_either(as_json, content, lambda: sweep_table(content, directory))
     return ExitStatus.DONE
 

@@ -45,8 +45,10 @@ def unfinished(out: Path) -> Path:
     return out / ".unfinished" if out.is_dir() and not beside.is_dir() else beside
 
 
-def claimed(out: Path) -> set[str]:
-    """Names of the files in a folder that a record there says this program wrote."""
+def claimed(out: Path, own: tuple[str, ...] = ()) -> set[str]:
+    """Names of the files in a folder that a record there says this program wrote.
+
+    own   names of files that are written together: a study's record is all of theirs"""
     found: set[str] = set()
     record = _record(out / RECORD)
     if "hashes" in record:
@@ -56,6 +58,7 @@ def claimed(out: Path) -> set[str]:
     for name in STUDIES:
         if "schema" in _record(out / f"{name}.json"):
             found |= {path.name for path in out.glob(f"{name}*")}
+            found |= set(own) if f"{name}.json" in own else set()
     return found
 
 
@@ -103,7 +106,7 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
             raise _cannot(out, f"{out / name} is a folder; allowed is none")
     if present:
         with _alone_in(out):
-            ours = claimed(out)
+            ours = claimed(out, own)
             foreign = [n for n in present if n not in ours and os.path.lexists(out / n)]
         if foreign:
             why = f"no record there says that crosscheck wrote {foreign[0]}"
@@ -234,7 +237,7 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
         made.sort(key=lambda name: str(name) not in RECORDS)  # first what claims the others
         out.mkdir(exist_ok=True)
         with _alone_in(out):
-            ours = claimed(out)
+            ours = claimed(out, own)
             for name in made:
                 _move(scratch / name, out / name)
             for name in ours & set(_present(out, own)):

@@ -29,6 +29,7 @@ from comparisons.scenes.surface import SceneSurface, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.study import Run, Solved, studied, unsolved
+from fem.solver.communicator import is_alone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -101,10 +102,10 @@ def run(
 
 def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
     """Raise SceneError for what only one process can solve where there are several."""
-    settings = scene.finite_element
+    settings, several = scene.finite_element, is_several() and not is_alone()
     finite = settings.deformation == "finite"
     name = "deformation" if finite else "plastic"
-    if (finite or settings.plastic) and "finite_element" in models and is_several():
+    if several and (finite or settings.plastic) and "finite_element" in models:
         raise SceneError(
             f"{scene.source}: finite_element.{name}: is solved on one process; allowed without "
             "mpirun"

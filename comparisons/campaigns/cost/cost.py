@@ -4,8 +4,8 @@ from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.campaigns.cost.methods import METHODS, SolutionMethod
-from comparisons.campaigns.cost.page import cost_page
-from comparisons.campaigns.cost.result import Cost, assess, content_of
+from comparisons.campaigns.cost.recommend import Cost, assess
+from comparisons.campaigns.cost.show import content_of, cost_page
 from comparisons.campaigns.cost.study import cost_cache, measured_study
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError

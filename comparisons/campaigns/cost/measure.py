@@ -1,7 +1,8 @@
 """Time and memory of one setting of one method, in a process of its own with one thread.
 
-Seconds are processor time, gmsh's process included: on an idle machine the wall time, on a busy one
-what the wall time would be if the machine were idle."""
+In: a problem, a method, a setting. Out: the solution and what it cost. Seconds are processor time,
+gmsh's process included: on an idle machine the wall time, on a busy one what the wall time would be
+if the machine were idle."""
 
 import re
 import statistics
@@ -9,15 +10,14 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 
-from comparisons.campaigns.cost.methods import METHODS, SolutionMethod
-from comparisons.campaigns.cost.solve import SolvedContact, solved
+from comparisons.campaigns.cost.methods import SolutionMethod, Values, solved
 from comparisons.common.errors import InputError
 from comparisons.common.progress import Stages, peak_memory, processor_seconds
-from comparisons.models.problem import Problem, problem_of
-from comparisons.models.window import Window, window_of
-from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import SceneSurface
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
+from comparisons.models.window import window_of
 
 # Methods that this process has run. The first solution loads libraries, and does not count.
 _begun: set[str] = set()
@@ -27,10 +27,8 @@ _begun: set[str] = set()
 class CostTask:
     """What to measure: as many `repeats` as `limit` seconds allow, at least one."""
 
-    scene: Scene
-    surface: SceneSurface
-    load: float | None  # [N/m] of a prescribed approach, else None
-    method: str
+    problem: Problem
+    method: SolutionMethod
     setting: float
     repeats: int = 1
     limit: float = 0.0
@@ -38,7 +36,7 @@ class CostTask:
 
     @property
     def name(self) -> str:
-        method = re.sub(r"\W+", "-", self.method)
+        method = re.sub(r"\W+", "-", self.method.name)
         return f"{method}_{self.setting!r}{'_half_block' if self.half_block else ''}"
 
 
@@ -46,7 +44,8 @@ class CostTask:
 class MeasuredRun:
     """Solution and cost of a setting: medians over the `repeats` that were counted."""
 
-    solved: SolvedContact
+    level: Level  # without its mesh
+    values: Values
     seconds: dict[str, float]  # processor time by stage
     total: float  # of all stages
     wall: float  # wall time
@@ -78,37 +77,31 @@ class ProcessorStages(Stages):
 
 def measure(task: CostTask) -> MeasuredRun:
     """Raises RefusedError."""
-    method = next(m for m in METHODS if m.name == task.method)
-    first = processor_seconds()
+    first, times = processor_seconds(), []
     try:
-        problem = problem_of(task.scene, task.surface, task.load)
-        window = window_of(problem) if task.scene.stress is not None else None
-        contact, seconds, wall = _timed(method, problem, task, window)
-        runs = [(seconds, wall)] if task.method in _begun else []
-        _begun.add(task.method)
-        while not runs or (len(runs) < task.repeats and processor_seconds() - first < task.limit):
-            contact, seconds, wall = _timed(method, problem, task, window)
-            runs.append((seconds, wall))
+        window = window_of(task.problem) if task.problem.scene.stress is not None else None
+        inputs = task.method, task.problem, task.setting, window
+        solve = partial(solved, *inputs, half_block=task.half_block)
+        if task.method.name not in _begun:
+            solve(stages=ProcessorStages())
+            _begun.add(task.method.name)
+        while not times or (len(times) < task.repeats and processor_seconds() - first < task.limit):
+            stages, begin = ProcessorStages(), time.perf_counter()
+            level, values = solve(stages=stages)
+            times.append((stages.seconds, time.perf_counter() - begin))
     except InputError as error:  # of the budget, before anything was meshed
         raise RefusedError(str(error), skipped=True) from error
     except Exception as error:
         raise RefusedError(f"{type(error).__name__}: {error}", skipped=False) from error
-    totals = [sum(seconds.values()) for seconds, _ in runs]
+    totals = [sum(seconds.values()) for seconds, _ in times]
     return MeasuredRun(
-        solved=contact,
-        seconds={name: statistics.median(s[name] for s, _ in runs) for name in runs[0][0]},
+        level=level,
+        values=values,
+        seconds={name: statistics.median(s[name] for s, _ in times) for name in times[0][0]},
         total=statistics.median(totals),
-        wall=statistics.median(wall for _, wall in runs),
+        wall=statistics.median(wall for _, wall in times),
         spread=(min(totals), max(totals)),
-        repeats=len(runs),
+        repeats=len(times),
         memory=peak_memory(),
         spent=processor_seconds() - first,
     )
-
-
-def _timed(
-    method: SolutionMethod, problem: Problem, task: CostTask, window: Window | None
-) -> tuple[SolvedContact, dict[str, float], float]:
-    stages, begin = ProcessorStages(), time.perf_counter()
-    contact = solved(method, problem, task.setting, window, stages, task.half_block)
-    return contact, stages.seconds, time.perf_counter() - begin

@@ -1,13 +1,32 @@
-"""The methods whose cost is measured, at which settings, and to which scenes each applies.
+"""The methods whose cost is measured.
 
-A setting is a pitch of pressure elements [m]: the scene's, coarser and finer by powers of two."""
+In: a scene's problem. Out: which methods apply to it, at which settings, and one contact by one of
+them. A setting is a pitch of pressure elements [m]: the scene's, coarser and finer by powers of
+two."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import numpy as np
+
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.grid import HatGrid
+from analytic.numerics import runs_of
+from analytic.operators.half_plane import HalfPlane
+from analytic.stress.field import friction_field
+from analytic.stress.maxima import stress_maxima
+from analytic.stress_state import StressState
+from comparisons.common.progress import Stages
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.level import Level, StressResult
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window, search_window
+from comparisons.studies.contact import values_of
 
 HALF_PLANE_PITCHES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)  # of the scene's coarsest
 FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5, 0.25)
+
+Values = tuple[dict[str, float], ...]  # [SI] of the compared quantities, one a friction coefficient
 
 
 @dataclass(frozen=True)
@@ -55,3 +74,80 @@ def is_half_plane_problem(problem: Problem) -> bool:
     shapes = (settings.gap, settings.roller_shape, settings.roller_body)
     same_shapes = shapes == ("reference", "parabola", "half-plane")
     return unbounded and flat and linear and same_shapes and same_traction
+
+
+def solved(
+    method: SolutionMethod,
+    problem: Problem,
+    setting: float,
+    window: Window | None,
+    stages: Stages,
+    half_block: bool = False,
+) -> tuple[Level, Values]:
+    """The contact at a setting, without its mesh, and its values; `half_block` holds an unbounded
+    body at half the distance."""
+    if method.element == "hat":
+        level = half_plane_level(problem, setting, window, stages)
+    elif method.element == "strip":
+        level = _by_strips(problem, setting, window, stages)
+    else:
+        from comparisons.models.finite_element.level import LevelOptions, finite_element_level
+        from comparisons.models.finite_element.mesh import Refinement
+
+        scene = problem.scene.unchecked({"finite_element.element": method.element})
+        problem, refinement = replace(problem, scene=scene), Refinement(setting, half_block)
+        plan = make_plan(problem, ("finite_element",))
+        level = finite_element_level(
+            problem, plan, refinement, window, stages, options=LevelOptions(fields=False)
+        )
+    frictions = problem.scene.load.friction
+    values = tuple(values_of(level, problem, friction) for friction in frictions)
+    return replace(level, mesh=None), values
+
+
+def _by_strips(problem: Problem, pitch: float, window: Window | None, stages: Stages) -> Level:
+    grid = problem.grid(pitch)
+    with stages.stage("contact"):
+        operator = HalfPlane(grid.count, pitch, problem.modulus, element="strip")
+        weighted_gap = pitch * problem.gap(grid.x)
+        solution = solve_contact(operator, weighted_gap, grid.weights, problem.constraints())
+        patches, zero = touching_strips(grid, solution), np.zeros(grid.count)
+        level = Level(grid, solution, zero, patches, stages.seconds, unknowns=grid.count)
+    if window is None:
+        return level
+    with stages.stage("stresses"):
+        return replace(level, stresses=_stresses(problem, level, window))
+
+
+def touching_strips(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
+    """Patches (k, 2) [m]: adjoining strips under pressure, from edge to edge."""
+    start = (grid.first - 0.5) * grid.pitch
+    return start + grid.pitch * np.column_stack(runs_of(solution.pressure > 0.0))
+
+
+def _stresses(problem: Problem, level: Level, window: Window) -> tuple[StressResult, ...]:
+    """As in `comparisons.models.half_plane`, but for strips, under which sx has no bound at the
+    surface: theirs begin below it."""
+    x, pressure, pitch = level.grid.x, level.solution.pressure, level.grid.pitch
+    shown, searched = (
+        friction_field(
+            x,
+            pressure,
+            (points.x[0], points.x[-1]),
+            points.z[1:],
+            subdivisions=points.subdivisions(pitch),
+            stride=points.stride(pitch),
+            element="strip",
+        )
+        for points in (window, search_window(problem, window))
+    )
+    nu, results = problem.scene.body.poissons_ratio, []
+    for friction in problem.scene.load.friction:
+        maxima = stress_maxima(x, pressure, friction, searched.at(friction), nu, "strip")
+        extremes = {"tau1": maxima.tau1, "txz": maxima.txz_abs, "von_mises": maxima.von_mises}
+        field = shown.at(friction).stress
+        parts = (field.sx, field.sz, field.txz)
+        unknown = np.full_like(field.sx[:1], np.nan)  # at the surface
+        field = StressState(*(np.vstack([unknown, part]) for part in parts))
+        results.append(StressResult(friction, extremes, field))
+    return tuple(results)

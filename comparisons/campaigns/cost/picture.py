@@ -3,8 +3,7 @@
 import math
 
 from comparisons.campaigns.cost.methods import METHODS
-from comparisons.campaigns.cost.recommend import needs_stress
-from comparisons.campaigns.cost.result import Cost
+from comparisons.campaigns.cost.recommend import Cost, needs_stress
 from comparisons.campaigns.cost.study import OK
 from comparisons.common.numbers import given_percent, percent, with_unit
 from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, figure
@@ -32,18 +31,18 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
     floor = max(reference.floor, LEAST)
     for method in METHODS:
         points = [
-            (each.row.seconds(stresses), max(each.errors[quantity], LEAST))
+            (each.row.seconds(stresses), max(each.errors[quantity].value, LEAST))
             for each in cost.assessed
             if each.row.method.name == method.name
             and each.row.status == OK
-            and each.errors.get(quantity) is not None
+            and quantity in each.errors
         ]
         if points:
             colour, line, mark = LOOKS[method.name]
             look = {"color": colour, "linestyle": line, "marker": mark, "markersize": 4.5}
             axes.plot(*zip(*points, strict=True), linewidth=1.1, label=method.name, **look)
     front = [
-        (each.row.seconds(stresses), max(each.errors[quantity], floor))
+        (each.row.seconds(stresses), max(each.errors[quantity].value, floor))
         for each in cost.fronts[quantity]
     ]
     if front:
@@ -74,7 +73,7 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
 
 def _in_words(cost: Cost, quantity: str, stresses: bool) -> str:
     rows = "; ".join(
-        f"{each.row.method.name} {each.row.label} {percent(each.errors[quantity])} in "
+        f"{each.row.method.name} {each.row.label} {percent(each.errors[quantity].value)} in "
         f"{with_unit(each.row.seconds(stresses), 's', 2)}"
         for each in cost.fronts[quantity]
     )

@@ -1,4 +1,6 @@
-"""What to take: the rows on the Pareto front, and the cheapest setting for each tolerance."""
+"""What to take: the rows on the Pareto front, and the cheapest setting for each tolerance.
+
+In: what was measured. Out: every row with its errors, and a sentence for each tolerance."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -6,13 +8,16 @@ from itertools import takewhile
 from operator import itemgetter
 
 from comparisons.campaigns.cost.methods import FINEST, METHODS
-from comparisons.campaigns.cost.reference import Reference
-from comparisons.campaigns.cost.study import OK, CostRow
+from comparisons.campaigns.cost.reference import Reference, errors_of, references
+from comparisons.campaigns.cost.study import OK, CostRow, CostRun, measuring_machine
+from comparisons.common.errors import SceneError
 from comparisons.common.numbers import given_percent, integer, percent, with_unit
+from comparisons.common.provenance import versions
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.figures.verdict import judge
 from comparisons.models.finite_element.mesh import COARSER_GROWTH, STEEPEST_GROWTH
 from comparisons.models.problem import FEWEST_ELEMENTS, Problem
+from comparisons.models.window import window_of
 
 ALL = "all"
 ELEMENTS_OF_RUN = ("P1", "P2", "P3")  # finite elements that a scene can have `run` solve with
@@ -22,18 +27,19 @@ Tolerances = dict[str, float]
 
 @dataclass(frozen=True)
 class AssessedRow:
-    """A row with its relative errors by quantity; None where it has none, or is the reference."""
+    """A row with its relative errors by quantity, without those that it has none of."""
 
     row: CostRow
-    errors: dict[str, float | None]
+    errors: dict[str, Figure]
 
-    def meets(self, floors: dict[str, float], tolerances: Tolerances) -> bool | None:
-        """Whether every error agrees with none within its tolerance, with the reference's floor for
-        uncertainty; None where an error is unknown."""
-        found = {name: self.errors.get(name) for name in tolerances}
-        if None in found.values():
-            return None
-        return all(judge(found[n], floors[n], t) == "agree" for n, t in tolerances.items())
+    def seconds(self, quantities: Iterable[str]) -> float:
+        """Processor time that it takes to know these."""
+        return self.row.seconds(needs_stress(quantities))
+
+    def meets(self, quantities: Iterable[str]) -> bool | None:
+        """Whether every error agrees with none within its tolerance; None where one is unknown."""
+        errors = [self.errors.get(name) for name in quantities]
+        return None if None in errors else all(error.verdict == "agree" for error in errors)
 
 
 @dataclass(frozen=True)
@@ -49,56 +55,93 @@ class Recommendation:
     sentence: str
 
 
+@dataclass(frozen=True)
+class Cost:
+    """A finished study."""
+
+    problem: Problem
+    study: CostRun
+    references: dict[str, Reference]  # by quantity
+    assessed: list[AssessedRow]  # every row with its errors
+    # the rows on the Pareto front by quantity, the cheapest first
+    fronts: dict[str, list[AssessedRow]]
+    recommendations: list[Recommendation]  # one a tolerance, the last one for all of them
+    versions: dict
+    machine: dict
+
+
+def assess(problem: Problem, study: CostRun) -> Cost:
+    """Errors, Pareto fronts and recommendations of what was measured. Raises SceneError without a
+    reference."""
+    scene = problem.scene
+    window = window_of(problem) if scene.stress is not None else None
+    known = references(problem, study, window)
+    if not known:
+        failed = next((row.because for row in study.rows if row.because), "nothing was solved")
+        raise SceneError(f"{scene.source}: there is no reference for errors: {failed}")
+    rows = [AssessedRow(row, errors_of(row, known, problem, window)) for row in study.rows]
+    floors = {name: reference.floor for name, reference in known.items()}
+    return Cost(
+        problem=problem,
+        study=study,
+        references=known,
+        assessed=rows,
+        fronts={name: pareto(rows, name, floor) for name, floor in floors.items()},
+        recommendations=recommendations(rows, floors, scene.tolerances),
+        versions=versions(),
+        machine=measuring_machine(),
+    )
+
+
 def needs_stress(quantities: Iterable[str]) -> bool:
     return any(QUANTITIES[name].needs_stress for name in quantities)
 
 
 def pareto(assessed: list[AssessedRow], quantity: str, floor: float) -> list[AssessedRow]:
     """Rows than which none is both cheaper and closer, the cheapest first."""
-    stresses, best, found = needs_stress([quantity]), float("inf"), []
-    known = [a for a in assessed if a.row.status == OK and a.errors.get(quantity) is not None]
-    for each in sorted(known, key=lambda a: a.row.seconds(stresses)):
-        error = max(each.errors[quantity], floor)
+    best, front = float("inf"), []
+    known = [a for a in assessed if a.row.status == OK and quantity in a.errors]
+    for each in sorted(known, key=lambda a: a.seconds([quantity])):
+        error = max(each.errors[quantity].value, floor)
         if error < best:
             best = error
-            found.append(each)
-    return found
+            front.append(each)
+    return front
 
 
 def recommendations(
-    assessed: list[AssessedRow], references: dict[str, Reference], tolerances: Tolerances
+    assessed: list[AssessedRow], floors: dict[str, float], tolerances: Tolerances
 ) -> list[Recommendation]:
-    floors = {name: reference.floor for name, reference in references.items()}
+    """By quantities of a known floor of errors; at last for all of them."""
     known = {name: value for name, value in tolerances.items() if name in floors}
     aims = [{name: value} for name, value in known.items()] + [known] * (len(known) > 1)
     return [_recommendation(assessed, floors, aim) for aim in aims]
 
 
 def _recommendation(
-    assessed: list[AssessedRow], floors: dict[str, float], tolerances: Tolerances
+    assessed: list[AssessedRow], floors: dict[str, float], aim: Tolerances
 ) -> Recommendation:
-    stresses = needs_stress(tolerances)
-    judged = [(each, each.meets(floors, tolerances)) for each in assessed if each.row.status == OK]
+    judged = [(each, each.meets(aim)) for each in assessed if each.row.status == OK]
 
     def cheapest(rows: Iterable[AssessedRow]) -> AssessedRow | None:
-        return min(rows, key=lambda a: a.row.seconds(stresses), default=None)
+        return min(rows, key=lambda a: a.seconds(aim), default=None)
 
     def steady(*names: str) -> AssessedRow | None:
         """The cheapest of methods that meets the tolerances as all finer ones do: not by chance."""
-        found = []
+        candidates = []
         for name in names:
             rows = reversed([pair for pair in judged if pair[0].row.method.name == name])
             # None: itself the reference
             known = (pair for pair in rows if pair[1] is not None)
-            found += [each for each, _ in takewhile(itemgetter(1), known)]
-        return cheapest(found)
+            candidates += [each for each, _ in takewhile(itemgetter(1), known)]
+        return cheapest(candidates)
 
     half_plane, finite_element = steady(FINEST.name), steady(*ELEMENTS_OF_RUN)
     best = steady(*(method.name for method in METHODS))
-    below = float("inf") if best is None else best.row.seconds(stresses)
-    lucky = cheapest(each for each, meets in judged if meets and each.row.seconds(stresses) < below)
-    name, tolerance = next(iter(tolerances.items())) if len(tolerances) == 1 else (ALL, None)
-    sentence = _sentence(tolerances, floors, lucky, half_plane, finite_element, best)
+    below = float("inf") if best is None else best.seconds(aim)
+    lucky = cheapest(each for each, meets in judged if meets and each.seconds(aim) < below)
+    name, tolerance = next(iter(aim.items())) if len(aim) == 1 else (ALL, None)
+    sentence = _sentence(aim, floors, lucky, half_plane, finite_element, best)
     return Recommendation(name, tolerance, half_plane, finite_element, best, sentence)
 
 
@@ -163,9 +206,8 @@ def _sentence(
 
 
 def _words(assessed: AssessedRow, tolerances: Tolerances) -> str:
-    row = assessed.row
-    seconds = row.seconds(needs_stress(tolerances))
+    row, seconds = assessed.row, assessed.seconds(tolerances)
     setting = f"at a pitch of {row.label}"
     if row.method.model == "finite_element":
-        setting += f", {integer(row.measured.solved.unknowns)} unknowns"
+        setting += f", {integer(row.measured.level.unknowns)} unknowns"
     return f"{row.method.name} {setting}: expect {with_unit(seconds, 's', 2)}"

@@ -1,9 +1,11 @@
 """What the solutions' errors are measured by: exact values, or the best solution's.
 
-Hertz's contact is exact where the scene is smooth and both models solve the same problem. On a
-rough half-plane both models have the same limit, and the finest half-plane is the reference. Where
-the finite elements drop an assumption of the half-plane, the finest of them are the reference, for
-each quantity those of the smallest uncertainty; the half-plane's model error then counts as error.
+In: what was measured of a scene. Out: a reference by quantity, and the error of every row as a
+figure against it. Hertz's contact is exact where the scene is smooth and both models solve the same
+problem. On a rough half-plane both models have the same limit, and the finest half-plane is the
+reference. Where the finite elements drop an assumption of the half-plane, the finest of them are
+the reference, for each quantity those of the smallest uncertainty; the half-plane's model error
+then counts as error.
 
 The floor is the reference's own uncertainty: no error below it is known."""
 
@@ -12,16 +14,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analytic.exact.hertz import hertz_extremes, hertz_stress
+from comparisons.campaigns.cost.measure import MeasuredRun
 from comparisons.campaigns.cost.methods import FINEST, is_half_plane_problem
-from comparisons.campaigns.cost.solve import SolvedContact
 from comparisons.campaigns.cost.study import CostRow, CostRun
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.models.level import ModelRun
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.comparison import field_norms, relative_l2
+from comparisons.studies.comparison import field_norms, pair_norms
 from comparisons.studies.contact import uncertainties
 
+NAME = "cost"
 EXACT_POINTS = 20_001
 FLOOR = 1e-12  # of exact values: rounding
 
@@ -47,9 +52,9 @@ def references(problem: Problem, study: CostRun, window: Window | None) -> dict[
     names = [FINEST.name] if is_half_plane_problem(problem) else ["P1", "P2", "P3"]
     best: dict[str, Reference] = {}
     for name in names:
-        for quantity, found in _finest(problem, study, name, window).items():
-            if quantity not in best or found.floor < best[quantity].floor:
-                best[quantity] = found
+        for quantity, reference in _finest(problem, study, name, window).items():
+            if quantity not in best or reference.floor < best[quantity].floor:
+                best[quantity] = reference
     return best
 
 
@@ -60,8 +65,33 @@ def is_exact(problem: Problem) -> bool:
     return smooth and is_half_plane_problem(problem)
 
 
+def errors_of(
+    row: CostRow, known: dict[str, Reference], problem: Problem, window: Window | None
+) -> dict[str, Figure]:
+    """A row's largest error of any friction coefficient in each quantity, judged by the scene's
+    tolerance; without those that it has not, or is itself the reference of."""
+    errors = {}
+    for name, reference in known.items():
+        if row.measured is None or row is reference.row:
+            continue
+        error = error_of(row.measured, name, reference, problem, window)
+        if error is not None:
+            tolerance = problem.scene.tolerances.get(name)
+            errors[name] = Figure(
+                study=NAME,
+                quantity=name,
+                source=row.method.name,
+                value=error,
+                at={"pitch": row.setting},
+                against=reference.source,
+                uncertainty=Uncertainty({"reference": reference.floor}),
+                bounds=None if tolerance is None else (-tolerance, tolerance),
+            )
+    return errors
+
+
 def error_of(
-    solved: SolvedContact,
+    measured: MeasuredRun,
     quantity: str,
     reference: Reference,
     problem: Problem,
@@ -69,33 +99,41 @@ def error_of(
 ) -> float | None:
     """Largest relative error of any friction coefficient; None where the solution has none."""
     if QUANTITIES[quantity].of_pair:
-        return _norms(solved, reference, problem, window).get(quantity)
-    if any(quantity not in figures for figures in solved.figures):
+        return _norms(measured.level, reference, problem, window).get(quantity)
+    if any(quantity not in values for values in measured.values):
         return None
-    pairs = zip(solved.figures, reference.values, strict=True)
+    pairs = zip(measured.values, reference.values, strict=True)
     scale = QUANTITIES[quantity].scale(problem.hertz)
-    return max(abs(figures[quantity] - value) / (abs(value) or scale) for figures, value in pairs)
+    return max(abs(values[quantity] - value) / (abs(value) or scale) for values, value in pairs)
 
 
 def _norms(
-    solved: SolvedContact, reference: Reference, problem: Problem, window: Window | None
+    level: Level, reference: Reference, problem: Problem, window: Window | None
 ) -> dict[str, float]:
     """Relative L2 errors of the curve of pressure and of the fields, by quantity."""
-    pressure = np.interp(reference.x, solved.x, solved.pressure, left=0.0, right=0.0)
-    found = {"pressure_l2": relative_l2(pressure, reference.pressure)}
-    if len(solved.stresses) == len(reference.tau1):
-        for stress, tau1 in zip(solved.stresses, reference.tau1, strict=True):
-            for name, error in field_norms(stress.field.tau1, tau1, problem, window).items():
-                found[name] = max(error, found.get(name, 0.0))
-    return found
+    pressure = np.interp(reference.x, *_curve(level), left=0.0, right=0.0)
+    fields = [(None, None)]
+    if level.stresses and len(level.stresses) == len(reference.tau1):
+        tau1 = (stress.field.tau1 for stress in level.stresses)
+        fields = list(zip(tau1, reference.tau1, strict=True))
+    pressures = pressure, reference.pressure
+    norms = [pair_norms(pressures, pair, problem, window) for pair in fields]
+    return {name: max(each[name] for each in norms) for name in norms[0]}
+
+
+def _curve(level: Level) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes of the pressure (n,) [m] and (n,) [Pa], linear between them, zero at both ends."""
+    grid = level.grid
+    x = grid.pitch * np.arange(grid.first - 1, grid.last + 2)
+    return x, np.concatenate([[0.0], level.solution.pressure, [0.0]])
 
 
 def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
     hertz, frictions = problem.hertz, problem.scene.load.friction
     x = np.linspace(*problem.extent, EXACT_POINTS)
-    figures = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
-    figures["contact_ratio"] = 1.0
-    values = {name: (value,) * len(frictions) for name, value in figures.items()}
+    single = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
+    single["contact_ratio"] = 1.0
+    values = {name: (value,) * len(frictions) for name, value in single.items()}
     values["pressure_l2"] = ()
     tau1: tuple[np.ndarray, ...] = ()
     if window is not None:
@@ -110,8 +148,8 @@ def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
         values |= dict.fromkeys(field_norms(tau1[0], tau1[0], problem, window), ())
     pressure = hertz.pressure(x)
     return {
-        name: Reference("exact (Hertz)", FLOOR, given, x, pressure, tau1, None)
-        for name, given in values.items()
+        name: Reference("exact (Hertz)", FLOOR, by_friction, x, pressure, tau1, None)
+        for name, by_friction in values.items()
     }
 
 
@@ -123,21 +161,18 @@ def _finest(
     if len(rows) < 3:
         return {}
     row, before = rows[-1], rows[-2]
-    solved, check = row.measured.solved, study.far_boundary_check.get(name)
-    run = ModelRun(
-        row.method.model,
-        tuple(each.measured.solved.level for each in rows),
-        None if check is None else check.solved.level,
-    )
+    check = study.far_boundary_check.get(name)
+    levels = tuple(each.measured.level for each in rows)
+    run = ModelRun(row.method.model, levels, None if check is None else check.level)
     known = [uncertainties(run, problem, friction) for friction in problem.scene.load.friction]
-    tau1 = tuple(stress.field.tau1 for stress in solved.stresses)
-    bare = Reference(f"{name} at {row.label}", 0.0, (), solved.x, solved.pressure, tau1, row)
-    found = {}
-    for quantity in solved.figures[0]:
+    tau1 = tuple(stress.field.tau1 for stress in run.finest.stresses)
+    bare = Reference(f"{name} at {row.label}", 0.0, (), *_curve(run.finest), tau1, row)
+    finest = {}
+    for quantity in row.measured.values[0]:
         floor = float(max(each[quantity].total for each in known))
-        values = tuple(figures[quantity] for figures in solved.figures)
-        found[quantity] = replace(bare, floor=floor, values=values)
+        values = tuple(by_name[quantity] for by_name in row.measured.values)
+        finest[quantity] = replace(bare, floor=floor, values=values)
     # norms are of first order: the finest row errs by its distance from the one before
-    for quantity, floor in _norms(before.measured.solved, bare, problem, window).items():
-        found[quantity] = replace(bare, floor=floor)
-    return found
+    for quantity, floor in _norms(before.measured.level, bare, problem, window).items():
+        finest[quantity] = replace(bare, floor=floor)
+    return finest

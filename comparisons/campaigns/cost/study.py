@@ -1,7 +1,8 @@
-"""All methods at all their settings, measured one after the other; what fails is a row as well.
+"""All methods at all their settings, measured one after the other.
 
-A setting that was measured is not measured again unless scene, program, versions, machine or the
-number of repeats differ; the time it took counts as before."""
+In: a problem, and a cache of what was measured before. Out: a row for every setting; what fails is
+a row as well. A setting that was measured is not measured again unless scene, program, versions,
+machine or the number of repeats differ; the time it took counts as before."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -31,7 +32,7 @@ FOLDER = "cost_points"
 # What shapes what is measured, beside versions of libraries and the machine.
 CODE = (
     *LEVEL_CODE,
-    *(f"comparisons/campaigns/cost/{name}.py" for name in ("measure", "methods", "solve")),
+    *(f"comparisons/campaigns/cost/{name}.py" for name in ("measure", "methods")),
 )
 THREADS = 1  # of a measuring process
 # Time of a setting over that of the one before.
@@ -111,7 +112,7 @@ def measured_study(
             part = within(callback, number / len(methods), (number + 1) / len(methods))
             series = _series(method, problem, repeats, left, run, part)
             if _wants_far_boundary_check(method, problem) and series[0].status == OK:
-                task = _task(problem, method, series[0].setting, half_block=True)
+                task = CostTask(problem, method, series[0].setting, half_block=True)
                 with suppress(RefusedError, ProcessEnded):
                     check[method.name] = run(task)
         rows += series
@@ -145,7 +146,7 @@ def _series(
             continue
         limit = MOST_OF_REST * max(left, 0.0)
         try:
-            measured = run(_task(problem, method, setting, repeats=repeats, limit=limit))
+            measured = run(CostTask(problem, method, setting, repeats, limit))
         except RefusedError as refused:
             status = SKIPPED if refused.skipped else FAILED
             rows.append(CostRow(method, setting, status, refused.because))
@@ -153,7 +154,7 @@ def _series(
             ended = "the process that measured had ended"
             rows.append(CostRow(method, setting, FAILED, "the process that measured it ended"))
         else:
-            good = measured.solved.converged
+            good = measured.level.solution.converged
             because = None if good else "did not converge"
             rows.append(CostRow(method, setting, OK if good else FAILED, because, measured))
             left -= measured.spent
@@ -164,13 +165,6 @@ def _series(
 def _measured(tasks: Tasks, task: CostTask) -> MeasuredRun:
     tasks.add(task.name, called, measure, task)
     return tasks.result(task.name)
-
-
-def _task(problem: Problem, method: SolutionMethod, setting: float, **how: float) -> CostTask:
-    """`how`: repeats, limit, half_block."""
-    prescribed = problem.scene.load.kind == "approach"
-    load = problem.hertz.load_per_length if prescribed else None
-    return CostTask(problem.scene, problem.surface, load, method.name, setting, **how)
 
 
 def _wants_far_boundary_check(method: SolutionMethod, problem: Problem) -> bool:

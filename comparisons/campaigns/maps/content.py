@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.campaigns.grid import FAILED, SOLVED
 from comparisons.campaigns.maps.groups import GROUPS, Axis
 from comparisons.campaigns.maps.point import TOLERANCES
 from comparisons.campaigns.maps.request import MapRequest
 from comparisons.campaigns.maps.rule import rules_of
-from comparisons.campaigns.points import FAILED, SOLVED
-from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import HEAT_QUANTITIES, QUANTITIES, label
@@ -28,12 +27,14 @@ SIGNIFICANT, BELOW, INCONCLUSIVE = "significant", "below tolerance", "inconclusi
 SMALLEST = 1e-3  # errors below are drawn, and interpolated, as if on a straight scale
 
 
-def map_content(request: MapRequest, cache: Cache) -> dict:
-    points = []
-    for point in request.points:
-        found = cache.load(point.key)["found"]
-        known = significance(found, request.quantity)
-        points.append({"x": point.x, "y": point.y, **found, **known})
+def map_content(request: MapRequest, found: list[dict]) -> dict:
+    """map.json, with what was `found` at each point."""
+    points = [
+        {"x": point.at[request.x.group], "y": point.at[request.y.group]}
+        | each
+        | significance(each, request.quantity)
+        for point, each in zip(request.points, found, strict=True)
+    ]
     content = {
         "schema": SCHEMA,
         "command": request.command,

@@ -1,19 +1,20 @@
-"""`crosscheck map` from its request to the finished map, whoever solves the points."""
+"""`crosscheck map` from its request to the finished map.
+
+In: a request, or the name of a map that comes with the project. Out: map.json and its picture."""
 
 from pathlib import Path
 
+from comparisons.campaigns.grid import FAILED, solved_in
 from comparisons.campaigns.maps.content import MAP, PICTURE, map_content, showing
 from comparisons.campaigns.maps.place import finished_map, mark_of
 from comparisons.campaigns.maps.point import NOT_CONVERGED, solve_point
-from comparisons.campaigns.maps.request import MapRequest, point_cache
-from comparisons.campaigns.points import FAILED, finish, tasks_by
+from comparisons.campaigns.maps.request import MapRequest
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import check_writable, publish
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
 from comparisons.models.problem import Problem
 
-GOES_ON = "finished points are kept, the same command goes on from there"
 TIMES = "map_times.json"
 
 
@@ -31,19 +32,13 @@ def make_map(
     marked   a scene of the user's on the picture
     Raises InputError for what cannot be mapped or written.
     """
-    points, cache = request.points, point_cache(out)
-    try:
-        with tasks_by(workers, cache) as tasks:
-            if tasks is None:
-                return None
-            check_writable(out, (PICTURE, TIMES, MAP))
-            cache.remove_leftovers()
-            finish(points, solve_point, tasks, callback, "map")
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(GOES_ON) from None
-    content = map_content(request, cache)
+    files = MAP, PICTURE, TIMES
+    answers = solved_in(out, files, request.points, solve_point, workers, callback)
+    if answers is None:
+        return None
+    content = map_content(request, [answer["found"] for answer in answers])
     callback("map: picture")
-    seconds = {"seconds": [cache.load(point.key)["seconds"] for point in points]}
+    seconds = {"seconds": [answer["seconds"] for answer in answers]}
     publish(out, _files(content, marked) | {TIMES: as_json(seconds)})
     return content
 

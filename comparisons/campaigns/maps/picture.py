@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.campaigns.grid import FAILED
 from comparisons.campaigns.maps.content import (
     BELOW,
     INCONCLUSIVE,
@@ -17,7 +18,6 @@ from comparisons.campaigns.maps.content import (
     places,
     scaled,
 )
-from comparisons.campaigns.points import FAILED
 from comparisons.drawing.style import drawing, figure, svg
 from comparisons.figures.quantity import label
 

@@ -9,19 +9,22 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
+from analytic.contact.problem import ContactError
 from comparisons.campaigns.maps.content import differences, places, read_map, scaled, unscaled
 from comparisons.campaigns.maps.groups import GROUPS
 from comparisons.campaigns.maps.picture import Mark
 from comparisons.campaigns.maps.request import FINISHED
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
-from comparisons.common.progress import Stages
+from comparisons.common.progress import Stages, no_progress
 from comparisons.figures.quantity import HEAT_QUANTITIES, label
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.scene import Scene
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import select_effects
+from fem.solver.mumps import FemError
+from meshes.block import MeshError
 
 LAW = "law_of_elasticity"  # an unknown of the body, no error of the half-plane
 
@@ -58,8 +61,18 @@ def finished_map(name: str) -> dict:
     return read_map(FINISHED / f"{name}.json")
 
 
-def problem_named(scene: str) -> Problem:
-    return problem_of(Scene.read(scene))
+def problem_named(name: str) -> Problem:
+    """The problem of a scene that is to be marked, under the load of its approach where that is
+    prescribed. Raises InputError where it cannot be solved."""
+    scene = Scene.read(name)
+    try:
+        if scene.load.kind != "approach":
+            return problem_of(scene)
+        from comparisons.models.finite_element.level import problem_of_approach
+
+        return problem_of_approach(scene, no_progress)
+    except (ContactError, MeshError, FemError) as error:
+        raise InputError(f"--mark: {scene.source}: {error}") from error
 
 
 def place_on(name: str, problem: Problem) -> Place | None:

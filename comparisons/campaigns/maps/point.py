@@ -8,26 +8,25 @@ pressures: the error is the half-space's for heat alone, and the roller a disc w
 elements have its circle.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from time import perf_counter
 
 import numpy as np
 
-from comparisons.campaigns.maps.request import PointRequest
-from comparisons.campaigns.points import SOLVED, failed
+from comparisons.campaigns.grid import SOLVED, Point, failed
 from comparisons.common.progress import Stages
+from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import HEAT_QUANTITIES, MODELS
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import values_of
-from fem.solver.communicator import each_alone
 from meshes.block import MeshError
 
+NAME = "map"
 NOT_CONVERGED = "the contact did not converge"
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows
 SHARE = 1.0 / 3.0  # of an error, or of the first tolerance, that may be numerical
@@ -39,77 +38,83 @@ GROWTH = 2.3  # of unknowns from one level to the next
 DECIMALS = 9  # of relative differences: the digits that rounding does not reach
 FIGURES = 10  # significant, of the models' own values
 
-
-@dataclass(frozen=True)
-class PointError:
-    """The model error of the half-plane in one quantity at a point of a map."""
-
-    # half_plane, finite_element: values on the finest level [SI]; None of a norm of both
-    half_plane: float | None
-    finite_element: float | None
-    difference: float  # of these over the finite elements' value; or the norm
-    uncertainty: float | None  # numerical, of the difference; None: unknown
-
-    @property
-    def is_open(self) -> bool:
-        """Whether another level is worth its time: the uncertainty would show in a map."""
-        most = SHARE * max(abs(self.difference), TOLERANCES[0])
-        return self.uncertainty is None or self.uncertainty > most
-
-    def as_dict(self) -> dict[str, float | None]:
-        """In the digits that do not depend on the machine."""
-        known = self.uncertainty is not None
-        return {
-            "half_plane": _significant(self.half_plane),
-            "finite_element": _significant(self.finite_element),
-            "difference": round(self.difference, DECIMALS),
-            "uncertainty": round(self.uncertainty, DECIMALS) if known else None,
-        }
+Runs = dict[str, ModelRun]
+Values = Mapping[str, Mapping[str, float]]  # [SI] by model, then by quantity
 
 
-def solve_point(point: PointRequest) -> dict:
-    """What was `found` at a point, or why nothing was; and the `seconds` that it took. What is
-    refused, and what solvers and numbers run into, is an answer; what is wrong with the program or
-    the machine is raised."""
-    began = perf_counter()
-    if point.why is not None:
-        found = failed(point.why)
-    else:
-        try:
-            with each_alone():
-                found = _solved(point)
-        except (ValueError, ArithmeticError, RuntimeError) as error:
-            found = failed(str(error) or type(error).__name__)
-    return {"found": found, "seconds": perf_counter() - began}
-
-
-def _solved(point: PointRequest) -> dict:
-    scene, problem = point.scene, problem_of(point.scene)
-    plan, heats = make_plan(problem, MODELS), point.quantity in HEAT_QUANTITIES
+def solve_point(point: Point) -> dict:
+    """What is found at a point of a map: the model error of the half-plane in each quantity, and
+    both models' values, in the digits that do not depend on the machine."""
+    problem = problem_of(point.scene)
+    plan, heats = make_plan(problem, MODELS), point.asked in HEAT_QUANTITIES
     window = window_of(problem) if plan.stress and not heats else None
-    friction = max(scene.load.friction)
     for runs in _refined(problem, plan, window, heats):
-        for run in runs:
+        for run in runs.values():
             if not run.finest.solution.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
-        given = *runs, problem, friction, window
-        errors = heat_errors(*runs, problem) if heats else model_errors(*given)
-        if not errors[point.quantity].is_open:
+        errors, values = heat_errors(problem, runs) if heats else errors_of(problem, runs, window)
+        if not is_open(errors.one(quantity=point.asked)):
             break
+    finest = runs["finite_element"].finest
     return {
         "status": SOLVED,
         "half_width": _significant(problem.hertz.half_width),
         "hertz_peak_pressure": _significant(problem.hertz.peak_pressure),
-        "friction": _significant(friction),
-        "levels": len(runs[1].levels),
-        "unknowns": runs[1].finest.unknowns,
-        "quantities": {name: error.as_dict() for name, error in errors.items()},
+        "friction": _significant(max(problem.scene.load.friction)),
+        "levels": len(runs["finite_element"].levels),
+        "unknowns": finest.unknowns,
+        "quantities": {error.quantity: _entry(error, values) for error in errors},
     }
 
 
-def _refined(
-    problem: Problem, plan: Plan, window: Window | None, heats: bool
-) -> Iterator[tuple[ModelRun, ModelRun]]:
+def is_open(error: Figure) -> bool:
+    """Whether another level is worth its time: the uncertainty would show in a map."""
+    return error.numerical > SHARE * max(abs(error.value), TOLERANCES[0])
+
+
+def errors_of(problem: Problem, runs: Runs, window: Window | None) -> tuple[Figures, Values]:
+    """The model error in each quantity, and the values of both models on the finest level."""
+    friction = max(problem.scene.load.friction)
+    errors = differences_of(*runs.values(), problem, friction, window)
+    values = {name: values_of(run.finest, problem, friction) for name, run in runs.items()}
+    return Figures(errors.values()), values
+
+
+def heat_errors(problem: Problem, runs: Runs) -> tuple[Figures, Values]:
+    """The same in temperatures."""
+    from comparisons.studies.heat.study import heat_figures
+
+    without = set() if problem.scene.finite_element.roller_shape == "circle" else {"roller"}
+    heats, _ = heat_figures(problem, runs, without)
+    errors = Figures(
+        Figure(
+            study=NAME,
+            quantity=heat.quantity,
+            source="half_plane",
+            value=heat.difference,
+            against="finite_element",
+            scale=heat.scale,
+            uncertainty=Uncertainty({"numerical": heat.uncertainty}),
+        )
+        for heat in heats
+    )
+    return errors, {name: {heat.quantity: heat.values[name] for heat in heats} for name in runs}
+
+
+def _entry(error: Figure, values: Values) -> dict[str, float | None]:
+    """Values by model, None of a norm of both; and the difference, of unknown uncertainty None."""
+    known = np.isfinite(error.numerical)
+    return {model: _significant(values[model].get(error.quantity)) for model in MODELS} | {
+        "difference": round(error.value, DECIMALS),
+        "uncertainty": round(error.numerical, DECIMALS) if known else None,
+    }
+
+
+def _significant(value: float | None) -> float | None:
+    return None if value is None else float(f"{value:.{FIGURES}g}")
+
+
+def _refined(problem: Problem, plan: Plan, window: Window | None, heats: bool) -> Iterator[Runs]:
     """Both models on the first levels, then with one more each time, while there may be; of heat
     both with the half-plane's pressures."""
     from comparisons.models.finite_element.bodies import BodyCache
@@ -143,47 +148,10 @@ def _refined(
             break  # what is finer than the scene asks for need not be possible
         half_plane.append(half_plane_level(problem, pitch, window, Stages()))
         if number >= least:
-            yield (
-                ModelRun("half_plane", tuple(half_plane)),
-                ModelRun("finite_element", tuple(finite_element), check),
-            )
+            yield {
+                "half_plane": ModelRun("half_plane", tuple(half_plane)),
+                "finite_element": ModelRun("finite_element", tuple(finite_element), check),
+            }
             if GROWTH * finite_element[-1].unknowns > MOST_UNKNOWNS:
                 break
         pitch *= 0.5
-
-
-def heat_errors(
-    half_plane: ModelRun, finite_element: ModelRun, problem: Problem
-) -> dict[str, PointError]:
-    from comparisons.studies.heat.study import heat_figures
-
-    without = set() if problem.scene.finite_element.roller_shape == "circle" else {"roller"}
-    runs = {run.name: run for run in (half_plane, finite_element)}
-    figures, _ = heat_figures(problem, runs, without)
-    return {
-        each.quantity: PointError(*each.values.values(), each.difference, each.uncertainty)
-        for each in figures
-    }
-
-
-def model_errors(
-    half_plane: ModelRun,
-    finite_element: ModelRun,
-    problem: Problem,
-    friction: float,
-    window: Window | None,
-) -> dict[str, PointError]:
-    values = [values_of(run.finest, problem, friction) for run in (half_plane, finite_element)]
-    errors = differences_of(half_plane, finite_element, problem, friction, window)
-    return {
-        name: PointError(
-            *(of_model.get(name) for of_model in values),
-            error.value,
-            error.numerical if np.isfinite(error.numerical) else None,
-        )
-        for name, error in errors.items()
-    }
-
-
-def _significant(value: float | None) -> float | None:
-    return None if value is None else float(f"{value:.{FIGURES}g}")

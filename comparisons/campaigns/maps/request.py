@@ -1,9 +1,11 @@
 """What a map is made of: a scene, two axes, a quantity; and the scene of each of its points."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from comparisons.campaigns.grid import Point, points_of
 from comparisons.campaigns.maps.groups import (
     Axis,
     axis_of,
@@ -12,40 +14,24 @@ from comparisons.campaigns.maps.groups import (
     scene_with,
     usual_axes,
 )
-from comparisons.common.cache import Cache
-from comparisons.common.errors import InputError, SceneError
-from comparisons.common.provenance import LEVEL_CODE, key_of, program_code, versions
+from comparisons.common.errors import InputError
+from comparisons.common.provenance import LEVEL_CODE
 from comparisons.figures.quantity import HEAT_QUANTITIES, QUANTITIES
-from comparisons.models.level_cache import scene_key
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.scene import Origin, Scene
-from comparisons.scenes.surface import surface_of
 
-FOLDER = "map_points"
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (
     *LEVEL_CODE,
     "comparisons/figures",
     "comparisons/studies",
+    "comparisons/campaigns/grid.py",
     "comparisons/campaigns/maps/groups.py",
     "comparisons/campaigns/maps/groups.toml",
     "comparisons/campaigns/maps/point.py",
 )
 FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
-
-
-@dataclass(frozen=True)
-class PointRequest:
-    """A point of a map."""
-
-    # x, y: values of the groups
-    x: float
-    y: float
-    quantity: str  # that the levels are refined for
-    scene: Scene | None  # None where there is none with these values
-    why: str | None  # why there is none
-    key: str  # hash of everything that shapes the answer
 
 
 @dataclass(frozen=True)
@@ -75,30 +61,14 @@ class MapRequest:
         return self.scene.tables | {"finite_element": self.scene.given.get("finite_element", {})}
 
     @cached_property
-    def points(self) -> tuple[PointRequest, ...]:
+    def points(self) -> tuple[Point, ...]:
         """Row by row: y outside, x inside. Raises SceneError where no point can be asked for, with
         what is wrong at the first."""
-        program = [versions(), program_code(*CODE)]
-        points = tuple(self._point(x, y, program) for y in self.y.values for x in self.x.values)
-        if all(point.scene is None for point in points):
-            raise SceneError(points[0].why)
-        return points
+        axes = {axis.group: axis.values for axis in (self.y, self.x)}
+        return points_of(axes, self._scene_at, self.quantity, CODE)
 
-    def _point(self, x: float, y: float, program: list) -> PointRequest:
-        values = {self.x.group: x, self.y.group: y}
-        scene = why = None
-        shape = []
-        try:
-            scene = scene_with(self.scene, values)
-            shape = scene_key(scene, surface_of(scene))
-        except InputError as error:
-            scene, why = None, str(error)
-        key = key_of(shape, why, self.quantity, program)[:24]
-        return PointRequest(x, y, self.quantity, scene, why, key)
-
-
-def point_cache(out: Path) -> Cache:
-    return Cache(out / FOLDER, "", {})
+    def _scene_at(self, at: Mapping[str, float]) -> Scene:
+        return scene_with(self.scene, {axis.group: at[axis.group] for axis in (self.x, self.y)})
 
 
 def request_of(

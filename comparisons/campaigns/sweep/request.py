@@ -1,51 +1,26 @@
-"""What a sweep is made of: a scene, values of some of its fields, and the scene of each point."""
+"""What a sweep is made of.
 
-import itertools
+In: a scene, and "FIELD=…" as a user asks for values of its fields. Out: the grid of its scenes."""
+
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from comparisons.campaigns.grid import Point, Value, points_of
 from comparisons.common.errors import InputError
-from comparisons.common.provenance import LEVEL_CODE, key_of, program_code, versions
-from comparisons.models.level_cache import scene_key
+from comparisons.common.provenance import LEVEL_CODE
 from comparisons.models.problem import problem_of
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import surface_of
 
 POSITION = "load.position"
 SHORT = {"position": POSITION, "friction": "load.friction"}  # beside "load", whichever it is
 MOST = 10_000  # points
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
-STUDIES = "comparisons/figures", "comparisons/studies", "comparisons/output"
-CODE = (*LEVEL_CODE, *STUDIES, __file__)
+CODE = (*LEVEL_CODE, *(f"comparisons/{name}" for name in ("figures", "studies", "output")))
+CODE += tuple(f"comparisons/campaigns/{n}.py" for n in ("grid", "sweep/request", "sweep/study"))
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
-
-Value = float | str
-
-
-@dataclass(frozen=True)
-class SweptField:
-    """A field of the scene, as "table.field", and its values as TOML would have them."""
-
-    name: str
-    values: tuple[Value, ...]
-
-    @property
-    def text(self) -> str:
-        return f"{self.name}={','.join(map(str, self.values))}"
-
-
-@dataclass(frozen=True)
-class SweepPoint:
-    """One scene of a sweep."""
-
-    values: tuple[Value, ...]  # of the swept fields, in their order
-    scene: Scene | None  # None where there is none with these values
-    models: tuple[str, ...]
-    why: str | None  # why there is none
-    key: str  # hash of everything that shapes the answer
 
 
 @dataclass(frozen=True)
@@ -54,8 +29,14 @@ class SweepRequest:
 
     scene: Scene
     models: tuple[str, ...]
-    fields: tuple[SweptField, ...]
-    points: tuple[SweepPoint, ...]
+    fields: dict[str, tuple[Value, ...]]  # values by "table.field", as TOML would have them
+    points: tuple[Point, ...]
+
+    @property
+    def command(self) -> str:
+        values = (f"{name}={','.join(map(str, values))}" for name, values in self.fields.items())
+        over = " ".join(f"--over {text!r}" for text in values)
+        return f"crosscheck sweep {self.scene.source} {over}"
 
 
 def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) -> SweepRequest:
@@ -65,47 +46,37 @@ def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) ->
     Raises InputError for anything that is wrong with them, or where no point has a scene."""
     if not over:
         raise InputError("--over: is missing; allowed is FIELD=A,B,C, FIELD=FROM:TO:N, position=N")
-    fields = tuple(_swept(option, scene) for option in over)
-    names = [field.name for field in fields]
-    if len(set(names)) < len(names):
-        raise InputError(f"--over: {names[0]} is given twice; allowed is every field once")
-    if (count := int(np.prod([len(field.values) for field in fields]))) > MOST:
+    fields: dict[str, tuple[Value, ...]] = {}
+    for option in over:
+        name, values = _swept(option, scene)
+        if name in fields:
+            raise InputError(f"--over: {name} is given twice; allowed is every field once")
+        fields[name] = values
+    if (count := int(np.prod([len(values) for values in fields.values()]))) > MOST:
         raise InputError(f"--over: asks for {count} scenes; allowed are {MOST}")
-    program = [versions(), program_code(*CODE), models]
-    points = []
-    for values in itertools.product(*(field.values for field in fields)):
-        changed, why, shape = None, None, []
-        try:
-            changed = scene.changed(dict(zip(names, values, strict=True)))
-            shape = scene_key(changed, surface_of(changed))
-        except InputError as error:
-            changed, why = None, str(error)
-        key = key_of(program, shape, values, why)[:24]
-        points.append(SweepPoint(values, changed, models, why, key))
-    if all(point.scene is None for point in points):
-        raise InputError(points[0].why)
-    return SweepRequest(scene, models, fields, tuple(points))
+    return SweepRequest(scene, models, fields, points_of(fields, scene.changed, models, CODE))
 
 
-def _swept(given: str, scene: Scene) -> SweptField:
-    short, equals, text = given.partition("=")
+def _swept(option: str, scene: Scene) -> tuple[str, tuple[Value, ...]]:
+    """Name of a field as "table.field", and its values."""
+    short, equals, text = option.partition("=")
     name = SHORT.get(short.strip(), short.strip())
     if name == "load":
         name = f"load.{scene.load.kind}"
     if not equals or not text.strip() or "." not in name:
         raise InputError(
-            f"--over: is {given!r}; allowed is FIELD=A,B,C, FIELD=FROM:TO:N or position=N, with "
+            f"--over: is {option!r}; allowed is FIELD=A,B,C, FIELD=FROM:TO:N or position=N, with "
             "FIELD as in body.youngs_modulus, or load, friction or position"
         )
     parts = [part.strip() for part in text.split(":")]
     if len(parts) == 3:
-        return SweptField(name, _between(given, *parts))
+        return name, _between(option, *parts)
     if name == POSITION and len(parts) == 1 and text.strip().isdigit():
-        return SweptField(name, _placements(int(text), scene))
+        return name, _placements(int(text), scene)
     values = tuple(_number(part.strip()) for part in text.split(","))
     if len(parts) != 1 or "" in values:
-        raise InputError(f"--over: is {given!r}; allowed is FIELD=A,B,C or FIELD=FROM:TO:N")
-    return SweptField(name, values)
+        raise InputError(f"--over: is {option!r}; allowed is FIELD=A,B,C or FIELD=FROM:TO:N")
+    return name, values
 
 
 def _number(text: str) -> Value:
@@ -115,12 +86,12 @@ def _number(text: str) -> Value:
         return text
 
 
-def _between(given: str, first: str, last: str, count: str) -> tuple[Value, ...]:
+def _between(option: str, first: str, last: str, count: str) -> tuple[Value, ...]:
     ends = _RANGE.fullmatch(first), _RANGE.fullmatch(last)
     units = {end[2] for end in ends if end} - {""}
     if not all(ends) or len(units) > 1 or not count.isdigit() or not 2 <= int(count) <= MOST:
         raise InputError(
-            f"--over: is {given!r}; allowed is FROM:TO:N, two numbers of one unit and how many "
+            f"--over: is {option!r}; allowed is FROM:TO:N, two numbers of one unit and how many "
             f"values, from 2 to {MOST}"
         )
     values = np.linspace(float(ends[0][1]), float(ends[1][1]), int(count))

@@ -1,110 +1,94 @@
-"""A sweep from its request to its files: every point solved, the figures, and how they scatter."""
+"""A sweep from its request to its files: every point solved, the figures, and how they scatter.
+
+In: a request. Out: sweep.json, a table, pictures; and the scatter for the terminal."""
 
 from collections.abc import Iterable
 from math import isfinite
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.points import FAILED, SOLVED, failed, finish
-from comparisons.campaigns.sweep.request import SweepPoint, SweepRequest
-from comparisons.common.cache import Cache
-from comparisons.common.errors import InputError, SolverError
-from comparisons.common.files import check_writable, publish
+from comparisons.campaigns.grid import FAILED, SOLVED, Point, solved_in
+from comparisons.campaigns.sweep.request import SweepRequest
+from comparisons.common.errors import InputError
+from comparisons.common.files import publish
 from comparisons.common.numbers import percent, with_unit
-from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json, versions
-from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, Findings, grouped
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.output.flat_csv import COLUMNS, csv_text, harmless, rows_of
 from comparisons.output.result_json import result_of
-from comparisons.studies.bulge import QUANTITIES as BULGE_QUANTITIES
-from comparisons.studies.bulge import Bulge, bulges_of
-from comparisons.studies.quiescent_zone import QUANTITIES as ZONE_QUANTITIES
-from comparisons.studies.quiescent_zone import zones_of
-from comparisons.studies.study import Run
+from comparisons.studies import bulge, quiescent_zone
 
 if TYPE_CHECKING:
     from rich.console import Group
 
 SWEEP, TABLE, PICTURE = "sweep.json", "sweep.csv", "sweep.svg"
-ZONE, ZONE_MAP = "quiescent_zone", "quiescent_zone.svg"
-BULGE, BULGE_CURVE = "bulge", "bulge.svg"
-FILES = (TABLE, PICTURE, ZONE_MAP, BULGE_CURVE, SWEEP)
-FOLDER = "sweep_points"
+PICTURES = {quiescent_zone.NAME: "quiescent_zone.svg", bulge.NAME: "bulge.svg"}  # by study
+FILES = (SWEEP, TABLE, PICTURE, *PICTURES.values())
 SCHEMA = 1
-GOES_ON = "finished points are kept, the same command goes on from there"
-FIGURES = ("half_plane", "finite_element", "model_error")  # whose scatter is stated
+SCATTERED = ("half_plane", "finite_element", "model_error")  # figures whose scatter is stated
+UNCERTAIN = {"height": "uncertainty", "end": "end_uncertainty", "energy": "energy_uncertainty"}
 
 
 def make_sweep(
     request: SweepRequest,
     out: Path,
-    workers: int | None = None,
+    workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
-) -> dict:
-    """Solve the points that `out` does not have, write table and picture there, return the content.
+) -> dict | None:
+    """Solve the points that `out` does not have, write table and pictures there, return the
+    content; None in processes that only work for the first one under mpirun.
 
-    workers  processes; None: one a core
+    workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, and where no point has an answer."""
-    check_writable(out, FILES)
-    cache = Cache(out / FOLDER, "", {})
-    cache.remove_leftovers()
-    try:
-        with Tasks(ProcessWorker, workers or cores(), cache) as tasks:
-            finish(request.points, solved, tasks, callback, "sweep")
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(GOES_ON) from None
-    content = sweep_content(request, cache)
+    answers = solved_in(out, FILES, request.points, solved, workers, callback)
+    if answers is None:
+        return None
+    content = sweep_content(request, [answer["found"] for answer in answers])
     if all(point["status"] == FAILED for point in content["points"]):
         raise InputError(content["points"][0]["why"])
-    from comparisons.campaigns.sweep.picture import sweep_picture
-    from comparisons.campaigns.sweep.zone_map import zone_map
+    from comparisons.campaigns.sweep.pictures import bulge_curve, sweep_picture, zone_map
 
     files = {TABLE: sweep_csv(content), PICTURE: sweep_picture(content), SWEEP: as_json(content)}
-    if any(ZONE in point for point in content["points"]):
-        files[ZONE_MAP] = zone_map(content)
-    if any(BULGE in point for point in content["points"]):
-        from comparisons.campaigns.sweep.bulge_curve import bulge_curve
-
-        files[BULGE_CURVE] = bulge_curve(content)
+    for name, picture in ((quiescent_zone.NAME, zone_map), (bulge.NAME, bulge_curve)):
+        if any(name in point for point in content["points"]):
+            files[PICTURES[name]] = picture(content)
     publish(out, files, FILES)
     return content
 
 
-def solved(point: SweepPoint) -> dict:
-    """What was `found` at a point, or why nothing was; and the `seconds` that it took."""
+def solved(point: Point) -> dict:
+    """What is found at a point: the rows of its figures, its quiescent zones and its bulges."""
     from comparisons.runs.run import run
 
-    began = perf_counter()
-    try:
-        if point.scene is None:
-            raise InputError(point.why)
-        outcome = run(point.scene, None, point.models)
-        rows = tuple(rows_of(result_of(outcome), point.scene.name))
-        found = {"status": SOLVED, "rows": rows}
-        if zones := _zones(outcome):
-            found[ZONE] = zones
-        if bulges := bulges_of(outcome.found.get(BULGE)):
-            found[BULGE] = [_bulge(each) for each in bulges]
-    except (InputError, SolverError, ArithmeticError) as error:
-        found = failed(str(error) or type(error).__name__)
-    return {"found": found, "seconds": perf_counter() - began}
+    outcome = run(point.scene, None, point.asked)
+    found = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), point.scene.name))}
+    if zones := _zones(outcome.found.get(quiescent_zone.NAME)):
+        found[quiescent_zone.NAME] = zones
+    if bulges := bulge.bulges_of(outcome.found.get(bulge.NAME)):
+        found[bulge.NAME] = [_bulge(each) for each in bulges]
+    return found
 
 
-def _zones(run: Run) -> dict[str, list[dict]]:
-    """The quiescent zones by model, then by friction coefficient."""
+def _zones(findings: Findings | None) -> dict[str, list[dict]]:
+    """By model, then by friction coefficient."""
     by_model: dict[str, list[dict]] = {}
-    for zone in zones_of(run.found.get(ZONE)):
-        figures = {name: _stated(zone.figures.get(name)) for name in ZONE_QUANTITIES}
+    for zone in quiescent_zone.zones_of(findings):
+        figures = {n: _stated(zone.figures.get(n)) for n in quiescent_zone.QUANTITIES}
         counts = {"bridged": zone.bridged, "asperities": zone.asperities}
         entry = {"friction": zone.friction, "status": zone.state, **figures, **counts}
         by_model.setdefault(zone.model, []).append(entry)
     return by_model
+
+
+def _bulge(found: bulge.Bulge) -> dict:
+    """Its figures by name, with the uncertainty of three of them."""
+    values = {name: found.value(name) for name in bulge.QUANTITIES}
+    sizes = {k: _stated(found.figures.get(name))["uncertainty"] for name, k in UNCERTAIN.items()}
+    return {"friction": found.friction} | values | sizes | {"energy_ahead": found.energy_ahead}
 
 
 def _stated(figure: Figure | None) -> dict[str, float | None]:
@@ -114,31 +98,21 @@ def _stated(figure: Figure | None) -> dict[str, float | None]:
     return {"value": figure.value, "uncertainty": size if isfinite(size) else None}
 
 
-def _bulge(bulge: Bulge) -> dict:
-    """Its figures by name, with the uncertainty of three of them."""
-    stated = {"height": "uncertainty", "end": "end_uncertainty", "energy": "energy_uncertainty"}
-    sizes = {word: _stated(bulge.figures.get(n))["uncertainty"] for n, word in stated.items()}
-    values = {name: bulge.value(name) for name in BULGE_QUANTITIES}
-    return {"friction": bulge.friction} | values | sizes | {"energy_ahead": bulge.energy_ahead}
-
-
-def sweep_content(request: SweepRequest, cache: Cache) -> dict:
+def sweep_content(request: SweepRequest, found: list[dict]) -> dict:
     """sweep.json: points in their order, and the scatter of every figure over all of them."""
-    found = [cache.load(point.key)["found"] for point in request.points]
-    over = [{"field": field.name, "values": list(field.values)} for field in request.fields]
     points = [
-        {"values": list(point.values), **each, "rows": list(each.get("rows", ()))}
+        {"values": list(point.at.values()), **each, "rows": list(each.get("rows", ()))}
         for point, each in zip(request.points, found, strict=True)
     ]
-    asked = " ".join(f"--over {field.text!r}" for field in request.fields)
+    fields = request.fields.items()
     return {
         "schema": SCHEMA,
-        "command": f"crosscheck sweep {request.scene.source} {asked}",
+        "command": request.command,
         "scene": {"name": request.scene.name, "title": request.scene.title},
         "models": list(request.models),
-        "over": over,
+        "over": [{"field": name, "values": list(values)} for name, values in fields],
         "points": points,
-        "scatter": scatter(points, any(each["field"] == "load.friction" for each in over)),
+        "scatter": scatter(points, "load.friction" in request.fields),
         "versions": versions(),
     }
 
@@ -146,29 +120,30 @@ def sweep_content(request: SweepRequest, cache: Cache) -> dict:
 def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
     """By quantity, friction coefficient (None where it is swept) and figure: number of values,
     mean, standard deviation of the sample, smallest and largest."""
-    values: dict[tuple, list[float]] = {}
-    for point in points:
-        for row in point["rows"]:
-            friction = None if over_friction else row["friction"]
-            for figure in FIGURES:
-                if row[figure] is not None:
-                    values.setdefault((row["quantity"], friction, figure), []).append(row[figure])
     order = {name: number for number, name in enumerate(QUANTITIES)}
-    return [
-        {
-            "quantity": quantity,
-            "friction": friction,
-            "figure": figure,
-            "count": len(each),
-            "mean": float(np.mean(each)),
-            "standard_deviation": float(np.std(each, ddof=1)) if len(each) > 1 else None,
-            "smallest": min(each),
-            "largest": max(each),
-        }
-        for (quantity, friction, figure), each in sorted(
-            values.items(), key=lambda item: (order.get(item[0][0], len(order)), item[0][1] or 0.0)
-        )
+    known = [
+        (row["quantity"], None if over_friction else row["friction"], figure, row[figure])
+        for point in points
+        for row in point["rows"]
+        for figure in SCATTERED
+        if row[figure] is not None
     ]
+    groups = grouped(known, lambda each: each[:3])
+    groups.sort(key=lambda group: (order.get(group[0][0], len(order)), group[0][1] or 0.0))
+    return [_spread(*group[0][:3], [each[3] for each in group]) for group in groups]
+
+
+def _spread(quantity: str, friction: float | None, figure: str, values: list[float]) -> dict:
+    return {
+        "quantity": quantity,
+        "friction": friction,
+        "figure": figure,
+        "count": len(values),
+        "mean": float(np.mean(values)),
+        "standard_deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
+        "smallest": min(values),
+        "largest": max(values),
+    }
 
 
 def sweep_csv(content: dict) -> str:
@@ -187,27 +162,15 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
     from rich.console import Group
     from rich.text import Text
 
-    from comparisons.output.terminal import PLAIN, SHORT, plain_table
+    from comparisons.output.terminal import PLAIN, plain_table
 
     table = plain_table("quantity", "", numbers=("mu", "mean", "std", "smallest", "largest"))
     for row in content["scatter"]:
-        relative = row["figure"] == "model_error" or QUANTITIES[row["quantity"]].of_pair
-        deviation, mean = row["standard_deviation"], row["mean"]
-        if deviation is None:
-            spread = ""
-        else:  # of an error in its own per cent, of a figure in per cent of the mean
-            spread = percent(deviation if relative or mean == 0.0 else deviation / abs(mean))
-        unit = QUANTITIES[row["quantity"]].unit
-        values = (mean, row["smallest"], row["largest"])
-        shown = [percent(v, signed=True) if relative else with_unit(v, unit) for v in values]
-        friction = "" if row["friction"] is None else f"{row['friction']:g}"
-        words = SHORT[row["quantity"]], row["figure"].replace("_", " ")
-        cells = (*words, friction, shown[0], spread, *shown[1:])
-        table.add_row(*(cell.translate(PLAIN) for cell in cells))
+        table.add_row(*(cell.translate(PLAIN) for cell in _cells(row)))
     points = content["points"]
     whys = [point["why"] for point in points if point["status"] == FAILED]
-    maps = [f for k, f in ((ZONE, ZONE_MAP), (BULGE, BULGE_CURVE)) if any(k in p for p in points)]
-    files = TABLE, PICTURE, *maps, SWEEP
+    pictures = [file for name, file in PICTURES.items() if any(name in p for p in points)]
+    files = TABLE, PICTURE, *pictures, SWEEP
     over = " x ".join(f"{len(each['values'])} of {each['field']}" for each in content["over"])
     return Group(
         table,
@@ -215,3 +178,18 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
         *(Text(f"failed, {whys.count(why)}: {why}") for why in dict.fromkeys(whys)),
         *([] if out is None else [Text(f"sweep: {', '.join(str(out / name) for name in files)}")]),
     )
+
+
+def _cells(row: dict) -> tuple[str, ...]:
+    """The scatter of an error in its per cent, of a figure in per cent of the mean."""
+    quantity, deviation, mean = QUANTITIES[row["quantity"]], row["standard_deviation"], row["mean"]
+    relative = row["figure"] == "model_error" or quantity.of_pair
+    spread = ""
+    if deviation is not None:
+        spread = percent(deviation if relative or mean == 0.0 else deviation / abs(mean))
+    mean, *ends = (
+        percent(value, signed=True) if relative else with_unit(value, quantity.unit)
+        for value in (mean, row["smallest"], row["largest"])
+    )
+    friction = "" if row["friction"] is None else f"{row['friction']:g}"
+    return quantity.short, row["figure"].replace("_", " "), friction, mean, spread, *ends

@@ -9,6 +9,7 @@ from comparisons.scenes.scene import Scene
 from comparisons.studies.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
 from comparisons.studies.model_error.estimates import Sizes, estimates
+from fem.solver.communicator import is_alone
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
@@ -103,6 +104,6 @@ def why_not(name: str, problem: Problem) -> str | None:
         "flow is of small deformation": scene.finite_element.plastic,
         "a cap on the pressure is of small deformation": scene.body.hardness is not None,
         "the body is coated": scene.coating is not None,
-        "it is solved on one process": is_several(),
+        "it is solved on one process": is_several() and not is_alone(),
     }
     return next((why for why, hindered in reasons.items() if hindered), None)

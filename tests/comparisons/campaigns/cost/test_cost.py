@@ -12,9 +12,8 @@ from analytic.exact.hertz import hertz_from_load
 from comparisons.campaigns.cost import methods as cost_methods
 from comparisons.campaigns.cost.cost import cost
 from comparisons.campaigns.cost.methods import FINEST, METHODS
-from comparisons.campaigns.cost.page import cells, cost_table, shown
 from comparisons.campaigns.cost.recommend import scene_sections
-from comparisons.campaigns.cost.result import content_of
+from comparisons.campaigns.cost.show import cells, content_of, cost_table, shown
 from comparisons.campaigns.cost.study import FOLDER, OK
 from comparisons.cli import main
 from comparisons.output.terminal import PLAIN
@@ -42,9 +41,9 @@ class TestWholeStudy:
         assert [r.method.name for r in found.study.rows] == ["hats, FFT"] * 3 + ["P2"] * 2
         for each in found.assessed:
             assert each.row.status == OK and each.row.measured.repeats == 2
-            peak = each.row.measured.solved.figures[0]["peak_pressure"]
+            peak = each.row.measured.values[0]["peak_pressure"]
             exact = abs(peak / HERTZ.peak_pressure - 1.0)
-            assert each.errors["peak_pressure"] == pytest.approx(exact, rel=1e-6)
+            assert each.errors["peak_pressure"].value == pytest.approx(exact, rel=1e-6)
             assert 0.0 < exact < 2e-3
         assert found.references["peak_pressure"].source == "exact (Hertz)"
 
@@ -75,7 +74,7 @@ class TestWholeStudy:
                 figure = outcome.figures.one(study="contact", quantity=name)
                 assert abs(figure.value / exact - 1.0) <= found.problem.scene.tolerances[name]
                 error = abs(reached[name] / exact - 1.0)
-                assert error == pytest.approx(picked.errors[name], rel=0.02, abs=1e-9)
+                assert error == pytest.approx(picked.errors[name].value, rel=0.02, abs=1e-9)
                 assert error <= found.problem.scene.tolerances[name]
 
     def test_files(self, small):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import SMOOTH, STEEL, changed, resolved
+from scenes import SMOOTH, STEEL, changed, problem, resolved
 
 from comparisons.campaigns.cost import methods as cost_methods
 from comparisons.campaigns.cost import study as cost_study
@@ -19,7 +19,6 @@ from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.study import FOLDER, cost_cache
 from comparisons.common.progress import no_progress
 from comparisons.models.finite_element.level import problem_of_approach
-from comparisons.scenes.surface import surface_of
 
 SMALL = tuple(method for method in METHODS if method.name in (FINEST.name, "P2"))
 # The command line, with methods and settings left out that would only take time.
@@ -51,7 +50,7 @@ class Here:
         self.asked, self.stop_at = [], 0
 
     def measure(self, task: CostTask) -> MeasuredRun:
-        self.asked.append((task.method, task.setting))
+        self.asked.append((task.method.name, task.setting))
         if self.stop_at == len(self.asked):
             raise KeyboardInterrupt
         return measure(task)
@@ -71,32 +70,32 @@ def here(monkeypatch) -> Here:
 @pytest.fixture(scope="module")
 def measured() -> tuple[CostTask, MeasuredRun]:
     """A setting with stresses under two frictions."""
-    made = resolved(changed(SMOOTH, stress={"points": [60, 20]}, load={"friction": [0.0, 0.1]}))
-    task = CostTask(made, surface_of(made), None, FINEST.name, 1e-5, repeats=2)
+    made = problem(changed(SMOOTH, stress={"points": [60, 20]}, load={"friction": [0.0, 0.1]}))
+    task = CostTask(made, FINEST, 1e-5, repeats=2)
     return task, measure(task)
 
 
 class TestStore:
     def test_what_comes_back_is_what_was_measured(self, measured, tmp_path):
         task, found = measured
-        cache = cost_cache(tmp_path, task.scene, 2)
+        cache = cost_cache(tmp_path, task.problem.scene, 2)
         assert cache.load(task.name) is None
         cache.save(task.name, found)
         again = cache.load(task.name)
         for name in ("seconds", "total", "wall", "spread", "repeats", "memory", "spent"):
             assert getattr(again, name) == getattr(found, name)
-        assert again.solved.figures == found.solved.figures
-        assert np.array_equal(again.solved.pressure, found.solved.pressure)
-        for one, other in zip(again.solved.stresses, found.solved.stresses, strict=True):
+        assert again.values == found.values
+        assert np.array_equal(again.level.solution.pressure, found.level.solution.pressure)
+        for one, other in zip(again.level.stresses, found.level.stresses, strict=True):
             assert one.extremes == other.extremes
             assert np.array_equal(one.field.sx, other.field.sx)
-        assert again.solved.level.solution.residuals == found.solved.level.solution.residuals
+        assert again.level.solution.residuals == found.level.solution.residuals
 
     def test_settings_are_told_apart(self, measured, tmp_path):
         task, found = measured
-        cache = cost_cache(tmp_path, task.scene, 2)
+        cache = cost_cache(tmp_path, task.problem.scene, 2)
         cache.save(task.name, found)
-        for other in ({"setting": 2e-5}, {"half_block": True}, {"method": "P3"}):
+        for other in ({"setting": 2e-5}, {"half_block": True}, {"method": METHODS[-1]}):
             assert cache.load(replace(task, **other).name) is None
         assert cache.load(replace(task, limit=7.0).name) is not None
 
@@ -112,21 +111,21 @@ class TestStore:
         self, measured, patched, tmp_path, monkeypatch
     ):
         task, found = measured
-        cost_cache(tmp_path, task.scene, 2).save(task.name, found)
-        assert cost_cache(tmp_path, task.scene, 2).load(task.name) is not None
+        cost_cache(tmp_path, task.problem.scene, 2).save(task.name, found)
+        assert cost_cache(tmp_path, task.problem.scene, 2).load(task.name) is not None
         monkeypatch.setattr(patched[0], lambda *given: patched[1])
-        assert cost_cache(tmp_path, task.scene, 2).load(task.name) is None
+        assert cost_cache(tmp_path, task.problem.scene, 2).load(task.name) is None
 
     def test_so_does_another_scene_or_number_of_repeats(self, measured, tmp_path):
         task, found = measured
-        cost_cache(tmp_path, task.scene, 2).save(task.name, found)
+        cost_cache(tmp_path, task.problem.scene, 2).save(task.name, found)
         other = resolved(changed(SMOOTH, load={"per_length": 3.5e6}))
         assert cost_cache(tmp_path, other, 2).load(task.name) is None
-        assert cost_cache(tmp_path, task.scene, 3).load(task.name) is None
+        assert cost_cache(tmp_path, task.problem.scene, 3).load(task.name) is None
 
     def test_what_was_cut_short_is_not_there(self, measured, tmp_path):
         task, found = measured
-        cache = cost_cache(tmp_path, task.scene, 2)
+        cache = cost_cache(tmp_path, task.problem.scene, 2)
         cache.save(task.name, found)
         [path] = cache.folder.iterdir()
         path.write_bytes(path.read_bytes()[:-100])
@@ -163,7 +162,7 @@ class TestGoesOn:
         tried = []
 
         def failing(task):
-            tried.append(task.method)
+            tried.append(task.method.name)
             raise cost_study.RefusedError("MeshError: no mesh", skipped=False)
 
         cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import SMOOTH, changed, problem, resolved
+from scenes import SMOOTH, changed, problem
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.campaigns.cost import measure as cost_measure
@@ -15,17 +15,15 @@ from comparisons.campaigns.cost.methods import (
     FINEST,
     METHODS,
     is_half_plane_problem,
+    touching_strips,
     why_not,
 )
-from comparisons.campaigns.cost.page import cells, shown
+from comparisons.campaigns.cost.recommend import assess
 from comparisons.campaigns.cost.reference import error_of, is_exact, references
-from comparisons.campaigns.cost.result import assess
-from comparisons.campaigns.cost.solve import touching_strips
+from comparisons.campaigns.cost.show import cells, shown
 from comparisons.campaigns.cost.study import OK, CostRow, CostRun
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
-from comparisons.models.problem import problem_of
-from comparisons.scenes.surface import surface_of
 
 WAVY = SMOOTH | {
     "profile": {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6},
@@ -63,7 +61,7 @@ class TestMethods:
 
     @pytest.mark.parametrize("element", ["hats", "strips"])
     def test_of_hertz_errors_fall_with_the_pitch(self, element):
-        made = resolved(changed(SMOOTH, stress={"points": [60, 20]}))
+        made = problem(changed(SMOOTH, stress={"points": [60, 20]}))
         exact = {
             "peak_pressure": HERTZ.peak_pressure,
             "contact_length": 2.0 * HERTZ.half_width,
@@ -71,10 +69,8 @@ class TestMethods:
         }
         errors = []
         for part in (1.0, 0.125):
-            pitch = part * problem_of(made).pitches[0]
-            found = measure(
-                CostTask(made, surface_of(made), None, f"{element}, FFT", pitch)
-            ).solved.figures[0]
+            task = CostTask(made, BY_NAME[f"{element}, FFT"], part * made.pitches[0])
+            found = measure(task).values[0]
             errors.append([abs(found[name] / value - 1.0) for name, value in exact.items()])
         assert np.all(np.array(errors[0]) < [1e-3, 1.5e-2, 1e-3])
         assert np.all(np.array(errors[1]) < np.array(errors[0]) / 4.0)
@@ -90,15 +86,12 @@ class TestMethods:
 @pytest.fixture(scope="module")
 def study():
     """The finest method on waves, at five settings."""
-    made = resolved(WAVY)
-    pitches = FINEST.settings(problem_of(made))[:5]
+    made = problem(WAVY)
     rows = [
-        CostRow(
-            FINEST, p, OK, None, measure(CostTask(made, surface_of(made), None, FINEST.name, p))
-        )
-        for p in pitches
+        CostRow(FINEST, pitch, OK, None, measure(CostTask(made, FINEST, pitch)))
+        for pitch in FINEST.settings(made)[:5]
     ]
-    return problem_of(made), CostRun(tuple(rows), {})
+    return made, CostRun(tuple(rows), {})
 
 
 class TestReference:
@@ -109,9 +102,7 @@ class TestReference:
         for name, reference in found.items():
             assert reference.row is last and reference.source.startswith("hats, FFT at ")
             assert 0.0 < reference.floor < 0.05, name
-        finer = measure(
-            CostTask(made.scene, surface_of(made.scene), None, FINEST.name, 0.25 * last.setting)
-        ).solved
+        finer = measure(CostTask(made, FINEST, 0.25 * last.setting))
         for name in ("peak_pressure", "contact_length"):
             true = error_of(finer, name, found[name], made, None)
             assert true <= found[name].floor
@@ -120,9 +111,9 @@ class TestReference:
         made, rows = study
         found = assess(made, rows)
         for name in ("peak_pressure", "pressure_l2"):
-            errors = [each.errors[name] for each in found.assessed]
-            assert errors[-1] is None
-            assert errors[0] > 3.0 * errors[2] > 0.0
+            *errors, last = (each.errors.get(name) for each in found.assessed)
+            assert last is None
+            assert errors[0].value > 3.0 * errors[2].value > 0.0
         texts = cells(found, found.assessed[-1], shown(found))
         assert texts[-1] == "reference"
 
@@ -135,70 +126,36 @@ class TestMeasure:
     @pytest.fixture
     def calls(self, monkeypatch):
         """Every call of `solved`, which takes no time."""
-        calls, answer = [], object()
+        calls = []
 
         def solved(method, problem, setting, window, stages, half_block):
             calls.append(setting)
             with stages.stage("contact"):
-                return answer
+                return "level", ()
 
         monkeypatch.setattr(cost_measure, "solved", solved)
         monkeypatch.setattr(cost_measure, "_begun", set())
         return calls
 
     def test_the_first_solution_does_not_count(self, calls):
-        found = measure(
-            CostTask(
-                resolved(SMOOTH),
-                surface_of(resolved(SMOOTH)),
-                None,
-                FINEST.name,
-                1e-5,
-                repeats=3,
-                limit=60.0,
-            )
-        )
-        assert (len(calls), found.repeats) == (4, 3)
-        found = measure(
-            CostTask(
-                resolved(SMOOTH),
-                surface_of(resolved(SMOOTH)),
-                None,
-                FINEST.name,
-                5e-6,
-                repeats=3,
-                limit=60.0,
-            )
-        )
-        assert (len(calls), found.repeats) == (7, 3)
+        for pitch, solutions in ((1e-5, 4), (5e-6, 7)):
+            found = measure(CostTask(problem(SMOOTH), FINEST, pitch, repeats=3, limit=60.0))
+            assert (len(calls), found.repeats) == (solutions, 3)
 
     def test_no_more_than_fit_and_at_least_one(self, calls):
-        assert (
-            measure(
-                CostTask(
-                    resolved(SMOOTH),
-                    surface_of(resolved(SMOOTH)),
-                    None,
-                    FINEST.name,
-                    1e-5,
-                    3,
-                    limit=0.0,
-                )
-            ).repeats
-            == 1
-        )
-        assert len(calls) == 2
+        found = measure(CostTask(problem(SMOOTH), FINEST, 1e-5, repeats=3, limit=0.0))
+        assert (len(calls), found.repeats) == (2, 1)
 
     def test_what_goes_wrong_is_stated(self, monkeypatch):
-        def solved(*arguments):
+        def solved(*arguments, **more):
             raise SceneError("made.toml: budget.memory: is too small")
 
         monkeypatch.setattr(cost_measure, "solved", solved)
-        task = CostTask(resolved(SMOOTH), surface_of(resolved(SMOOTH)), None, FINEST.name, 1e-5)
+        task = CostTask(problem(SMOOTH), FINEST, 1e-5)
         with pytest.raises(RefusedError) as refused:
             measure(task)
         assert refused.value.args == ("made.toml: budget.memory: is too small", True)
-        monkeypatch.setattr(cost_measure, "solved", lambda *a: 1 / 0)
+        monkeypatch.setattr(cost_measure, "solved", lambda *a, **b: 1 / 0)
         with pytest.raises(RefusedError) as failed:
             measure(task)
         assert failed.value.args == ("ZeroDivisionError: division by zero", False)

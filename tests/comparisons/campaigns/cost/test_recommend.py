@@ -7,48 +7,59 @@ import numpy as np
 import pytest
 from scenes import SMOOTH, changed, problem
 
+from analytic.grid import HatGrid
 from comparisons.campaigns.cost.measure import MeasuredRun, RefusedError
 from comparisons.campaigns.cost.methods import FINEST, METHODS
-from comparisons.campaigns.cost.page import cells, cost_page, notes_of, refusals, shown
-from comparisons.campaigns.cost.recommend import AssessedRow, pareto, recommendations
-from comparisons.campaigns.cost.result import assess, content_of
-from comparisons.campaigns.cost.solve import SolvedContact
+from comparisons.campaigns.cost.recommend import AssessedRow, assess, pareto, recommendations
+from comparisons.campaigns.cost.show import (
+    cells,
+    content_of,
+    cost_page,
+    notes_of,
+    refusals,
+    shown,
+)
 from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, CostRun, _series
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
 from comparisons.common.tasks import ProcessEnded
 from comparisons.drawing.style import Picture
+from comparisons.figures.figure import Figure
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.level import Level
 
 BY_NAME = {method.name: method for method in METHODS}
 
 
 def row(name, setting, seconds, peak, status=OK, stress_seconds=0.0):
     """A row whose peak pressure is off by `peak`, of an exact 1."""
-    answer = SolvedContact(
-        figures=({"peak_pressure": 1.0 + peak, "contact_length": 1.0},),
-        x=np.array([-1.0, 0.0, 1.0]),
-        pressure=np.array([0.0, 1.0, 0.0]),
-        stresses=(),
-        elements=1,
-        unknowns=100,
-        converged=True,
-        level=None,
-    )
+    grid = HatGrid(1.0, 0, 0)
+    solution = types.SimpleNamespace(pressure=np.ones(1), converged=True)
+    level = Level(grid, solution, np.zeros(1), np.array([[-1.0, 1.0]]), {}, unknowns=100)
+    values = ({"peak_pressure": 1.0 + peak, "contact_length": 1.0},)
     times = {"contact": seconds, "stresses": stress_seconds}
-    measured = MeasuredRun(answer, times, seconds, seconds, (seconds, seconds), 1, 10**8, seconds)
+    spread = (seconds, seconds)
+    measured = MeasuredRun(level, values, times, seconds, seconds, spread, 1, 10**8, seconds)
     return CostRow(BY_NAME[name], setting, status, None if status == OK else "why", measured)
 
 
-def assessed(*rows):
-    return [
-        AssessedRow(r, {"peak_pressure": abs(r.measured.solved.figures[0]["peak_pressure"] - 1.0)})
-        for r in rows
-    ]
+def assessed(*rows, tolerance=0.01, floor=0.0):
+    def error(made):
+        return Figure(
+            study="cost",
+            quantity="peak_pressure",
+            source=made.method.name,
+            value=abs(made.measured.values[0]["peak_pressure"] - 1.0),
+            against="an exact 1",
+            uncertainty=Uncertainty({"reference": floor}),
+            bounds=(-tolerance, tolerance),
+        )
+
+    return [AssessedRow(made, {"peak_pressure": error(made)}) for made in rows]
 
 
-def chosen(rows, tolerance, floor=0.0):
-    reference = types.SimpleNamespace(floor=floor)
-    [found] = recommendations(rows, {"peak_pressure": reference}, {"peak_pressure": tolerance})
+def chosen(rows, tolerance=0.01, floor=0.0):
+    [found] = recommendations(rows, {"peak_pressure": floor}, {"peak_pressure": tolerance})
     return found
 
 
@@ -75,7 +86,8 @@ class TestRows:
 
     def test_refused_and_failed(self):
         good = row("P2", 1.0, 1.0, 0.0).measured
-        wild = replace(good, solved=replace(good.solved, converged=False))
+        unsolved = replace(good.level, solution=types.SimpleNamespace(converged=False))
+        wild = replace(good, level=unsolved)
         refused = RefusedError("budget.memory", skipped=True)
         failed = RefusedError("MeshError: no mesh", skipped=False)
         found, _ = self.rows(good, failed, wild, refused)
@@ -104,7 +116,7 @@ class TestRows:
         assert texts[1][-1].endswith("failed") and "skipped" in texts[2]
         assert refusals(found) == ["P2 5.00 µm failed: why", "P1 skipped: does not apply"]
         monkeypatch.setattr(
-            "comparisons.campaigns.cost.page.cost_picture", lambda *a: Picture("data:,", "", "")
+            "comparisons.campaigns.cost.show.cost_picture", lambda *a: Picture("data:,", "", "")
         )
         page = cost_page(found)
         assert all(f'<tr class="{status}">' in page for status in (OK, FAILED, SKIPPED))
@@ -144,7 +156,7 @@ class TestRecommendation:
         one = row("P2", 2.0, 1.0, 0.0, stress_seconds=5.0)
         assert (one.seconds(False), one.seconds(True)) == (1.0, 6.0)
         rows = assessed(one, row("P3", 2.0, 2.0, 0.0))
-        assert chosen(rows, 0.1).finite_element.row is one
+        assert chosen(rows).finite_element.row is one
 
     def test_the_cheapest_that_meets_the_tolerance(self):
         rows = assessed(
@@ -180,11 +192,11 @@ class TestRecommendation:
         )
 
     def test_the_floor_counts_as_error(self):
-        rows = assessed(row("P2", 4.0, 1.0, 8e-3), row("P2", 2.0, 2.0, 1e-3))
+        rows = assessed(row("P2", 4.0, 1.0, 8e-3), row("P2", 2.0, 2.0, 1e-3), floor=5e-3)
         assert chosen(rows, 0.01, floor=5e-3).finite_element.row.setting == 2.0
 
     def test_a_reference_that_is_not_good_enough_recommends_nothing(self):
-        choice = chosen(assessed(row("P2", 4.0, 1.0, 0.0)), 0.01, floor=0.02)
+        choice = chosen(assessed(row("P2", 4.0, 1.0, 0.0), floor=0.02), floor=0.02)
         assert choice.finite_element is choice.half_plane is None
         assert "nothing can be said: the reference itself is that uncertain" in choice.sentence
 

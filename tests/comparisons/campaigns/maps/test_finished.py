@@ -6,12 +6,12 @@ from functools import cache
 
 import pytest
 
+from comparisons.campaigns.grid import FAILED, SOLVED
 from comparisons.campaigns.maps.content import described, read_map
 from comparisons.campaigns.maps.picture import map_picture
 from comparisons.campaigns.maps.point import TOLERANCES, solve_point
 from comparisons.campaigns.maps.request import FINISHED, request_of
 from comparisons.campaigns.maps.rule import rules_of
-from comparisons.campaigns.points import FAILED, SOLVED
 from comparisons.common.provenance import versions
 
 HEAT_NAMES = ("peclet-insulated", "peclet-radius", "peclet-thickness")
@@ -49,7 +49,9 @@ def test_the_command_asks_for_the_same_points(finished):
     assert request.scene.source == name
     assert described(request) == content["scene"]
     assert request.finite_element == content["finite_element"]
-    assert [(p.x, p.y) for p in request.points] == [(p["x"], p["y"]) for p in content["points"]]
+    assert [[*p.at.values()] for p in request.points] == [
+        [p["y"], p["x"]] for p in content["points"]
+    ]
     assert content["x"]["values"] == list(request.x.values)
     assert content["y"]["values"] == list(request.y.values)
 
@@ -64,7 +66,7 @@ def test_one_point_is_what_it_was(finished):
     name, content = finished
     request, (column, row) = asked_for(name), CHEAP[name]
     number = row * len(content["x"]["values"]) + column
-    again = solve_point(request.points[number])["found"]
+    again = solve_point(request.points[number])
     before = content["points"][number]
     assert again["status"] == before["status"] == SOLVED
     for quantity, error in again["quantities"].items():

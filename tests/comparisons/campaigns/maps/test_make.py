@@ -14,11 +14,11 @@ from unittest.mock import patch
 import pytest
 from rich.console import Console
 
+from comparisons.campaigns.grid import DIED, Point, finish, point_cache
 from comparisons.campaigns.maps.content import MAP, PICTURE, map_table
 from comparisons.campaigns.maps.make import TIMES, exit_status, make_map
-from comparisons.campaigns.maps.point import NOT_CONVERGED, solve_point
-from comparisons.campaigns.maps.request import FOLDER, PointRequest, point_cache, request_of
-from comparisons.campaigns.points import DIED, finish
+from comparisons.campaigns.maps.point import NOT_CONVERGED
+from comparisons.campaigns.maps.request import request_of
 from comparisons.cli import main
 from comparisons.common.cache import NO_CACHE
 from comparisons.common.errors import ExitStatus
@@ -26,6 +26,7 @@ from comparisons.common.executors import ExecutorWorker
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.progress import no_progress
 from comparisons.common.tasks import Tasks, called, carried_out
+from comparisons.scenes.scene import Scene
 
 SCENE = """
 title = "Small"
@@ -48,6 +49,7 @@ growth = 0.5
 pitch = "20 um"
 """
 ASKED = ("--points", "2x2", "--x", "a_over_thickness=1:2", "--y", "poissons_ratio=0.2:0.3")
+FOLDER = "map_points"
 COMMAND = (sys.executable, "-m", "comparisons.cli", "map")
 
 
@@ -63,8 +65,8 @@ def made(scene, tmp_path_factory) -> tuple[Path, list[str]]:
     """A map that nothing disturbed, and what the worker that solved it had loaded."""
     out = tmp_path_factory.mktemp("undisturbed") / "out"
     with (
-        Tasks(ProcessWorker, 1, point_cache(out)) as tasks,
-        patch("comparisons.campaigns.maps.make.tasks_by", lambda *_: nullcontext(tasks)),
+        Tasks(ProcessWorker, 1, point_cache(out, "map")) as tasks,
+        patch("comparisons.campaigns.grid.tasks_by", lambda *_: nullcontext(tasks)),
     ):
         make_map(request_of(str(scene), *ASKED[1::2]), out)
         tasks.kept = NO_CACHE
@@ -157,27 +159,27 @@ class Fragile(Executor):
 
     def submit(self, *task):
         future = Future()
-        if task[-1].x in self.deadly:
+        if task[-1].at["x"] in self.deadly:
             future.set_exception(BrokenExecutor("killed"))
         else:
             future.set_result(carried_out(*task[1:]))
         return future
 
 
-def point_at(x: float) -> PointRequest:
-    return PointRequest(x, 0.0, "peak_pressure", None, None, f"key{x:g}")
+def point_at(x: float) -> Point:
+    return Point({"x": x}, "peak_pressure", Scene.read("smooth"), None, f"key{x:g}")
 
 
 class Solved(list[float]):
     """Where points were solved, in order; what solves them says where they are."""
 
-    def solve(self, point: PointRequest) -> dict:
-        self.append(point.x)
-        return {"found": {"status": "solved", "x": point.x}, "seconds": 1.0}
+    def solve(self, point: Point) -> dict:
+        self.append(point.at["x"])
+        return {"status": "solved", "x": point.at["x"]}
 
 
 def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path):
-    cache, solved = point_cache(tmp_path), Solved()
+    cache, solved = point_cache(tmp_path, "map"), Solved()
     with Tasks(partial(ExecutorWorker, Fragile(2, 7)), 2, cache) as tasks:
         finish([point_at(x) for x in range(8)], solved.solve, tasks, no_progress, "map")
     found = [cache.load(f"key{x}")["found"] for x in range(8)]
@@ -188,7 +190,7 @@ def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path):
 
 
 def test_what_is_kept_whole_is_not_solved_again(tmp_path):
-    cache, solved, stages = point_cache(tmp_path), Solved(), []
+    cache, solved, stages = point_cache(tmp_path, "map"), Solved(), []
     for points in ((0, 1, 2), (0, 1, 1, 2, 3)):
         before = list(solved)
         finish([point_at(x) for x in points], solved.solve, Tasks(kept=cache), stages.append, "map")
@@ -201,13 +203,10 @@ def test_what_is_kept_whole_is_not_solved_again(tmp_path):
 def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeypatch):
     request = request_of(str(scene), "2x2", "a_over_width=0.3:3", "poissons_ratio=0.2:0.6")
     assert [point.why is None for point in request.points] == [True, True, False, False]
-    answer = {"found": {"status": "failed", "why": "no"}, "seconds": 0.0}
+    answer = {"status": "failed", "why": "no"}
+    monkeypatch.setattr("comparisons.campaigns.maps.make.solve_point", lambda point: answer)
     monkeypatch.setattr(
-        "comparisons.campaigns.maps.make.solve_point",
-        lambda point: answer if point.why is None else solve_point(point),
-    )
-    monkeypatch.setattr(
-        "comparisons.campaigns.maps.make.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
+        "comparisons.campaigns.grid.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
     )
     content = make_map(request, tmp_path / "out")
     whys = [point["why"] for point in content["points"]]

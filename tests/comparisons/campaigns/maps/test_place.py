@@ -15,9 +15,12 @@ from comparisons.campaigns.maps.place import (
     mark_of,
     place_on,
     places_of,
+    problem_named,
 )
 from comparisons.campaigns.maps.request import request_of
 from comparisons.cli import main
+from comparisons.common.progress import no_progress
+from comparisons.models.finite_element.level import problem_of_approach
 from comparisons.models.problem import problem_of
 from comparisons.scenes.scene import Origin, Scene
 
@@ -41,7 +44,7 @@ def test_a_point_of_a_map_lies_there_with_its_own_error(name):
     for number in (3 * columns + 4, 6 * columns + 1):
         point = request.points[number]
         place = place_on(name, problem_of(point.scene))
-        assert place.groups == pytest.approx((point.x, point.y), rel=0.01)
+        assert place.groups == pytest.approx(tuple(point.at.values())[::-1], rel=0.01)
         quantity = content["quantity"]
         expected = content["points"][number]["quantities"][quantity]["difference"]
         assert place.errors[quantity] == pytest.approx(expected, rel=0.02, abs=2e-5)
@@ -117,7 +120,7 @@ def test_a_scene_on_no_map_gets_bounds_by_estimates():
 
 
 def test_a_finished_map_is_shown_and_not_solved(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.campaigns.maps.make.finish", None)
+    monkeypatch.setattr("comparisons.campaigns.grid.finish", None)
     out = tmp_path / "map"
     asked = ["map", "curvature-thickness", "--quantity", "contact_length", "--out", str(out)]
     assert main([*asked, "--mark", "smooth"]) == 0
@@ -146,6 +149,28 @@ def test_what_a_map_does_not_have_is_refused(tmp_path, capsys):
     assert "--mark: smooth has no wavelength_over_a" in capsys.readouterr().err
     assert main([*asked, "--mark", "nowhere"]) == 2
     assert not (tmp_path / "map").exists()
+
+
+def test_a_prescribed_approach_is_marked_under_its_load(tmp_path, capsys):
+    """As a scene of that load is."""
+    tables = {
+        "roller": {"radius": 0.01, "rigid": True},
+        "body": {"youngs_modulus": 2e9, "poissons_ratio": 0.3, "thickness": 1e-3},
+        "load": {"approach": 4e-6},
+        "resolution": {"elements": 8, "levels": 2},
+    }
+    path = tmp_path / "pressed.toml"
+    text = "".join(
+        f"[{name}]\n" + "".join(f"{k} = {str(v).lower()}\n" for k, v in table.items())
+        for name, table in tables.items()
+    )
+    path.write_text(text)
+    content = finished_map("curvature-thickness")
+    _, (x, y) = mark_of(content, problem_named(str(path)))
+    a = problem_of_approach(Scene.of(tables), no_progress).hertz.half_width
+    assert sorted((x, y)) == pytest.approx(sorted((a / 1e-3, a / 0.01)))
+    out = str(tmp_path / "map")
+    assert main(["map", "curvature-thickness", "--mark", str(path), "--out", out]) == 0
 
 
 def test_marks_are_the_scenes_groups():

@@ -5,11 +5,12 @@ import pytest
 
 from analytic.exact.layers import layer_references
 from analytic.exact.sliding import sliding_from_load
+from comparisons.campaigns.grid import FAILED, SOLVED, Point, answered
 from comparisons.campaigns.maps.groups import scene_with
-from comparisons.campaigns.maps.point import PointError, solve_point
-from comparisons.campaigns.maps.request import PointRequest
-from comparisons.campaigns.points import FAILED, SOLVED
+from comparisons.campaigns.maps.point import is_open, solve_point
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HEAT_QUANTITIES
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.problem import problem_of
 from comparisons.scenes.scene import Scene
 
@@ -27,8 +28,7 @@ COATED_HEAT = {f"coating_{name}": HEAT[f"body_{name}"] for name in STEEL}
 
 
 def found_at(scene: Scene, quantity: str = "peak_pressure") -> dict:
-    point = PointRequest(0.0, 0.0, quantity, scene, None, "key")
-    return solve_point(point)["found"]
+    return answered(solve_point, Point({}, quantity, scene, None, "key"))["found"]
 
 
 def solved(scene: Scene) -> dict:
@@ -127,14 +127,16 @@ class TestModelError:
         assert set(found["quantities"]) == set(HEAT_QUANTITIES)
 
     @pytest.mark.parametrize(
-        ("difference", "uncertainty", "is_open"),
+        ("difference", "uncertainty", "expected"),
         [(-0.3, 0.11, True), (-0.3, 0.09, False), (0.0, 0.004, True), (0.0, 0.003, False),
-         (0.1, None, True)],
+         (0.1, np.inf, True)],
     )  # fmt: skip
     def test_levels_are_added_while_the_uncertainty_would_show(
-        self, difference, uncertainty, is_open
+        self, difference, uncertainty, expected
     ):
-        assert PointError(1.0, 1.0, difference, uncertainty).is_open is is_open
+        stated = Uncertainty({"numerical": uncertainty})
+        error = Figure("map", "peak_pressure", "half_plane", difference, uncertainty=stated)
+        assert is_open(error) is expected
 
     def test_what_cannot_be_solved_is_an_answer(self):
         found = found_at(scene_with(Scene.of(RIGID), {"a_over_width": 1.0}))

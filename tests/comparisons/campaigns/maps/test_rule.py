@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from comparisons.campaigns.grid import FAILED, SOLVED
 from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
 from comparisons.campaigns.maps.picture import map_figure, map_picture
 from comparisons.campaigns.maps.rule import rule_of
-from comparisons.campaigns.points import FAILED, SOLVED
 from comparisons.drawing.style import drawing
 
 

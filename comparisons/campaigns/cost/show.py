@@ -1,4 +1,6 @@
-"""A cost study for its reader: what to take, every row, diagrams; as a table and as cost.html."""
+"""A cost study for its reader: cost.json, a table for the terminal, and cost.html.
+
+In: a finished study. Out: what to take, every row with its errors, diagrams."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -6,12 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.cost.picture import cost_picture
-from comparisons.campaigns.cost.recommend import AssessedRow, Recommendation, scene_sections
-from comparisons.campaigns.cost.result import Cost
+from comparisons.campaigns.cost.recommend import AssessedRow, Cost, Recommendation, scene_sections
 from comparisons.campaigns.cost.study import FAILED, OK
 from comparisons.common.numbers import integer, percent, with_unit
 from comparisons.drawing.style import drawing
-from comparisons.figures.quantity import label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.html import STYLES as POLICY
 from comparisons.output.page.html import rendered
 from comparisons.output.terminal import PLAIN, SHORT, STYLES, plain_table
@@ -19,10 +20,73 @@ from comparisons.output.terminal import PLAIN, SHORT, STYLES, plain_table
 if TYPE_CHECKING:
     from rich.console import Console, ConsoleOptions, RenderableType
 
+SCHEMA = 2
 SHOWN = ("peak_pressure", "contact_length", "pressure_l2", "tau1_max", "tau1_max_depth")
 REDUNDANT = ("contact_ratio",)  # the contact length over a constant
 MARK = " *"  # on the Pareto front
 ERRORS = 5  # columns of errors in a narrow terminal
+
+
+def content_of(cost: Cost) -> dict:
+    """The content of cost.json: SI units, errors relative, None for what is unknown."""
+    names = [name for name in QUANTITIES if name in cost.references]
+    return {
+        "schema": SCHEMA,
+        "scene": cost.problem.surface.as_dict(cost.problem.scene),
+        "reference": {
+            name: {"source": r.source, "values": list(r.values), "uncertainty": r.floor}
+            for name, r in ((name, cost.references[name]) for name in names)
+        },
+        "rows": [_row(cost, each) for each in cost.assessed],
+        "recommendations": [
+            {
+                "quantity": each.quantity,
+                "tolerance": each.tolerance,
+                "sentence": each.sentence,
+                "half_plane": _taken(cost, each.half_plane),
+                "finite_element": _taken(cost, each.finite_element),
+                "cheapest": _taken(cost, each.cheapest, scene=False),
+            }
+            for each in cost.recommendations
+        ],
+        "versions": cost.versions,
+        "machine": cost.machine,
+    }
+
+
+def _row(cost: Cost, each: AssessedRow) -> dict:
+    row, measured = each.row, each.row.measured
+    content = {
+        "method": row.method.name,
+        "model": row.method.model,
+        "pitch": row.setting,
+        "status": row.status,
+        "because": row.because,
+    }
+    if measured is None:
+        return content
+    return content | {
+        "elements": measured.level.grid.count,
+        "unknowns": measured.level.unknowns,
+        "seconds": measured.seconds,
+        "total": measured.total,
+        "smallest_total": measured.spread[0],
+        "largest_total": measured.spread[1],
+        "wall": measured.wall,
+        "repeats": measured.repeats,
+        "peak_memory": measured.memory,
+        "figures": list(measured.values),
+        "errors": {n: each.errors[n].value if n in each.errors else None for n in cost.references},
+        "best_for": [name for name, front in cost.fronts.items() if each in front],
+    }
+
+
+def _taken(cost: Cost, each: AssessedRow | None, scene: bool = True) -> dict | None:
+    """Its place in `rows`, and what to write into the scene for it."""
+    if each is None:
+        return None
+    taken = {"row": cost.assessed.index(each), "method": each.row.method.name}
+    return taken | {"scene": scene_sections(each.row, cost.problem)} if scene else taken
 
 
 def cost_table(cost: Cost) -> "RenderableType":
@@ -123,7 +187,7 @@ def cells(cost: Cost, each: AssessedRow, names: list[str]) -> tuple[str, ...]:
     return (
         row.method.name,
         row.label,
-        integer(measured.solved.unknowns),
+        integer(measured.level.unknowns),
         with_unit(row.seconds(False), "s", 2),
         with_unit(row.seconds(True), "s", 2) if stresses else "",
         with_unit(measured.memory, "byte", 3),
@@ -132,9 +196,10 @@ def cells(cost: Cost, each: AssessedRow, names: list[str]) -> tuple[str, ...]:
 
 
 def _error(cost: Cost, each: AssessedRow, name: str) -> str:
-    error, reference = each.errors.get(name), cost.references[name]
-    if error is None:
+    reference = cost.references[name]
+    if name not in each.errors:
         return "reference" if each.row is reference.row else ""
+    error = each.errors[name].value
     text = f"< {percent(reference.floor)}" if error < reference.floor else percent(error)
     if each.row.status != OK:
         return f"{text} {each.row.status}"

@@ -1,0 +1,169 @@
+"""Many scenes, one table: the points of a grid of scenes, and who solves them.
+
+In: axes, which are names with values, and how a scene takes one value of each. Out: what solving
+finds at every combination, in order, the last axis inside. A point is a task, the work of one
+process on one thread; it is on disk as soon as it is done."""
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from comparisons.common.cache import Cache
+from comparisons.common.errors import InputError, SceneError, one_line
+from comparisons.common.executors import cluster, ranks
+from comparisons.common.files import check_writable
+from comparisons.common.mpi import is_several
+from comparisons.common.processes import ProcessWorker, cores
+from comparisons.common.progress import ProgressCallback, Step
+from comparisons.common.provenance import key_of, program_code, versions
+from comparisons.common.tasks import ProcessEnded, Tasks, called
+from comparisons.models.level_cache import scene_key
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
+from fem.solver.communicator import each_alone
+
+SOLVED, FAILED = "solved", "failed"
+DIED = "the process that solved it died"
+GOES_ON = "finished points are kept, the same command goes on from there"
+
+Value = float | str
+Asked = str | tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Point:
+    """One scene of a grid."""
+
+    at: Mapping[str, Value]  # by axis
+    asked: Asked  # models, or a quantity: what is to be found there
+    scene: Scene | None  # None where there is none with these values
+    why: str | None  # why there is none
+    key: str  # hash of everything that shapes the answer
+
+
+def points_of(
+    axes: Mapping[str, Sequence[Value]],
+    scene_at: Callable[[Mapping[str, Value]], Scene],
+    asked: Asked,
+    code: Sequence[str],
+) -> tuple[Point, ...]:
+    """Every combination of the axes' values, those of the last one inside.
+
+    scene_at  the scene with these values; raises InputError where there is none
+    code      places in the project that shape the answers
+    Raises SceneError where no point has a scene, with what is wrong at the first."""
+    program = [versions(), program_code(*code), asked]
+    points = []
+    for values in itertools.product(*axes.values()):
+        at, scene, why, shape = dict(zip(axes, values, strict=True)), None, None, []
+        try:
+            scene = scene_at(at)
+            shape = scene_key(scene, surface_of(scene))
+        except InputError as error:
+            scene, why = None, str(error)
+        points.append(Point(at, asked, scene, why, key_of(program, shape, why)[:24]))
+    if all(point.scene is None for point in points):
+        raise SceneError(points[0].why)
+    return tuple(points)
+
+
+Solve = Callable[[Point], dict]  # what is found at a point that has a scene
+
+
+def failed(why: str) -> dict:
+    """What is found at a point without an answer."""
+    return {"status": FAILED, "why": one_line(why)}
+
+
+def point_cache(out: Path, what: str) -> Cache:
+    return Cache(out / f"{what}_points", "", {})
+
+
+@contextmanager
+def tasks_by(workers: int | str | None, kept: Cache) -> Iterator[Tasks | None]:
+    """Tasks on so many processes, one a core (None), or on a Dask cluster, by its address. Under
+    mpirun on its ranks: each of these calls this; all but the first work, and get None.
+    Raises InputError for other workers."""
+    if is_several():
+        with ranks() as opens, Tasks(opens, math.inf, kept) as tasks:
+            yield opens and tasks
+        return
+    text = str(cores() if workers is None else workers)
+    if text.isdigit():
+        if int(text) < 1:
+            raise InputError(f"--workers: is {text}; allowed is from 1 on")
+        with Tasks(ProcessWorker, int(text), kept) as tasks:
+            yield tasks
+        return
+    if "://" not in text:
+        raise InputError(
+            f"--workers: is {text!r}; allowed is a number, or a Dask scheduler's address "
+            "such as tcp://host:8786"
+        )
+    with cluster(text) as opens, Tasks(opens, math.inf, kept) as tasks:
+        yield tasks
+
+
+def solved_in(
+    out: Path,
+    files: tuple[str, ...],
+    points: Sequence[Point],
+    solve: Solve,
+    workers: int | str | None,
+    callback: ProgressCallback,
+) -> list[dict] | None:
+    """Solve the points that `out` does not have. Of each what was `found`, and the `seconds` that
+    it took; None in processes that only work for the first one under mpirun.
+
+    files    that are to be written in `out`; the first one's name is what the points are of
+    workers  as `tasks_by` takes them
+    Raises InputError for what cannot be written, KeyboardInterrupt with how to go on."""
+    what = files[0].partition(".")[0]
+    cache = point_cache(out, what)
+    try:
+        with tasks_by(workers, cache) as tasks:
+            if tasks is None:
+                return None
+            check_writable(out, files)
+            cache.remove_leftovers()
+            finish(points, solve, tasks, callback, what)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(GOES_ON) from None
+    return [cache.load(point.key) for point in points]
+
+
+def finish(
+    points: Sequence[Point], solve: Solve, tasks: Tasks, callback: ProgressCallback, what: str
+) -> None:
+    """Solve every point that the tasks do not keep, for them to keep. One that kills its process
+    has failed.
+
+    what  the points are of, for the progress"""
+    keys = dict.fromkeys(point.key for point in points)
+    callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
+    for point in points:
+        tasks.add(point.key, called, answered, solve, point, seconds=1.0)
+    for number, key in enumerate(tasks.as_done(keys), start=1):
+        try:
+            tasks.result(key)
+        except ProcessEnded:
+            tasks.kept.save(key, {"found": failed(DIED), "seconds": None})
+        callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
+
+
+def answered(solve: Solve, point: Point) -> dict:
+    """By this process alone, though it may be one of several. What is refused, and what solvers and
+    numbers run into, is an answer; what is wrong with the machine is raised."""
+    began = perf_counter()
+    try:
+        if point.scene is None:
+            raise InputError(point.why)
+        with each_alone():
+            found = solve(point)
+    except (ValueError, ArithmeticError, RuntimeError) as error:
+        found = failed(str(error) or type(error).__name__)
+    return {"found": found, "seconds": perf_counter() - began}
