@@ -311,7 +311,10 @@ def _yield(old: Mapping) -> Items:
     for n, entry in enumerate(known["by_friction"]):
         at = {"friction": entry["friction"]}
         stated = old["models"][source][n]["uncertainty"]
-        sure = _stated(stated["tau1_max" if entry["from"] == flow.FIELD else "peak_pressure"])
+        from_field = entry["from"] == flow.FIELD
+        sure = _stated(stated["tau1_max" if from_field else "peak_pressure"])
+        if not from_field and old["profile"] is not None:
+            sure = replace(sure, parts=dict(sure.parts) | {"from the peak": flow.FROM_PEAK})
         values = {name: entry[name] for name in flow.QUANTITIES if name in entry}
         limit = {"shakedown_limit": values.pop("shakedown_limit")}
         yield from figures_of(flow.NAME, source, values, sure, at)
