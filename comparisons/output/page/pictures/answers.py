@@ -1,23 +1,20 @@
 """Answers from outside beside the models: pressures of all, and each one's principal shear."""
 
-from operator import sub
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.common.numbers import Scale, plain
 from comparisons.drawing import style
-from comparisons.figures.quantity import LABELS
-from comparisons.output.page.pictures.fields import (
-    DIFFERENCE_COLOURS,
-    LOW,
-    TALL,
-    WIDTH,
-    colour_bar,
-    fill,
-    layout,
+from comparisons.drawing.field import (
+    ColourScale,
+    FieldPanel,
+    draw_fields,
+    height_to_scale,
     round_bands,
+    signed_scale,
 )
+from comparisons.figures.quantity import LABELS
 from comparisons.output.page.pictures.pressures import draw_pressures
 from comparisons.output.page.tables.answers import compared_answers
 from comparisons.studies.answers.answer import ComparedAnswer
@@ -86,17 +83,11 @@ def _shear(outcome: Run, answer: ComparedAnswer) -> style.Picture:
     reference = outcome.runs[answer.reference].finest.stress(stress.friction)
     fields = [each.field.tau1 / hertz.peak_pressure for each in (stress, reference)]
     names = answer.name, LABELS[answer.reference]
-    drawn, places, bars = layout(2, float(np.clip(WIDTH * np.ptp(z) / np.ptp(x), LOW, TALL)))
-    bands = round_bands(fields, signed=False)
-    for place, name, values in zip(places, names, fields, strict=False):
-        shown = fill(place, x, z, values, bands, "viridis", False)
-        place.set_title(name)
-    colour_bar(drawn, bars[0], shown, "τ₁/p₀", bands)
-    difference = sub(*fields)
-    bands = round_bands([difference], signed=True)
-    shown = fill(places[-1], x, z, difference, bands, DIFFERENCE_COLOURS, True)
-    places[-1].set(title=" − ".join(names), xlabel="x/a")
-    colour_bar(drawn, bars[1], shown, "Δτ₁/p₀", bands)
+    panels = [FieldPanel(*panel) for panel in zip(names, fields, strict=True)]
+    scale = ColourScale("τ₁/p₀", round_bands(fields, signed=False))
+    of_two = signed_scale("Δτ₁/p₀", round_bands([fields[0] - fields[1]], signed=True))
+    difference = " − ".join(names), of_two
+    drawn, _ = draw_fields(x, z, panels, scale, height_to_scale(x, z), difference)
     words = f"Principal shear stress τ₁ of {answer.name} and of the {names[1]}, friction "
     words += f"{plain(stress.friction)}, and their difference, striped where negative."
     return style.Picture(source=style.data_uri(drawn), alternative=words, caption=words)

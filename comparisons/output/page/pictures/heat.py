@@ -4,8 +4,8 @@ import numpy as np
 
 from comparisons.common.numbers import scale_of, significant
 from comparisons.drawing import style
+from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
 from comparisons.figures.quantity import LABELS
-from comparisons.output.page.pictures.fields import colour_bar, cross, fill, layout, round_bands
 from comparisons.studies.study import Run
 
 HEIGHT = 1.9  # inches, of a field
@@ -60,14 +60,12 @@ def _surfaces(outcome: Run) -> style.Picture:
 def _below(outcome: Run, body: int) -> style.Picture:
     study, half_width = outcome.data("heat"), outcome.problem.hertz.half_width
     values, name = study.field[body], ("body", "roller")[body]
-    drawn, (place,), (bar,) = layout(1, HEIGHT)
-    x, z, bands = study.x / half_width, study.z / half_width, round_bands([values], signed=False)
-    shown = fill(place, x, z, values, bands, "magma", signed=False)
+    x, z = study.x / half_width, study.z / half_width
     row, column = np.unravel_index(values.argmax(), values.shape)
-    cross(place, x[column], z[row])
     words = f"{name}: largest {significant(values.max())} K at x = {significant(x[column], 3)} a"
-    place.set_title(words)
-    colour_bar(drawn, bar, shown, "rise [K]", bands)
+    panel = FieldPanel(words, values, (x[column], z[row]))
+    scale = ColourScale("rise [K]", round_bands([values], signed=False), "magma")
+    drawn, _ = draw_fields(x, z, [panel], scale, HEIGHT)
     return style.Picture(
         source=style.data_uri(drawn),
         alternative=f"Rise of temperature below the surface of the {name}; {words}.",

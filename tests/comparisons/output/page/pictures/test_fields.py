@@ -7,14 +7,9 @@ import pytest
 from scenes import posed
 from scipy.interpolate import RegularGridInterpolator
 
+from comparisons.drawing.field import colour_bar, fill, layout, round_bands
 from comparisons.drawing.style import drawing
-from comparisons.output.page.pictures.fields import (
-    colour_bar,
-    field_pictures,
-    fill,
-    layout,
-    round_bands,
-)
+from comparisons.output.page.pictures.fields import field_pictures
 from comparisons.studies.study import Run
 
 
