@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Findings
+from comparisons.studies.answers import show
 from comparisons.studies.answers.answer import NAME, QUANTITIES, Answer, ComparedAnswer
 from comparisons.studies.answers.compare import compare_answers
 from comparisons.studies.scatter.figures import NAME as SCATTER
@@ -52,4 +53,6 @@ STUDY = Study(
     applies=lambda solved: bool(solved.problem.scene.answers),
     begin=begin,
     data=ComparedAnswers,
+    blocks=show.blocks,
+    pictures={"answers": show.answer_pictures},
 )

@@ -15,6 +15,7 @@ from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.contact import values_of
+from comparisons.studies.scatter import show
 from comparisons.studies.scatter.figures import NAME, InputScatter, ScatteredFigure
 from comparisons.studies.scatter.samples import solve_samples, solved, values_at
 from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
@@ -122,4 +123,13 @@ def _applies(solved: Solved) -> bool:
     return solved.problem.scene.scatter is not None and "half_plane" in solved.plan.models
 
 
-STUDY = Study(NAME, QUANTITIES, solve, _applies, begin=begin, data=InputScatter)
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=_applies,
+    begin=begin,
+    data=InputScatter,
+    blocks=show.blocks,
+    lines=show.lines,
+)

@@ -20,7 +20,7 @@ from comparisons.drawing.field import (
     round_bands,
     signed_scale,
 )
-from comparisons.drawing.style import Picture, data_uri
+from comparisons.drawing.style import Picture, picture
 from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.studies.study import Run
 
@@ -59,18 +59,14 @@ class FieldView:
     words: str
 
 
-def field_pictures(outcome: Run) -> list[tuple[float, list[Picture]]]:
-    """For every friction coefficient a picture of each component; nothing without fields."""
+def field_pictures(outcome: Run) -> list[Picture]:
+    """Of each component one for every friction coefficient; nothing without fields."""
     window = outcome.window
     if window is None:
         return []
-    height = height_to_scale(window.x, window.z)
-    view = FieldView(len(window.z), height, "under the contact")
-    by_component = [_pictures(outcome, component, view) for component in COMPONENTS]
-    return [
-        (friction, [pictures[k] for pictures in by_component])
-        for k, friction in enumerate(outcome.problem.scene.load.friction)
-    ]
+    view = FieldView(len(window.z), height_to_scale(window.x, window.z), "under the contact")
+    drawn = (_pictures(outcome, component, view) for component in COMPONENTS)
+    return [one for pictures in drawn for one in pictures]
 
 
 def near_surface_pictures(outcome: Run) -> list[Picture]:
@@ -142,13 +138,10 @@ def _picture(
         "x": [round(float(end), 6) for end in x[[0, -1]]],
         "z": [round(float(end), 6) for end in z[[0, -1]]],
     }
-    return Picture(
-        source=data_uri(drawn),
-        alternative=f"{words}, friction {plain(friction)}. {said}.{largest}",
-        caption=(
-            f"{words}, friction {plain(friction)}; + marks the largest value{striped}.{largest}"
-        ),
-        field=json.dumps(pointed),
+    words += f", friction {plain(friction)}"
+    caption = f"{words}; + marks the largest value{striped}.{largest}"
+    return picture(
+        drawn, f"{words}. {said}.{largest}", caption, data=False, field=json.dumps(pointed)
     )
 
 

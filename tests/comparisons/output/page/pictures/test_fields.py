@@ -33,7 +33,7 @@ def test_the_caption_says_where_the_differences_colours_end(wavy_outcome: Run, d
 
     def caption(outcome: Run) -> tuple[str, float]:
         figures, made = drawn_by(field_pictures, outcome)
-        return made[0][1][0].caption, float(scales_of(figures[0])[1].norm.boundaries[-1])
+        return made[0].caption, float(scales_of(figures[0])[1].norm.boundaries[-1])
 
     text, end = caption(wavy_outcome)
     assert f"colours end at ±{end:#.2g} p₀" in text

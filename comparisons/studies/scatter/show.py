@@ -1,23 +1,33 @@
-"""What uncertain inputs do to the half-plane's figures, as a table and in a sentence."""
+"""What uncertain inputs do to the half-plane's figures, on the page and in sentences."""
 
-from comparisons.common.numbers import percent, with_unit
+from comparisons.common.numbers import listed, percent, with_unit
+from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import grouped
-from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.output.page.tables.text import error_text, listed
+from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.studies.scatter.figures import NAME, ScatteredFigure
-from comparisons.studies.study import MODEL_ERROR, Run, TextTable
+from comparisons.studies.study import MODEL_ERROR, Run
 
 LISTED = 2  # inputs of a figure in the table
 SMALL = 1.0 / 3.0  # a model error over what the inputs do, to be called small
 SHORT = {"youngs_modulus": "E", "poissons_ratio": "ν", "_": " "}
+NOTE = """The half-plane on its coarsest pressure elements, {solutions} times with inputs drawn from
+the scene's [scatter] (Sobol's sequence), scaled to the finest: mean, central 95 %, and the
+first-order share of each input in the variance, the largest first (Saltelli et al. 2010). Shares
+that do not add up to 1 belong to inputs that act together.{failures} In the pictures of pressures
+the same 95 % are a band."""
 
 
-def scatter_table(outcome: Run) -> TextTable | None:
-    """A row for each quantity, and each friction coefficient that matters; None without scatter."""
-    if outcome.data(NAME) is None:
-        return None
+def blocks(run: Run) -> list[Block]:
+    spread = run.data(NAME)
+    failures = f" {spread.failed} had no solution, the first because: {spread.why}."
+    note = NOTE.format(solutions=spread.solutions, failures=failures if spread.failed else "")
+    return [Block("inputs", (scatter_table(run), Note(note)), "Uncertain inputs")]
+
+
+def scatter_table(run: Run) -> TextTable:
+    """A row for each quantity, and each friction coefficient that matters."""
     rows = []
-    for same in grouped(outcome.data(NAME).figures, _cells):
+    for same in grouped(run.data(NAME).figures, _cells):
         words, *cells = _cells(same[0])
         rows.append((words, listed(figure.friction for figure in same), *cells))
     head = ("", "friction", "nominal", "mean", "central 95 %", "of nominal", "by input")
@@ -37,32 +47,31 @@ def _cells(figure: ScatteredFigure) -> tuple[str, ...]:
 def largest_shares(figure: ScatteredFigure, most: int = LISTED) -> list[str]:
     """The inputs with the largest total shares of the variance, each with its first-order one."""
     parts = sorted((figure.shares or {}).items(), key=lambda part: -part[1]["total"])
-    found = []
+    shares = []
     for name, part in parts[:most]:
         for long, short in SHORT.items():
             name = name.replace(long, short)
         size = percent(max(part["first"], 0.0), uncertainty=part["first_uncertainty"])
-        found.append(f"{name} {size}")
-    return found
+        shares.append(f"{name} {size}")
+    return shares
 
 
-def scatter_lines(outcome: Run) -> list[str]:
+def lines(run: Run) -> list[tuple[str, str]]:
     """Of every judged figure at the friction coefficient that decides: what the inputs do."""
-    found = []
-    friction = outcome.deciding_friction
-    scatter = outcome.data(NAME)
-    for figure in scatter.figures if scatter else ():
-        if figure.friction == friction and figure.quantity in outcome.problem.scene.tolerances:
+    said, friction = [], run.deciding_friction
+    for figure in run.data(NAME).figures:
+        if figure.friction == friction and figure.quantity in run.problem.scene.tolerances:
             most = ", ".join(largest_shares(figure, 1))
-            found.append(f"{label(figure.quantity)} ±{percent(figure.relative)}, most by {most}")
-    return found
+            text = f"{label(figure.quantity)} ±{percent(figure.relative)}, most by {most}"
+            said.append(("inputs", text))
+    return said
 
 
-def beside_inputs(outcome: Run, quantity: str, friction: float) -> str:
+def beside_inputs(run: Run, quantity: str, friction: float) -> str:
     """How the model error of a figure compares with what inputs do to it; "" if one is unknown."""
-    scatter = outcome.data(NAME)
+    scatter = run.data(NAME)
     figure = scatter and scatter.of(quantity, friction)
-    error = outcome.figures.one(study=MODEL_ERROR, quantity=quantity, friction=friction)
+    error = run.figures.one(study=MODEL_ERROR, quantity=quantity, friction=friction)
     if not figure or error is None:
         return ""
     size = abs(error.value)
