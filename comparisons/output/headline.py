@@ -15,6 +15,7 @@ from comparisons.studies.model_error.account import INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import law_leaned_on
 from comparisons.studies.scatter.figures import NAME as SCATTER
+from comparisons.studies.scatter.figures import by_inputs
 from comparisons.studies.scatter.show import beside_inputs
 from comparisons.studies.study import MODEL_ERROR, Run
 
@@ -136,12 +137,12 @@ def _sentence_of(run: Run) -> str:
 def _inputs(run: Run) -> str:
     """What uncertain inputs do to the figure that decides, where that is more than its tolerance:
     a model error below that is not what a user would see first."""
-    spread, errors = run.data(SCATTER), run.model_errors
-    if spread is None or not errors:
+    if not run.model_errors:
         return ""
-    error = _nearest(errors)
-    figure = spread.of(error.quantity, error.friction)
-    if figure is None or figure.relative <= error.tolerance:
+    error = _nearest(run.model_errors)
+    wanted = {"quantity": error.quantity, "friction": error.friction}
+    figure = run.figures.one(study=SCATTER, **wanted)
+    if figure is None or by_inputs(figure) <= error.tolerance:
         return ""
     return beside_inputs(run, error.quantity, error.friction) + " "
 

@@ -2,9 +2,9 @@
 
 from comparisons.common.numbers import listed, percent, with_unit
 from comparisons.drawing.blocks import Block, Note, TextTable
-from comparisons.figures.figure import grouped
+from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, error_text, label
-from comparisons.studies.scatter.figures import NAME, ScatteredFigure
+from comparisons.studies.scatter.figures import NAME, by_inputs
 from comparisons.studies.study import MODEL_ERROR, Run
 
 LISTED = 2  # inputs of a figure in the table
@@ -27,26 +27,26 @@ def blocks(run: Run) -> list[Block]:
 def scatter_table(run: Run) -> TextTable:
     """A row for each quantity, and each friction coefficient that matters."""
     rows = []
-    for same in grouped(run.data(NAME).figures, _cells):
+    for same in grouped(run.figures.of(study=NAME), _cells):
         words, *cells = _cells(same[0])
         rows.append((words, listed(figure.friction for figure in same), *cells))
     head = ("", "friction", "nominal", "mean", "central 95 %", "of nominal", "by input")
     return TextTable("Half-plane", head, tuple(rows))
 
 
-def _cells(figure: ScatteredFigure) -> tuple[str, ...]:
-    unit = QUANTITIES[figure.quantity].unit
+def _cells(figure: Figure) -> tuple[str, ...]:
+    unit, spread = QUANTITIES[figure.quantity].unit, figure.spread
     nominal, mean, low, high = (
-        with_unit(value, unit) for value in (figure.nominal, figure.mean, *figure.interval)
+        with_unit(value, unit) for value in (figure.value, spread.mean, *spread.interval)
     )
     parts = ", ".join(largest_shares(figure))
     name = label(figure.quantity)
-    return name, nominal, mean, f"{low} to {high}", f"±{percent(figure.relative)}", parts
+    return name, nominal, mean, f"{low} to {high}", f"±{percent(by_inputs(figure))}", parts
 
 
-def largest_shares(figure: ScatteredFigure, most: int = LISTED) -> list[str]:
+def largest_shares(figure: Figure, most: int = LISTED) -> list[str]:
     """The inputs with the largest total shares of the variance, each with its first-order one."""
-    parts = sorted((figure.shares or {}).items(), key=lambda part: -part[1]["total"])
+    parts = sorted((figure.spread.shares or {}).items(), key=lambda part: -part[1]["total"])
     shares = []
     for name, part in parts[:most]:
         for long, short in SHORT.items():
@@ -58,29 +58,30 @@ def largest_shares(figure: ScatteredFigure, most: int = LISTED) -> list[str]:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """Of every judged figure at the friction coefficient that decides: what the inputs do."""
-    said, friction = [], run.deciding_friction
-    for figure in run.data(NAME).figures:
-        if figure.friction == friction and figure.quantity in run.problem.scene.tolerances:
+    said = []
+    for figure in run.figures.of(study=NAME, friction=run.deciding_friction):
+        if figure.quantity in run.problem.scene.tolerances:
             most = ", ".join(largest_shares(figure, 1))
-            text = f"{label(figure.quantity)} ±{percent(figure.relative)}, most by {most}"
+            text = f"{label(figure.quantity)} ±{percent(by_inputs(figure))}, most by {most}"
             said.append(("inputs", text))
     return said
 
 
 def beside_inputs(run: Run, quantity: str, friction: float) -> str:
     """How the model error of a figure compares with what inputs do to it; "" if one is unknown."""
-    scatter = run.data(NAME)
-    figure = scatter and scatter.of(quantity, friction)
-    error = run.figures.one(study=MODEL_ERROR, quantity=quantity, friction=friction)
-    if not figure or error is None:
+    figure, error = (
+        run.figures.one(study=study, quantity=quantity, friction=friction)
+        for study in (NAME, MODEL_ERROR)
+    )
+    if figure is None or error is None:
         return ""
-    size = abs(error.value)
-    if size + error.numerical < SMALL * figure.relative:
+    size, moved = abs(error.value), by_inputs(figure)
+    if size + error.numerical < SMALL * moved:
         how = "is small beside it"
-    elif size - error.numerical > figure.relative:
+    elif size - error.numerical > moved:
         how = "is larger"
     else:
         how = "is of that size"
     shown = error_text(quantity, error.value, error.numerical)
-    moved = f"Your inputs move the {label(quantity)} by ±{percent(figure.relative)}"
-    return f"{moved}: the half-plane's model error of {shown} {how}."
+    inputs = f"Your inputs move the {label(quantity)} by ±{percent(moved)}"
+    return f"{inputs}: the half-plane's model error of {shown} {how}."
