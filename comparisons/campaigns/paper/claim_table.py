@@ -13,8 +13,7 @@ from comparisons.campaigns.paper.claims.judgement import (
     MeasuredNumber,
 )
 from comparisons.common.numbers import MINUS, UNKNOWN, percent, significant
-from comparisons.figures.quantity import LABELS, MODELS, label
-from comparisons.output.page.tables.text import error_text
+from comparisons.figures.quantity import LABELS, MODELS, error_text, label
 from comparisons.output.terminal import PLAIN, STYLES, plain_table
 from comparisons.studies.model_error.catalogue import EFFECTS
 

@@ -4,8 +4,9 @@ import numpy as np
 
 from comparisons.campaigns.paper.pictures.scales import RANGE, Scales, values_of
 from comparisons.common.numbers import decimal, plain, significant
+from comparisons.drawing.field import colour_bar, cross, fill
 from comparisons.drawing.style import COLUMN, Picture, data_uri, figure
-from comparisons.output.page.pictures.fields import Component, colour_bar, cross, fill
+from comparisons.output.page.pictures.fields import Component
 from comparisons.studies.study import Run
 
 LINES = {"colors": "#111111", "linewidths": 0.55, "linestyles": "dashed"}
