@@ -40,14 +40,14 @@ def content_of(cost: Cost) -> dict:
         "rows": [_row(cost, row) for row in cost.rows],
         "recommendations": [
             {
-                "quantity": each.quantity,
-                "tolerance": each.tolerance,
-                "sentence": each.sentence,
-                "half_plane": _taken(cost, each.half_plane),
-                "finite_element": _taken(cost, each.finite_element),
-                "cheapest": _taken(cost, each.cheapest, scene=False),
+                "quantity": chosen.quantity,
+                "tolerance": chosen.tolerance,
+                "sentence": chosen.sentence,
+                "half_plane": _taken(cost, chosen.half_plane),
+                "finite_element": _taken(cost, chosen.finite_element),
+                "cheapest": _taken(cost, chosen.cheapest, scene=False),
             }
-            for each in cost.recommendations
+            for chosen in cost.recommendations
         ],
         "versions": cost.versions,
         "machine": cost.machine,
@@ -109,9 +109,9 @@ def cost_table(cost: Cost) -> "RenderableType":
 
     errors = range(6, len(heads))
     several = [table(0, 1, *errors[k : k + ERRORS]) for k in range(0, len(errors), ERRORS)]
-    parts = [part for each in (table(*range(6)), *several) for part in (each, "")][:-1]
+    parts = [part for rows in (table(*range(6)), *several) for part in (rows, "")][:-1]
     rows = WhatFits(table(*range(len(heads))), tuple(parts))
-    lines = [Text(each.sentence.translate(PLAIN)) for each in cost.recommendations]
+    lines = [Text(chosen.sentence.translate(PLAIN)) for chosen in cost.recommendations]
     small = [*refusals(cost), *notes_of(cost)]
     notes = [Text(line.translate(PLAIN), style="dim") for line in small]
     title = Text(cost.problem.scene.title, style="bold")
@@ -144,7 +144,9 @@ def cost_page(cost: Cost) -> str:
         Path(__file__).parent / "cost.html.j2",
         policy=POLICY,
         title=f"Cost: {cost.problem.scene.title}",
-        recommendations=[(each.sentence, _settings(cost, each)) for each in cost.recommendations],
+        recommendations=[
+            (chosen.sentence, _settings(cost, chosen)) for chosen in cost.recommendations
+        ],
         pictures=pictures,
         head=(*head, *map(label, names)),
         rows=[(row.status, cells(cost, row, names)) for row in cost.rows],
