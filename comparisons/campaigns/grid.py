@@ -39,7 +39,7 @@ class Point:
     """One scene of a grid."""
 
     at: Mapping[str, Value]  # by axis
-    asked: Asked  # models, or a quantity: what is to be found there
+    asked: Asked  # models, or a quantity: what is asked there
     scene: Scene | None  # None where there is none with these values
     why: str | None  # why there is none
     key: str  # hash of everything that shapes the answer
@@ -71,11 +71,12 @@ def points_of(
     return tuple(points)
 
 
-Solve = Callable[[Point], dict]  # what is found at a point that has a scene
+Solve = Callable[[Point], dict]  # the answer at a point that has a scene
+Answer = tuple[dict, float | None]  # with the seconds that it took, where that is known
 
 
 def failed(why: str) -> dict:
-    """What is found at a point without an answer."""
+    """The answer where there is none."""
     return {"status": FAILED, "why": one_line(why)}
 
 
@@ -115,9 +116,9 @@ def solved_in(
     solve: Solve,
     workers: int | str | None,
     callback: ProgressCallback,
-) -> list[dict] | None:
-    """Solve the points that `out` does not have. Of each what was `found`, and the `seconds` that
-    it took; None in processes that only work for the first one under mpirun.
+) -> list[Answer] | None:
+    """Solve the points that `out` does not have. The answer at every point; None in processes that
+    only work for the first one under mpirun.
 
     files    that are to be written in `out`; the first one's name is what the points are of
     workers  as `tasks_by` takes them
@@ -151,11 +152,11 @@ def finish(
         try:
             tasks.result(key)
         except ProcessEnded:
-            tasks.kept.save(key, {"found": failed(DIED), "seconds": None})
+            tasks.kept.save(key, (failed(DIED), None))
         callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
 
 
-def answered(solve: Solve, point: Point) -> dict:
+def answered(solve: Solve, point: Point) -> Answer:
     """By this process alone, though it may be one of several. What is refused, and what solvers and
     numbers run into, is an answer; what is wrong with the machine is raised."""
     began = perf_counter()
@@ -163,7 +164,7 @@ def answered(solve: Solve, point: Point) -> dict:
         if point.scene is None:
             raise InputError(point.why)
         with each_alone():
-            found = solve(point)
+            answer = solve(point)
     except (ValueError, ArithmeticError, RuntimeError) as error:
-        found = failed(str(error) or type(error).__name__)
-    return {"found": found, "seconds": perf_counter() - began}
+        answer = failed(str(error) or type(error).__name__)
+    return answer, perf_counter() - began

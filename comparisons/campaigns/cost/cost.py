@@ -45,12 +45,12 @@ def cost(
     cache.remove_leftovers()
     try:
         problem = _problem(scene, cache, callback)
-        found = assess(problem, measured_study(problem, repeats, cache, callback, methods))
+        study = assess(problem, measured_study(problem, repeats, cache, callback, methods))
         callback("drawing the diagrams")
-        publish(out, dict(zip(FILES, (as_json(content_of(found)), cost_page(found)), strict=True)))
+        publish(out, dict(zip(FILES, (as_json(content_of(study)), cost_page(study)), strict=True)))
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
-    return found
+    return study
 
 
 def _problem(scene: Scene, cache: Cache, callback: ProgressCallback) -> Problem:

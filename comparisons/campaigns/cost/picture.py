@@ -31,19 +31,17 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
     floor = max(reference.floor, LEAST)
     for method in METHODS:
         points = [
-            (each.row.seconds(stresses), max(each.errors[quantity].value, LEAST))
-            for each in cost.assessed
-            if each.row.method.name == method.name
-            and each.row.status == OK
-            and quantity in each.errors
+            (row.seconds(stresses), max(row.errors[quantity].value, LEAST))
+            for row in cost.rows
+            if row.method == method and row.status == OK and quantity in row.errors
         ]
         if points:
             colour, line, mark = LOOKS[method.name]
             look = {"color": colour, "linestyle": line, "marker": mark, "markersize": 4.5}
             axes.plot(*zip(*points, strict=True), linewidth=1.1, label=method.name, **look)
     front = [
-        (each.row.seconds(stresses), max(each.errors[quantity].value, floor))
-        for each in cost.fronts[quantity]
+        (row.seconds(stresses), max(row.errors[quantity].value, floor))
+        for row in cost.fronts[quantity]
     ]
     if front:
         look = {"linestyle": "none", "marker": "o", "markersize": 10.0, "markerfacecolor": "none"}
@@ -73,8 +71,8 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
 
 def _in_words(cost: Cost, quantity: str, stresses: bool) -> str:
     rows = "; ".join(
-        f"{each.row.method.name} {each.row.label} {percent(each.errors[quantity].value)} in "
-        f"{with_unit(each.row.seconds(stresses), 's', 2)}"
-        for each in cost.fronts[quantity]
+        f"{row.method.name} {row.label} {percent(row.errors[quantity].value)} in "
+        f"{with_unit(row.seconds(stresses), 's', 2)}"
+        for row in cost.fronts[quantity]
     )
     return f"Error of the {label(quantity)} over time. Pareto front: {rows}."

@@ -3,7 +3,7 @@
 In: what was measured. Out: every row with its errors, and a sentence for each tolerance."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import takewhile
 from operator import itemgetter
 
@@ -13,7 +13,6 @@ from comparisons.campaigns.cost.study import OK, CostRow, CostRun, measuring_mac
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import given_percent, integer, percent, with_unit
 from comparisons.common.provenance import versions
-from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.finite_element.mesh import COARSER_GROWTH, STEEPEST_GROWTH
 from comparisons.models.problem import FEWEST_ELEMENTS, Problem
@@ -26,32 +25,15 @@ Tolerances = dict[str, float]
 
 
 @dataclass(frozen=True)
-class AssessedRow:
-    """A row with its relative errors by quantity, without those that it has none of."""
-
-    row: CostRow
-    errors: dict[str, Figure]
-
-    def seconds(self, quantities: Iterable[str]) -> float:
-        """Processor time that it takes to know these."""
-        return self.row.seconds(needs_stress(quantities))
-
-    def meets(self, quantities: Iterable[str]) -> bool | None:
-        """Whether every error agrees with none within its tolerance; None where one is unknown."""
-        errors = [self.errors.get(name) for name in quantities]
-        return None if None in errors else all(error.verdict == "agree" for error in errors)
-
-
-@dataclass(frozen=True)
 class Recommendation:
     """For one tolerance, or for all at once, the cheapest row of each model that `run` can solve
     with, and the cheapest of all; None where none meets it."""
 
     quantity: str
     tolerance: float | None
-    half_plane: AssessedRow | None
-    finite_element: AssessedRow | None
-    cheapest: AssessedRow | None
+    half_plane: CostRow | None
+    finite_element: CostRow | None
+    cheapest: CostRow | None
     sentence: str
 
 
@@ -60,11 +42,10 @@ class Cost:
     """A finished study."""
 
     problem: Problem
-    study: CostRun
+    rows: list[CostRow]  # with their errors
     references: dict[str, Reference]  # by quantity
-    assessed: list[AssessedRow]  # every row with its errors
     # the rows on the Pareto front by quantity, the cheapest first
-    fronts: dict[str, list[AssessedRow]]
+    fronts: dict[str, list[CostRow]]
     recommendations: list[Recommendation]  # one a tolerance, the last one for all of them
     versions: dict
     machine: dict
@@ -79,13 +60,12 @@ def assess(problem: Problem, study: CostRun) -> Cost:
     if not known:
         failed = next((row.because for row in study.rows if row.because), "nothing was solved")
         raise SceneError(f"{scene.source}: there is no reference for errors: {failed}")
-    rows = [AssessedRow(row, errors_of(row, known, problem, window)) for row in study.rows]
+    rows = [replace(row, errors=errors_of(row, known, problem, window)) for row in study.rows]
     floors = {name: reference.floor for name, reference in known.items()}
     return Cost(
         problem=problem,
-        study=study,
+        rows=rows,
         references=known,
-        assessed=rows,
         fronts={name: pareto(rows, name, floor) for name, floor in floors.items()},
         recommendations=recommendations(rows, floors, scene.tolerances),
         versions=versions(),
@@ -97,49 +77,50 @@ def needs_stress(quantities: Iterable[str]) -> bool:
     return any(QUANTITIES[name].needs_stress for name in quantities)
 
 
-def pareto(assessed: list[AssessedRow], quantity: str, floor: float) -> list[AssessedRow]:
+def pareto(rows: list[CostRow], quantity: str, floor: float) -> list[CostRow]:
     """Rows than which none is both cheaper and closer, the cheapest first."""
-    best, front = float("inf"), []
-    known = [a for a in assessed if a.row.status == OK and quantity in a.errors]
-    for each in sorted(known, key=lambda a: a.seconds([quantity])):
-        error = max(each.errors[quantity].value, floor)
+    stresses, best, front = needs_stress([quantity]), float("inf"), []
+    known = [row for row in rows if row.status == OK and quantity in row.errors]
+    for row in sorted(known, key=lambda row: row.seconds(stresses)):
+        error = max(row.errors[quantity].value, floor)
         if error < best:
             best = error
-            front.append(each)
+            front.append(row)
     return front
 
 
 def recommendations(
-    assessed: list[AssessedRow], floors: dict[str, float], tolerances: Tolerances
+    rows: list[CostRow], floors: dict[str, float], tolerances: Tolerances
 ) -> list[Recommendation]:
     """By quantities of a known floor of errors; at last for all of them."""
     known = {name: value for name, value in tolerances.items() if name in floors}
     aims = [{name: value} for name, value in known.items()] + [known] * (len(known) > 1)
-    return [_recommendation(assessed, floors, aim) for aim in aims]
+    return [_recommendation(rows, floors, aim) for aim in aims]
 
 
 def _recommendation(
-    assessed: list[AssessedRow], floors: dict[str, float], aim: Tolerances
+    rows: list[CostRow], floors: dict[str, float], aim: Tolerances
 ) -> Recommendation:
-    judged = [(each, each.meets(aim)) for each in assessed if each.row.status == OK]
+    stresses = needs_stress(aim)
+    judged = [(row, row.meets(aim)) for row in rows if row.status == OK]
 
-    def cheapest(rows: Iterable[AssessedRow]) -> AssessedRow | None:
-        return min(rows, key=lambda a: a.seconds(aim), default=None)
+    def cheapest(candidates: Iterable[CostRow]) -> CostRow | None:
+        return min(candidates, key=lambda row: row.seconds(stresses), default=None)
 
-    def steady(*names: str) -> AssessedRow | None:
+    def steady(*names: str) -> CostRow | None:
         """The cheapest of methods that meets the tolerances as all finer ones do: not by chance."""
         candidates = []
         for name in names:
-            rows = reversed([pair for pair in judged if pair[0].row.method.name == name])
+            finest_first = reversed([pair for pair in judged if pair[0].method.name == name])
             # None: itself the reference
-            known = (pair for pair in rows if pair[1] is not None)
-            candidates += [each for each, _ in takewhile(itemgetter(1), known)]
+            known = (pair for pair in finest_first if pair[1] is not None)
+            candidates += [row for row, _ in takewhile(itemgetter(1), known)]
         return cheapest(candidates)
 
     half_plane, finite_element = steady(FINEST.name), steady(*ELEMENTS_OF_RUN)
     best = steady(*(method.name for method in METHODS))
-    below = float("inf") if best is None else best.seconds(aim)
-    lucky = cheapest(each for each, meets in judged if meets and each.seconds(aim) < below)
+    below = float("inf") if best is None else best.seconds(stresses)
+    lucky = cheapest(row for row, meets in judged if meets and row.seconds(stresses) < below)
     name, tolerance = next(iter(aim.items())) if len(aim) == 1 else (ALL, None)
     sentence = _sentence(aim, floors, lucky, half_plane, finite_element, best)
     return Recommendation(name, tolerance, half_plane, finite_element, best, sentence)
@@ -165,8 +146,8 @@ def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
 def _sentence(
     tolerances: Tolerances,
     floors: dict[str, float],
-    lucky: AssessedRow | None,
-    *rows: AssessedRow | None,
+    lucky: CostRow | None,
+    *rows: CostRow | None,
 ) -> str:
     """What to take, and why not the cheapest row.
 
@@ -205,8 +186,8 @@ def _sentence(
     return f"For {aim} {'; '.join(parts)}."
 
 
-def _words(assessed: AssessedRow, tolerances: Tolerances) -> str:
-    row, seconds = assessed.row, assessed.seconds(tolerances)
+def _words(row: CostRow, tolerances: Tolerances) -> str:
+    seconds = row.seconds(needs_stress(tolerances))
     setting = f"at a pitch of {row.label}"
     if row.method.model == "finite_element":
         setting += f", {integer(row.measured.level.unknowns)} unknowns"

@@ -118,7 +118,7 @@ def _norms(
         fields = list(zip(tau1, reference.tau1, strict=True))
     pressures = pressure, reference.pressure
     norms = [pair_norms(pressures, pair, problem, window) for pair in fields]
-    return {name: max(each[name] for each in norms) for name in norms[0]}
+    return {name: max(norm[name] for norm in norms) for name in norms[0]}
 
 
 def _curve(level: Level) -> tuple[np.ndarray, np.ndarray]:
@@ -138,10 +138,10 @@ def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
     tau1: tuple[np.ndarray, ...] = ()
     if window is not None:
         known = [hertz_extremes(hertz, friction) for friction in frictions]
-        values["tau1_max"] = tuple(each.tau1.value for each in known)
-        values["tau1_max_depth"] = tuple(each.tau1.z for each in known)
+        values["tau1_max"] = tuple(extremes.tau1.value for extremes in known)
+        values["tau1_max_depth"] = tuple(extremes.tau1.z for extremes in known)
         values["txz_max_abs"] = tuple(
-            max(abs(each.txz_max.value), abs(each.txz_min.value)) for each in known
+            max(abs(extremes.txz_max.value), abs(extremes.txz_min.value)) for extremes in known
         )
         z = window.z[:, None]
         tau1 = tuple(hertz_stress(hertz, window.x, z, friction).tau1 for friction in frictions)
@@ -162,14 +162,14 @@ def _finest(
         return {}
     row, before = rows[-1], rows[-2]
     check = study.far_boundary_check.get(name)
-    levels = tuple(each.measured.level for each in rows)
+    levels = tuple(known.measured.level for known in rows)
     run = ModelRun(row.method.model, levels, None if check is None else check.level)
     known = [uncertainties(run, problem, friction) for friction in problem.scene.load.friction]
     tau1 = tuple(stress.field.tau1 for stress in run.finest.stresses)
     bare = Reference(f"{name} at {row.label}", 0.0, (), *_curve(run.finest), tau1, row)
     finest = {}
     for quantity in row.measured.values[0]:
-        floor = float(max(each[quantity].total for each in known))
+        floor = float(max(stated[quantity].total for stated in known))
         values = tuple(by_name[quantity] for by_name in row.measured.values)
         finest[quantity] = replace(bare, floor=floor, values=values)
     # norms are of first order: the finest row errs by its distance from the one before

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.cost.picture import cost_picture
-from comparisons.campaigns.cost.recommend import AssessedRow, Cost, Recommendation, scene_sections
-from comparisons.campaigns.cost.study import FAILED, OK
+from comparisons.campaigns.cost.recommend import Cost, Recommendation, scene_sections
+from comparisons.campaigns.cost.study import FAILED, OK, CostRow
 from comparisons.common.numbers import integer, percent, with_unit
 from comparisons.drawing.style import drawing
 from comparisons.figures.quantity import QUANTITIES, label
@@ -37,25 +37,25 @@ def content_of(cost: Cost) -> dict:
             name: {"source": r.source, "values": list(r.values), "uncertainty": r.floor}
             for name, r in ((name, cost.references[name]) for name in names)
         },
-        "rows": [_row(cost, each) for each in cost.assessed],
+        "rows": [_row(cost, row) for row in cost.rows],
         "recommendations": [
             {
-                "quantity": each.quantity,
-                "tolerance": each.tolerance,
-                "sentence": each.sentence,
-                "half_plane": _taken(cost, each.half_plane),
-                "finite_element": _taken(cost, each.finite_element),
-                "cheapest": _taken(cost, each.cheapest, scene=False),
+                "quantity": chosen.quantity,
+                "tolerance": chosen.tolerance,
+                "sentence": chosen.sentence,
+                "half_plane": _taken(cost, chosen.half_plane),
+                "finite_element": _taken(cost, chosen.finite_element),
+                "cheapest": _taken(cost, chosen.cheapest, scene=False),
             }
-            for each in cost.recommendations
+            for chosen in cost.recommendations
         ],
         "versions": cost.versions,
         "machine": cost.machine,
     }
 
 
-def _row(cost: Cost, each: AssessedRow) -> dict:
-    row, measured = each.row, each.row.measured
+def _row(cost: Cost, row: CostRow) -> dict:
+    measured = row.measured
     content = {
         "method": row.method.name,
         "model": row.method.model,
@@ -76,17 +76,17 @@ def _row(cost: Cost, each: AssessedRow) -> dict:
         "repeats": measured.repeats,
         "peak_memory": measured.memory,
         "figures": list(measured.values),
-        "errors": {n: each.errors[n].value if n in each.errors else None for n in cost.references},
-        "best_for": [name for name, front in cost.fronts.items() if each in front],
+        "errors": {n: row.errors[n].value if n in row.errors else None for n in cost.references},
+        "best_for": [name for name, front in cost.fronts.items() if row in front],
     }
 
 
-def _taken(cost: Cost, each: AssessedRow | None, scene: bool = True) -> dict | None:
+def _taken(cost: Cost, row: CostRow | None, scene: bool = True) -> dict | None:
     """Its place in `rows`, and what to write into the scene for it."""
-    if each is None:
+    if row is None:
         return None
-    taken = {"row": cost.assessed.index(each), "method": each.row.method.name}
-    return taken | {"scene": scene_sections(each.row, cost.problem)} if scene else taken
+    taken = {"row": cost.rows.index(row), "method": row.method.name}
+    return taken | {"scene": scene_sections(row, cost.problem)} if scene else taken
 
 
 def cost_table(cost: Cost) -> "RenderableType":
@@ -102,17 +102,16 @@ def cost_table(cost: Cost) -> "RenderableType":
     def table(*columns: int) -> Table:
         first, *numbers = (heads[k] for k in columns)
         made = plain_table(first, numbers=numbers)
-        for each in cost.assessed:
-            style = styles.get(each.row.status, STYLES["inconclusive"])
-            row = cells(cost, each, names)
-            made.add_row(*(Text(row[k].translate(PLAIN), style=style) for k in columns))
+        for row in cost.rows:
+            style, texts = styles.get(row.status, STYLES["inconclusive"]), cells(cost, row, names)
+            made.add_row(*(Text(texts[k].translate(PLAIN), style=style) for k in columns))
         return made
 
     errors = range(6, len(heads))
     several = [table(0, 1, *errors[k : k + ERRORS]) for k in range(0, len(errors), ERRORS)]
-    parts = [part for each in (table(*range(6)), *several) for part in (each, "")][:-1]
+    parts = [part for rows in (table(*range(6)), *several) for part in (rows, "")][:-1]
     rows = WhatFits(table(*range(len(heads))), tuple(parts))
-    lines = [Text(each.sentence.translate(PLAIN)) for each in cost.recommendations]
+    lines = [Text(chosen.sentence.translate(PLAIN)) for chosen in cost.recommendations]
     small = [*refusals(cost), *notes_of(cost)]
     notes = [Text(line.translate(PLAIN), style="dim") for line in small]
     title = Text(cost.problem.scene.title, style="bold")
@@ -145,10 +144,12 @@ def cost_page(cost: Cost) -> str:
         Path(__file__).parent / "cost.html.j2",
         policy=POLICY,
         title=f"Cost: {cost.problem.scene.title}",
-        recommendations=[(each.sentence, _settings(cost, each)) for each in cost.recommendations],
+        recommendations=[
+            (chosen.sentence, _settings(cost, chosen)) for chosen in cost.recommendations
+        ],
         pictures=pictures,
         head=(*head, *map(label, names)),
-        rows=[(each.row.status, cells(cost, each, names)) for each in cost.assessed],
+        rows=[(row.status, cells(cost, row, names)) for row in cost.rows],
         refusals=refusals(cost),
         notes=notes_of(cost),
     )
@@ -157,7 +158,7 @@ def cost_page(cost: Cost) -> str:
 def _settings(cost: Cost, recommendation: Recommendation) -> list[str]:
     """What to write into the scene, as TOML: a line a model."""
     rows = (recommendation.half_plane, recommendation.finite_element)
-    return [_toml(scene_sections(each.row, cost.problem)) for each in rows if each is not None]
+    return [_toml(scene_sections(row, cost.problem)) for row in rows if row is not None]
 
 
 def _toml(sections: dict[str, dict]) -> str:
@@ -179,8 +180,8 @@ def shown(cost: Cost) -> list[str]:
     return [name for name in names if name in cost.references and name not in REDUNDANT]
 
 
-def cells(cost: Cost, each: AssessedRow, names: list[str]) -> tuple[str, ...]:
-    row, measured = each.row, each.row.measured
+def cells(cost: Cost, row: CostRow, names: list[str]) -> tuple[str, ...]:
+    measured = row.measured
     if measured is None:
         return (row.method.name, row.label, row.status, *[""] * (3 + len(names)))
     stresses = cost.problem.scene.stress is not None
@@ -191,26 +192,27 @@ def cells(cost: Cost, each: AssessedRow, names: list[str]) -> tuple[str, ...]:
         with_unit(row.seconds(False), "s", 2),
         with_unit(row.seconds(True), "s", 2) if stresses else "",
         with_unit(measured.memory, "byte", 3),
-        *(_error(cost, each, name) for name in names),
+        *(_error(cost, row, name) for name in names),
     )
 
 
-def _error(cost: Cost, each: AssessedRow, name: str) -> str:
-    reference = cost.references[name]
-    if name not in each.errors:
-        return "reference" if each.row is reference.row else ""
-    error = each.errors[name].value
-    text = f"< {percent(reference.floor)}" if error < reference.floor else percent(error)
-    if each.row.status != OK:
-        return f"{text} {each.row.status}"
-    return text + (MARK if each in cost.fronts[name] else "")
+def _error(cost: Cost, row: CostRow, name: str) -> str:
+    if name not in row.errors:
+        best = cost.references[name].row
+        is_best = best is not None and row.measured is best.measured
+        return "reference" if is_best else ""
+    error, floor = row.errors[name].value, row.errors[name].numerical
+    text = f"< {percent(floor)}" if error < floor else percent(error)
+    if row.status != OK:
+        return f"{text} {row.status}"
+    return text + (MARK if row in cost.fronts[name] else "")
 
 
 def refusals(cost: Cost) -> list[str]:
     return [
         f"{row.method.name} {row.label if row.setting else ''}".strip()
         + f" {row.status}: {row.because}"
-        for row in cost.study.rows
+        for row in cost.rows
         if row.status != OK
     ]
 
@@ -223,7 +225,7 @@ def notes_of(cost: Cost) -> list[str]:
         floor = "" if reference.row is None else f" (known to {percent(reference.floor)})"
         by_source.setdefault(reference.source, []).append(SHORT[name] + floor)
     sources = "; ".join(f"{source}: {', '.join(names)}" for source, names in by_source.items())
-    repeats = max((r.measured.repeats for r in cost.study.rows if r.measured), default=0)
+    repeats = max((r.measured.repeats for r in cost.rows if r.measured), default=0)
     versions = ", ".join(f"{k} {v}" for k, v in cost.versions.items() if v is not None)
     machine = ", ".join(f"{k} {v}" for k, v in cost.machine.items() if v is not None)
     return [

@@ -4,9 +4,9 @@ In: a problem, and a cache of what was measured before. Out: a row for every set
 a row as well. A setting that was measured is not measured again unless scene, program, versions,
 machine or the number of repeats differ; the time it took counts as before."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from comparisons.common.processes import ProcessWorker
 from comparisons.common.progress import ProgressCallback, Step, within
 from comparisons.common.provenance import LEVEL_CODE, key_of, machine, program_code, versions
 from comparisons.common.tasks import ProcessEnded, Tasks, called
+from comparisons.figures.figure import Figure
 from comparisons.models.level_cache import scene_key
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
@@ -54,6 +55,8 @@ class CostRow:
     status: str  # ok | failed | skipped
     because: str | None = None  # why it is not ok
     measured: MeasuredRun | None = None
+    # relative, by quantity; once they are known, and without those that the row has none of
+    errors: Mapping[str, Figure] = field(default_factory=dict)
 
     def seconds(self, stresses: bool) -> float:
         """Processor time of the contact alone, or with the stresses."""
@@ -62,9 +65,12 @@ class CostRow:
 
     @property
     def label(self) -> str:
-        if self.setting is None:
-            return "–"
-        return with_unit(self.setting, "m", 3)
+        return "–" if self.setting is None else with_unit(self.setting, "m", 3)
+
+    def meets(self, quantities: Iterable[str]) -> bool | None:
+        """Whether every error agrees with none within its tolerance; None where one is unknown."""
+        errors = [self.errors.get(name) for name in quantities]
+        return None if None in errors else all(error.verdict == "agree" for error in errors)
 
 
 @dataclass(frozen=True)

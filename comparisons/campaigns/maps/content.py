@@ -11,7 +11,7 @@ from comparisons.campaigns.grid import FAILED, SOLVED
 from comparisons.campaigns.maps.groups import GROUPS, Axis
 from comparisons.campaigns.maps.point import TOLERANCES
 from comparisons.campaigns.maps.request import MapRequest
-from comparisons.campaigns.maps.rule import rules_of
+from comparisons.campaigns.maps.rule import rules_of, values_of
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import HEAT_QUANTITIES, QUANTITIES, label
@@ -27,13 +27,13 @@ SIGNIFICANT, BELOW, INCONCLUSIVE = "significant", "below tolerance", "inconclusi
 SMALLEST = 1e-3  # errors below are drawn, and interpolated, as if on a straight scale
 
 
-def map_content(request: MapRequest, found: list[dict]) -> dict:
-    """map.json, with what was `found` at each point."""
+def map_content(request: MapRequest, answers: list[dict]) -> dict:
+    """map.json, with the answers at its points."""
     points = [
         {"x": point.at[request.x.group], "y": point.at[request.y.group]}
-        | each
-        | significance(each, request.quantity)
-        for point, each in zip(request.points, found, strict=True)
+        | answer
+        | significance(answer, request.quantity)
+        for point, answer in zip(request.points, answers, strict=True)
     ]
     content = {
         "schema": SCHEMA,
@@ -76,9 +76,7 @@ def places(axis: dict) -> np.ndarray:
 
 def differences(content: dict, quantity: str) -> np.ndarray:
     """(ny, nx) relative model errors with their signs, nan where unknown."""
-    found = (point.get("quantities", {}).get(quantity) for point in content["points"])
-    error = [np.nan if each is None else each["difference"] for each in found]
-    return np.reshape(error, (len(content["y"]["values"]), len(content["x"]["values"])))
+    return values_of(content, quantity, "difference")
 
 
 def scaled(error: np.ndarray | float) -> np.ndarray | float:
@@ -106,12 +104,12 @@ def _axis(axis: Axis) -> dict:
     }
 
 
-def significance(found: dict, quantity: str) -> dict:
+def significance(answer: dict, quantity: str) -> dict:
     """How the model error at a solved point compares with its numerical uncertainty: significant,
     it is larger; below tolerance, both together are within the first one; else inconclusive."""
-    if found["status"] != SOLVED:
+    if answer["status"] != SOLVED:
         return {}
-    error = found["quantities"].get(quantity)
+    error = answer["quantities"].get(quantity)
     if error is None or error["uncertainty"] is None:
         return {"error": INCONCLUSIVE}
     if abs(error["difference"]) > error["uncertainty"]:
@@ -146,11 +144,11 @@ def map_table(content: dict, out: Path | None) -> "Group":
         INCONCLUSIVE: "inconclusive",
         FAILED: "failed",
     }
-    found = ", ".join(f"{kinds[kind]} {words}" for kind, words in account.items() if kinds[kind])
+    counts = ", ".join(f"{kinds[kind]} {words}" for kind, words in account.items() if kinds[kind])
     reasons = Counter(point["why"] for point in points if point["status"] == FAILED)
     return Group(
         rules,
-        Text(f"{len(points)} points: {found}"),
+        Text(f"{len(points)} points: {counts}"),
         *(Text(f"failed, {count}: {why}") for why, count in reasons.most_common()),
         Text(f"made by: {content['command']}"),
         *([] if out is None else [Text(f"map: {out / MAP}, {out / PICTURE}")]),

@@ -298,35 +298,35 @@ class Axis:
     def values(self) -> tuple[float, ...]:
         """Ascending; of equal ratios on a logarithmic axis, else of equal differences."""
         spaced = np.geomspace if self.logarithmic else np.linspace
-        found = spaced(self.low, self.high, self.count)
-        return tuple(float(f"{value:.{FIGURES}g}") for value in found)
+        values = spaced(self.low, self.high, self.count)
+        return tuple(float(f"{value:.{FIGURES}g}") for value in values)
 
     def __str__(self) -> str:
         return f"{self.group}={self.low:g}:{self.high:g}"
 
 
-def axis_of(given: str, count: int, option: str) -> Axis:
+def axis_of(text: str, count: int, option: str) -> Axis:
     """The axis that "GROUP" or "GROUP=FROM:TO" means. Raises InputError, which names the `option`,
     for anything else."""
-    found = _AXIS.fullmatch(given)
-    if not found:
-        raise InputError(f"{option}: is {given!r}; allowed is GROUP or GROUP=FROM:TO")
-    name = found[1].replace("-", "_")
+    parts = _AXIS.fullmatch(text)
+    if not parts:
+        raise InputError(f"{option}: is {text!r}; allowed is GROUP or GROUP=FROM:TO")
+    name = parts[1].replace("-", "_")
     if name not in GROUPS:
         near = difflib.get_close_matches(name, GROUPS, n=1, cutoff=0.0)[0]
         raise InputError(
-            f"{option}: there is no group {found[1]}; the nearest is {near}; "
+            f"{option}: there is no group {parts[1]}; the nearest is {near}; "
             f"allowed are {', '.join(GROUPS)}"
         )
     low, high = GROUPS[name].span
-    if found[2]:
+    if parts[2]:
         try:
-            low, high = float(found[2]), float(found[3])
+            low, high = float(parts[2]), float(parts[3])
         except ValueError:
             low = high = np.nan
         if not (0.0 <= low < high < np.inf):
             raise InputError(
-                f"{option}: the range is {found[2]}:{found[3]}; allowed are two numbers, "
+                f"{option}: the range is {parts[2]}:{parts[3]}; allowed are two numbers, "
                 "from 0 on, the smaller one first"
             )
         if low == 0.0 and name != "poissons_ratio":
@@ -334,12 +334,12 @@ def axis_of(given: str, count: int, option: str) -> Axis:
     return Axis(name, low, high, count)
 
 
-def counts_of(given: str) -> tuple[int, int]:
-    found = _POINTS.fullmatch(given)
-    counts = tuple(map(int, found.groups())) if found else ()
+def counts_of(text: str) -> tuple[int, int]:
+    parts = _POINTS.fullmatch(text)
+    counts = tuple(map(int, parts.groups())) if parts else ()
     if not counts or not all(FEWEST <= count <= MOST for count in counts):
         raise InputError(
-            f"--points: is {given!r}; allowed is NxM, from {FEWEST} to {MOST} values each"
+            f"--points: is {text!r}; allowed is NxM, from {FEWEST} to {MOST} values each"
         )
     return counts
 

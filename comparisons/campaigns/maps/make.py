@@ -36,10 +36,10 @@ def make_map(
     answers = solved_in(out, files, request.points, solve_point, workers, callback)
     if answers is None:
         return None
-    content = map_content(request, [answer["found"] for answer in answers])
+    content = map_content(request, [answer for answer, _ in answers])
     callback("map: picture")
-    seconds = {"seconds": [answer["seconds"] for answer in answers]}
-    publish(out, _files(content, marked) | {TIMES: as_json(seconds)})
+    times = {"seconds": [seconds for _, seconds in answers]}
+    publish(out, _files(content, marked) | {TIMES: as_json(times)})
     return content
 
 

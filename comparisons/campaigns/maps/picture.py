@@ -144,8 +144,8 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
             drawn[tolerance] = style
             values = np.ma.masked_invalid(scaled(side * error))
             look = {"colors": "#D55E00", "linewidths": 1.3, "linestyles": [style]}
-            found = axes.contour(x, y, values, levels=[scaled(tolerance)], **look)
-            found.set(path_effects=[Stroke(linewidth=2.6, foreground="white"), Normal()])
+            lines = axes.contour(x, y, values, levels=[scaled(tolerance)], **look)
+            lines.set(path_effects=[Stroke(linewidth=2.6, foreground="white"), Normal()])
     return drawn
 
 

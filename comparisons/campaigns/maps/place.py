@@ -113,19 +113,19 @@ def interpolated(content: dict, quantity: str, x: float, y: float) -> float:
 
 def places_of(problem: Problem) -> tuple[Place, ...]:
     """On as few finished maps as have all groups that the scene has, those with most first."""
-    found = [place for name in finished_names() if (place := place_on(name, problem))]
-    found.sort(key=lambda place: -np.count_nonzero(place.groups))
+    known = [place for name in finished_names() if (place := place_on(name, problem))]
+    known.sort(key=lambda place: -np.count_nonzero(place.groups))
     chosen: list[Place] = []
     covered: set[tuple[bool, str]] = set()
-    for place in found:
+    for place in known:
         content = finished_map(place.name)
         heats = content["quantity"] in HEAT_QUANTITIES
-        own = {
+        groups = {
             (heats, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
         }
-        if own - covered or not (own or chosen):
+        if groups - covered or not (groups or chosen):
             chosen.append(place)
-            covered |= own
+            covered |= groups
     return tuple(chosen)
 
 
@@ -144,14 +144,14 @@ def mark_of(content: dict, problem: Problem) -> Mark:
 
 def first_answer(problem: Problem) -> list[str]:
     """Lines for a user who waits: by the maps, or else by the estimates for a coarse half-plane."""
-    found = places_of(problem)
+    on_maps = places_of(problem)
     beside = {
         "coating": problem.scene.coating,
         "plastic flow": problem.scene.finite_element.plastic,
     }
     off = [name for name, has in beside.items() if has]
-    if found and not off:
-        return [place.text for place in found]
+    if on_maps and not off:
+        return [place.text for place in on_maps]
     level = half_plane_level(problem, problem.pitches[0], None, Stages())
     effects = select_effects(problem, float(level.solution.pressure.max()), ()).estimates
     bounds = []

@@ -59,16 +59,19 @@ def rule_of(content: dict, tolerance: float) -> Rule:
     return max(candidates, key=lambda r: (r.points_inside, r.other_range == whole[r.other_group]))
 
 
+def values_of(content: dict, quantity: str, name: str) -> np.ndarray:
+    """(ny, nx) what is called so of a quantity's errors, nan where it is unknown."""
+    entries = (point.get("quantities", {}).get(quantity) or {} for point in content["points"])
+    values = np.array([entry.get(name) for entry in entries], dtype=float)
+    return values.reshape(len(content["y"]["values"]), len(content["x"]["values"]))
+
+
 def errors(content: dict) -> tuple[np.ndarray, np.ndarray]:
     """(ny, nx) size of the model error, and with its uncertainty added; infinite where unknown."""
-    shape = len(content["y"]["values"]), len(content["x"]["values"])
-    error, worst = np.full(shape, np.inf), np.full(shape, np.inf)
-    for place, point in zip(np.ndindex(shape), content["points"], strict=True):
-        found = point.get("quantities", {}).get(content["quantity"])
-        if found is not None and found["uncertainty"] is not None:
-            error[place] = abs(found["difference"])
-            worst[place] = error[place] + found["uncertainty"]
-    return error, worst
+    names = "difference", "uncertainty"
+    signed, unsure = (values_of(content, content["quantity"], name) for name in names)
+    error = np.where(np.isfinite(unsure), np.abs(signed), np.inf)
+    return error, np.where(np.isfinite(unsure), error + unsure, np.inf)
 
 
 def _rule(
@@ -181,8 +184,8 @@ def _law(
 def _kept(content: dict, tolerance: float) -> str:
     """What a rule keeps within its tolerance, and on which map."""
     where = " and ".join(
-        f"{each['symbol']} = {each['values'][0]:g} to {each['values'][-1]:g}"
-        for each in (content["x"], content["y"])
+        f"{axis['symbol']} = {axis['values'][0]:g} to {axis['values'][-1]:g}"
+        for axis in (content["x"], content["y"])
     )
     label = content["quantity"].replace("_", " ")
     return f"keeps the {label} within {100.0 * tolerance:g} % for {where}"

@@ -79,7 +79,7 @@ def _lines(content: dict, name: str, places: np.ndarray) -> dict[tuple, list[tup
     by the model that the sweep is of, the half-plane where there are both."""
     over, lines = content["over"], {}
     model = "finite_element" if "half_plane" not in content["models"] else "half_plane"
-    swept = any(each["field"] == FRICTION for each in over)
+    swept = any(axis["field"] == FRICTION for axis in over)
     for point in content["points"]:
         at = places[over[0]["values"].index(point["values"][0])]
         for row in point["rows"]:
@@ -92,7 +92,7 @@ def _lines(content: dict, name: str, places: np.ndarray) -> dict[tuple, list[tup
 def _draw_figures(axes: "Axes", content: dict, name: str) -> None:
     places, names = _places(content["over"][0])
     lines = _lines(content, name, places)
-    fields = [*(each["field"] for each in content["over"][1:]), "friction"]
+    fields = [*(axis["field"] for axis in content["over"][1:]), "friction"]
     scale = scale_of([y for line in lines.values() for _, y in line], QUANTITIES[name].unit)
     for number, (other, line) in enumerate(sorted(lines.items(), key=str)):
         x, y = np.array(sorted(line)).T
@@ -136,8 +136,8 @@ def bulge_figure(content: dict) -> "Figure":
 def zone_map_figure(content: dict) -> "Figure":
     """A field for each friction, a column for each value of the first swept field, a row for each
     combination of the others; in it the least mean shear over that of the Hertz zone."""
-    names = [each["field"] for each in content["over"]]
-    over = [each for each in content["over"] if each["field"] != FRICTION]
+    names = [axis["field"] for axis in content["over"]]
+    over = [axis for axis in content["over"] if axis["field"] != FRICTION]
     model = content["models"][0]
     panels: dict[float, dict[tuple, dict]] = {}  # by friction, then by values of the other fields
     for point in content["points"]:
@@ -155,7 +155,7 @@ def zone_map_figure(content: dict) -> "Figure":
         axes.set_title(f"friction {plain(friction)}, {LABELS[model]}")
         axes.tick_params(labelbottom=axes is places[-1])
     places[-1].set_xlabel(over[0]["field"] if over else "")
-    places[0].set_ylabel(", ".join(each["field"] for each in over[1:]))
+    places[0].set_ylabel(", ".join(axis["field"] for axis in over[1:]))
     look = {"marker": "s", "linestyle": "none", "markersize": 7.0}
     keys = [places[0].plot([], [], color=c, label=n, **look)[0] for n, c in COLOURS.items()]
     drawn.legend(handles=keys, loc="lower left", ncols=4, columnspacing=1.0, handlelength=1.0)

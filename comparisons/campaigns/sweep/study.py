@@ -4,6 +4,7 @@ In: a request. Out: sweep.json, a table, pictures; and the scatter for the termi
 
 from collections.abc import Iterable
 from math import isfinite
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -47,7 +48,7 @@ def make_sweep(
     answers = solved_in(out, FILES, request.points, solved, workers, callback)
     if answers is None:
         return None
-    content = sweep_content(request, [answer["found"] for answer in answers])
+    content = sweep_content(request, [answer for answer, _ in answers])
     if all(point["status"] == FAILED for point in content["points"]):
         raise InputError(content["points"][0]["why"])
     from comparisons.campaigns.sweep.pictures import bulge_curve, sweep_picture, zone_map
@@ -61,16 +62,16 @@ def make_sweep(
 
 
 def solved(point: Point) -> dict:
-    """What is found at a point: the rows of its figures, its quiescent zones and its bulges."""
+    """The answer at a point: the rows of its figures, its quiescent zones and its bulges."""
     from comparisons.runs.run import run
 
     outcome = run(point.scene, None, point.asked)
-    found = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), point.scene.name))}
+    answer = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), point.scene.name))}
     if zones := _zones(outcome.found.get(quiescent_zone.NAME)):
-        found[quiescent_zone.NAME] = zones
+        answer[quiescent_zone.NAME] = zones
     if bulges := bulge.bulges_of(outcome.found.get(bulge.NAME)):
-        found[bulge.NAME] = [_bulge(each) for each in bulges]
-    return found
+        answer[bulge.NAME] = list(map(_bulge, bulges))
+    return answer
 
 
 def _zones(findings: Findings | None) -> dict[str, list[dict]]:
@@ -84,11 +85,11 @@ def _zones(findings: Findings | None) -> dict[str, list[dict]]:
     return by_model
 
 
-def _bulge(found: bulge.Bulge) -> dict:
+def _bulge(raised: bulge.Bulge) -> dict:
     """Its figures by name, with the uncertainty of three of them."""
-    values = {name: found.value(name) for name in bulge.QUANTITIES}
-    sizes = {k: _stated(found.figures.get(name))["uncertainty"] for name, k in UNCERTAIN.items()}
-    return {"friction": found.friction} | values | sizes | {"energy_ahead": found.energy_ahead}
+    values = {name: raised.value(name) for name in bulge.QUANTITIES}
+    sizes = {k: _stated(raised.figures.get(name))["uncertainty"] for name, k in UNCERTAIN.items()}
+    return {"friction": raised.friction} | values | sizes | {"energy_ahead": raised.energy_ahead}
 
 
 def _stated(figure: Figure | None) -> dict[str, float | None]:
@@ -98,11 +99,11 @@ def _stated(figure: Figure | None) -> dict[str, float | None]:
     return {"value": figure.value, "uncertainty": size if isfinite(size) else None}
 
 
-def sweep_content(request: SweepRequest, found: list[dict]) -> dict:
+def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
     """sweep.json: points in their order, and the scatter of every figure over all of them."""
     points = [
-        {"values": list(point.at.values()), **each, "rows": list(each.get("rows", ()))}
-        for point, each in zip(request.points, found, strict=True)
+        {"values": list(point.at.values()), **answer, "rows": list(answer.get("rows", ()))}
+        for point, answer in zip(request.points, answers, strict=True)
     ]
     fields = request.fields.items()
     return {
@@ -128,9 +129,9 @@ def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
         for figure in SCATTERED
         if row[figure] is not None
     ]
-    groups = grouped(known, lambda each: each[:3])
+    groups = grouped(known, itemgetter(slice(3)))
     groups.sort(key=lambda group: (order.get(group[0][0], len(order)), group[0][1] or 0.0))
-    return [_spread(*group[0][:3], [each[3] for each in group]) for group in groups]
+    return [_spread(*group[0][:3], [value for *_, value in group]) for group in groups]
 
 
 def _spread(quantity: str, friction: float | None, figure: str, values: list[float]) -> dict:
@@ -149,7 +150,7 @@ def _spread(quantity: str, friction: float | None, figure: str, values: list[flo
 def sweep_csv(content: dict) -> str:
     """A row for each point, friction coefficient and quantity: the swept fields, and the columns of
     `comparisons.output.flat_csv`."""
-    fields = [each["field"] for each in content["over"]]
+    fields = [axis["field"] for axis in content["over"]]
     rows = (
         map(harmless, [*point["values"], *(row[name] for name in COLUMNS)])
         for point in content["points"]
@@ -171,7 +172,7 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
     whys = [point["why"] for point in points if point["status"] == FAILED]
     pictures = [file for name, file in PICTURES.items() if any(name in p for p in points)]
     files = TABLE, PICTURE, *pictures, SWEEP
-    over = " x ".join(f"{len(each['values'])} of {each['field']}" for each in content["over"])
+    over = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in content["over"])
     return Group(
         table,
         Text(f"{len(points)} scenes ({over}), {len(whys)} failed"),

@@ -14,7 +14,7 @@ from comparisons.campaigns.cost.cost import cost
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.recommend import scene_sections
 from comparisons.campaigns.cost.show import cells, content_of, cost_table, shown
-from comparisons.campaigns.cost.study import FOLDER, OK
+from comparisons.campaigns.cost.study import FOLDER, OK, CostRun
 from comparisons.cli import main
 from comparisons.output.terminal import PLAIN
 from comparisons.runs.run import run
@@ -38,10 +38,10 @@ def small(tmp_path_factory):
 class TestWholeStudy:
     def test_every_setting_is_a_row_measured_by_hertz(self, small):
         found, _ = small
-        assert [r.method.name for r in found.study.rows] == ["hats, FFT"] * 3 + ["P2"] * 2
-        for each in found.assessed:
-            assert each.row.status == OK and each.row.measured.repeats == 2
-            peak = each.row.measured.values[0]["peak_pressure"]
+        assert [r.method.name for r in found.rows] == ["hats, FFT"] * 3 + ["P2"] * 2
+        for each in found.rows:
+            assert each.status == OK and each.measured.repeats == 2
+            peak = each.measured.values[0]["peak_pressure"]
             exact = abs(peak / HERTZ.peak_pressure - 1.0)
             assert each.errors["peak_pressure"].value == pytest.approx(exact, rel=1e-6)
             assert 0.0 < exact < 2e-3
@@ -49,7 +49,7 @@ class TestWholeStudy:
 
     def test_time_stages_and_memory(self, small):
         found, _ = small
-        half_plane, finite = (found.study.of(name) for name in ("hats, FFT", "P2"))
+        half_plane, finite = found.rows[:3], found.rows[3:]
         assert set(finite[0].measured.seconds) >= {"mesh", "assembly", "factorisation", "contact"}
         assert 0.0 < half_plane[-1].seconds(True) < finite[-1].seconds(True) < 5.0
         assert 2e7 < half_plane[-1].measured.memory < finite[-1].measured.memory
@@ -61,11 +61,11 @@ class TestWholeStudy:
         choice = found.recommendations[-1]
         assert choice.quantity == "all" and choice.finite_element is not None
         for picked in (choice.half_plane, choice.finite_element):
-            wanted = picked.row.method.model
-            sections = scene_sections(picked.row, found.problem)
+            wanted = picked.method.model
+            sections = scene_sections(picked, found.problem)
             outcome = run(resolved(changed(SMOOTH, **sections)), tmp_path / wanted, (wanted,))
             level = outcome.runs[wanted].levels[sections["resolution"]["levels"] - 1]
-            assert level.grid.pitch == pytest.approx(picked.row.setting, rel=1e-12)
+            assert level.grid.pitch == pytest.approx(picked.setting, rel=1e-12)
             reached = values_of(level, outcome.problem, 0.0)
             for name, exact in (
                 ("peak_pressure", HERTZ.peak_pressure),
@@ -116,7 +116,7 @@ class TestWholeStudy:
         lines = console.export_text().splitlines()
         assert max(map(len, lines)) <= 80
         text = " ".join(" ".join(lines).split())
-        for each in found.assessed:
+        for each in found.rows:
             for cell in cells(found, each, shown(found)):
                 assert " ".join(cell.translate(PLAIN).split()) in text
 
@@ -158,7 +158,8 @@ class TestCommand:
     def test_a_runs_own_files_stay_beside_it(self, small, monkeypatch, tmp_path):
         (tmp_path / "result.json").write_text("{}")
         monkeypatch.setattr(
-            "comparisons.campaigns.cost.cost.measured_study", lambda *a: small[0].study
+            "comparisons.campaigns.cost.cost.measured_study",
+            lambda *a: CostRun(tuple(small[0].rows), {}),
         )
         monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda found: "")
         cost(resolved(SMOOTH), tmp_path, 1)

@@ -147,7 +147,7 @@ class TestGoesOn:
         found = cost(resolved(SMOOTH), out, 1, methods=SMALL)
         assert here.asked[2] == here.asked[3]  # what was stopped is asked again, nothing else
         assert len(set(here.asked)) == 4 == len(here.asked) - 1
-        assert before.items() <= saved(out).items() and len(found.study.rows) == 4
+        assert before.items() <= saved(out).items() and len(found.rows) == 4
 
     def test_a_finished_study_is_there_at_once(self, here, tmp_path):
         cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
@@ -171,7 +171,7 @@ class TestGoesOn:
         monkeypatch.setattr(cost_study, "measure", failing)
         for _ in range(2):
             found = cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
-            assert found.study.rows[-1].because == "MeshError: no mesh"
+            assert found.rows[-1].because == "MeshError: no mesh"
         assert tried == ["P2", "P2"]
 
     def test_the_load_of_an_approach_is_sought_once(self, tmp_path, monkeypatch):

@@ -111,10 +111,10 @@ class TestReference:
         made, rows = study
         found = assess(made, rows)
         for name in ("peak_pressure", "pressure_l2"):
-            *errors, last = (each.errors.get(name) for each in found.assessed)
+            *errors, last = (each.errors.get(name) for each in found.rows)
             assert last is None
             assert errors[0].value > 3.0 * errors[2].value > 0.0
-        texts = cells(found, found.assessed[-1], shown(found))
+        texts = cells(found, found.rows[-1], shown(found))
         assert texts[-1] == "reference"
 
     def test_two_rows_have_no_uncertainty(self, study):

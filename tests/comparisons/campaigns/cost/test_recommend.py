@@ -10,7 +10,7 @@ from scenes import SMOOTH, changed, problem
 from analytic.grid import HatGrid
 from comparisons.campaigns.cost.measure import MeasuredRun, RefusedError
 from comparisons.campaigns.cost.methods import FINEST, METHODS
-from comparisons.campaigns.cost.recommend import AssessedRow, assess, pareto, recommendations
+from comparisons.campaigns.cost.recommend import assess, pareto, recommendations
 from comparisons.campaigns.cost.show import (
     cells,
     content_of,
@@ -55,7 +55,7 @@ def assessed(*rows, tolerance=0.01, floor=0.0):
             bounds=(-tolerance, tolerance),
         )
 
-    return [AssessedRow(made, {"peak_pressure": error(made)}) for made in rows]
+    return [replace(made, errors={"peak_pressure": error(made)}) for made in rows]
 
 
 def chosen(rows, tolerance=0.01, floor=0.0):
@@ -112,7 +112,7 @@ class TestRows:
         rows += [CostRow(BY_NAME["P1"], None, SKIPPED, "does not apply")]
         found = assess(problem(SMOOTH), CostRun(tuple(rows), {}))
         names = shown(found)
-        texts = [cells(found, each, names) for each in found.assessed]
+        texts = [cells(found, each, names) for each in found.rows]
         assert texts[1][-1].endswith("failed") and "skipped" in texts[2]
         assert refusals(found) == ["P2 5.00 µm failed: why", "P1 skipped: does not apply"]
         monkeypatch.setattr(
@@ -122,9 +122,7 @@ class TestRows:
         assert all(f'<tr class="{status}">' in page for status in (OK, FAILED, SKIPPED))
         content = content_of(found)
         assert [r["status"] for r in content["rows"]] == [OK, FAILED, SKIPPED]
-        assert all(
-            each not in front for front in found.fronts.values() for each in found.assessed[1:]
-        )
+        assert all(each not in front for front in found.fronts.values() for each in found.rows[1:])
         assert notes_of(found)
 
     def test_no_reference_is_an_error_of_the_scene(self):
@@ -145,8 +143,8 @@ class TestRecommendation:
             row("P3", 2.0, 0.1, 0.0, status=FAILED),
         )
         front = pareto(rows, "peak_pressure", floor=1e-3)
-        assert [each.row.setting for each in front] == [4.0, 4.0, 2.0, 4.0]
-        assert [each.row.method.name for each in front] == ["P1", "P2", "P1", "P3"]
+        assert [each.setting for each in front] == [4.0, 4.0, 2.0, 4.0]
+        assert [each.method.name for each in front] == ["P1", "P2", "P1", "P3"]
 
     def test_below_the_floor_nothing_is_closer(self):
         rows = assessed(row("P2", 2.0, 1.0, 5e-4), row("P3", 2.0, 2.0, 1e-6))
@@ -156,7 +154,7 @@ class TestRecommendation:
         one = row("P2", 2.0, 1.0, 0.0, stress_seconds=5.0)
         assert (one.seconds(False), one.seconds(True)) == (1.0, 6.0)
         rows = assessed(one, row("P3", 2.0, 2.0, 0.0))
-        assert chosen(rows).finite_element.row is one
+        assert chosen(rows).finite_element is rows[0]
 
     def test_the_cheapest_that_meets_the_tolerance(self):
         rows = assessed(
@@ -168,7 +166,7 @@ class TestRecommendation:
             row("P2", 1.0, 8.0, 2e-4),
         )
         choice = chosen(rows, 0.01)
-        assert choice.half_plane.row is rows[1].row and choice.finite_element.row is rows[4].row
+        assert choice.half_plane is rows[1] and choice.finite_element is rows[4]
         assert choice.sentence == (
             "For 1 % of the peak pressure take the half-plane (hats, FFT at a pitch of 2.00 m: "
             "expect 200 ms); of the finite elements P2 at a pitch of 2.00 m, 100 unknowns: "
@@ -180,7 +178,7 @@ class TestRecommendation:
             row("P2", 4.0, 1.0, 1e-5), row("P2", 2.0, 2.0, 5e-2), row("P2", 1.0, 8.0, 1e-3)
         )
         choice = chosen(rows, 0.01)
-        assert choice.finite_element.row.setting == 1.0
+        assert choice.finite_element.setting == 1.0
         assert choice.sentence.endswith(
             "by chance it is met cheaper by P2 at a pitch of 4.00 m, 100 unknowns: expect 1.0 s, "
             "but a finer one does not."
@@ -193,7 +191,7 @@ class TestRecommendation:
 
     def test_the_floor_counts_as_error(self):
         rows = assessed(row("P2", 4.0, 1.0, 8e-3), row("P2", 2.0, 2.0, 1e-3), floor=5e-3)
-        assert chosen(rows, 0.01, floor=5e-3).finite_element.row.setting == 2.0
+        assert chosen(rows, 0.01, floor=5e-3).finite_element.setting == 2.0
 
     def test_a_reference_that_is_not_good_enough_recommends_nothing(self):
         choice = chosen(assessed(row("P2", 4.0, 1.0, 0.0), floor=0.02), floor=0.02)
@@ -203,7 +201,7 @@ class TestRecommendation:
     def test_cheaper_ones_that_run_does_not_have_are_named(self):
         rows = assessed(row("strips, FFT", 8.0, 0.5, 1e-3), row("P2", 4.0, 1.0, 1e-3))
         choice = chosen(rows, 0.01)
-        assert choice.cheapest.row.method.name == "strips, FFT"
+        assert choice.cheapest.method.name == "strips, FFT"
         assert choice.sentence.endswith(
             "P2 at a pitch of 4.00 m, 100 unknowns: expect 1.0 s; no setting of the half-plane "
             "will do; cheapest of all is strips, FFT at a pitch of 8.00 m: expect 500 ms, "

@@ -182,7 +182,7 @@ def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path):
     cache, solved = point_cache(tmp_path, "map"), Solved()
     with Tasks(partial(ExecutorWorker, Fragile(2, 7)), 2, cache) as tasks:
         finish([point_at(x) for x in range(8)], solved.solve, tasks, no_progress, "map")
-    found = [cache.load(f"key{x}")["found"] for x in range(8)]
+    found = [cache.load(f"key{x}")[0] for x in range(8)]
     for x in (2, 7):
         assert found[x] == {"status": "failed", "why": DIED}
     assert [f["x"] for f in found if f["status"] == "solved"] == [0, 1, 3, 4, 5, 6]

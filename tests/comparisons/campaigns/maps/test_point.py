@@ -28,7 +28,7 @@ COATED_HEAT = {f"coating_{name}": HEAT[f"body_{name}"] for name in STEEL}
 
 
 def found_at(scene: Scene, quantity: str = "peak_pressure") -> dict:
-    return answered(solve_point, Point({}, quantity, scene, None, "key"))["found"]
+    return answered(solve_point, Point({}, quantity, scene, None, "key"))[0]
 
 
 def solved(scene: Scene) -> dict:
