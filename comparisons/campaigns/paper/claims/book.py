@@ -1,23 +1,13 @@
-"""Seireg's (1998) claims on rough contact, and the numbers of its theory that judge them; those
-on heat are judged by `comparisons.campaigns.paper.claims.heat`."""
+"""The numbers of Seireg's (1998) theory of rough contact, solved to eight digits, that judge its
+claims; those on heat are judged by `comparisons.campaigns.paper.claims.heat`."""
 
-import tomllib
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 
 from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.penetration import BOOK_POISSON, relative_penetration
 from analytic.statistics.rough_bodies import RoughContact, bearing_of, rough_contact
-from comparisons.campaigns.paper.claims import heat
-from comparisons.campaigns.paper.claims.judgement import (
-    THEORY,
-    Claim,
-    JudgedClaim,
-    MeasuredNumber,
-    judgement,
-)
 
 SPHERE = 10e-3  # m
 SETS = {
@@ -75,20 +65,3 @@ def peak_pressure(load: float) -> float:
 def penetration_coefficient(kind: str) -> float:
     """Of (q0/E)^2, E the book's."""
     return float(relative_penetration(1.0 - BOOK_POISSON**2, 1.0)[kind])
-
-
-def judged_book() -> tuple[JudgedClaim, ...]:
-    """All of them; the theory is solved to eight digits, its numbers have no uncertainty."""
-    tables = tomllib.loads(Path(__file__).with_name("book.toml").read_text(encoding="utf-8"))
-    return tuple(map(_judged, tables["claim"]))
-
-
-def _judged(table: dict) -> JudgedClaim:
-    def number(name: str, *given: float) -> float:
-        return (globals().get(name) or getattr(heat, name))(*given)
-
-    besides = {words: {THEORY: number(*how)} for words, how in table.pop("besides", {}).items()}
-    numbers = {THEORY: MeasuredNumber(number(*table["reading"]), 0.0)}
-    fields = table | {"confirms": tuple(table["confirms"]), "models": (THEORY,), "exact": True}
-    claim = Claim(**fields, scene="")
-    return JudgedClaim(claim, numbers, besides, *judgement(claim, numbers))

@@ -4,7 +4,7 @@ import numpy as np
 
 from analytic.operators.tangential import CoupledHalfPlane
 from analytic.stress.field import friction_field
-from comparisons.campaigns.paper.claims.readings import LevelView, Reading
+from comparisons.campaigns.paper.claims.readings import LevelView
 from comparisons.models.nearest_operator import solve_on
 from comparisons.studies.comparison import DEEP
 from comparisons.studies.quiescent_zone import QUIET, mean_shear, shear_dip
@@ -13,19 +13,15 @@ WAVES = np.geomspace(0.2, 0.8, 9)  # a
 SEVERITY = 2.0  # p0: the mean pressure that would close the waves, pi E* height / wavelength
 
 
-def bridging_wavelength(friction: float) -> Reading:
+def bridging_wavelength(view: LevelView, friction: float) -> float:
     """Shortest wave [a], a crest under the roller's middle, over whose zone the mean shear falls
     nowhere below QUIET of both maxima; infinite where there is none up to 0.8 a."""
-
-    def reading(view: LevelView) -> float:
-        ratios = np.array([_ratio(view, wave, friction) for wave in WAVES])
-        bridging = np.flatnonzero(ratios >= QUIET)
-        if len(bridging) == 0:
-            return np.inf
-        pair = slice(max(bridging[0] - 1, 0), bridging[0] + 1)
-        return float(np.exp(np.interp(QUIET, ratios[pair], np.log(WAVES[pair]))))
-
-    return reading
+    ratios = np.array([_ratio(view, wave, friction) for wave in WAVES])
+    bridging = np.flatnonzero(ratios >= QUIET)
+    if len(bridging) == 0:
+        return np.inf
+    pair = slice(max(bridging[0] - 1, 0), bridging[0] + 1)
+    return float(np.exp(np.interp(QUIET, ratios[pair], np.log(WAVES[pair]))))
 
 
 def _ratio(view: LevelView, wave: float, friction: float) -> float:
