@@ -13,14 +13,13 @@ from comparisons.campaigns.paper.claims.claim_list import (
     UNRUN,
 )
 from comparisons.campaigns.paper.claims.judgement import JudgedClaim
-from comparisons.campaigns.paper.pictures.depth import axis_pictures
 from comparisons.campaigns.paper.pictures.pressure import pressure_picture, trace_picture
 from comparisons.campaigns.paper.pictures.rough_spheres import (
     real_pressure_picture,
     spheres_picture,
 )
 from comparisons.campaigns.paper.pictures.scales import scales_of
-from comparisons.campaigns.paper.pictures.shear import contour_picture
+from comparisons.campaigns.paper.pictures.stresses import axis_pictures, contour_picture
 from comparisons.common.progress import ProgressCallback
 from comparisons.drawing.style import Picture, drawing
 from comparisons.output.page.pictures.fields import COMPONENTS

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
 
-from comparisons.campaigns.paper.claims import book, heat, readings, waves
+from comparisons.campaigns.paper.claims import book, readings
 from comparisons.campaigns.paper.claims.judgement import THEORY, Claim, Reading
 
 # The scenes that stand for the paper's surfaces, its figures of them, and their names.
@@ -24,21 +24,21 @@ SURFACES = {
 def claims() -> tuple[Claim, ...]:
     """The paper's, in the order of its figures."""
     tables = _tables("claims.toml")
-    listed = [_claim(table, readings, waves) for table in tables["claim"]]
+    listed = [_claim(table, readings) for table in tables["claim"]]
     for scene in (UNRUN, RUN_IN, POLISHED):
         short = scene.removeprefix("ground-")
         words = {"figure": FIGURES[scene], "surface": SURFACES[scene], "short": short}
         words["words"] = short.replace("-", " ")
         for table in tables["rough_surface"]:
             said = {name: _filled(value, words) for name, value in table.items()}
-            listed.append(_claim(said | {"scene": scene}, readings, waves))
+            listed.append(_claim(said | {"scene": scene}, readings))
     return tuple(sorted(listed, key=lambda claim: int(claim.figure.partition("(")[0])))
 
 
 def book_claims() -> tuple[Claim, ...]:
     """Seireg's, whose numbers are of the theory alone."""
     by_theory = {"scene": "", "models": [THEORY], "exact": True}
-    return tuple(_claim(table | by_theory, book, heat) for table in _tables("book.toml")["claim"])
+    return tuple(_claim(table | by_theory, book) for table in _tables("book.toml")["claim"])
 
 
 def _tables(name: str) -> dict:
@@ -50,18 +50,18 @@ def _filled(value: object, words: Mapping[str, str]) -> object:
     return value.format(**words) if isinstance(value, str) else value
 
 
-def _claim(table: dict, *modules: ModuleType) -> Claim:
-    """A claim by its table, with readings of these modules."""
+def _claim(table: dict, module: ModuleType) -> Claim:
+    """A claim by its table, with readings of a module."""
     fields = {name: tuple(v) if isinstance(v, list) else v for name, v in table.items()}
     fields["besides"] = tuple(
-        (words, _reading(modules, *how)) for words, how in table.get("besides", {}).items()
+        (words, _reading(module, *how)) for words, how in table.get("besides", {}).items()
     )
-    return Claim(**fields | {"reading": _reading(modules, *table["reading"])})
+    return Claim(**fields | {"reading": _reading(module, *table["reading"])})
 
 
-def _reading(modules: tuple[ModuleType, ...], name: str, *arguments: float | str) -> Reading:
+def _reading(module: ModuleType, name: str, *arguments: float | str) -> Reading:
     """A function of a view and arguments; of a theory of the arguments alone."""
-    function = next(getattr(module, name) for module in modules if hasattr(module, name))
-    if readings in modules:
-        return lambda view: function(view, *arguments)
-    return lambda _: function(*arguments)
+    function = getattr(module, name)
+    if module is book:
+        return lambda _: function(*arguments)
+    return lambda view: function(view, *arguments)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.stress.field import friction_field
 from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
@@ -22,10 +24,11 @@ from comparisons.campaigns.paper.claims.zones import (
     top_of_zone,
 )
 from comparisons.models.level import Level
+from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import layer_thickness
-from comparisons.studies.quiescent_zone import ShearDip, shear_dip, zone_of
+from comparisons.studies.quiescent_zone import QUIET, ShearDip, mean_shear, shear_dip, zone_of
 
 NEAR, DEEP = 0.1, 0.5  # a: asperities shear above the one, the smooth contact below the other
 AGREEMENT = 0.05  # of the smooth maximum: fields nearer to each other than that agree
@@ -34,6 +37,10 @@ SLIDING = 0.1  # friction of the paper's sliding contacts
 ACROSS = np.array([0.0, 0.25, 0.48, 0.5, 0.52, 0.75])  # elements: both sides of edges too
 SHALLOWEST = 0.02  # sampling intervals: the least depth at which the sum of elements is read
 EDGE = 0.9  # a: farther out the elements' error at the edge of the contact shows
+# Waves of a body that may bridge the quiescent zone [a]; their severity [p0] is the mean pressure
+# that would close them, pi E* height / wavelength.
+WAVES = np.geomspace(0.2, 0.8, 9)
+SEVERITY = 2.0
 
 
 @dataclass(frozen=True)
@@ -209,6 +216,34 @@ def joined_share(view: LevelView, friction: float) -> float:
     part = _near(view) & (np.abs(view.x) <= 1.0)
     level = HALF * view.smooth_maximum
     return share_joined(tau1, view.weights, level, _hertz_zone(view, tau1), part)
+
+
+def bridging_wavelength(view: LevelView, friction: float) -> float:
+    """Shortest wave [a], a crest under the roller's middle, over whose zone the mean shear falls
+    nowhere below QUIET of both maxima; infinite where there is none up to 0.8 a."""
+    ratios = np.array([_bridging_ratio(view, wave, friction) for wave in WAVES])
+    bridging = np.flatnonzero(ratios >= QUIET)
+    if len(bridging) == 0:
+        return np.inf
+    pair = slice(max(bridging[0] - 1, 0), bridging[0] + 1)
+    return float(np.exp(np.interp(QUIET, ratios[pair], np.log(WAVES[pair]))))
+
+
+def _bridging_ratio(view: LevelView, wave: float, friction: float) -> float:
+    """Least mean shear over the smaller maximum, under waves [a] on the view's smooth body."""
+    problem, grid, window = view.problem, view.level.grid, view.window
+    hertz, length = problem.hertz, wave * problem.hertz.half_width
+    height = SEVERITY * hertz.peak_pressure * length / (np.pi * problem.modulus)
+    weighted_gap = grid.hat_integrals(
+        lambda x: problem.gap(x) - height * np.cos(2.0 * np.pi * x / length), problem.knots
+    )
+    operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, 0.0)
+    pressure = solve_on(operator, weighted_gap, grid.weights, problem.constraints()).pressure
+    spacing = window.subdivisions(grid.pitch), "hat", window.stride(grid.pitch)
+    points = (window.x[0], window.x[-1]), window.z[view.rows]
+    field = friction_field(grid.x, pressure, *points, *spacing).at(friction)
+    shear = mean_shear(problem, window, field.stress.tau1, view.every)
+    return shear_dip(field.z, shear, DEEP * hertz.half_width).ratio
 
 
 def edge_ratio(view: LevelView) -> float:

@@ -14,16 +14,15 @@ from comparisons.campaigns.paper import reproduce
 from comparisons.campaigns.paper.claims.claim_list import FIGURES, SCENES, book_claims, claims
 from comparisons.campaigns.paper.claims.judgement import OUTCOMES
 from comparisons.campaigns.paper.claims.readings import SLIDING
-from comparisons.campaigns.paper.pictures import depth as depth_pictures
 from comparisons.campaigns.paper.pictures import pressure as pressure_pictures
-from comparisons.campaigns.paper.pictures import shear as shear_pictures
+from comparisons.campaigns.paper.pictures import stresses as stress_pictures
 from comparisons.campaigns.paper.reproduce import FRICTIONS, Fineness
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.figures.quantity import LABELS, MODELS
 
 COARSE = Fineness(pitch=80e-6, points=(40, 20))
 PICTURES = 1 + 2 + 3 * len(SCENES) + 4 + 2
-DRAWING = (pressure_pictures, shear_pictures, depth_pictures)
+DRAWING = (pressure_pictures, stress_pictures)
 
 
 class Page(HTMLParser):
@@ -162,7 +161,7 @@ class TestPictures:
         assert "25 µm" in [text.get_text() for text in axes.texts]
 
     def test_shear_has_one_scale_for_all_surfaces(self, made):
-        drawn = made.figures["shear"]
+        _, _, *drawn = made.figures["stresses"]
         assert len(drawn) == 2 * len(SCENES)
         for contours in (drawn[::2], drawn[1::2]):  # orthogonal, principal
             bars = [figure.axes[-1] for figure in contours]
@@ -174,7 +173,7 @@ class TestPictures:
                 assert any(t.get_text().endswith("/p₀") for t in figure.axes[-1].texts)
 
     def test_depth_sections_carry_units_and_both_models(self, made):
-        first, near = made.figures["depth"]
+        first, near, *_ = made.figures["stresses"]
         for figure in (first, near):
             axes = figure.axes[0]
             assert (axes.get_xlabel(), axes.get_ylabel()) == ("stress/p₀", "z/a")

@@ -13,7 +13,6 @@ from analytic.grid import HatGrid
 from analytic.stress.points import stress_at
 from analytic.stress_state import Extremum, StressState
 from comparisons.campaigns.paper.claims import readings as r
-from comparisons.campaigns.paper.claims import waves
 from comparisons.campaigns.paper.claims.zones import (
     agreement_depth,
     joining_level,
@@ -190,10 +189,10 @@ class TestReadings:
         window = window_of(posed)
         level = half_plane_level(posed, posed.pitches[0], window, Stages())
         view = r.LevelView("half_plane", posed, level, window)
-        found = [waves.bridging_wavelength(view, mu) for mu in (0.0, 0.1, 0.3)]
+        found = [r.bridging_wavelength(view, mu) for mu in (0.0, 0.1, 0.3)]
         assert found[0] == pytest.approx(0.362, abs=0.01)
         assert found[1] == pytest.approx(0.342, abs=0.01)
-        assert found[2] == waves.WAVES[0]  # every wave
+        assert found[2] == r.WAVES[0]  # every wave
 
     def test_edge_ratio_follows_the_shear_there(self):
         view = view_of({0.0: smooth_tau1(), 0.1: 1.25 * smooth_tau1()})

@@ -1,15 +1,22 @@
-"""Normal stresses on the axis: the paper's figure 5."""
+"""Stresses below a surface: normal ones on the axis, the paper's figure 5; contours of the shear
+stresses, which the paper also shows as landscapes."""
 
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
 from comparisons.campaigns.paper.claims.readings import LevelView
+from comparisons.campaigns.paper.pictures.scales import RANGE, Scales, values_of
+from comparisons.common.numbers import decimal, plain, significant
 from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, figure
 from comparisons.figures.quantity import LABELS
+from comparisons.output.page.pictures.fields import Component, colour_bar, cross, fill
 from comparisons.studies.study import Run
 
 SHALLOW = 0.1  # a, of figure 5(b)
 SIGMA = {"sx": ("σx", "#0072B2"), "sz": ("σz", "#D55E00")}
+LINES = {"colors": "#111111", "linewidths": 0.55, "linestyles": "dashed"}
+TALL = (COLUMN - 0.75) / (2.0 * RANGE)  # inches: a half-width is as long down as along
+FOOT, TITLE, BAR = 0.86, 0.3, 0.1  # inches
 
 
 def axis_pictures(smooth: Run) -> list[Picture]:
@@ -60,5 +67,49 @@ def _axis_picture(smooth: Run, depth: float, low: float, high: float) -> Picture
         caption=(
             f"Normal stresses on the axis of the smooth contact{near}; lines are exact (the "
             "paper's equations 6a and 6b), marks computed. Compression is negative."
+        ),
+    )
+
+
+def contour_picture(outcome: Run, component: Component, scales: Scales, of: str) -> Picture:
+    """A component at every friction coefficient: half-plane in bands, finite elements in lines."""
+    hertz, window = outcome.problem.hertz, outcome.window
+    x, z = window.x / hertz.half_width, window.z / hertz.half_width
+    near = np.abs(window.x) <= 1.01 * RANGE * hertz.half_width
+    frictions = outcome.problem.scene.load.friction
+    bands = scales.bands[component.name]
+    total = FOOT + len(frictions) * (TALL + TITLE)
+    drawn = figure(COLUMN, total)
+    found = []
+    for place, friction in enumerate(frictions, start=1):
+        low = total - place * (TALL + TITLE)
+        axes = drawn.add_axes((0.62 / COLUMN, low / total, 2 * RANGE * TALL / COLUMN, TALL / total))
+        values = values_of(outcome, component, "half_plane", friction)
+        shown = fill(axes, x, z, values, bands, component.colours, component.signed)
+        lines = values_of(outcome, component, "finite_element", friction)
+        axes.contour(x[near], z, lines[:, near], levels=bands, **LINES)
+        axes.set(xlim=(-RANGE, RANGE), xticks=np.arange(-1.0, 1.01, 0.5))
+        extreme = outcome.runs["half_plane"].finest.stress(friction).extremes[component.name]
+        at = extreme.x / hertz.half_width, extreme.z / hertz.half_width
+        cross(axes, *at)
+        largest = significant(abs(extreme.value) / hertz.peak_pressure, 3)
+        found.append(
+            f"friction {plain(friction)}: largest {largest} p₀ at x = {decimal(at[0], 2)} a, "
+            f"z = {significant(at[1], 2)} a"
+        )
+        axes.set_title(found[-1])
+        axes.tick_params(labelbottom=place == len(frictions))
+    axes.set_xlabel("x/a")
+    bar = drawn.add_axes((1.1 / COLUMN, 0.3 / total, (COLUMN - 1.3) / COLUMN, BAR / total))
+    colour_bar(drawn, bar, shown, f"{component.symbol}/p₀", bands)
+    words = f"{component.words.capitalize()} {component.symbol} below the {of}"
+    return Picture(
+        source=data_uri(drawn),
+        alternative=f"Contours. {words}. {'; '.join(found)}.",
+        caption=(
+            f"{words}: colours are the half-plane's, dashed lines the finite elements' at the "
+            f"bounds of the colours; + marks the largest amount"
+            f"{', stripes what is negative' if component.signed else ''}. Sliding acts on the body "
+            "towards +x."
         ),
     )
