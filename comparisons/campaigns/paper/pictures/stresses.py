@@ -12,19 +12,15 @@ from comparisons.figures.quantity import LABELS
 from comparisons.output.page.pictures.fields import Component, colour_bar, cross, fill
 from comparisons.studies.study import Run
 
-SHALLOW = 0.1  # a, of figure 5(b)
+SHALLOW, LOWEST = 0.1, -1.02  # of figure 5(b) [a], and of both [p0]
 SIGMA = {"sx": ("σx", "#0072B2"), "sz": ("σz", "#D55E00")}
 LINES = {"colors": "#111111", "linewidths": 0.55, "linestyles": "dashed"}
 TALL = (COLUMN - 0.75) / (2.0 * RANGE)  # inches: a half-width is as long down as along
 FOOT, TITLE, BAR = 0.86, 0.3, 0.1  # inches
 
 
-def axis_pictures(smooth: Run) -> list[Picture]:
-    """Figures 5(a) and 5(b): normal stresses on the axis, down to 1 a and down to SHALLOW."""
-    return [_axis_picture(smooth, 1.0, -1.02, 0.0), _axis_picture(smooth, SHALLOW, -1.02, -0.76)]
-
-
-def _axis_picture(smooth: Run, depth: float, low: float, high: float) -> Picture:
+def axis_picture(smooth: Run, depth: float, high: float) -> Picture:
+    """Figure 5: normal stresses on the axis down to `depth` [a], from LOWEST to `high` [p0]."""
     hertz = smooth.problem.hertz
     drawn = figure(COLUMN, 3.7)
     axes = drawn.add_axes((0.13, 0.125, 0.83, 0.745))
@@ -54,7 +50,7 @@ def _axis_picture(smooth: Run, depth: float, low: float, high: float) -> Picture
         axes.axhline(pitch, color="#555555", linestyle="-.", linewidth=0.9)
         look = {"textcoords": "offset points", "ha": "right", "size": 8}
         axes.annotate("one pressure element", (high, pitch), (-4, 3), **look)
-    axes.set(xlim=(low, high), ylim=(depth, 0.0), xlabel="stress/p₀", ylabel="z/a")
+    axes.set(xlim=(LOWEST, high), ylim=(depth, 0.0), xlabel="stress/p₀", ylabel="z/a")
     place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
     axes.legend(ncols=2, handlelength=1.0, **place)
     near = " near the surface" if depth <= SHALLOW else ""
