@@ -15,8 +15,8 @@ from analytic.exact.sliding import sliding_from_load
 from analytic.material import dundurs_constants
 from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
 from comparisons.campaigns.robustness.bodies import MOST_STEPS, finite_element_findings
+from comparisons.campaigns.robustness.half_plane import flowed_figure
 from comparisons.campaigns.robustness.loaded_contact import deviation, peak_and_length
-from comparisons.campaigns.robustness.smooth import flowed_figure
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure
 from comparisons.models.finite_element.level import finite_element_level

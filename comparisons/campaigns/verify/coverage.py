@@ -173,7 +173,7 @@ class Pair:
 
 def pairs_of(row: Row) -> list[Pair]:
     """The figures of a row that have an exact value."""
-    known = grouped(row.answer.figures, lambda figure: (figure.study, figure.quantity))
+    known = grouped(row.figures, lambda figure: (figure.study, figure.quantity))
     case = row.case.group, row.case.name
     return [Pair(*case, *both) for both in known if both[-1].source == EXACT]
 
@@ -235,7 +235,7 @@ def order_cases(rows: Iterable[Row]) -> list[Case]:
     """Orders of the figures of Hertz's contact and of all pressures, where there are enough."""
     errors: dict[tuple[str, str], list[Sequence[float]]] = {key: [] for key in ORDERS}
     for row in rows:
-        for figure in row.answer.figures:
+        for figure in row.figures:
             if figure.quantity == PRESSURE:
                 errors[figure.source, PRESSURE].append(figure.levels)
         for pair in pairs_of(row):

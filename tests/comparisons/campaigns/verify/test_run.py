@@ -115,7 +115,7 @@ class TestCases:
         row = carried_out(scene_cases([scene])[0])
         assert [pair.quantity for pair in pairs_of(row)] == list(scene.exact)
         assert row.holds and all(len(pair.figure.levels) == 3 for pair in pairs_of(row))
-        (pressure,) = (f.levels for f in row.answer.figures if f.quantity == PRESSURE)
+        (pressure,) = (f.levels for f in row.figures if f.quantity == PRESSURE)
         assert pressure[-1] < 0.02 and len(pressure) == 3
 
 
@@ -124,12 +124,12 @@ def test_processes_find_what_one_finds(monkeypatch):
     contacts = operator_contacts()[:4]
     cases = scene_cases(half_plane_scenes(rounds=1)[:4]) + operator_cases(contacts, spread(4))
     process = Case("", "process", "half_plane", partial(eval, PROCESS))
-    alone = [carried_out(case).answer.figures for case in cases]
+    alone = [carried_out(case).figures for case in cases]
     for worth in ("WORTH_A_FORK", "WORTH_A_START"):
         monkeypatch.setattr(tasks, worth, 0.0)
     *beside, last = rows_of([*cases, process])
     assert [row.case for row in beside] == cases
-    assert [row.answer.figures for row in beside] == alone
+    assert [row.figures for row in beside] == alone
     alone = len(os.sched_getaffinity(0)) == 1
     assert (last.judged[0].value == os.getpid()) == alone
 
@@ -174,7 +174,7 @@ class TestWhole:
         impossible = replace(scene, tables=scene.tables | {"resolution": {"pitch": 1.0}})
         scope = Scope(tuple(scene_cases((impossible, scene))), fewest=0, fewest_rough=0)
         found = verify(tmp_path, scope=scope)
-        assert found.rows[0].answer.error is not None and len(found.pairs) == len(scene.exact)
+        assert found.rows[0].error is not None and len(found.pairs) == len(scene.exact)
         assert found.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 
