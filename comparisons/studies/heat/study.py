@@ -190,5 +190,6 @@ STUDY = Study(
     data=HeatStudy,
     blocks=show.blocks,
     pictures=show.PICTURES,
+    files=show.files,
     lines=show.lines,
 )
