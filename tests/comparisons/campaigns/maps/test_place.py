@@ -120,7 +120,7 @@ def test_a_scene_on_no_map_gets_bounds_by_estimates():
 
 
 def test_a_finished_map_is_shown_and_not_solved(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.campaigns.grid.finish", None)
+    monkeypatch.setattr("comparisons.campaigns.maps.make.solved_in", None)
     out = tmp_path / "map"
     asked = ["map", "curvature-thickness", "--quantity", "contact_length", "--out", str(out)]
     assert main([*asked, "--mark", "smooth"]) == 0
