@@ -1,17 +1,55 @@
-"""Scene, plan, both models, uncertainty, verdicts, report and the command line."""
+"""Scene in, figures out: what notebooks and scripts need, each loaded when it is used first.
 
-from typing import TYPE_CHECKING
+    import comparisons as crosscheck
 
-if TYPE_CHECKING:
-    from comparisons.scenes.scene import Scene
+A scene is read, made of tables as TOML has them, and changed; texts carry units, numbers are SI.
 
-__all__ = ["Scene"]
+>>> steel = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
+>>> scene = crosscheck.Scene.of({
+...     "title": "Steel on steel",
+...     "roller": {"radius": "8.2 mm", **steel},
+...     "body": steel,
+...     "load": {"hertz_peak_pressure": "1 GPa", "friction": [0.0, 0.1]},
+...     "stress": {"points": [60, 20]},
+... })
+>>> sliding = scene.changed("load.friction", 0.2)
+>>> sliding.load.friction
+(0.2,)
+
+It is solved by one model or by both; each figure has its uncertainty, and a verdict where it is
+judged. Nothing is written unless a folder is given.
+
+>>> run = crosscheck.run(scene, models="half-plane")
+>>> peak = run.figure("peak_pressure", "half-plane", friction=0.1)
+>>> round(peak.value / 1e9, 4), peak.verdict
+(1.0, None)
+
+Results print as the tables of the command line; in a notebook they are shown as such.
+
+>>> print(run)  # doctest: +ELLIPSIS
+Steel on steel
+...
+peak pressure   0, 0.1  1.000 GPa ...
+
+`run.figures` are all of them, `run.figures.rows` records of them, `run.plot` draws.
+
+>>> axes = run.plot.pressure()
+>>> axes[0].get_ylabel()
+'p/p₀'
+>>> [round(f.value, 3) for f in run.figures.of(quantity="contact_ratio")]
+[1.0, 1.0]"""
+
+from importlib import import_module
+
+# By name, the module that has it.
+PUBLIC = {
+    "Scene": "comparisons.scenes.scene",
+    **dict.fromkeys(("compare", "cost", "map", "read", "run", "sweep"), "comparisons.notebook"),
+}
+__all__ = list(PUBLIC)
 
 
 def __getattr__(name: str) -> object:
-    """What is public, loaded when it is asked for."""
-    if name not in __all__:
+    if name not in PUBLIC:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from comparisons.scenes.scene import Scene
-
-    return Scene
+    return getattr(import_module(PUBLIC[name]), name)

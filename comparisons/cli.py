@@ -28,8 +28,9 @@ WATCHED = {
     "run": "finished levels are kept, the same command goes on from there",
     "rerun": "nothing was changed, the same command starts again",
     **dict.fromkeys(
-        ("stability", "verify", "paper"), "nothing was written, the same command starts again"
+        ("stability", "verify"), "finished cases are kept, the same command goes on from there"
     ),
+    "paper": "nothing was written, the same command starts again",
 }
 # Options that name a place. An empty one, as an unset variable leaves it, would mean the working
 # folder and replace what stands there.

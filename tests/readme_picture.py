@@ -12,12 +12,13 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from comparisons.common.numbers import Scale, percent, plain, significant
+from comparisons.drawing.field import colour_bar, cross, fill, round_bands
 from comparisons.drawing.style import drawing, figure, stacked
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.output.page.pictures.fields import colour_bar, cross, fill, round_bands
-from comparisons.output.page.pictures.pressures import draw_difference, draw_pressures
+from comparisons.output.page.pictures.pressures import draw_difference
 from comparisons.output.page.pictures.surfaces import draw_surfaces
-from comparisons.output.page.tables.model_error import moved_text
+from comparisons.studies.contact import draw_pressures
+from comparisons.studies.model_error.show import moved_text
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:

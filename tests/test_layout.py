@@ -39,8 +39,8 @@ ROOMS = {
     "analytic": "running_in exact heat layers statistics contact stress operators surface "
     "grid profile stress_state material numerics",
     "fem": "heat nonlinear contact compliance stress body solver compat",
-    "comparisons": "cli commands api campaigns runs output studies drawing models scenes figures "
-    "common",
+    "comparisons": "cli commands notebook campaigns runs output studies drawing models scenes "
+    "figures common",
 }
 MOST_ENTRIES = 16  # of a folder
 HEAVY = {

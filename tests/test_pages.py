@@ -3,13 +3,20 @@
 import re
 import shlex
 from pathlib import Path
+from typing import get_args
 
 import pytest
+from pydantic.fields import FieldInfo
 
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
+from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
+from comparisons.notebook import run
+from comparisons.scenes.fields import SceneSection, allowed
 from comparisons.scenes.finite_element import HELD_BLOCK
+from comparisons.scenes.profile import FILTER, VARIETIES
 from comparisons.scenes.scene import Origin, Scene
+from comparisons.studies import STUDIES
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.error_budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE
@@ -32,6 +39,53 @@ def rows(page: str, heading: str) -> list[list[str]]:
     return found
 
 
+def every_row(page: str, heading: str) -> list[list[str]]:
+    """Those of all tables whose first column is called `heading` and whose third `allowed`."""
+    found, inside = [], False
+    for line in TEXT[page].splitlines():
+        if line.startswith(f"| {heading} | is | allowed |"):
+            inside = True
+        elif not line.startswith("|"):
+            inside = False
+        elif inside and not line.startswith("| ---"):
+            found.append([cell.strip() for cell in line.removesuffix("|")[1:].split(" | ")])
+    return found
+
+
+def model_of(section: str) -> type[SceneSection]:
+    """The class of a scene's section; of a table of sections theirs."""
+    waiting = [Scene.model_fields[section].annotation]
+    while waiting:
+        kind = waiting.pop()
+        if isinstance(kind, type) and issubclass(kind, SceneSection):
+            return kind
+        waiting += get_args(kind)
+    raise LookupError(section)
+
+
+def short(words: str) -> str:
+    """What a field may hold, without how to write a unit."""
+    without = re.sub(r': a number in [^ ]+ or "[^"]*"', "", words)
+    return without.replace("a string of one line, ", "")
+
+
+def shown(field: FieldInfo) -> str:
+    """A default as the page has it; empty without one, or where it follows from other fields."""
+    value = field.default
+    if field.is_required() or value is None:
+        return "needed" if field.is_required() else ""
+    value = value.plain() if hasattr(value, "plain") else value
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, tuple):
+        value = list(value) if len(value) > 1 else value[0]
+    return f"`{value:g}`" if isinstance(value, float) else f"`{value}`"
+
+
+NAMES = re.compile(r"`(\w+)`").findall
+TABLES = [name for name in Scene.model_fields if name != "title"]
+
+
 @pytest.mark.parametrize("name", PAGES)
 def test_links_lead_somewhere_and_the_readme_leads_here(name):
     for path, text in ((PAGES[name], TEXT[name]), (PROJECT / "README.md", README)):
@@ -50,9 +104,13 @@ def test_commands_are_the_programs(name):
 
     from comparisons.cli import app
 
-    known = set(get_command(app).commands) | {"test"}
-    for command in re.findall(r"`\./crosscheck ([^`]+)`", TEXT[name]):
-        assert shlex.split(command)[0] in known
+    commands = get_command(app).commands
+    for text in re.findall(r"(?:`|^)\./crosscheck ([^`\n]+)", TEXT[name], re.MULTILINE):
+        command, *rest = shlex.split(text)
+        if command in ("test", "COMMAND") or command.startswith("-"):
+            continue
+        options = {option for each in commands[command].params for option in each.opts}
+        assert {word for word in rest if word.startswith("-")} <= options | {"--help"}
 
 
 class TestVerdict:
@@ -78,6 +136,52 @@ class TestVerdict:
             "fails",
             "inconclusive",
         ]
+
+
+class TestReference:
+    @pytest.mark.parametrize("section", TABLES)
+    def test_fields_are_those_of_the_scene(self, section):
+        """Their names, what is allowed and the defaults."""
+        model = model_of(section)
+        named = {cells[0].strip("`"): cells for cells in every_row("reference", f"`{section}`")}
+        assert named.keys() == model.model_fields.keys()
+        for name, (_, _, words, *default) in named.items():
+            assert words == short(allowed(model, name))
+            if default:
+                assert default == [shown(model.model_fields[name])]
+
+    def test_kinds_of_surfaces_have_the_fields_that_are_listed(self):
+        listed = {kind.strip('`"'): rest for kind, *rest in rows("reference", "`kind`")}
+        assert listed.keys() == VARIETIES.keys() - {"file"}
+        for kind, cells in listed.items():
+            names = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
+            assert names == VARIETIES[kind].fields() - {"kind", *FILTER}
+
+    def test_quantities_are_those_of_the_studies(self):
+        """Those that several studies share are named at the first."""
+        found, study = {}, ""
+        for first, quantities, _ in rows("reference", "study"):
+            study = first.strip("`") or study
+            found.setdefault(study, set()).update(re.findall(r"`(\w+)`", quantities))
+        assert list(found) == [study.name for study in STUDIES]
+        others = set(found)  # a row may say "those of `contact`"
+        for study in STUDIES:
+            assert found[study.name] - others <= study.quantities.keys()
+        named = set().union(*found.values())
+        assert {name for study in STUDIES for name in study.quantities} <= named
+
+    def test_entries_of_the_result_file_are_those_of_a_result(self):
+        """A half-plane's run has most fields; the others are those of a model error."""
+        found = run("smooth", models="half-plane").result
+        entries = [name for cell, _ in rows("reference", "entry") for name in NAMES(cell)]
+        assert sorted(entries) == sorted(found)
+        fields = [
+            name for cell, _ in rows("reference", "field of a figure") for name in NAMES(cell)
+        ]
+        assert {name for figure in found["figures"] for name in figure} <= set(fields)
+        assert set(fields) == set(Figure.__dataclass_fields__) - {"unknown"} | {
+            *("unit", "convergence", "verdict", "not_modelled")
+        }
 
 
 class TestMethod:

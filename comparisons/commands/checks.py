@@ -17,7 +17,7 @@ def stability(
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> int:
     """Solve the stiff and extreme cases; end with 0 only if every one holds."""
-    from comparisons.campaigns.checks import rows_table, verdict_lines
+    from comparisons.campaigns.cases import rows_table, verdict_lines
     from comparisons.campaigns.robustness.run import run_robustness
 
     directory = out or RESULTS / "stability"

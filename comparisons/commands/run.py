@@ -22,7 +22,6 @@ from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import SceneError, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, models_named
-from comparisons.runs.run import Known
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
@@ -56,7 +55,7 @@ def run(
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
     """Solve a scene with both models, compare them and judge."""
-    from comparisons.common.files import check_writable
+    from comparisons.common.files import check_writable, holds_comparison
     from comparisons.common.processes import uncollected
 
     with uncollected():
@@ -65,6 +64,7 @@ def run(
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.output.result_json import content_of
         from comparisons.output.terminal import summary
+        from comparisons.runs.run import Known
         from comparisons.runs.run import run as run_scene
         from comparisons.scenes.scene import with_tolerance
         from comparisons.scenes.surface import surface_of
@@ -78,6 +78,8 @@ def run(
     directory = out or RESULTS / asked.name
     from_first(lambda: check_writable(directory))
     from_first(lambda: check_place(junit))
+    if len(chosen) == 1 and is_first() and holds_comparison(directory):
+        tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
     warnings = warnings_about(asked, surface)
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)

@@ -62,6 +62,11 @@ def claimed(out: Path, own: tuple[str, ...] = ()) -> set[str]:
     return found
 
 
+def holds_comparison(out: Path) -> bool:
+    """Whether a folder has a finished run of both models."""
+    return {f"{model}/contact.csv" for model in OWN_FOLDERS[:2]} <= claimed(out)
+
+
 def claim(out: Path, name: str) -> None:
     """Note in a run's record that this program wrote a file more."""
     record = _record(out / RECORD)

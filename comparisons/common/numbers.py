@@ -119,6 +119,11 @@ def plain(value: float | None) -> str:
     return UNKNOWN if value is None else f"{value:.6g}".replace("-", MINUS)
 
 
+def listed(numbers: Iterable[float]) -> str:
+    """Numbers of the scene, such as friction coefficients, separated by commas."""
+    return ", ".join(map(plain, numbers))
+
+
 def integer(value: int) -> str:
     """Thousands apart by a thin space."""
     return f"{value:,}".replace(",", "\u202f")

@@ -9,6 +9,7 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from threading import Lock
 from types import ModuleType
@@ -29,6 +30,8 @@ class ProcessWorker:
 
     def __init__(self, serve: Callable[[Connection], None], forked: bool = False) -> None:
         context = multiprocessing.get_context("fork" if forked else "spawn")
+        if not forked:  # its start would let interrupts through again
+            resource_tracker.ensure_running()
         with (
             _starting,
             environment(ONE_THREAD),

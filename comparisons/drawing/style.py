@@ -8,7 +8,7 @@ import base64
 import csv
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -189,6 +189,31 @@ def data_uri(drawn: "Figure") -> str:
         return ""
     text = base64.b64encode(svg(drawn).encode()).decode("ascii")
     return "data:image/svg+xml;base64," + text
+
+
+def picture(
+    drawn: "Figure | Callable[[float], Figure]",
+    alternative: str,
+    caption: str,
+    data: bool | tuple[str, str] = True,
+    wide: bool = False,
+    field: str | None = None,
+) -> Picture:
+    """What is drawn with its words: a figure, or what draws one so many inches wide, once for wide
+    and once for narrow screens.
+
+    data  whether its curves are offered as CSV, or words of a link and what it leads to"""
+    several = callable(drawn)
+    figure = drawn(WIDE) if several else drawn
+    return Picture(
+        source=data_uri(figure),
+        data=csv_link(figure) if data is True else data or None,
+        narrow=data_uri(drawn(COLUMN)) if several else None,
+        alternative=alternative,
+        caption=caption,
+        wide=wide or several,
+        field=field,
+    )
 
 
 def csv_link(drawn: "Figure") -> tuple[str, str] | None:

@@ -43,7 +43,7 @@ class SampleSpread:
     shares: Mapping[str, Mapping[str, float]] | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Figure:
     """One number with its meaning; study, quantity, source, against and at name it in a run."""
 
@@ -64,6 +64,14 @@ class Figure:
     place: tuple[float, ...] | None = None  # [m]
     levels: tuple[float, ...] = ()  # the figure on each level, coarse to fine
     notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        """Name, value, uncertainty and verdict, as far as there are any."""
+        names = self.study, self.quantity, self.source, self.against and f"against {self.against}"
+        at = (f"{name} {value:g}" for name, value in self.at.items())
+        stated = "" if self.uncertainty is None else f" ± {100.0 * self.numerical:.2g} %"
+        verdict = "" if self.verdict is None else f", {self.verdict}"
+        return f"<{', '.join([*filter(None, names), *at])}: {self.value:.6g}{stated}{verdict}>"
 
     @property
     def key(self) -> tuple[Hashable, ...]:

@@ -9,6 +9,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError, nearest
+from comparisons.common.numbers import percent
 
 if TYPE_CHECKING:
     from analytic.exact.hertz import HertzContact
@@ -92,6 +93,11 @@ def label(quantity: str) -> str:
     if quantity not in QUANTITIES:
         return quantity.replace("_", " ")
     return _SYMBOLS.get(quantity, QUANTITIES[quantity].label.replace("tau1", "τ₁"))
+
+
+def error_text(quantity: str, value: float, uncertainty: float | None = None) -> str:
+    """A relative error in per cent, signed but for norms, in digits that are certain."""
+    return percent(value, signed=not QUANTITIES[quantity].of_pair, uncertainty=uncertainty)
 
 
 def models_named(given: str | Sequence[str], option: str) -> tuple[str, ...]:

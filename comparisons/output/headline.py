@@ -8,16 +8,15 @@ from typing import Literal
 
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text, label
 from comparisons.models.assumptions import without_law
-from comparisons.output.page.tables.scatter import beside_inputs
-from comparisons.output.page.tables.text import error_text
-from comparisons.output.page.tables.yielding import flow_sentence
 from comparisons.studies import contact, coupling, yielding
 from comparisons.studies.model_error.account import INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import law_leaned_on
 from comparisons.studies.scatter.figures import NAME as SCATTER
+from comparisons.studies.scatter.figures import by_inputs
+from comparisons.studies.scatter.show import beside_inputs
 from comparisons.studies.study import MODEL_ERROR, Run
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
@@ -107,7 +106,7 @@ def headline(run: Run) -> Headline:
     if kind == "not converged":
         said = f"A solver did not converge ({_unconverged(run)}): what was computed is shown, "
         return Headline(kind, f"{said}but no conclusion rests on it.")
-    said, flow = _sentence_of(run), _sentence(flow_sentence(run))
+    said, flow = _sentence_of(run), _sentence(yielding.flow_sentence(run))
     if run.plan.compares and run.found[yielding.NAME].said(yielding.BEYOND_DOUBT):
         return Headline(kind, f"{flow} Were it elastic: {said[0].lower()}{said[1:]}")
     return Headline(kind, f"{said} {_inputs(run)}{flow}")
@@ -138,12 +137,12 @@ def _sentence_of(run: Run) -> str:
 def _inputs(run: Run) -> str:
     """What uncertain inputs do to the figure that decides, where that is more than its tolerance:
     a model error below that is not what a user would see first."""
-    spread, errors = run.data(SCATTER), run.model_errors
-    if spread is None or not errors:
+    if not run.model_errors:
         return ""
-    error = _nearest(errors)
-    figure = spread.of(error.quantity, error.friction)
-    if figure is None or figure.relative <= error.tolerance:
+    error = _nearest(run.model_errors)
+    wanted = {"quantity": error.quantity, "friction": error.friction}
+    figure = run.figures.one(study=SCATTER, **wanted)
+    if figure is None or by_inputs(figure) <= error.tolerance:
         return ""
     return beside_inputs(run, error.quantity, error.friction) + " "
 

@@ -84,12 +84,12 @@ def read_content(content: Mapping) -> Result:
     """What a content says. Raises LookupError, TypeError or ValueError where it is built
     otherwise."""
     studies: dict[str, tuple[list, list, list]] = {}
-    for figure in Figures(map(_read_figure, content["figures"])):
+    for figure in Figures(map(_read_figure, _of_kind(content, "figures", list))):
         studies.setdefault(figure.study, ([], [], []))[0].append(figure)
     for place, (name, read) in enumerate(
         (("series", _read_series), ("statements", _read_statement)), start=1
     ):
-        for entry in content[name]:
+        for entry in _of_kind(content, name, list):
             studies.setdefault(entry["study"], ([], [], []))[place].append(read(entry))
     return Result(
         scene=_of_kind(content, "scene", dict),

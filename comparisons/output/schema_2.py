@@ -286,17 +286,8 @@ def _scatter(old: Mapping) -> Items:
     for name, rows in (old["scatter"] or {}).items():
         for row in rows:
             spread = row["mean"], row["standard_deviation"], tuple(row["interval"]), row["shares"]
-            scale = abs(row["nominal"]) or 1.0
-            error = (
-                row["standard_deviation"] / max(1, counts["solutions"] - counts["failed"]) ** 0.5
-            )
-            yield Figure(
-                *(scatter.NAME, name, "half_plane", row["nominal"]),
-                at={"friction": row["friction"]},
-                scale=scale,
-                uncertainty=Uncertainty({"sampling": error / scale}),
-                spread=SampleSpread(*spread),
-            )
+            named, samples = (name, row["friction"], row["nominal"]), counts["solutions"]
+            yield scatter.scattered(*named, SampleSpread(*spread), samples - counts["failed"])
 
 
 def _yield(old: Mapping) -> Items:
@@ -311,7 +302,10 @@ def _yield(old: Mapping) -> Items:
     for n, entry in enumerate(known["by_friction"]):
         at = {"friction": entry["friction"]}
         stated = old["models"][source][n]["uncertainty"]
-        sure = _stated(stated["tau1_max" if entry["from"] == flow.FIELD else "peak_pressure"])
+        from_field = entry["from"] == flow.FIELD
+        sure = _stated(stated["tau1_max" if from_field else "peak_pressure"])
+        if not from_field and old["profile"] is not None:
+            sure = replace(sure, parts=dict(sure.parts) | {"from the peak": flow.FROM_PEAK})
         values = {name: entry[name] for name in flow.QUANTITIES if name in entry}
         limit = {"shakedown_limit": values.pop("shakedown_limit")}
         yield from figures_of(flow.NAME, source, values, sure, at)
@@ -435,6 +429,7 @@ def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
         "Column": ComplianceColumn,
         "PairHistory": SimpleNamespace,
         "Comparison": SimpleNamespace,
+        "InputScatter": lambda figures, **row: scatter.InputScatter(**row),
         "HeatFigure": lambda **row: heat.HeatFigure(**_heat_row(row, 1.0)),
         "AnswerRow": lambda **row: answers.AnswerRow(
             **{n: v for n, v in row.items() if n not in ("uncertainty", "verdict")},

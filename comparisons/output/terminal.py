@@ -3,25 +3,18 @@
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from comparisons.common.errors import one_line
-from comparisons.common.numbers import significant, with_unit
+from comparisons.common.numbers import with_unit
 from comparisons.figures.quantity import LABELS, QUANTITIES
 from comparisons.output.headline import headline
-from comparisons.output.page.pictures.running_in import area
-from comparisons.output.page.tables.answers import answer_facts, answer_rows, compared_answers
-from comparisons.output.page.tables.comparison import comparison_rows, coupling_line, figure_rows
-from comparisons.output.page.tables.heat import heat_lines
-from comparisons.output.page.tables.model_error import model_error_rows, not_modelled_line
+from comparisons.output.page.tables.comparison import comparison_rows, figure_rows
 from comparisons.output.page.tables.problem import in_mm
-from comparisons.output.page.tables.scatter import scatter_lines
-from comparisons.output.page.tables.statistics import statistics_lines
 from comparisons.scenes.surface import ProfileInfo
-from comparisons.studies import STUDIES, yielding
+from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import ComparedAnswer
+from comparisons.studies.answers.show import answer_facts, answer_rows, compared_answers
+from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
-from comparisons.studies.yielding import FlowAssessment
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -32,7 +25,9 @@ SHORT = {name: quantity.short for name, quantity in QUANTITIES.items()}
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
 LISTED = 2  # effects in the terminal; the report has them all
-ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
+# Lines that have their place; those of other studies come before that of heat.
+ORDER = ("surface", "run in", "not modelled", "another asperity", "inputs", "statistics")
+ORDER += ("asperities", "coupling", "", "heat", "yield")
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 PLAIN |= {ord("±"): "+-", ord("σ"): "s"}
@@ -148,30 +143,6 @@ def surface_text(info: ProfileInfo, run_in: bool = False) -> str:
     return text
 
 
-def run_in_text(outcome: Run) -> str:
-    """How the surface was run in, whether it settled, and whether that held."""
-    run_in = outcome.problem.surface.run_in
-    text = f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
-    text += "settled" if run_in.status == "settled" else "not settled"
-    text += "" if run_in.converged else ", not converged"
-    # features finer than running-in resolved may be pressed harder than it allowed
-    hardness = run_in.constraints.hardness
-    peak = max(np.max(run.finest.solution.pressure) for run in outcome.runs.values())
-    if peak > ABOVE * hardness:
-        text += f"; pressed afterwards by up to {peak / hardness:.2f} times its hardness"
-    return text
-
-
-def yield_text(flow: FlowAssessment) -> str:
-    """Shakedown and, of a rough body, its plasticity, at the largest shear."""
-    worst = flow.worst
-    pressure = significant(2.0 * worst.peak / flow.yield_stress, 3)
-    text = f"peak pressure {pressure} k, elastic shakedown up to {worst.shakedown:.3g} k"
-    indices = {"summits": flow.summit_index, "slope": flow.slope_index}
-    known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
-    return f"{text}; plasticity index {', '.join(known)}" if known else text
-
-
 def _facts(outcome: Run) -> "Table":
     from rich.table import Table
     from rich.text import Text
@@ -179,23 +150,10 @@ def _facts(outcome: Run) -> "Table":
     surface, rows = outcome.problem.surface, []
     if surface.info is not None:
         rows.append(("surface", surface_text(surface.info, run_in=surface.run_in is not None)))
-    if surface.run_in is not None:
-        rows.append(("run in", run_in_text(outcome)))
-    if outcome.plan.compares:
-        rows.append(("not modelled", not_modelled_line(outcome)))
-        moves = [row for row in model_error_rows(outcome, judged=True) if row.moved]
-        said = (f"{SHORT[row.quantity]}, friction {row.friction}: {row.moved}" for row in moves)
-        rows += [("another asperity", line) for line in said]
-    rows += [("inputs", line) for line in scatter_lines(outcome)]
-    rows += statistics_lines(outcome)
-    if (moved := coupling_line(outcome)) is not None:
-        rows.append(("coupling", moved))
-    rows += [
-        line for study in STUDIES if study.name in outcome.found for line in study.lines(outcome)
-    ]
-    rows += [("heat", line) for line in heat_lines(outcome)]
-    if (flow := outcome.data(yielding.NAME)).ratio is not None:
-        rows.append(("yield", yield_text(flow)))
+    for study in STUDIES:
+        if study.name in outcome.found:
+            rows += study.lines(outcome)
+    rows.sort(key=lambda row: ORDER.index(row[0] if row[0] in ORDER else ""))
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())
     budget = outcome.data(MODEL_ERROR)

@@ -103,7 +103,7 @@ class _LevelTask:
                 lambda: half_plane_level(self.problem, self.pitch, self.window, stages)
             )
         from comparisons.models.finite_element.bodies import BodyCache
-        from comparisons.models.finite_element.level import finite_element_level
+        from comparisons.models.finite_element.level import LevelOptions, finite_element_level
         from comparisons.models.finite_element.mesh import Refinement
         from fem.nonlinear.press_plastic import TRAVEL
 
@@ -119,9 +119,8 @@ class _LevelTask:
             Refinement(self.pitch, self.half_block, self.times * TRAVEL),
             self.window,
             stages,
-            check=not self.half_block and self.times == 1,
-            body_cache=here.held("bodies", self.pitch, BodyCache),
-            fields=not self.half_block,
+            here.held("bodies", self.pitch, BodyCache),
+            LevelOptions(check=not self.half_block and self.times == 1, fields=not self.half_block),
         )
 
 

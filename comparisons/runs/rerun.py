@@ -71,7 +71,7 @@ def rerun(
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone
         from comparisons.output.page.saved import read_run
-        from comparisons.output.page.tables.answers import compared_answers
+        from comparisons.studies.answers.show import compared_answers
 
         recorded = compared_answers(read_run(folder, with_mesh=False))
         answers = {each.name: each.answers for each in recorded}

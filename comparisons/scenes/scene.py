@@ -115,9 +115,20 @@ class SceneBase(SceneSection):
             update[section] = value
         return self.model_copy(update=update)
 
+    def __repr__(self) -> str:
+        """The title, and a line for each section that was given, as it was."""
+        sections = ((n, table) for n, table in self._given.items() if isinstance(table, Mapping))
+        lines = (
+            f"{name:<14} " + ", ".join(f"{field} {_shown(value)}" for field, value in table.items())
+            for name, table in sections
+        )
+        return "\n".join([str(self.title), *lines])
+
+    __str__ = __repr__
+
     @property
     def given(self) -> dict:
-        """The tables as they were given."""
+        """The tables as they were given; paths in them count from `folder`."""
         return copy.deepcopy(self._given)
 
     @property
@@ -173,6 +184,13 @@ class Scene(SceneBase):
     statistics: StatisticsSection | None = None
     heat: HeatSection | None = None
     answers: Answers | None = None
+
+
+def _shown(value: object) -> str:
+    """A field's value in a line: of long lists the first entries."""
+    if isinstance(value, list | tuple):
+        return ", ".join(map(str, value[:3])) + (", …" if len(value) > 3 else "")
+    return str(value)
 
 
 def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:
@@ -232,10 +250,13 @@ def _unknown(sections: dict[str, type[SceneSection]], location: tuple, value: ob
     if not section and isinstance(value, dict):
         return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
     fields = {
-        table: {field: f"{table}.{field}" for field in model.model_fields}
-        for table, model in sections.items()
+        table: {field: f"{table}.{field}" for field in sections[table].model_fields}
+        for table in titles
     }
-    own = fields[section[0]] if section else {"title": "title", **titles}
+    own = {"title": "title", **titles}
+    if section:
+        within = ".".join(section)
+        own = {field: f"{within}.{field}" for field in sections[section[0]].model_fields}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
     near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)

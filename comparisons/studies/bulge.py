@@ -28,6 +28,7 @@ from scipy.interpolate import griddata
 from analytic.statistics.penetration import contact_kind, relative_penetration
 from comparisons.common.numbers import percent, plain, significant, with_unit
 from comparisons.drawing import style
+from comparisons.drawing.blocks import Block, Heading, Note, Pictures, TextTable
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Figures, Findings, Series, figures_of
 from comparisons.figures.quantity import Quantity
@@ -37,7 +38,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies import contact
 from comparisons.studies.statistics.patches import STRAIN, patch_loads
-from comparisons.studies.study import WHY_NOT, Block, Run, Solved, Study, TextTable
+from comparisons.studies.study import WHY_NOT, Run, Solved, Study
 
 NAME, MODEL = "bulge", "finite_element"
 QUANTITIES = {
@@ -374,10 +375,10 @@ def bulges_of(findings: Findings | None) -> list[Bulge]:
 
 def blocks(run: Run) -> list[Block]:
     """A row for each friction coefficient above 0 and each patch."""
-    heading, findings = "Bulge ahead of the sliding contact", run.found[NAME]
+    heading, findings = Heading("Bulge ahead of the sliding contact"), run.found[NAME]
     if (why := findings.said(WHY_NOT)) is not None:
         table = TextTable("Not measured", ("because",), ((why,),))
-        return [Block(heading, (table,), NOTE, "stresses")]
+        return [Block("stresses", (heading, table, Note(NOTE)))]
     a, rows = run.problem.hertz.half_width, []
     for bulge in bulges_of(findings):
         end, work = bulge.value("end"), significant(bulge.value("work"), 1)
@@ -395,7 +396,7 @@ def blocks(run: Run) -> list[Block]:
     head = ("friction", "bulge", "half-plane's step", "bulge over h", "h/R", "at s/a")
     head += ("half of it at s/a", "work", "energy over P h (share ahead)")
     table = TextTable("Finite elements", head, tuple(rows))
-    return [Block(heading, (table,), NOTE, "stresses", ("bulge",))]
+    return [Block("stresses", (heading, Pictures(("bulge",)), table, Note(NOTE)))]
 
 
 def _raised(values: Mapping[str, float], uncertainty: float, a: float) -> tuple[str, ...]:
@@ -433,7 +434,7 @@ def bulge_picture(run: Run) -> style.Picture | None:
     words = "Surface ahead of the sliding contact less that as far behind it, raised by the "
     words += f"traction alone, over the distance from the load's centre. Bulge: {largest}."
     caption = f"{words} Bars: it, from the half-plane's exact step up; h = a²/R."
-    return style.Picture(style.data_uri(drawn), words, caption, data=style.csv_link(drawn))
+    return style.picture(drawn, words, caption)
 
 
 def _applies(solved: Solved) -> bool:

@@ -4,14 +4,18 @@ In: solved levels of each model. Out: figures of the finest one with their uncer
 and what the levels took."""
 
 from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from comparisons.common.numbers import Scale, plain
+from comparisons.drawing import style
+from comparisons.drawing.curves import hertz_text
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.quantity import LABELS, WHOLE, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
-from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import (
     LENGTHS,
     Uncertainty,
@@ -23,7 +27,11 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.scatter.figures import NAME as SCATTER
+from comparisons.studies.study import Run, Solved, Study
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 NAME = "contact"
 QUANTITIES = COMPARED | {
@@ -33,6 +41,7 @@ QUANTITIES = COMPARED | {
     "load_per_length": Quantity("load per length", "N/m"),
     "approach": Quantity("approach from first touch", "m"),
 }
+MARKERS = {"half_plane": "o", "finite_element": "x", "whole": "d"}  # of nodes
 AT_HARDNESS = 1.0 - 1e-9  # times the hardness: a pressure held there
 # What is read of the same field or patches is as uncertain.
 AS_UNCERTAIN = {"von_mises_max": "tau1_max", "contact_ratio_extent": "contact_length"}
@@ -204,6 +213,51 @@ def _series(problem: Problem, run: ModelRun) -> Iterator[Series]:
     ):
         columns = {"stage": Column(tuple(counts)), name: Column(tuple(counts.values()), unit)}
         yield Series(name, columns, run.name, is_account=True)
+
+
+def peak_position(level: Level) -> float:
+    """Place [m] of a level's highest pressure."""
+    return float(level.grid.x[level.solution.pressure.argmax()])
+
+
+def closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
+    """Places and pressures with the feet of the first and last hat."""
+    x, pitch = level.grid.x, level.grid.pitch
+    return np.array([x[0] - pitch, *x, x[-1] + pitch]), np.pad(level.solution.pressure, 1)
+
+
+def draw_pressures(
+    axes: "Axes", run: Run, across: tuple[float, float], unit: Scale, nodes: bool = False
+) -> None:
+    """Every model's pressures and Hertz's over `across` [m], x in `unit`, with the load in words
+    and what uncertain inputs do; at the friction coefficient that decides.
+
+    nodes  whether the nodes of the pressures are marked"""
+    hertz, friction = run.problem.hertz, run.deciding_friction
+    several = len(run.problem.scene.load.friction) > 1
+    sliding = f", μ = {plain(friction)}" if several else ""
+    for name, level in run.levels(friction).items():
+        x, pressure = closed(level)
+        shown = style.near(x, across, level.grid.pitch)
+        axes.plot(
+            x[shown] / unit.factor,
+            pressure[shown] / hertz.peak_pressure,
+            label=LABELS[name] + (sliding if name == WHOLE else ""),
+            marker=MARKERS[name] if nodes else None,
+            markersize=3.2,
+            markerfacecolor="none",
+            **style.LINES[name],
+        )
+    if (spread := run.data(SCATTER)) is not None:
+        x, (low, high) = spread.x, spread.band / hertz.peak_pressure
+        shown = style.near(x, across, spread.pitch)
+        axes.fill_between(x[shown] / unit.factor, low[shown], high[shown], **style.BAND)
+    ends = np.clip([-hertz.half_width, hertz.half_width], *across)
+    x = np.union1d(np.linspace(*across, 600), ends)
+    smooth = hertz.pressure(x) / hertz.peak_pressure
+    axes.plot(x / unit.factor, smooth, label="Hertz, smooth", **style.REFERENCE)
+    axes.set_ylabel("p/p₀")
+    axes.text(0.008, 0.97, hertz_text(run.problem), transform=axes.transAxes, va="top")
 
 
 STUDY = Study(NAME, QUANTITIES, solve)

@@ -14,10 +14,13 @@ import numpy as np
 
 from analytic.contact.patches import CLEAR
 from analytic.grid import HatGrid
+from comparisons.common.numbers import percent, plain, with_unit
 from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.common.tasks import Tasks
+from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
-from comparisons.figures.quantity import Quantity
+from comparisons.figures.quantity import QUANTITIES as COMPARED
+from comparisons.figures.quantity import Quantity, label
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import Level, ModelRun
@@ -27,12 +30,18 @@ from comparisons.models.window import Window
 from comparisons.studies import contact
 from comparisons.studies.comparison import norms
 from comparisons.studies.contact import values_of
-from comparisons.studies.study import CONVERGED, WHY_NOT, Solved, Study
+from comparisons.studies.study import CONVERGED, REPEATED, WHY_NOT, Run, Solved, Study
 
 NAME = "coupling"
 SHIFT = "contact_shift"
 QUANTITIES = contact.QUANTITIES | {SHIFT: Quantity("shift of the pressure's centroid", "m")}
 UNCOUPLED = "uncoupled"  # the half-plane without it
+NOTE = """Normal-tangential coupling: sliding traction also moves the surfaces of unlike bodies up
+and down, in proportion to friction times Dundurs' β. {}. Solved on the finest pressure elements; a
+is the Hertz half-width."""
+CONTAINED = "The half-plane's figures contain that; the change is against those without"
+NOT_CONTAINED = """The figures above do not contain that, as the method was published; the change is
+against them"""
 BEYOND_THE_END = "moved by friction, the contact reaches the end of the body"
 
 
@@ -201,4 +210,53 @@ def _applies(solved: Solved) -> bool:
     return solved.plan.coupling
 
 
-STUDY = Study(NAME, QUANTITIES, solve, _applies, data=Couplings)
+def coupling_table(run: Run) -> TextTable | None:
+    """Figures with the surfaces moved, and the change; None where friction moves nothing."""
+    changes = run.figures.of(study=NAME)
+    if not changes:
+        return None
+    names = [SHIFT, *(name for name in COMPARED if name != REPEATED)]
+    frictions = list(dict.fromkeys(figure.friction for figure in changes))
+    rows = []
+    for name in names:
+        cells = [cell for mu in frictions for cell in _cells(run, name, mu)]
+        if any(cells):
+            rows.append((QUANTITIES[name].label if name == SHIFT else label(name), *cells))
+    head = [cell for mu in frictions for cell in (f"friction {plain(mu)}", "change")]
+    return TextTable("Half-plane, surfaces moved by friction", ("", *head), tuple(rows))
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """The change at the largest friction in one sentence."""
+    friction = max(run.problem.scene.load.friction, key=abs)
+    if (why := run.found[NAME].said(WHY_NOT, friction=friction)) is not None:
+        return [("coupling", f"not known: {why}")]
+    contained = "contained" if run.problem.scene.load.coupled else "not modelled"
+    shift, of_a = _cells(run, SHIFT, friction, digits=3)
+    peak, length = (_cells(run, n, friction)[1] for n in ("peak_pressure", "contact_length"))
+    text = (
+        f"friction {plain(friction)} moves the surfaces ({contained}): the contact by "
+        f"{shift} ({of_a}), peak pressure {peak}, contact length {length}"
+    )
+    return [("coupling", text)]
+
+
+def _cells(run: Run, name: str, friction: float, digits: int = 4) -> tuple[str, str]:
+    """The figure and its change, in percent; of a shift, of the Hertz half-width."""
+    both = run.figures.of(study=NAME, quantity=name, friction=friction)
+    value, change = both.one(against=None), both.one(against=UNCOUPLED)
+    if value is None:
+        return "", percent(change.value) if change else ""
+    moved = percent(change and change.value, signed=True)
+    text = with_unit(value.value, QUANTITIES[name].unit, digits)
+    return text, f"{moved} of a" if name == SHIFT else moved
+
+
+def blocks(run: Run) -> list[Block]:
+    if (table := coupling_table(run)) is None:
+        return []
+    contained = run.problem.scene.load.coupled
+    return [Block("contact", (table, Note(NOTE.format(CONTAINED if contained else NOT_CONTAINED))))]
+
+
+STUDY = Study(NAME, QUANTITIES, solve, _applies, data=Couplings, blocks=blocks, lines=lines)

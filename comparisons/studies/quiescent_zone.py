@@ -33,6 +33,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from comparisons.common.numbers import plain, significant
+from comparisons.drawing.blocks import Block, Heading, Note, TextTable
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import LABELS, Quantity
@@ -42,7 +43,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import DEEP
 from comparisons.studies.contact import by_repetition
-from comparisons.studies.study import WHY_NOT, Block, Run, Solved, Study, TextTable
+from comparisons.studies.study import WHY_NOT, Run, Solved, Study
 
 NAME = "quiescent_zone"
 QUANTITIES = {  # the figures of a ShearDip
@@ -264,7 +265,7 @@ def blocks(run: Run) -> list[Block]:
         head += ("least over Hertz zone's", "over the smaller maximum", "asperities that bridge it")
         title = "Mean shear between asperities and Hertz zone"
         table = TextTable(title, head, tuple(rows))
-    return [Block("Quiescent zone", (table,), NOTE, "stresses")]
+    return [Block("stresses", (Heading("Quiescent zone"), table, Note(NOTE)))]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:

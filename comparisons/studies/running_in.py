@@ -4,15 +4,31 @@ In: a scene that was run in. Out: figures of it, and the volume that each pass m
 
 from collections.abc import Mapping
 from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from analytic.surface.roughness import roughness
+from comparisons.common.numbers import given, scale_of, significant, with_unit
+from comparisons.drawing import style
+from comparisons.drawing.blocks import Block, Pictures
+from comparisons.drawing.curves import over, panels
 from comparisons.figures.figure import Column, Findings, Series, Statement, figures_of
 from comparisons.figures.quantity import Quantity
 from comparisons.models.running_in import ended
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.problem import QUANTITIES as OF_SURFACES
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.study import Run, Solved, Study
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NAME = "running_in"
+POINTS = 4000  # along x; the picture is not finer
+LINE_BEFORE = {**style.LINES["finite_element"], "linewidth": 0.9}
+LINE_AFTER = {**style.OUTLINE, "color": style.LINES["half_plane"]["color"]}
+ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
 BEFORE, AFTER = "before", "after"  # sources of the surface's figures
 QUANTITIES = OF_SURFACES | {
     "hardness": Quantity("hardness at which asperities flow", "Pa"),
@@ -51,6 +67,79 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     return Findings(tuple(figures), tuple(series), said)
 
 
+def running_in_in_words(scene: Scene, surface: SceneSurface) -> str:
+    """What running-in did, in one sentence, and in more where it fell short."""
+    run_in, places = surface.run_in, len(scene.running_in.places(surface.position))
+    sweeps = f"{run_in.sweeps} sweep{'s' * (run_in.sweeps > 1)}"
+    took = f"{len(run_in.passes)} passes ({sweeps} over {places} place{'s' * (places > 1)})"
+    unfinished = "" if run_in.status == "settled" else "; it has not settled"
+    sentence = (
+        f"In {took} at {given(scene.running_in.hardness, 'Pa')} plastic flow took "
+        f"{area(run_in.volume)} off it, up to {with_unit(run_in.largest_lowering, 'm', 3)} deep"
+        f"{unfinished}."
+    )
+    if ended(surface):
+        ends = ", ".join(given(place, "m") for place in ended(surface))
+        sentence += f" From {ends} the roller touched an end of the trace, where support ends."
+    return sentence
+
+
+def area(volume: float) -> str:
+    """Volume per unit length [m^2] as square micrometres."""
+    return f"{significant(volume / 1e-12, 3)} µm²"
+
+
+def picture(run: Run) -> style.Picture | None:
+    """The surface before and after over the stretch that the contact may reach; None without
+    running-in."""
+    surface = run.problem.surface
+    if surface.run_in is None:
+        return None
+    said = running_in_in_words(run.problem.scene, surface)
+    words = f"The surface before and after running-in{{}}. {said}"
+    return style.picture(
+        lambda width: _drawn(run, width), words.format(""), words.format(", heights stretched")
+    )
+
+
+def _drawn(run: Run, width: float) -> "Figure":
+    problem, run_in = run.problem, run.problem.surface.run_in
+    x = np.linspace(*problem.extent, POINTS)
+    before, profile = run_in.before.spline()(x), run_in.profile.spline()(x)
+    along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
+    drawn, [axes] = panels(width, [(0.35, 2.34)], right=0.02 * width, foot=0.51)
+    axes.plot(x / along.factor, before / up.factor, label="before running-in", **LINE_BEFORE)
+    axes.plot(x / along.factor, profile / up.factor, label="after", **LINE_AFTER)
+    axes.set_ylabel(f"height [{up.name}]")
+    over([axes], f"x [{along.name}]", x / along.factor)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2)
+    return drawn
+
+
+def blocks(run: Run) -> list[Block]:
+    return [Block("running-in", (Pictures(("running_in",)),), "Running-in")]
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """How the surface was run in, whether it settled, and whether that held."""
+    run_in = run.problem.surface.run_in
+    text = f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
+    text += "settled" if run_in.status == "settled" else "not settled"
+    text += "" if run_in.converged else ", not converged"
+    # features finer than running-in resolved may be pressed harder than it allowed
+    hardness = run_in.constraints.hardness
+    peak = max(np.max(model.finest.solution.pressure) for model in run.runs.values())
+    if peak > ABOVE * hardness:
+        text += f"; pressed afterwards by up to {peak / hardness:.2f} times its hardness"
+    return [("run in", text)]
+
+
 STUDY = Study(
-    NAME, QUANTITIES, solve, applies=lambda solved: solved.problem.surface.run_in is not None
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=lambda solved: solved.problem.surface.run_in is not None,
+    blocks=blocks,
+    pictures={"running_in": picture},
+    lines=lines,
 )

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import ExitStatus
+from comparisons.drawing.blocks import Block
 from comparisons.figures.figure import FAILED, Figures, Findings, Statement
 from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.models.level import Level, ModelRun
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 # Names of statements: why a study was not done, and whether a solution converged, "yes" or "no".
 WHY_NOT, CONVERGED = "not done", "converged"
+REPEATED = "contact_ratio"  # says again what the contact length says
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
 
 
@@ -112,6 +114,11 @@ class Run:
         first = next(iter(self.runs.values()))
         return {first.name: first.beside(last), name: last}
 
+    def shows(self, quantity: str) -> bool:
+        """Whether a figure has a row beside the contact length, which stands over Hertz's: the
+        contact ratio, that over a constant, has one only where it is judged."""
+        return quantity != REPEATED or quantity in self.problem.scene.tolerances
+
     @property
     def deciding_friction(self) -> float:
         """The coefficient at which a judged model error exceeds its tolerance most, or comes
@@ -129,26 +136,6 @@ class Run:
         if verdicts & set(FAILED):
             return ExitStatus.OUTSIDE_TOLERANCE
         return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
-
-
-@dataclass(frozen=True)
-class TextTable:
-    """Text cells by row; the first column names the row."""
-
-    title: str
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-@dataclass(frozen=True)
-class Block:
-    """A part of the page: a heading, tables, and how to read them."""
-
-    heading: str
-    tables: tuple[TextTable, ...]
-    note: str
-    within: str  # id of the section of the page that it belongs to
-    pictures: tuple[str, ...] = ()  # names of the study's `pictures` that stand above the tables
 
 
 def _always(solved: Solved) -> bool:

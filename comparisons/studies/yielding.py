@@ -16,7 +16,8 @@ import numpy as np
 from analytic.exact.hertz import hertz_extremes
 from analytic.exact.shakedown import UNIT, shakedown_limit
 from analytic.surface.roughness import summits
-from comparisons.common.numbers import with_unit
+from comparisons.common.numbers import percent, plain, significant, with_unit
+from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Findings, Statement, figures_of
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
@@ -24,7 +25,7 @@ from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.estimates import TABOR
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.study import Run, Solved, Study
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
@@ -43,6 +44,14 @@ QUANTITIES = {
     "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/2"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
 }
+BY_THE_PEAK = "by the peak: those below Hertz's contact of the same peak pressure"
+OF_A_YIELD_STRESS = """First flow: τ₁ = Y/2 (Tresca, in the plane), or von Mises' stress = Y; a
+hardness stands for Y = H/3, a yield stress for H = 3 Y (Tabor). Elastic shakedown: the largest peak
+pressure over k of a line contact that may roll and slide over the body again and again without
+flowing on (Melan; Johnson and Jefferis 1963)."""
+OF_A_TRACE = """Plasticity index: (E*/H) times √(σκ) of the trace's summits (Greenwood and
+Williamson 1966), or times its rms slope (Mikic 1974); well below 1 most of the contact is
+elastic."""
 DOES_NOT_APPLY = "the elastic half-plane does not apply"
 # Without [stress]: the largest shear is that of Hertz's contact of the same peak pressure. That of
 # the scenes that come along is 0.72 to 1.11 of it (friction 0 to 0.6; run in, up to 1.6).
@@ -220,4 +229,81 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
     )
 
 
-STUDY = Study(NAME, QUANTITIES, solve, data=FlowAssessment)
+def flow_sentence(run: Run) -> str:
+    """The one thing to know of flow beside the verdict, without its full stop."""
+    flow = run.data(NAME)
+    if flow.beyond_doubt:
+        return flow.beyond_doubt
+    worst = flow.worst
+    where = f" at friction {plain(worst.friction)}" if len(flow.checks) > 1 else ""
+    where += "" if worst.from_field else ", by the peak pressure (no [stress])"
+    if flow.ratio is None:
+        shear = with_unit(worst.tau1, "Pa", 2)
+        return f"elastic; first flow at a shear yield below {shear}{where}"
+    stress = with_unit(flow.yield_stress, "Pa", 3)
+    third = "" if run.problem.scene.body.yield_stress else ", a third of the hardness"
+    largest = f"the half-plane's largest shear is {significant(flow.ratio, 2)} times that of first "
+    largest += f"flow{where} (Y = {stress}{third})"
+    if flow.flow == "cap":
+        return f"flow is the cap alone, at {percent(worst.at_hardness)} of the contact; {largest}"
+    return f"{'the finite elements flow' if flow.flow == 'plastic' else 'elastic'}; {largest}"
+
+
+def flow_table(run: Run) -> TextTable:
+    """Figures of flow by friction coefficient; without a yield stress its first rows alone."""
+    flow = run.data(NAME)
+    rows = [
+        ("largest principal shear stress τ₁", *(with_unit(c.tau1, "Pa") for c in flow.checks)),
+        ("von Mises", *(with_unit(c.von_mises, "Pa") for c in flow.checks)),
+        ("found", *("in the field" if c.from_field else "by the peak" for c in flow.checks)),
+    ]
+    if flow.yield_stress is not None:
+        rows += _of_yield_stress(flow)
+    head = ("", *(f"friction {plain(check.friction)}" for check in flow.checks))
+    return TextTable(flow_sentence(run), head, tuple(rows))
+
+
+def _of_yield_stress(flow: FlowAssessment) -> list[tuple[str, ...]]:
+    shear = 0.5 * flow.yield_stress
+    ratios = [check.over_first_flow(flow.yield_stress) for check in flow.checks]
+    rows = [
+        ("over first flow, Tresca", *(significant(tresca, 3) for tresca, _ in ratios)),
+        ("over first flow, von Mises", *(significant(mises, 3) for _, mises in ratios)),
+        ("contact at the hardness or above", *(percent(c.at_hardness) for c in flow.checks)),
+        ("peak pressure over k = Y/2", *(significant(c.peak / shear, 3) for c in flow.checks)),
+        ("elastic shakedown up to", *(significant(c.shakedown, 3) for c in flow.checks)),
+    ]
+    if flow.slope_index is not None:
+        indices = (
+            ("plasticity index, summits", flow.summit_index),
+            ("plasticity index, slope", flow.slope_index),
+        )
+        rows += [(words, *(significant(value, 3) for _ in ratios)) for words, value in indices]
+    return rows
+
+
+def blocks(run: Run) -> list[Block]:
+    scene = run.problem.scene
+    body, capped = scene.body, " whose pressure is capped" * bool(scene.body.hardness)
+    note = f"Stresses of the elastic half-plane{capped}; {BY_THE_PEAK}."
+    if body.hardness or body.yield_stress:
+        note += f" {OF_A_YIELD_STRESS}" + f" {OF_A_TRACE}" * bool(scene.profile)
+    else:
+        note += " The scene has neither yield stress nor hardness: what flows is not known."
+    return [Block("yield", (flow_table(run), Note(note)), "Yield")]
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """Shakedown and, of a rough body, its plasticity, at the largest shear; nothing without a
+    yield stress."""
+    flow = run.data(NAME)
+    if flow.ratio is None:
+        return []
+    pressure = significant(2.0 * flow.worst.peak / flow.yield_stress, 3)
+    text = f"peak pressure {pressure} k, elastic shakedown up to {flow.worst.shakedown:.3g} k"
+    indices = {"summits": flow.summit_index, "slope": flow.slope_index}
+    known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
+    return [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
+
+
+STUDY = Study(NAME, QUANTITIES, solve, data=FlowAssessment, blocks=blocks, lines=lines)

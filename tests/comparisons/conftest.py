@@ -194,10 +194,8 @@ def no_pictures() -> Callable[[Run], dict]:
     blank = Picture("data:image/svg+xml;base64,", "", "")
 
     def pictures(outcome: Run, beside: object = ()) -> dict[str, object]:
-        run_in = None if outcome.problem.surface.run_in is None else blank
-        budget = blank if outcome.plan.compares else None
-        made = dict.fromkeys(PICTURES, blank) | {"running_in": run_in, "model_error": budget}
-        return made | {name: [] for name in ("answers", "fields", "near", "sections", "mesh")}
+        several = "answers", "fields", "near", "sections", "mesh", "statistics", "heat_below"
+        return dict.fromkeys(PICTURES, blank) | {name: [] for name in several}
 
     return pictures
 

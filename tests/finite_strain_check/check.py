@@ -22,8 +22,9 @@ import argparse
 import math
 from typing import NamedTuple
 
-from comparisons import api
+import comparisons as crosscheck
 from comparisons.figures.figure import Figures
+from comparisons.notebook import scene_of
 from tests.finite_strain_check import cases
 from tests.harness import Demand, print_demands, print_table
 
@@ -81,7 +82,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.solve:
         for name in options.scenes:
-            scene = api.load(paths[name])
+            scene = scene_of(paths[name])
             task = cases.task_of(scene, scene.load.friction[0])
             levels = cases.levels_of(task)
             found = cases.solved(task, levels, print)
@@ -90,7 +91,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     values, rows = cases.read_values(), []
     for name in options.scenes:
-        rows += held(name, api.run(paths[name]).figures, values[name]["figures"])
+        rows += held(name, crosscheck.run(paths[name]).figures, values[name]["figures"])
     cells = []
     for row in rows:
         percents = (row.stated, row.uncertainty, row.found, row.own)

@@ -6,9 +6,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from comparisons import api
+import comparisons as crosscheck
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.uncertainty import numerical
+from comparisons.notebook import scene_of
 from tests.finite_strain_check import cases, check
 from tests.finite_strain_check.contact import State, SurfacePair
 from tests.finite_strain_check.figures import figures
@@ -99,8 +100,8 @@ def test_meshes_are_conforming_and_carry_quadratics_exactly():
 
 def test_small_strains_meet_the_half_plane_on_a_rough_body():
     """Pressure, shear and orthogonal shear to 0.2 %, the length to both grids."""
-    scene = api.load(cases.scene_paths()["unrun-rigid"])
-    run = api.run(scene, models="half-plane")
+    scene = scene_of(cases.scene_paths()["unrun-rigid"])
+    run = crosscheck.run(scene, models="half-plane")
     known = {f.quantity: f.value for f in run.figures.of(study="contact")}
     task = cases.task_of(scene, 0.0, "linear")
     found = cases.solved(task, (0.5, 0.25, 0.125))[-1]

@@ -91,13 +91,15 @@ def solved(
     elif method.element == "strip":
         level = _by_strips(problem, setting, window, stages)
     else:
-        from comparisons.models.finite_element.level import finite_element_level
+        from comparisons.models.finite_element.level import LevelOptions, finite_element_level
         from comparisons.models.finite_element.mesh import Refinement
 
         scene = problem.scene.unchecked({"finite_element.element": method.element})
         problem, refinement = replace(problem, scene=scene), Refinement(setting, half_block)
         plan = make_plan(problem, ("finite_element",))
-        level = finite_element_level(problem, plan, refinement, window, stages, fields=False)
+        level = finite_element_level(
+            problem, plan, refinement, window, stages, options=LevelOptions(fields=False)
+        )
     frictions = problem.scene.load.friction
     values = tuple(values_of(level, problem, friction) for friction in frictions)
     return replace(level, mesh=None), values

@@ -143,7 +143,7 @@ def _body(problem: Problem, mesh: BlockMesh, support: Support, flatter: float) -
         coated = mesh.points[mesh.triangles[:, :3], 1].mean(axis=1) < scene.coating.thickness
         materials.append(scene.coating.material)
     points, triangles = real_points(mesh) * [MM, -MM], mesh.triangles[:, [0, 2, 1, 5, 4, 3]]
-    return _deck_body(problem, mesh, points, triangles, coated, materials, support, flatter)
+    return _deck_body(problem, mesh, _Cells(points, triangles, coated, materials), support, flatter)
 
 
 def _roller(
@@ -172,30 +172,33 @@ def _roller(
         elif shaped:
             mesh = roughen(mesh, levelled(roller_of(problem), reach))
     triangles, coated = mesh.triangles, np.zeros(len(mesh.triangles), dtype=bool)
-    given = real_points(mesh) * MM, triangles, coated, [material], support, flatter
-    return _deck_body(problem, mesh, *given)
+    cells = _Cells(real_points(mesh) * MM, triangles, coated, [material])
+    return _deck_body(problem, mesh, cells, support, flatter)
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """Points, triangles and materials of a body, as `DeckBody` has them; moduli as the scene's."""
+
+    points: np.ndarray
+    triangles: np.ndarray
+    coated: np.ndarray
+    materials: list[Material]
 
 
 def _deck_body(
-    problem: Problem,
-    mesh: BlockMesh,
-    points: np.ndarray,
-    triangles: np.ndarray,
-    coated: np.ndarray,
-    materials: list[Material],
-    support: Support,
-    flatter: float,
+    problem: Problem, mesh: BlockMesh, cells: _Cells, support: Support, flatter: float
 ) -> DeckBody:
     sides, beside = boundary_points(mesh.points, mesh.spec), mesh.spec.surface_size
     start, stop = problem.extent
-    top = np.zeros(len(points), dtype=bool)
+    top = np.zeros(len(cells.points), dtype=bool)
     top[sides.top] = True
     top &= (mesh.points[:, 0] > start - beside) & (mesh.points[:, 0] < stop + beside)
     return DeckBody(
-        points,
-        triangles,
-        coated,
-        tuple(replace(m, youngs_modulus=flatter * m.youngs_modulus) for m in materials),
+        cells.points,
+        cells.triangles,
+        cells.coated,
+        tuple(replace(m, youngs_modulus=flatter * m.youngs_modulus) for m in cells.materials),
         held_components(mesh.points, support, sides),
-        np.argwhere(top[triangles[:, EDGES]].all(axis=2)),
+        np.argwhere(top[cells.triangles[:, EDGES]].all(axis=2)),
     )

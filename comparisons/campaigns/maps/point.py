@@ -118,7 +118,7 @@ def _refined(problem: Problem, plan: Plan, window: Window | None, heats: bool) -
     """Both models on the first levels, then with one more each time, while there may be; of heat
     both with the half-plane's pressures."""
     from comparisons.models.finite_element.bodies import BodyCache
-    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from comparisons.models.half_plane import half_plane_level
 
@@ -127,7 +127,7 @@ def _refined(problem: Problem, plan: Plan, window: Window | None, heats: bool) -
             return half_plane_level(problem, pitch, window, Stages())
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
         return finite_element_level(
-            problem, plan, refinement, window, Stages(), body_cache=body_cache, fields=False
+            problem, plan, refinement, window, Stages(), body_cache, LevelOptions(fields=False)
         )
 
     @lru_cache(maxsize=1)  # the latest pitch's alone: the far-boundary check is on its mesh

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from comparisons.campaigns.paper.claim_table import claim_row, summary
 from comparisons.campaigns.paper.sections import Section
 from comparisons.common.numbers import UNKNOWN, given, integer, percent, significant, with_unit
+from comparisons.drawing.blocks import TextTable
+from comparisons.drawing.curves import load_text
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.output.page.html import STYLES, rendered
-from comparisons.output.page.tables.problem import load_text
-from comparisons.studies.study import TextTable
 
 if TYPE_CHECKING:
     from comparisons.campaigns.paper.reproduce import Paper

@@ -5,8 +5,7 @@ from pathlib import Path
 from time import perf_counter
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.paper.claims.book import judged_book
-from comparisons.campaigns.paper.claims.claim_list import SCENES, SURFACES, claims
+from comparisons.campaigns.paper.claims.claim_list import SCENES, SURFACES, book_claims, claims
 from comparisons.campaigns.paper.claims.judgement import OUTCOMES, JudgedClaim, judge
 from comparisons.campaigns.paper.claims.readings import SLIDING
 from comparisons.campaigns.paper.page import paper_page
@@ -105,7 +104,7 @@ def paper(
     start = perf_counter()
     outcomes = solve_surfaces(fineness, within(callback, 0.0, SOLVING), effects)
     callback(Step("measuring the claims", SOLVING))
-    judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims()) + judged_book()
+    judged = tuple(judge(claim, outcomes.get(claim.scene)) for claim in (*claims(), *book_claims()))
     found = Paper(outcomes, judged, perf_counter() - start, out)
     page = paper_page(found, sections_of(outcomes, judged, callback))
     callback("writing files")

@@ -14,7 +14,7 @@ from analytic.material import Material
 from analytic.operators.convolution import Convolution
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings
+from comparisons.campaigns.cases import CONDITION, CaseFigures, account, bounded
 from comparisons.campaigns.robustness.backward_error import THRESHOLD, backward_ratio
 
 ELASTOMER = LayeredBody(Material(1.0, 0.5 - 1e-9), 0.02, "bonded")
@@ -27,7 +27,7 @@ OPERATORS: dict[str, Callable[[int], Convolution]] = {
 }
 
 
-def direct_findings(operator: str, count: int, nodes: Sequence[int] | None = None) -> CaseFindings:
+def direct_findings(operator: str, count: int, nodes: Sequence[int] | None = None) -> CaseFigures:
     """Nodes from the first to the second of `nodes`, or 120 scattered ones."""
     made, rng = OPERATORS[operator](count), np.random.default_rng(1)
     scattered = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
@@ -36,11 +36,11 @@ def direct_findings(operator: str, count: int, nodes: Sequence[int] | None = Non
     matrix = made.block(nodes)
     found = made.solve(nodes, right)
     ratio = np.inf if found is None else backward_ratio(matrix, found, right)
-    figure = BoundedFigure("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
-    return CaseFindings((figure,), condition=float(np.linalg.cond(matrix)))
+    figure = bounded("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
+    return figure, account(CONDITION, "dense", np.linalg.cond(matrix))
 
 
-def product_findings(operator: str, count: int, single: bool = False) -> CaseFindings:
+def product_findings(operator: str, count: int, single: bool = False) -> CaseFigures:
     """A product by FFT against one in longer numbers, row by row; `single` with 32-bit pressures.
     The ratio grows like log n at most, which THRESHOLD leaves room for."""
     made = OPERATORS[operator](count)
@@ -54,4 +54,4 @@ def product_findings(operator: str, count: int, single: bool = False) -> CaseFin
     error = np.abs(made.apply(pressure)[rows] - exact).max()
     ratio = float(error / (norm * np.abs(pressure).max() * float(np.finfo(kind).eps)))
     reference = "LAPACK's test ratio, 32 bits" if single else "LAPACK's test ratio"
-    return CaseFindings((BoundedFigure("error of the product", ratio, THRESHOLD, reference),))
+    return (bounded("error of the product", ratio, THRESHOLD, reference),)

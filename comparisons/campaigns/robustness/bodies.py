@@ -16,7 +16,7 @@ from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings
+from comparisons.campaigns.cases import CONDITION, CaseFigures, account, bounded
 from comparisons.campaigns.robustness.backward_error import (
     EPS,
     THRESHOLD,
@@ -26,10 +26,11 @@ from comparisons.campaigns.robustness.backward_error import (
 )
 from comparisons.campaigns.robustness.loaded_contact import (
     Constants,
+    costs,
     deviation,
-    iterations,
     residual_figures,
 )
+from comparisons.figures.figure import Figure
 from fem.body.coating import Coating
 from fem.body.elasticity import ElasticBody, elastic_body
 from fem.body.support import Support
@@ -82,7 +83,7 @@ def body_on(
     return elastic_body(mesh_named(mesh), Material(*material), held, degree=degree, coating=layer)
 
 
-def factor_findings(mesh: str = "plain", **given: object) -> CaseFindings:
+def factor_findings(mesh: str = "plain", **given: object) -> CaseFigures:
     """Random forces, and the forces of a hat: residual against rounding, and the condition."""
     body = body_on(mesh, **given)
     matrix = csr_matrix(body.stiffness())
@@ -95,9 +96,7 @@ def factor_findings(mesh: str = "plain", **given: object) -> CaseFindings:
     for name, load in loads.items():
         load[body.held] = 0.0
         ratio = backward_ratio(matrix, body.solve(load).ravel(), load.ravel())
-        figures.append(
-            BoundedFigure(f"backward error, {name}", ratio, THRESHOLD, "LAPACK's test ratio")
-        )
+        figures.append(bounded(f"backward error, {name}", ratio, THRESHOLD, "LAPACK's test ratio"))
     # held rows are the identity's, whose scale is none of the body's
     free = np.flatnonzero(~body.held)
 
@@ -108,10 +107,14 @@ def factor_findings(mesh: str = "plain", **given: object) -> CaseFindings:
 
     condition = condition_estimate(matrix[free][:, free], inverse)
     asymmetry = float(abs(matrix - matrix.T).max() / abs(matrix).max())
-    return CaseFindings((*figures, BoundedFigure("asymmetry", asymmetry, 1e-14, "none")), condition)
+    return (
+        *figures,
+        bounded("asymmetry", asymmetry, 1e-14, "none"),
+        account(CONDITION, "estimate", condition),
+    )
 
 
-def even_findings(mesh: str = "plain", **given: object) -> CaseFindings:
+def even_findings(mesh: str = "plain", **given: object) -> CaseFigures:
     """Even compression, which elements of any shape represent, below a rough boundary, too. uz =
     depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu)."""
     body = body_on(mesh, support="even", **given)
@@ -130,12 +133,10 @@ def even_findings(mesh: str = "plain", **given: object) -> CaseFindings:
     load = np.zeros_like(force)
     load[top] = force[top]
     error = np.abs(body.solve(load) - moved).max() / np.abs(moved).max()
-    return CaseFindings(
-        (
-            BoundedFigure("displacement", float(error), GIVEN_BACK, "even compression, exact"),
-            BoundedFigure("forces inside", float(ratio), THRESHOLD, "none, as LAPACK's test ratio"),
-            BoundedFigure("resultant", float(carried), GIVEN_BACK, "even compression, exact"),
-        )
+    return (
+        bounded("displacement", error, GIVEN_BACK, "even compression, exact"),
+        bounded("forces inside", ratio, THRESHOLD, "none, as LAPACK's test ratio"),
+        bounded("resultant", carried, GIVEN_BACK, "even compression, exact"),
     )
 
 
@@ -150,7 +151,7 @@ def pressed(
     return compliance, solve_with_model(compliance, model, gap, grid.weights, constraints)
 
 
-def closed_findings() -> CaseFindings:
+def closed_findings() -> CaseFigures:
     """A load that closes all gaps of a rough line: every node touches."""
     grid, load = HatGrid(0.1, -14, 14), 10.0
     height = 1e-3 * np.random.default_rng(8).standard_normal(grid.count)
@@ -163,13 +164,13 @@ def closed_findings() -> CaseFindings:
     return finite_element_findings(
         found,
         deviation(found.pressure, expected, "pressure", SAME, "elimination on the whole matrix"),
-        BoundedFigure("nodes in contact", touching, grid.count, "all", low=grid.count),
-        BoundedFigure("asymmetry", asymmetry, 1e-12, "none"),
-        condition=float(np.linalg.cond(matrix)),
+        bounded("nodes in contact", touching, grid.count, "all", low=grid.count),
+        bounded("asymmetry", asymmetry, 1e-12, "none"),
+        account(CONDITION, "dense", np.linalg.cond(matrix)),
     )
 
 
-def slope_findings() -> CaseFindings:
+def slope_findings() -> CaseFigures:
     """A rough boundary of rms slope 1: quadratic against cubic displacements on one mesh."""
     grid = HatGrid(0.1, -12, 12)
     given = -(grid.x**2) / 20.0, 0.05, grid, "rough"
@@ -181,13 +182,11 @@ def slope_findings() -> CaseFindings:
 
 def finite_element_findings(
     solution: ContactSolution,
-    *figures: BoundedFigure,
-    condition: float | None = None,
+    *figures: Figure,
     most: int = MOST_STEPS,
     ordinary: int = ORDINARY_STEPS,
-) -> CaseFindings:
+) -> CaseFigures:
     """The figures, the contact conditions, and steps of the outer iteration, `most` at most."""
     steps = float(solution.iterations["steps"])
-    limit = BoundedFigure("steps", steps, float(most), "the most of an outer iteration")
-    cost = iterations(solution, steps / ordinary)
-    return CaseFindings((*figures, *residual_figures(solution), limit), condition, cost)
+    limit = bounded("steps", steps, float(most), "the most of an outer iteration")
+    return *figures, *residual_figures(solution), limit, *costs(solution, steps / ordinary)

@@ -14,7 +14,16 @@ from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.elements import hat_galerkin
 from analytic.operators.half_plane import HalfPlane, ModelOperator
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
+from comparisons.campaigns.cases import (
+    CONDITION,
+    COST,
+    TIMES_THE_ORDINARY,
+    CaseFigures,
+    account,
+    bounded,
+    relative_error,
+)
+from comparisons.figures.figure import Figure
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 
@@ -55,20 +64,21 @@ class LoadedContact:
         """Sum of the patches [m]."""
         return float(np.ptp(self.patches, axis=1).sum())
 
-    def findings(self, *figures: BoundedFigure) -> CaseFindings:
+    def findings(self, *figures: Figure) -> CaseFigures:
         """The figures, the contact conditions, and the operator's applications; with the condition
         number of the compliance of few nodes in contact."""
         spent = float(self.solution.iterations["applications"])
         times = spent / ordinary_applications(len(self.x))
         limits = (
-            BoundedFigure("applications", spent, MOST_APPLICATIONS, "the most of a contact"),
-            BoundedFigure("cost", times, MOST_TIMES, "the ordinary contact on as many nodes"),
+            bounded("applications", spent, MOST_APPLICATIONS, "the most of a contact"),
+            bounded("cost", times, MOST_TIMES, "the ordinary contact on as many nodes"),
         )
-        cost = iterations(self.solution, times)
-        touching, condition = np.flatnonzero(self.pressure > 0.0), None
+        accounts = costs(self.solution, times)
+        touching = np.flatnonzero(self.pressure > 0.0)
         if len(touching) <= MOST_NODES:
-            condition = float(np.linalg.cond(self.operator.block(touching)))
-        return CaseFindings((*figures, *residual_figures(self.solution), *limits), condition, cost)
+            condition = np.linalg.cond(self.operator.block(touching))
+            accounts += (account(CONDITION, "of the nodes in contact", condition),)
+        return *figures, *residual_figures(self.solution), *limits, *accounts
 
 
 def load_contact(
@@ -96,16 +106,16 @@ def load_cylinder(
     return load_contact(operator, grid.x, grid.hat_integrals(roller_gap(radius)), constraints)
 
 
-def residual_figures(solution: ContactSolution) -> tuple[BoundedFigure, ...]:
+def residual_figures(solution: ContactSolution) -> CaseFigures:
     return tuple(
-        BoundedFigure(name, value, KKT_TOLERANCE, "the contact conditions")
+        bounded(name, value, KKT_TOLERANCE, "the contact conditions")
         for name, value in vars(solution.residuals).items()
     )
 
 
-def iterations(solution: ContactSolution, times_the_ordinary: float) -> dict[str, float]:
-    counts = {name: float(number) for name, number in solution.iterations.items()}
-    return counts | {"times_the_ordinary": times_the_ordinary}
+def costs(solution: ContactSolution, times_the_ordinary: float) -> CaseFigures:
+    counts = solution.iterations | {TIMES_THE_ORDINARY: times_the_ordinary}
+    return tuple(account(COST, name, number) for name, number in counts.items())
 
 
 @cache
@@ -129,7 +139,7 @@ def dense_matrix(count: int, pitch: float, modulus: float, coupling: float = 0.0
     return toeplitz(even + odd, even - odd)
 
 
-def dense_violation(contact: LoadedContact, modulus: float, coupling: float = 0.0) -> BoundedFigure:
+def dense_violation(contact: LoadedContact, modulus: float, coupling: float = 0.0) -> Figure:
     """Largest violation of the contact conditions by a matrix that the solver never formed.
     Relative to the range of the displacements, or to 1 % of the largest where they hardly vary."""
     pitch, pressure, gap = contact.pitch, contact.pressure, contact.weighted_gap
@@ -142,10 +152,10 @@ def dense_violation(contact: LoadedContact, modulus: float, coupling: float = 0.
     scale = max(np.ptp(displacement), 1e-2 * np.abs(displacement).max())
     violation = float(max(0.0, wrong.max()) / scale)
     reference = "the contact conditions by a dense matrix"
-    return BoundedFigure("gap against pressure", violation, KKT_TOLERANCE, reference)
+    return bounded("gap against pressure", violation, KKT_TOLERANCE, reference)
 
 
-def least_squares_deviation(contact: LoadedContact, modulus: float) -> BoundedFigure:
+def least_squares_deviation(contact: LoadedContact, modulus: float) -> Figure:
     """Deviation from the pressures by scipy's bounded least squares at the same approach."""
     pitch, gap = contact.pitch, contact.weighted_gap / contact.pitch
     matrix = dense_matrix(len(contact.pressure), pitch, modulus)
@@ -162,10 +172,10 @@ def least_squares_deviation(contact: LoadedContact, modulus: float) -> BoundedFi
 
 def deviation(
     found: np.ndarray, expected: np.ndarray, name: str, high: float, reference: str
-) -> BoundedFigure:
+) -> Figure:
     """Largest difference, relative to the largest expected value."""
     value = float(np.abs(found - expected).max() / np.abs(expected).max())
-    return BoundedFigure(name, value, high, reference)
+    return bounded(name, value, high, reference)
 
 
 Two = tuple[float, float]
@@ -173,7 +183,7 @@ Two = tuple[float, float]
 
 def peak_and_length(
     contact: LoadedContact | Level, exact: Two, highs: Two, reference: str
-) -> tuple[BoundedFigure, ...]:
+) -> CaseFigures:
     """Relative errors of peak pressure and contact length; `exact` peak [Pa] and half-width [m]."""
     found = contact.solution.pressure.max(), 0.5 * contact.contact_length
     named = zip(("peak pressure", "contact length"), found, exact, highs, strict=True)

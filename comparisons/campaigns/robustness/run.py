@@ -3,54 +3,42 @@
 import tomllib
 from collections.abc import Callable, Iterable
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 
-from comparisons.campaigns.checks import (
-    CheckedCase,
-    CheckedStudy,
-    check_places,
-    run_cases,
-    write_study,
-)
-from comparisons.campaigns.robustness import (
-    algebra,
-    bodies,
-    friction,
-    layers,
-    rough,
-    scenes,
-    smooth,
-)
+from comparisons.campaigns.cases import Campaign, Case, answers_of, check_places, rows_of, write
 from comparisons.common.progress import ProgressCallback, no_progress
 
-MODULES = (smooth, rough, friction, layers, algebra, bodies, scenes)
 
-
-def all_cases() -> list[CheckedCase]:
+def all_cases() -> list[Case]:
     text = Path(__file__).with_name("rows.toml").read_text(encoding="utf-8")
-    named = {module.__name__.rpartition(".")[2]: module for module in MODULES}
     return [
-        CheckedCase(group, name, model, partial(getattr(named[module], function), **given))
+        Case(group, name, model, partial(getattr(_module(module), function), **arguments))
         for model, modules in tomllib.loads(text).items()
         for module, functions in modules.items()
         for function, groups in functions.items()
         for group, rows in groups.items()
-        for name, given in rows.items()
+        for name, arguments in rows.items()
     ]
+
+
+def _module(name: str) -> object:
+    return import_module(f"{__package__}.{name}")
 
 
 def run_robustness(
     out: Path,
     junit: Path | None = None,
     callback: ProgressCallback = no_progress,
-    cases: Callable[[], Iterable[CheckedCase]] = all_cases,
-) -> CheckedStudy:
+    cases: Callable[[], Iterable[Case]] = all_cases,
+) -> Campaign:
     """Run all cases; leave stability.json in `out`, JUnit XML in the file `junit`. Raises
     InputError where those cannot be written."""
     check_places("stability", out, junit)
-    start = perf_counter()
-    rows = run_cases(cases(), callback)
-    study = CheckedStudy("stability", rows, perf_counter() - start)
-    write_study(study, out, junit)
-    return study
+    start, named = perf_counter(), tuple(cases())
+    kept = answers_of(out, named)
+    campaign = Campaign("stability", rows_of(named, callback, kept), perf_counter() - start)
+    write(campaign, out, junit)
+    kept.discard()
+    return campaign

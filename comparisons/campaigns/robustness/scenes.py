@@ -13,11 +13,12 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.sliding import sliding_from_load
 from analytic.material import dundurs_constants
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, relative_error
+from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
 from comparisons.campaigns.robustness.bodies import MOST_STEPS, finite_element_findings
+from comparisons.campaigns.robustness.half_plane import flowed_figure
 from comparisons.campaigns.robustness.loaded_contact import deviation, peak_and_length
-from comparisons.campaigns.robustness.smooth import flowed_figure
 from comparisons.common.progress import Stages
+from comparisons.figures.figure import Figure
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
@@ -64,20 +65,20 @@ def ordinary_level() -> Level:
     return finite_element_solution(ORDINARY)[1]
 
 
-def findings(level: Level, *figures: BoundedFigure, most: int = MOST_STEPS) -> CaseFindings:
-    """CaseFindings of a level, its steps beside those of the ordinary scene."""
+def findings(level: Level, *figures: Figure, most: int = MOST_STEPS) -> CaseFigures:
+    """Of a level, its steps beside those of the ordinary scene."""
     ordinary = ordinary_level().solution.iterations["steps"]
     return finite_element_findings(level.solution, *figures, most=most, ordinary=ordinary)
 
 
-def hertz_findings(peak: float = PEAK, **tables: dict) -> CaseFindings:
+def hertz_findings(peak: float = PEAK, **tables: dict) -> CaseFigures:
     """Of the ordinary scene with other fields; `peak`, what its relative error may be."""
     problem, level = finite_element_solution(changed(tables))
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
     return findings(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
 
 
-def shear_findings(**tables: dict) -> CaseFindings:
+def shear_findings(**tables: dict) -> CaseFigures:
     problem, level = finite_element_solution(changed(tables | {"stress": {"points": [40, 20]}}))
     hertz, found = problem.hertz, level.stresses[0].extremes["tau1"]
     depth, reference = hertz.tau1_max_depth, "Hertz, exact"
@@ -88,7 +89,7 @@ def shear_findings(**tables: dict) -> CaseFindings:
     )
 
 
-def sliding_findings(**tables: dict) -> CaseFindings:
+def sliding_findings(**tables: dict) -> CaseFigures:
     """A rigid roller that slides, its traction moving the surface."""
     problem, level = finite_element_solution(changed(tables))
     hertz, (friction,) = problem.hertz, problem.scene.load.friction
@@ -99,12 +100,12 @@ def sliding_findings(**tables: dict) -> CaseFindings:
     return findings(
         level,
         relative_error("peak pressure", pressure.max(), exact.peak_pressure, PEAK, reference),
-        BoundedFigure("place of the load", place, PLACE, reference),
+        bounded("place of the load", place, PLACE, reference),
         most=MOST_COUPLED_STEPS,
     )
 
 
-def hardness_findings(share: float) -> CaseFindings:
+def hardness_findings(share: float) -> CaseFigures:
     hardness = share * float(ordinary_level().solution.pressure.max())
     if share >= 1.0:
         return hertz_findings(body={"hardness": hardness})
@@ -129,7 +130,7 @@ def in_units(metre: float, pascal: float) -> Tables:
     }
 
 
-def unit_findings(metre: float, pascal: float) -> CaseFindings:
+def unit_findings(metre: float, pascal: float) -> CaseFigures:
     """In other units the same triangles and the same figures."""
     usual = ordinary_level()
     _, level = finite_element_solution(in_units(metre, pascal))
@@ -140,25 +141,25 @@ def unit_findings(metre: float, pascal: float) -> CaseFindings:
         level,
         deviation(pressure, expected, "pressure", SAME, "in metres"),
         relative_error("contact length", length, metre, 1e-5, "in metres"),
-        BoundedFigure("unknowns", unknowns, 1.0, "in metres: the same mesh", low=1.0),
+        bounded("unknowns", unknowns, 1.0, "in metres: the same mesh", low=1.0),
     )
 
 
-def layer_findings(a_over_t: float, high: float = THICK, **tables: dict) -> CaseFindings:
+def layer_findings(a_over_t: float, high: float = THICK, **tables: dict) -> CaseFigures:
     """A layer of thickness t on a rigid base against the analytic one on the same hats."""
     thickness = problem_from(ORDINARY).hertz.half_width / a_over_t
     body = tables.get("body", {}) | {"thickness": thickness}
     return analytic_findings(tables | {"body": body}, high)
 
 
-def coating_findings(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> CaseFindings:
+def coating_findings(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> CaseFigures:
     """A coating against the analytic one on the same hats."""
     coating = {"youngs_modulus": times_as_stiff * STEEL["youngs_modulus"], "poissons_ratio": 0.25}
     coating["thickness"] = problem_from(ORDINARY).hertz.half_width / a_over_t
     return analytic_findings({"coating": coating}, THICK, refinement)
 
 
-def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> CaseFindings:
+def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> CaseFigures:
     problem, level = finite_element_solution(changed(tables), refinement)
     grid, pressure = level.grid, level.solution.pressure
     expected = solve_contact(
@@ -171,6 +172,6 @@ def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> CaseF
     reference = "the analytic layer on the same hats"
     return findings(
         level,
-        BoundedFigure("pressure, L2", error, high, reference),
+        bounded("pressure, L2", error, high, reference),
         relative_error("peak pressure", pressure.max(), expected.max(), high, reference),
     )

@@ -1,24 +1,31 @@
 """Figures with an exact answer: coverage of their stated uncertainties, and orders of convergence.
 
+In: rows of cases that yield a figure, its exact value, and whether both are close (`compared`).
+Out: cases of what must hold of all of them together, and the verification.
+
 Of one contact the error varies with where the edge falls between two nodes; the root mean square
 over contacts with different numbers of elements falls like a power of the element size."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
 
-from comparisons.campaigns.checks import (
-    BoundedFigure,
-    CaseFindings,
-    CheckedCase,
-    CheckedRow,
-    CheckedStudy,
+from comparisons.campaigns.cases import (
+    Campaign,
+    Case,
+    CaseFigures,
+    Row,
+    bounded,
+    carried_out,
+    holds,
     order_figure,
-    run_case,
 )
+from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
+from comparisons.studies import contact
+from comparisons.studies.study import MODEL_ERROR
 
 LEAST_COVERAGE = COVERAGE
 # Median of stated uncertainty over true error, of all figures and of rough contacts: with few
@@ -37,8 +44,10 @@ CEILINGS = {
 }
 # Times these: rough contacts have fewer elements to a patch; a model error is made of two figures.
 ROUGH_FACTOR, MODEL_ERROR_FACTOR = 4.0, 2.0
-PARTS = ("iteration", "discretisation", "domain", "total")  # of an uncertainty
-FIGURE, MODEL_ERROR = "figure", "model error"  # what a run's two tables are made of
+PARTS = ("iteration", "discretisation", "domain")  # of an uncertainty
+EXACT = "exact"  # the source of exact values
+TABLES = {contact.NAME: "figure", MODEL_ERROR: "model error"}  # words for a run's two tables
+NOT_CONVERGED = "not converged"  # note of a figure: a level did not meet its contact conditions
 # Expected order and how far the observed one may lie from it, both ways. Hertz's contact: the
 # figures of smooth fields have order 2, of the edge's place 1, of the pressure in L2 1, by the
 # square root at the edge; of stresses the coarsest level is better than that, for next to the edge
@@ -61,28 +70,47 @@ GROUPS = (("table", "model", "quantity"), ("table", "kind"))
 FEWEST_CONTACTS = 16  # for an observed order
 
 
+def compared(
+    figure: Figure, exact: float, reference: str, kind: str, converged: bool = True
+) -> CaseFigures:
+    """The figure of a case of that kind, the exact value by a reference [SI], and the error, which
+    must be below a ceiling whatever uncertainty is stated; infinite if not converged."""
+    figure = replace(figure, notes=() if converged else (NOT_CONVERGED,))
+    value = Figure(
+        *(figure.study, figure.quantity, EXACT, float(exact)),
+        against=figure.against,
+        uncertainty=Uncertainty(),
+        notes=(reference,),
+    )
+    return figure, value, Pair(kind, "", figure, value).closeness
+
+
 @dataclass(frozen=True)
 class Pair:
-    """One figure of one model against its exact value, or one model error of the half-plane."""
+    """A figure of one model, or one model error of the half-plane, beside its exact value."""
 
+    # kind, case: Hertz | surface | sliding | hardness | layer | wave | punch | rough, and its name
+    kind: str
     case: str
-    source: str
-    kind: str  # of the case: Hertz | surface | sliding | hardness | layer | wave | punch | rough
-    model: str
-    quantity: str
-    levels: tuple[float, ...]  # figures on all levels, coarse to fine [SI]
-    exact: float  # [SI]
-    # [SI] what errors are relative to: the figure, or the smooth contact's where that vanishes
-    scale: float
-    uncertainty: Uncertainty  # as stated, relative to `scale`
-    converged: bool  # all levels met their contact conditions
-    # FIGURE or MODEL_ERROR, whose values are relative to the whole model's figure
-    table: str = FIGURE
+    figure: Figure  # with its levels, and its uncertainty as stated
+    exact: Figure
+
+    @property
+    def model(self) -> str:
+        return self.figure.source
+
+    @property
+    def quantity(self) -> str:
+        return self.figure.quantity
+
+    @property
+    def table(self) -> str:
+        return TABLES[self.figure.study]
 
     @property
     def errors(self) -> list[float]:
-        """True errors of all levels, relative, with their signs."""
-        return [(value - self.exact) / self.scale for value in self.levels]
+        """True errors of all levels, relative to the figure's scale, with their signs."""
+        return [(value - self.exact.value) / self.figure.scale for value in self.figure.levels]
 
     @property
     def error(self) -> float:
@@ -96,59 +124,58 @@ class Pair:
 
     @property
     def covered(self) -> bool:
-        return bool(abs(self.error) <= max(self.uncertainty.total, ROUND_OFF))
+        return bool(abs(self.error) <= max(self.figure.numerical, ROUND_OFF))
 
     @property
     def overestimation(self) -> float | None:
         """Stated uncertainty over true error; None where the error is rounding."""
-        return self.uncertainty.total / abs(self.error) if self.informative else None
+        return self.figure.numerical / abs(self.error) if self.informative else None
 
     @property
-    def figure(self) -> BoundedFigure:
-        """Its error, infinite if not converged, below a ceiling, whatever uncertainty is stated."""
-        ceiling = CEILINGS[self.quantity]
-        if self.kind == "rough":
-            ceiling *= ROUGH_FACTOR
-        if self.table == MODEL_ERROR:
-            ceiling *= MODEL_ERROR_FACTOR
+    def closeness(self) -> Figure:
+        """The error below its ceiling."""
+        figure, is_error = self.figure, self.figure.study == MODEL_ERROR
+        ceiling = CEILINGS[self.quantity] * (ROUGH_FACTOR if self.kind == "rough" else 1.0)
+        ceiling *= MODEL_ERROR_FACTOR if is_error else 1.0
         ratio = "rounding" if self.overestimation is None else f"{self.overestimation:.3g}"
         note = (
-            f"value {self.levels[-1]:.12g}, exact {self.exact:.12g}, relative error "
-            f"{self.error:.3e}, stated uncertainty {self.uncertainty.total:.3e}, "
+            f"value {figure.value:.12g}, exact {self.exact.value:.12g}, relative error "
+            f"{self.error:.3e}, stated uncertainty {figure.numerical:.3e}, "
             f"{'covered' if self.covered else 'NOT covered'}, overestimation ratio {ratio}, "
-            + (self.uncertainty.convergence.behaviour if self.converged else "not converged")
+            + (NOT_CONVERGED if figure.notes else figure.uncertainty.convergence.behaviour)
         )
-        error = abs(self.error) if self.converged else np.inf
-        name = self.quantity if self.table == FIGURE else f"{self.table}, {self.quantity}"
-        return BoundedFigure(name, error, ceiling, self.source, note=note)
+        error = np.inf if figure.notes else abs(self.error)
+        name = f"{self.table}, {self.quantity}" if is_error else self.quantity
+        return bounded(name, error, ceiling, self.exact.notes[0], note=note)
 
     def as_dict(self) -> dict:
-        stated = self.uncertainty
-        return asdict(self) | {
+        stated = self.figure.uncertainty
+        return {
+            "case": self.case,
+            "source": self.exact.notes[0],
+            "kind": self.kind,
+            "model": self.model,
+            "quantity": self.quantity,
+            "levels": self.figure.levels,
+            "exact": self.exact.value,
+            "scale": self.figure.scale,
+            "uncertainty": {name: stated.parts[name] for name in PARTS} | {"total": stated.total},
+            "converged": not self.figure.notes,
+            "table": self.table,
             "error": self.error,
-            "uncertainty": {name: getattr(stated, name) for name in PARTS},
             "covered": self.covered,
             "overestimation_ratio": self.overestimation,
             "behaviour": stated.convergence.behaviour,
             "order": stated.convergence.order,
-            "close": self.figure.holds,
+            "close": holds(self.closeness),
         }
 
 
-@dataclass(frozen=True)
-class ExactFindings(CaseFindings):
-    """CaseFindings of a case with an exact answer."""
-
-    pairs: tuple[Pair, ...] = ()
-    # relative L2 errors of the pressures on all levels, where these are known
-    pressure_errors: tuple[float, ...] | None = None
-
-    @classmethod
-    def of(
-        cls, pairs: Sequence[Pair], pressure_errors: tuple[float, ...] | None = None
-    ) -> "ExactFindings":
-        figures = tuple(pair.figure for pair in pairs)
-        return cls(figures, pairs=tuple(pairs), pressure_errors=pressure_errors)
+def pairs_of(row: Row) -> list[Pair]:
+    """The figures of a row that have an exact value."""
+    known = grouped(row.figures, lambda figure: (figure.study, figure.quantity))
+    case = row.case.group, row.case.name
+    return [Pair(*case, *both) for both in known if both[-1].source == EXACT]
 
 
 @dataclass(frozen=True)
@@ -175,7 +202,7 @@ def coverage(pairs: Iterable[Pair]) -> Coverage:
 
 def coverage_cases(
     pairs: Iterable[Pair], fewest: int = FEWEST, fewest_rough: int = FEWEST_ROUGH
-) -> list[CheckedCase]:
+) -> list[Case]:
     """Enough informative figures, covered often enough, by uncertainties that are not too large:
     of all contacts, and of the rough ones."""
     pairs = list(pairs)
@@ -184,21 +211,17 @@ def coverage_cases(
     if rough or fewest_rough:
         groups.append(("rough contacts", rough, MOST_ROUGH, fewest_rough))
     return [
-        CheckedCase("coverage", name, "both", partial(_covered, coverage(group), most, least))
+        Case("coverage", name, "both", partial(_covered, coverage(group), most, least))
         for name, group, most, least in groups
     ]
 
 
-def _covered(found: Coverage, most: float, fewest: int) -> CaseFindings:
+def _covered(found: Coverage, most: float, fewest: int) -> CaseFigures:
     ratio, uncertainties = found.median_overestimation, "the stated uncertainties"
-    return CaseFindings(
-        (
-            BoundedFigure("share covered", found.covered, 1.0, uncertainties, LEAST_COVERAGE),
-            BoundedFigure("median overestimation ratio", ratio, most, uncertainties),
-            BoundedFigure(
-                "informative figures", found.informative, np.inf, "exact answers", fewest
-            ),
-        )
+    return (
+        bounded("share covered", found.covered, 1.0, uncertainties, LEAST_COVERAGE),
+        bounded("median overestimation ratio", ratio, most, uncertainties),
+        bounded("informative figures", found.informative, np.inf, "exact answers", fewest),
     )
 
 
@@ -208,35 +231,33 @@ def observed_order(errors: Sequence[Sequence[float]]) -> float:
     return float(np.log2(square[0] / square[-1]) / (len(square) - 1))
 
 
-def order_cases(rows: Iterable[CheckedRow]) -> list[CheckedCase]:
+def order_cases(rows: Iterable[Row]) -> list[Case]:
     """Orders of the figures of Hertz's contact and of all pressures, where there are enough."""
     errors: dict[tuple[str, str], list[Sequence[float]]] = {key: [] for key in ORDERS}
     for row in rows:
-        if not isinstance(row.findings, ExactFindings):
-            continue
-        if row.findings.pressure_errors:
-            errors[row.case.model, PRESSURE].append(row.findings.pressure_errors)
-        for pair in row.findings.pairs:
+        for figure in row.figures:
+            if figure.quantity == PRESSURE:
+                errors[figure.source, PRESSURE].append(figure.levels)
+        for pair in pairs_of(row):
             if pair.kind == "Hertz" and (pair.model, pair.quantity) in ORDERS:
                 errors[pair.model, pair.quantity].append(pair.errors)
     cases = []
-    for (model, name), found in errors.items():
-        if len(found) >= FEWEST_CONTACTS:
-            order = observed_order(found), *ORDERS[model, name]
+    for (model, name), of_contacts in errors.items():
+        if len(of_contacts) >= FEWEST_CONTACTS:
+            order = observed_order(of_contacts), *ORDERS[model, name]
             figures = (order_figure("observed order", *order, "the exact contacts"),)
-            words = f"{name}, {len(found)} contacts"
-            cases.append(CheckedCase("order", words, model, partial(CaseFindings, figures)))
+            words = f"{name}, {len(of_contacts)} contacts"
+            cases.append(Case("order", words, model, partial(tuple, figures)))
     return cases
 
 
 @dataclass(frozen=True)
-class Verification(CheckedStudy):
+class Verification(Campaign):
     """The rows of `verify`, with the pairs of stated uncertainty and true error among them."""
 
     @cached_property
     def pairs(self) -> tuple[Pair, ...]:
-        found = (row.findings for row in self.rows)
-        return tuple(p for each in found if isinstance(each, ExactFindings) for p in each.pairs)
+        return tuple(pair for row in self.rows for pair in pairs_of(row))
 
     @cached_property
     def coverage(self) -> Coverage:
@@ -244,27 +265,28 @@ class Verification(CheckedStudy):
 
     def groups(self, *names: str) -> dict[tuple[str, ...], Coverage]:
         """Coverage by the named fields of the pairs, in order of appearance."""
-        named: dict[tuple[str, ...], list[Pair]] = {}
-        for pair in self.pairs:
-            named.setdefault(tuple(getattr(pair, name) for name in names), []).append(pair)
-        return {group: coverage(pairs) for group, pairs in named.items()}
+
+        def key(pair: Pair) -> tuple[str, ...]:
+            return tuple(getattr(pair, name) for name in names)
+
+        return {key(pairs[0]): coverage(pairs) for pairs in grouped(self.pairs, key)}
 
     def as_dict(self) -> dict:
         return super().as_dict() | {
             "coverage": asdict(self.coverage),
             "groups": [
-                {**dict(zip(names, group, strict=True)), **asdict(found)}
+                {**dict(zip(names, group, strict=True)), **asdict(covered)}
                 for names in GROUPS
-                for group, found in self.groups(*names).items()
+                for group, covered in self.groups(*names).items()
             ],
             "pairs": [pair.as_dict() for pair in self.pairs],
         }
 
 
 def verification(
-    rows: tuple[CheckedRow, ...], seconds: float, fewest: int, fewest_rough: int
+    rows: tuple[Row, ...], seconds: float, fewest: int, fewest_rough: int
 ) -> Verification:
     """All rows, with those of the coverage by the stated uncertainties."""
-    pairs = Verification("verify", rows, seconds).pairs
-    covered = (run_case(case) for case in coverage_cases(pairs, fewest, fewest_rough))
+    pairs = [pair for row in rows for pair in pairs_of(row)]
+    covered = map(carried_out, coverage_cases(pairs, fewest, fewest_rough))
     return Verification("verify", (*rows, *covered), seconds)

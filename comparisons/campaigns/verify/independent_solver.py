@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, CheckedCase
+from comparisons.campaigns.cases import Case, CaseFigures, bounded
 from comparisons.common.progress import Stages
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
@@ -20,16 +20,16 @@ AGREE = 1e-6  # relative, in pressure and in load
 SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_text("utf-8"))
 
 
-def independent_cases(names: Iterable[str] = SCENES) -> list[CheckedCase]:
+def independent_cases(names: Iterable[str] = SCENES) -> list[Case]:
     model, group = "finite_element", "independent solver"
-    return [CheckedCase(group, n, model, partial(independent_findings, n)) for n in names]
+    return [Case(group, n, model, partial(independent_findings, n)) for n in names]
 
 
-def independent_findings(name: str) -> CaseFindings:
+def independent_findings(name: str) -> CaseFigures:
     """Largest difference of the pressures under one load, over the largest pressure; and relative
     difference of the loads at one approach."""
     from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from fem.body.surface import hat_forces
     from fem.contact.variational_inequality import solve_variational_inequality
@@ -54,14 +54,13 @@ def independent_findings(name: str) -> CaseFindings:
     pressure = level.solution.pressure
     difference = float(np.abs(pressure - other.pressure).max() / pressure.max())
     approach = other.approach - problem.first_touch
-    again = finite_element_level(problem, plan, refinement, None, Stages(), approach, body_cache)
+    asked = LevelOptions(approach=approach)
+    again = finite_element_level(problem, plan, refinement, None, Stages(), body_cache, asked)
     loads = float(abs(grid.weights @ again.solution.pressure - load) / load)
     if not all(mesh is level.mesh for mesh in (bodies.rough.mesh, again.mesh)):
         raise RuntimeError(f"{name}: the solvers were on different meshes")
     reference = "PETSc's vinewtonrsls on the whole system"
-    return CaseFindings(
-        (
-            BoundedFigure("pressure", difference, AGREE, reference),
-            BoundedFigure("load", loads, AGREE, reference),
-        )
+    return (
+        bounded("pressure", difference, AGREE, reference),
+        bounded("load", loads, AGREE, reference),
     )

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from analytic.material import Material
-from comparisons.campaigns.checks import BoundedFigure, CaseFindings, CheckedCase, order_figure
+from comparisons.campaigns.cases import Case, CaseFigures, bounded, order_figure
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
 from fem.body.exact_load import AREA, AREA_WEIGHT, forces_of
 from fem.body.triangle import gradients, jacobians, shapes
@@ -159,12 +159,12 @@ def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
     return errors(body, body.solve(load), exact)
 
 
-def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[CheckedCase]:
+def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[Case]:
     model, group, solve = "finite_element", "manufactured", manufactured_findings
-    return [CheckedCase(group, f"{k}, P{d}", model, partial(solve, k, d)) for k, d in bodies]
+    return [Case(group, f"{k}, P{d}", model, partial(solve, k, d)) for k, d in bodies]
 
 
-def manufactured_findings(kind: str, degree: int) -> CaseFindings:
+def manufactured_findings(kind: str, degree: int) -> CaseFigures:
     coarse, fine = (np.array(errors_of(kind, cells, degree)) for cells in CELLS[degree])
     orders, reference = np.log2(coarse / fine), "manufactured displacement"
     figures = []
@@ -172,6 +172,6 @@ def manufactured_findings(kind: str, degree: int) -> CaseFindings:
         error, high = float(fine[k]), LARGEST[degree][k]
         figures += [
             order_figure(f"{norm}: order", orders[k], expected, MARGIN, reference),
-            BoundedFigure(f"{norm}: error", error, high, reference),
+            bounded(f"{norm}: error", error, high, reference),
         ]
-    return CaseFindings(tuple(figures))
+    return tuple(figures)

@@ -18,8 +18,8 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
-from comparisons.campaigns.checks import CheckedCase
-from comparisons.campaigns.verify.coverage import ExactFindings, Pair
+from comparisons.campaigns.cases import Case, CaseFigures
+from comparisons.campaigns.verify.coverage import compared
 from comparisons.campaigns.verify.scenes import (
     LAYER_MODULUS,
     LAYER_RADIUS,
@@ -27,8 +27,10 @@ from comparisons.campaigns.verify.scenes import (
     NEARLY_INCOMPRESSIBLE,
 )
 from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, length_resolution, numerical
+from comparisons.studies import contact
 
 LEVELS = 3
 FULL = 1.0 - 1e-12  # of a period: contact without an edge
@@ -61,12 +63,10 @@ def operator_contacts() -> tuple[OperatorContact, ...]:
     return (*contacts, *layers)
 
 
-def operator_cases(
-    contacts: Sequence[OperatorContact], resolutions: Sequence[float]
-) -> list[CheckedCase]:
+def operator_cases(contacts: Sequence[OperatorContact], resolutions: Sequence[float]) -> list[Case]:
     """Each contact with its own number of elements on the third level."""
     return [
-        CheckedCase(
+        Case(
             contact.kind,
             f"{contact.name}, {elements:g} elements",
             contact.model,
@@ -76,35 +76,29 @@ def operator_cases(
     ]
 
 
-def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
+def operator_findings(case: OperatorContact, elements: float) -> CaseFigures:
     levels = [_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1)]
-    history = [_figures(case, *level) for level in levels]
+    history = [_values(case, *level) for level in levels]
     grid, solution = levels[-1]
     iteration = PRESSURE_PER_RESIDUAL * solution.residuals.worst
-    found = []
+    figures = []
     for quantity, exact in case.exact.items():
-        values = [figures[quantity] for figures in history]
+        values = tuple(level[quantity] for level in history)
         order = FORMAL_ORDERS.get(quantity) or QUANTITIES[quantity].formal_order
         length = quantity == "contact_length"
         resolution = length_resolution(grid.pitch, case.patches) if length else 0.0
         convergence = grid_convergence(values, order, resolution)
         scale = abs(values[-1])
         error = convergence.uncertainty / scale
-        found.append(
-            Pair(
-                case=f"{case.name}, {elements:g} elements",
-                source=case.source,
-                kind=case.kind,
-                model=case.model,
-                quantity=quantity,
-                levels=tuple(values),
-                exact=float(exact),
-                scale=scale,
-                uncertainty=numerical(iteration, error, 0.0, convergence=convergence),
-                converged=all(s.converged for _, s in levels),
-            )
+        figure = Figure(
+            *(contact.NAME, quantity, case.model, values[-1]),
+            scale=scale,
+            uncertainty=numerical(iteration, error, 0.0, convergence=convergence),
+            levels=values,
         )
-    return ExactFindings.of(found)
+        converged = all(solution.converged for _, solution in levels)
+        figures += compared(figure, exact, case.source, case.kind, converged)
+    return tuple(figures)
 
 
 def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSolution]:
@@ -120,7 +114,7 @@ def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSol
     return grid, solve_contact(case.make(grid.count, grid.pitch), weighted_gap, grid.weights, load)
 
 
-def _figures(case: OperatorContact, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
+def _values(case: OperatorContact, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return {
         "peak_pressure": float(solution.pressure.max()),

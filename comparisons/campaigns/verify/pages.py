@@ -5,14 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.checks import MODEL_LABELS, rows_table, verdict_lines
-from comparisons.campaigns.verify.coverage import (
-    GROUPS,
-    Coverage,
-    ExactFindings,
-    Pair,
-    Verification,
-)
+from comparisons.campaigns.cases import MODEL_LABELS, bounds_text, holds, rows_table, verdict_lines
+from comparisons.campaigns.verify.coverage import GROUPS, Coverage, Pair, Verification, pairs_of
 from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.terminal import plain_table
 
@@ -42,16 +36,19 @@ def verify_summary(found: Verification) -> "RenderableType":
         for row in _coverage_rows(found, names):
             table.add_row(*row)
         tables += [table, ""]
-    shown = [r for r in found.rows if not (r.holds and isinstance(r.findings, ExactFindings))]
+    shown = [row for row in found.rows if not (row.holds and pairs_of(row))]
     return Group(*tables, rows_table(shown), verdict_lines(found), coverage_line(found))
 
 
 def verify_page(found: Verification) -> str:
     figures = [
-        [row.case.group, f"{row.case.name}: {f.name}", f"{f.value:.4g}", f.bounds, _yes(f.holds)]
+        [
+            *(row.case.group, f"{row.case.name}: {f.quantity}"),
+            *(f"{f.value:.4g}", bounds_text(f), _yes(holds(f))),
+        ]
         for row in found.rows
-        if not isinstance(row.findings, ExactFindings)
-        for f in row.findings.figures
+        if not pairs_of(row)
+        for f in row.judged
     ]
     coverages = (
         (f"Coverage by {', '.join(names)}", (*names, *COLUMNS), _coverage_rows(found, names))
@@ -67,8 +64,8 @@ def verify_page(found: Verification) -> str:
 def _pair_row(pair: Pair) -> tuple[str, ...]:
     words = pair.table, MODEL_LABELS[pair.model], pair.case, pair.quantity
     ratio = "" if pair.overestimation is None else f"{pair.overestimation:.2f}"
-    stated = f"{pair.uncertainty.total:.2e}"
-    return (*words, f"{pair.exact:.6g}", f"{pair.error:.2e}", stated, ratio, _yes(pair.covered))
+    numbers = f"{pair.exact.value:.6g}", f"{pair.error:.2e}", f"{pair.figure.numerical:.2e}"
+    return (*words, *numbers, ratio, _yes(pair.covered))
 
 
 def _coverage_rows(found: Verification, names: tuple[str, ...]) -> list[tuple[str, ...]]:

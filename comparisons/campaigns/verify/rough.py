@@ -18,7 +18,7 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.profile import Profile
 from analytic.surface.readers.files import MeasuredProfile
-from comparisons.campaigns.checks import CheckedCase
+from comparisons.campaigns.cases import Case
 from comparisons.campaigns.verify.operators import OperatorContact, operator_cases
 from comparisons.campaigns.verify.scenes import (
     LOOSE,
@@ -77,7 +77,7 @@ def rough_contact(
     return ManufacturedContact(patches, body.material, None, layer, friction)
 
 
-def rough_cases() -> list[CheckedCase]:
+def rough_cases() -> list[Case]:
     contacts = rough_operator_contacts()
     return [
         *scene_cases(rough_scenes()),

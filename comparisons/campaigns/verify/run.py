@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from comparisons.campaigns.checks import CheckedCase, check_places, run_case, run_cases, write_study
+from comparisons.campaigns.cases import Case, answers_of, carried_out, check_places, rows_of, write
 from comparisons.campaigns.verify.coverage import (
     FEWEST,
     FEWEST_ROUGH,
@@ -31,8 +31,8 @@ DEGREES = (1, 2, 3)
 class Scope:
     """What to verify."""
 
-    exact: tuple[CheckedCase, ...]  # cases whose findings are `ExactFindings`
-    others: tuple[CheckedCase, ...] = ()  # cases of the finite elements
+    exact: tuple[Case, ...]  # cases that yield figures with exact values
+    others: tuple[Case, ...] = ()  # cases of the finite elements
     # fewest, fewest_rough: informative figures that there must be, in all and of rough contacts
     fewest: int = FEWEST
     fewest_rough: int = FEWEST_ROUGH
@@ -65,9 +65,12 @@ def verify(
     check_places("verify", out, junit)
     scope = scope or everything()
     start = perf_counter()
-    rows = run_cases((*scope.exact, *scope.others), callback)
+    cases = (*scope.exact, *scope.others)
+    kept = answers_of(out, cases)
+    rows = rows_of(cases, callback, kept)
     exact, others = rows[: len(scope.exact)], rows[len(scope.exact) :]
-    rows = (*exact, *map(run_case, order_cases(exact)), *others)
+    rows = (*exact, *map(carried_out, order_cases(exact)), *others)
     found = verification(rows, perf_counter() - start, scope.fewest, scope.fewest_rough)
-    write_study(found, out, junit, verify_page(found))
+    write(found, out, junit, verify_page(found))
+    kept.discard()
     return found

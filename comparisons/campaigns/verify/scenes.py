@@ -8,7 +8,7 @@ nodes, so each case has its own number of pressure elements on a half-width.
 Nomenclature: a half-width [m], h pitch of the pressure elements [m], R radius [m], p0 peak
 pressure [Pa], mu friction coefficient."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from itertools import product
@@ -26,12 +26,13 @@ from analytic.exact.cases import (
 )
 from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
-from comparisons.campaigns.checks import CheckedCase
-from comparisons.campaigns.verify.coverage import MODEL_ERROR, ExactFindings, Pair
+from comparisons.campaigns.cases import Case
+from comparisons.campaigns.verify.coverage import EXACT, PRESSURE, compared
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import Convergence
-from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.figures.uncertainty import numerical
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
@@ -41,9 +42,10 @@ from comparisons.runs.refinement import refined
 from comparisons.runs.run import solve
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, surface_of
+from comparisons.studies import contact
 from comparisons.studies.comparison import relative_l2
-from comparisons.studies.contact import uncertainties, values_of
-from comparisons.studies.study import unsolved
+from comparisons.studies.contact import values_of
+from comparisons.studies.study import MODEL_ERROR, unsolved
 
 FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
@@ -217,15 +219,15 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
     return ExactScene(name, source, "layer", tables, exact, models=("finite_element",))
 
 
-def scene_cases(scenes: Iterable[ExactScene]) -> list[CheckedCase]:
+def scene_cases(scenes: Iterable[ExactScene]) -> list[Case]:
     return [
-        CheckedCase(scene.kind, scene.name, model, partial(scene_findings, scene, model))
+        Case(scene.kind, scene.name, model, partial(scene_findings, scene, model))
         for scene in scenes
         for model in scene.models
     ]
 
 
-def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
+def scene_findings(scene: ExactScene, model: str) -> Iterator[Figure]:
     """Solve a scene with one model, as `run` does, and compare each figure with the exact one.
     Where the half-plane's are known too, both solve it, and its model error is compared."""
     asked = Scene.of(scene.tables, Origin("verify", source=f"verify: {scene.name}"))
@@ -233,48 +235,33 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
     (friction,) = asked.load.friction
     posed = unsolved(problem, make_plan(problem, MODELS if scene.half_plane else (model,)))
     solved = solve(posed, None) if scene.half_plane else refined(posed, Tasks())
-    runs = solved.runs
-    run = runs[model]
-    stated = uncertainties(run, problem, friction)
-    history = [values_of(level, problem, friction) for level in run.levels]
-    converged = all(level.solution.converged for each in runs.values() for level in each.levels)
-    common = {"case": scene.name, "source": scene.source, "kind": scene.kind}
-    pairs = [
-        Pair(
-            **common,
-            model=model,
-            quantity=quantity,
-            levels=tuple(level[quantity] for level in history),
-            exact=float(exact),
-            scale=abs(history[-1][quantity]) or QUANTITIES[quantity].scale(problem.hertz),
-            uncertainty=stated[quantity],
-            converged=converged,
-        )
-        for quantity, exact in scene.exact.items()
-    ]
+    figures = Figures(contact.solve(solved, {}, None).figures)
+    runs = solved.runs.values()
+    converged = all(level.solution.converged for run in runs for level in run.levels)
+    common = scene.source, scene.kind, converged
+    for quantity, exact in scene.exact.items():
+        yield from compared(figures.one(source=model, quantity=quantity), exact, *common)
     if scene.half_plane:
         half_plane = scene.half_plane(problem)
         for quantity, exact in scene.exact.items():
             error = solved.figures.one(against=WHOLE, quantity=quantity, friction=friction)
-            value, stated = error.value, error.numerical  # one number for all causes
-            known = Convergence(value, value, stated, 1.0, None, "too few levels")
-            pairs.append(
-                Pair(
-                    **common,
-                    model="half_plane",
-                    quantity=quantity,
-                    levels=(value,),
-                    exact=half_plane[quantity] / exact - 1.0,
-                    scale=1.0,
-                    uncertainty=numerical(0.0, stated, 0.0, convergence=known),
-                    converged=converged,
-                    table=MODEL_ERROR,
-                )
-            )
-    if scene.pressure is None:
-        return ExactFindings.of(pairs)
-    pressures = ((level.grid.x, level.solution.pressure) for level in run.levels)
-    return ExactFindings.of(pairs, tuple(relative_l2(p, scene.pressure(x)) for x, p in pressures))
+            yield from compared(_by_itself(error), half_plane[quantity] / exact - 1.0, *common)
+    if scene.pressure is not None:
+        curves = ((level.grid.x, level.solution.pressure) for level in solved.runs[model].levels)
+        errors = tuple(relative_l2(p, scene.pressure(x)) for x, p in curves)
+        yield Figure("pressure", PRESSURE, model, errors[-1], against=EXACT, levels=errors)
+
+
+def _by_itself(error: Figure) -> Figure:
+    """A model error with one uncertainty for all causes, and no levels."""
+    value, stated = error.value, error.numerical
+    known = Convergence(value, value, stated, 1.0, None, "too few levels")
+    return Figure(
+        *(MODEL_ERROR, error.quantity, "half_plane", value),
+        against=WHOLE,
+        uncertainty=numerical(0.0, stated, 0.0, convergence=known),
+        levels=(value,),
+    )
 
 
 def smooth_half_plane(problem: Problem) -> dict[str, float]:

@@ -6,6 +6,7 @@ temperature at the scene's `reach` from the contact, and where its rim comes in;
 what is heated is meshed."""
 
 from collections.abc import Callable, Set
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -53,10 +54,13 @@ def solved_heat(
     first, after = runs_of(contact)
     patches = np.column_stack([x[first], x[after]])
     settings = problem.scene.heat
-    given = zip((settings.body, settings.roller), settings.velocities, (True, False), strict=True)
+    rough_velocity, roller_velocity = settings.velocities
+    halves = (
+        _Half(True, settings.body, rough_velocity),
+        _Half(False, settings.roller, roller_velocity),
+    )
     bodies = tuple(
-        _conduction(problem, material, velocity, patches, level.grid.pitch, block, rough, without)
-        for material, velocity, rough in given
+        _conduction(problem, half, patches, level.grid.pitch, block, without) for half in halves
     )
     found = FrictionalHeat(bodies, x, contact).steady(heat)
     into_body = np.zeros_like(heat)
@@ -83,18 +87,26 @@ def solved_heat(
     return HeatedContact(*inner, found.share), at
 
 
+@dataclass(frozen=True)
+class _Half:
+    """One of the two bodies."""
+
+    rough: bool  # else the roller
+    material: ThermalMaterial
+    velocity: float  # of its surface past the contact [m/s]
+
+
 def _conduction(
     problem: Problem,
-    material: ThermalMaterial,
-    velocity: float,
+    half: _Half,
     patches: np.ndarray,
     pitch: float,
     block: float,
-    rough: bool,
     without: Set[str],
 ) -> Conduction:
     """The rough body or the roller on a mesh of its own, finer on each level in every respect."""
     scene, settings = problem.scene, problem.scene.heat
+    rough, material, velocity = half.rough, half.material, half.velocity
     thickness = scene.body.thickness if rough and "thickness" not in without else None
     coated = scene.coating if rough and "coating" not in without else None
     radius = np.inf if rough or "roller" in without else scene.roller.radius

@@ -5,22 +5,34 @@ large that it stands for a half-plane. An elastic roller is a second body under 
 a flat block, or a sector of its exact circle. The contact is solved on the sum of both surface
 compliances; analytic operators only predict it."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
+from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import KKT_TOLERANCE
+from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import ModelOperator
 from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
-from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-from comparisons.models.finite_element.compliance_check import no_check, operator_check
-from comparisons.models.finite_element.contact import mutual_compliance, solve_mutual
+from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
+from comparisons.models.finite_element.compliance_check import (
+    ComplianceCheck,
+    no_check,
+    operator_check,
+)
+from comparisons.models.finite_element.contact import (
+    MutualCompliance,
+    mutual_compliance,
+    solve_mutual,
+)
 from comparisons.models.finite_element.cost import expected, refuse_too_large
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
-from comparisons.models.finite_element.stress import pressed_linearly, stresses_of
+from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
@@ -38,99 +50,178 @@ MOST_ROUNDS = 12  # of loads for a prescribed approach
 MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
 
+@dataclass(frozen=True)
+class LevelOptions:
+    """What one level does that others need not."""
+
+    approach: float | None = None  # [m] from first touch, prescribed in place of the load
+    check: bool = False  # compare the bodies' compliance with the analytic one first
+    fields: bool = True  # give the stresses at all points of the mesh, too
+
+
 def finite_element_level(
     problem: Problem,
     plan: Plan,
     refinement: Refinement,
     window: Window | None,
     stages: Stages,
-    approach: float | None = None,
     body_cache: BodyCache | None = None,
-    check: bool = False,
-    fields: bool = True,
+    options: LevelOptions = LevelOptions(),
 ) -> Level:
     """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
 
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
-    approach   [m] from first touch, prescribed in place of the load
-    body_cache shared by levels whose meshes and factors may be the same
-    check      compare the bodies' compliance with the analytic one first
-    fields     give the stresses at all points of the mesh, too
+    body_cache  shared by levels whose meshes and factors may be the same
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails."""
-    scene, grid = problem.scene, problem.grid(refinement.pitch)
-    body_cache = body_cache or BodyCache()
-    friction = scene.load.friction[0] if scene.finite_element.coupled else 0.0
-    model = nearest_operator(scene, grid, friction)
-    weighted_gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
-    constraints = problem.constraints()
-    if scene.finite_element.plastic:  # the body's own flow limits the pressure
-        constraints = replace(constraints, hardness=np.inf)
-    with stages.stage("assembly", "finite elements: loading"):
-        from_first(start_worker)
-        load_dolfinx()
-    with stages.stage("contact", "finite elements: predicting the contact"):
-        guess = solve_on(model, weighted_gap, grid.weights, problem.widest)
-    ranges, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
+    solving = _LevelSolution(problem, plan, refinement, stages, options)
+    solving.load_libraries()
+    ranges, start = solving.predicted_contact()
     cost = expected(problem, plan, refinement, ranges)
-    refuse_too_large(problem, cost, grid.pitch)
-    if approach is not None:
-        constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
-    # what finite deformation starts from need not be closer than it changes
-    finite = scene.finite_element.deformation == "finite"
-    tolerance = START_TOLERANCE if finite else KKT_TOLERANCE
-    checked = None
-    for _ in range(MOST_MESHES):
-        bodies = bodies_of(problem, plan, refinement, ranges, stages, body_cache)
-        refined = bodies.rough.mesh.spec.intervals
-        with stages.stage("contact", "finite elements: contact"):
-            operator = mutual_compliance(problem, bodies, grid)
-        if check and no_check(scene) is None:
-            with stages.stage("check", "finite elements: compliance before contact"):
-                checked = operator_check(problem, operator, model, grid, refined)
-        with stages.stage("contact", "finite elements: contact"):
-            given = operator, model, weighted_gap, grid.weights, constraints, start
-            solution = solve_mutual(*given, tolerance)
-        touching = grid.x[solution.pressure > 0.0]
-        missed = unrefined_contact(refined, touching, reach=grid.pitch)
-        if len(missed) == 0:
-            break
-        ranges, start = merge(np.vstack([ranges, missed])), solution.pressure
-    else:
-        solution = replace(solution, converged=False)  # it touches an unrefined range
-    if finite:
-        with stages.stage("finite deformation", "finite elements: finite deformation"):
-            pressed = pressed_finitely(problem, operator, grid, solution, constraints, model)
-    elif scene.finite_element.plastic:
-        with stages.stage("plastic flow", "finite elements: plastic flow"):
-            pressed = pressed_plastically(
-                problem, operator, grid, solution, weighted_gap, constraints, refinement.travel
-            )
-    else:
-        with stages.stage("contact", "finite elements: contact"):
-            pressed = pressed_linearly(problem, operator, grid, solution, weighted_gap)
-    solution = pressed.solution
+    refuse_too_large(problem, cost, refinement.pitch)
+    meshed = solving.meshed_contact(ranges, start, body_cache or BodyCache())
+    pressed = solving.pressed(meshed)
     level = Level(
-        grid=grid,
-        solution=solution,
-        displacement=pressed.displacement / grid.weights,
+        grid=solving.grid,
+        solution=pressed.solution,
+        displacement=pressed.displacement / solving.grid.weights,
         patches=pressed.patches,
         seconds=stages.seconds,
-        unknowns=sum(each.unknowns for each in bodies.all),
-        factor_memory=bodies.factor_memory,
+        unknowns=sum(body.unknowns for body in meshed.bodies.all),
+        factor_memory=meshed.bodies.factor_memory,
         expected_seconds=cost.seconds,
         expected_memory=cost.memory,
-        mesh=bodies.rough.mesh,
-        operator=checked,
+        mesh=meshed.bodies.rough.mesh,
+        operator=meshed.check,
         material=pressed.material,
     )
     if window is None:
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
-        frictions, asperities = scene.load.friction, problem.asperities
-        stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)
+        frictions, asperities = problem.scene.load.friction, problem.asperities
+        stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, options.fields)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
+
+
+@dataclass(frozen=True)
+class _MeshedContact:
+    """Both bodies, and their contact at small strains."""
+
+    bodies: BodyPair
+    operator: MutualCompliance
+    solution: ContactSolution
+    check: ComplianceCheck | None  # of the bodies' compliance, where it was asked for
+
+
+@dataclass(frozen=True)
+class _LevelSolution:
+    """The steps of one level."""
+
+    problem: Problem
+    plan: Plan
+    refinement: Refinement
+    stages: Stages
+    options: LevelOptions
+
+    @cached_property
+    def grid(self) -> HatGrid:
+        return self.problem.grid(self.refinement.pitch)
+
+    @cached_property
+    def model(self) -> ModelOperator:
+        """The nearest analytic operator."""
+        scene = self.problem.scene
+        friction = scene.load.friction[0] if scene.finite_element.coupled else 0.0
+        return nearest_operator(scene, self.grid, friction)
+
+    @cached_property
+    def weighted_gap(self) -> np.ndarray:
+        """(n,) [m^2] integrals of the initial gap with the hats."""
+        return self.grid.hat_integrals(self.problem.finite_element_gap, self.problem.knots)
+
+    @cached_property
+    def constraints(self) -> Constraints:
+        constraints, approach = self.problem.constraints(), self.options.approach
+        if self.problem.scene.finite_element.plastic:  # the body's own flow limits the pressure
+            constraints = replace(constraints, hardness=np.inf)
+        if approach is not None:
+            from_touch = approach + self.problem.first_touch
+            constraints = replace(constraints, load=None, approach=from_touch)
+        return constraints
+
+    @property
+    def is_finite(self) -> bool:
+        return self.problem.scene.finite_element.deformation == "finite"
+
+    def load_libraries(self) -> None:
+        with self.stages.stage("assembly", "finite elements: loading"):
+            from_first(start_worker)
+            load_dolfinx()
+
+    def predicted_contact(self) -> tuple[np.ndarray, np.ndarray]:
+        """Patches (k, 2) [m] and pressures (n,) [Pa] of the analytic model."""
+        grid = self.grid
+        with self.stages.stage("contact", "finite elements: predicting the contact"):
+            guess = solve_on(self.model, self.weighted_gap, grid.weights, self.problem.widest)
+        return contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
+
+    def meshed_contact(
+        self, ranges: np.ndarray, start: np.ndarray, body_cache: BodyCache
+    ) -> _MeshedContact:
+        """Bodies whose meshes are refined wherever they touch; not converged where contact still
+        spreads beyond these ranges (k, 2) [m] on the last of them."""
+        problem, grid, check = self.problem, self.grid, None
+        wants_check = self.options.check and no_check(problem.scene) is None
+        # what finite deformation starts from need not be closer than it changes
+        tolerance = START_TOLERANCE if self.is_finite else KKT_TOLERANCE
+        for _ in range(MOST_MESHES):
+            bodies = bodies_of(problem, self.plan, self.refinement, ranges, self.stages, body_cache)
+            refined = bodies.rough.mesh.spec.intervals
+            with self.stages.stage("contact", "finite elements: contact"):
+                operator = mutual_compliance(problem, bodies, grid)
+            if wants_check:
+                with self.stages.stage("check", "finite elements: compliance before contact"):
+                    check = operator_check(problem, operator, self.model, grid, refined)
+            with self.stages.stage("contact", "finite elements: contact"):
+                solution = solve_mutual(
+                    operator,
+                    self.model,
+                    self.weighted_gap,
+                    grid.weights,
+                    self.constraints,
+                    start,
+                    tolerance,
+                )
+            touching = grid.x[solution.pressure > 0.0]
+            missed = unrefined_contact(refined, touching, reach=grid.pitch)
+            if len(missed) == 0:
+                return _MeshedContact(bodies, operator, solution, check)
+            ranges, start = merge(np.vstack([ranges, missed])), solution.pressure
+        return _MeshedContact(bodies, operator, replace(solution, converged=False), check)
+
+    def pressed(self, contact: _MeshedContact) -> LoadedBody:
+        """Contact and bodies by the scene's laws, from that at small strains."""
+        problem, grid = self.problem, self.grid
+        operator, solution = contact.operator, contact.solution
+        if self.is_finite:
+            with self.stages.stage("finite deformation", "finite elements: finite deformation"):
+                return pressed_finitely(
+                    problem, operator, grid, solution, self.constraints, self.model
+                )
+        if problem.scene.finite_element.plastic:
+            with self.stages.stage("plastic flow", "finite elements: plastic flow"):
+                return pressed_plastically(
+                    problem,
+                    operator,
+                    grid,
+                    solution,
+                    self.weighted_gap,
+                    self.constraints,
+                    self.refinement.travel,
+                )
+        with self.stages.stage("contact", "finite elements: contact"):
+            return pressed_linearly(problem, operator, grid, solution, self.weighted_gap)
 
 
 def problem_of_approach(
@@ -151,13 +242,14 @@ def problem_of_approach(
     modulus = scene.body.material.plane_strain_modulus
     load = np.pi * modulus * half_width**2 / (4.0 * scene.roller.radius)
     body_cache, surface = BodyCache(), surface or surface_of(scene)
+    asked = LevelOptions(approach=wanted)
     for _ in range(MOST_ROUNDS):
         problem = problem_of(scene, surface, load, levels)
         plan = make_plan(problem, ("finite_element",))
         pitch = problem.pitches[-1]
         callback("finite elements: load of the prescribed approach")
         level = finite_element_level(
-            problem, plan, Refinement(pitch), None, Stages(), approach=wanted, body_cache=body_cache
+            problem, plan, Refinement(pitch), None, Stages(), body_cache, asked
         )
         before, load = load, level.solution.load
         low, high = problem.extent

@@ -6,6 +6,8 @@ computes the other model's field."""
 
 import base64
 import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,15 +16,26 @@ from comparisons.figures.quantity import LABELS
 from comparisons.output.page.pictures.fields import COMPONENTS, Component
 from comparisons.studies.study import Run
 
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
 MOST_ROWS, MOST_COLUMNS = 48, 480  # of points in the page
 WHOLE = 32767  # the largest of two bytes
 NOTHING = -32768  # where a field has no value
 DIGITS = 6  # of a place
 
 
-def field_explorer(outcome: Run) -> dict[str, object] | None:
-    """What the page needs: `components` (symbol and words) and `frictions` that the reader may
-    choose, and the `fields` as JSON. None without fields."""
+@dataclass(frozen=True)
+class Explorer:
+    """What the page needs to show values."""
+
+    components: list[tuple[str, str]]  # symbol and words, that the reader may choose
+    frictions: list[str]  # the same
+    fields: "Markup"  # JSON
+
+
+def field_explorer(outcome: Run) -> Explorer | None:
+    """None without fields."""
     if outcome.window is None:
         return None
     from markupsafe import Markup
@@ -44,11 +57,9 @@ def field_explorer(outcome: Run) -> dict[str, object] | None:
             for component in COMPONENTS
         ],
     }
-    return {
-        "components": [(component.symbol, component.words) for component in COMPONENTS],
-        "frictions": list(map(plain, frictions)),
-        "fields": Markup(json.dumps(content, separators=(",", ":")).replace("<", "\\u003c")),
-    }
+    fields = Markup(json.dumps(content, separators=(",", ":")).replace("<", "\\u003c"))
+    components = [(component.symbol, component.words) for component in COMPONENTS]
+    return Explorer(components, list(map(plain, frictions)), fields)
 
 
 def _spread(count: int, most: int) -> np.ndarray:

@@ -15,6 +15,7 @@ FOLDER = Path(__file__).parent / "templates"
 UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b)")
 SECTION = re.compile(r'<section id="([^"]+)">\s*<h2>([^<]*)</h2>')
 HEADING = re.compile(r"<h3>([^<]*)</h3>")
+STARRED = re.compile(r"\*(\w[^*]*\w)\*")
 BAR = re.compile(r"\|(?=τ)")
 WORDS = 6  # of a name that is made of a text
 STYLES = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
@@ -46,6 +47,8 @@ def _environment(folder: Path) -> "Environment":
         "contents": SECTION.findall,
         "anchored": anchored,
         "slug": slug,
+        "kind": lambda item: type(item).__name__,
+        "set_off": set_off,
     }
     made.globals["css"] = lambda *names: Markup(
         "\n".join(made.loader.get_source(made, name)[0] for name in names)
@@ -56,6 +59,13 @@ def _environment(folder: Path) -> "Environment":
 def tight(text: str) -> str:
     """The text without line ends between a number and its unit, or inside |τ|."""
     return BAR.sub("|\u2060", UNIT.sub("\u00a0", text))
+
+
+def set_off(text: str) -> "Markup":
+    """The text with *words* between asterisks in italics."""
+    from markupsafe import Markup, escape
+
+    return Markup(STARRED.sub(r"<i>\1</i>", str(escape(text))))
 
 
 def slug(text: str) -> str:

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError
+from comparisons.common.numbers import listed
 from comparisons.drawing.style import collected_figures
 from comparisons.output.page.page import PICTURES
 from comparisons.output.page.pictures.fields import COMPONENTS
-from comparisons.output.page.tables.text import listed
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:

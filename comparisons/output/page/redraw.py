@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from jinja2 import TemplateError
+
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import check_writable, write_whole
 from comparisons.common.progress import ProgressCallback
@@ -15,6 +17,9 @@ from comparisons.output.page.summary import SummaryRow, summary_page, summary_ro
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
+
+# What drawing raises where a result file was edited.
+DAMAGED = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, TemplateError)
 
 
 @dataclass(frozen=True)
@@ -79,7 +84,7 @@ def _drawn(folder: Path, draws: bool) -> tuple[str | None, SummaryRow]:
     outcome = read_run(folder, with_mesh=draws)
     try:
         return render(outcome) if draws else None, summary_row(outcome)
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+    except DAMAGED as error:
         raise InputError(
             f"{folder}: its result.json, record.json and report.npz make up no report "
             f"({error!r}); allowed is what one run wrote"

@@ -8,10 +8,9 @@ from urllib.parse import quote
 
 from comparisons.common.numbers import given_percent, percent, significant, with_unit
 from comparisons.figures.figure import grouped
-from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, label
+from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
 from comparisons.output.headline import headline
 from comparisons.output.page.html import inline, rendered
-from comparisons.output.page.tables.text import error_text
 from comparisons.studies import contact, problem
 from comparisons.studies.study import MODEL_ERROR, Run
 

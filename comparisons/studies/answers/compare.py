@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import (
     LENGTHS,
@@ -23,7 +24,6 @@ from comparisons.studies.answers.hints import hints
 from comparisons.studies.answers.validation import validation_rows
 from comparisons.studies.comparison import norms, pair_norms, relative_differences
 from comparisons.studies.contact import by_repetition, values_of
-from comparisons.studies.scatter.figures import InputScatter
 from comparisons.studies.study import Solved
 
 LEAST_RATIO = 1.2  # of the spacings of two resolutions that show how a figure converges
@@ -31,11 +31,11 @@ COVERED = 0.5  # of the window: on less of it two fields are not compared
 
 
 def compare_answers(
-    solved: Solved, answers: Mapping[str, tuple[Answer, ...]], scatter: InputScatter | None
+    solved: Solved, answers: Mapping[str, tuple[Answer, ...]], scattered: Figures
 ) -> tuple[ComparedAnswer, ...]:
     """Every answer of the scene; `answers` are its resolutions by its name.
 
-    scatter  of the scene's figures by uncertain inputs; None: not known"""
+    scattered  the half-plane's figures by uncertain inputs, as far as they are known"""
     problem, run = solved.problem, list(solved.runs.values())[-1]
     operators, compared = operators_of(problem, solved.plan, solved.runs), []
     for name, source in problem.scene.answers.items():
@@ -45,7 +45,7 @@ def compare_answers(
         rows = [row for mu in frictions for row in _compared(solved, run, mu, source, levels)]
         if source.scatter is not None:
             measured = {mu: own_figures(finest, problem, mu) for mu in frictions}
-            validation = validation_rows(problem, solved.runs, measured, source.scatter, scatter)
+            validation = validation_rows(problem, solved.runs, measured, source.scatter, scattered)
         compared.append(
             ComparedAnswer(
                 name=name,

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Findings
+from comparisons.figures.figure import Figures, Findings
+from comparisons.studies.answers import show
 from comparisons.studies.answers.answer import NAME, QUANTITIES, Answer, ComparedAnswer
 from comparisons.studies.answers.compare import compare_answers
 from comparisons.studies.scatter.figures import NAME as SCATTER
@@ -35,8 +36,8 @@ def _read(solved: Solved, tasks: Tasks) -> Mapping[str, tuple[Answer, ...]]:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    spread = before[SCATTER].data if SCATTER in before else None
-    answers = compare_answers(solved, _read(solved, tasks), spread)
+    scattered = Figures(before[SCATTER].figures if SCATTER in before else ())
+    answers = compare_answers(solved, _read(solved, tasks), scattered)
     found = [each.findings() for each in answers]
     return Findings(
         tuple(figure for each in found for figure in each.figures),
@@ -52,4 +53,6 @@ STUDY = Study(
     applies=lambda solved: bool(solved.problem.scene.answers),
     begin=begin,
     data=ComparedAnswers,
+    blocks=show.blocks,
+    pictures={"answers": show.answer_pictures},
 )

@@ -8,10 +8,11 @@ model error lies within E +- u_val."""
 import math
 from collections.abc import Mapping
 
+from comparisons.figures.figure import Figures
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.contact import uncertainties, values_of
-from comparisons.studies.scatter.figures import InputScatter
+from comparisons.studies.scatter.figures import by_inputs
 
 
 def validation_rows(
@@ -19,12 +20,13 @@ def validation_rows(
     runs: Mapping[str, ModelRun],
     measured: Mapping[float, Mapping[str, float]],
     u_data: float,
-    scatter: InputScatter | None,
+    scattered: Figures,
 ) -> dict[str, list[dict]]:
     """By quantity, a row for each friction coefficient and model.
 
     measured  the data's figures by friction and quantity, SI; `u_data` is their relative scatter
-    scatter   by uncertain inputs; where it is not known, u_input is None and counts as none"""
+    scattered  the half-plane's by uncertain inputs; where one is not known, u_input is None and
+               counts as none"""
     found: dict[str, list[dict]] = {}
     for friction, data in measured.items():
         for name, run in runs.items():
@@ -33,9 +35,9 @@ def validation_rows(
                 if not data.get(quantity):
                     continue
                 ratio = value / data[quantity]
-                inputs = scatter and scatter.of(quantity, friction)
+                inputs = scattered.one(quantity=quantity, friction=friction)
                 u_num = abs(ratio) * stated[quantity].total
-                u_input = abs(ratio) * inputs.relative if inputs else None
+                u_input = abs(ratio) * by_inputs(inputs) if inputs else None
                 row = {"friction": friction, "model": name, "E": ratio - 1.0, "u_num": u_num}
                 u_val = math.hypot(u_num, u_input or 0.0, u_data)
                 row |= {"u_input": u_input, "u_D": u_data, "u_val": u_val}

@@ -27,6 +27,7 @@ from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.thermal_stress import HeatedStress, half_plane_stress
 from comparisons.models.window import Window
+from comparisons.studies.heat import show
 from comparisons.studies.heat.figures import HEATED, NAME, QUANTITIES, HeatFigure, HeatStudy
 from comparisons.studies.study import Solved, Study
 
@@ -187,4 +188,7 @@ STUDY = Study(
     solve=solve,
     applies=lambda solved: solved.problem.scene.heat is not None,
     data=HeatStudy,
+    blocks=show.blocks,
+    pictures=show.PICTURES,
+    lines=show.lines,
 )

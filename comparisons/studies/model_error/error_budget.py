@@ -93,27 +93,34 @@ def error_budget(
     if is_frugal and selection.added and _is_decided(rows, selection):
         selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
     variants = _variants(solved, tasks, solved.runs["finite_element"])
-    unsplit = None
     while True:
         splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.load.friction}
         variants.keep(split.whole for split in splits.values())
         try:
             frugal = selection if is_frugal else None
-            levels, own, unsplit, left_out = _refined(half_plane, rows, splits, variants, frugal)
+            refined = _Refinement(half_plane, rows, splits, variants).result(frugal)
             wholes = {mu: variants.finest(split.whole) for mu, split in splits.items()}
             break
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
-                levels, own, unsplit, left_out = 0, _unsplit(rows), str(error), None
+                refined = _Refined(0, _unsplit(rows), str(error), None)
                 wholes = dict.fromkeys(splits, solved.runs["finite_element"].finest)
                 break
             selection = selection.without(dropped, str(error))
     sampling = {}
     if problem.scene.profile is not None:
         sampling = sampling_changes(problem, solved.window, half_plane.levels, tasks)
-    own, seconds = tuple(own), variants.seconds
-    return ErrorBudget(selection, levels, unsplit, own, sampling, seconds, wholes, left_out)
+    return ErrorBudget(
+        selection=selection,
+        levels=refined.levels,
+        unsplit=refined.unsplit,
+        model_errors=tuple(refined.errors),
+        sampling=sampling,
+        seconds=variants.seconds,
+        wholes=wholes,
+        left_out=refined.left_out,
+    )
 
 
 def announce_effects(
@@ -166,69 +173,95 @@ def _most_levels(problem: Problem) -> int:
     return min(MOST_LEVELS, most or MOST_LEVELS)
 
 
-def _refined(
-    half_plane: ModelRun,
-    rows: tuple[Figure, ...],
-    splits: dict[float, SplitVariants],
-    solved: SolvedVariants,
-    frugal: EffectSelection | None,
-) -> tuple[int, list[ModelError], str | None, str | None]:
-    """The level that the whole was taken to, the model errors, why these are not split, and which
-    level cannot change a verdict.
+@dataclass(frozen=True)
+class _Refined:
+    """The model errors, as far as the levels of the effects were taken."""
 
-    frugal  what was selected, where such a level is left out; else None
+    levels: int  # that the whole was taken to
+    errors: list[ModelError]
+    unsplit: str | None  # why these are not split
+    left_out: str | None  # which level cannot change a verdict
 
-    The split stays on the least levels, unless the whole and the scene's own finite elements are
-    all that it takes. Raises NotComputedError where a whole has no solution on the least levels."""
-    problem, runs = solved.problem, {"half_plane": half_plane, "finite_element": solved.own}
-    history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.load.friction}
-    own: list[ModelError] = []
-    left_out, tolerance = None, problem.scene.tolerances
-    most = min(_most_levels(problem), len(solved.own.levels))
-    every = dict.fromkeys(each for split in splits.values() for each in split.all)
-    wholes = dict.fromkeys(each for split in splits.values() for each in split.wholes)
 
-    def take(number: int, alone: bool) -> None:
-        """A level into the history."""
-        solved.prepare(wholes if alone else every, number)
-        new = {mu: contributions_of(solved, splits[mu], mu, number, alone) for mu in history}
+class _Refinement:
+    """The effects level by level. The split stays on the least levels, unless the whole and the
+    scene's own finite elements are all that it takes."""
+
+    def __init__(
+        self,
+        half_plane: ModelRun,
+        rows: tuple[Figure, ...],
+        splits: dict[float, SplitVariants],
+        solved: SolvedVariants,
+    ) -> None:
+        self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
+        self.runs = {"half_plane": half_plane, "finite_element": solved.own}
+        self.most = min(_most_levels(solved.problem), len(solved.own.levels))
+        self.every = dict.fromkeys(each for split in splits.values() for each in split.all)
+        self.wholes = dict.fromkeys(each for split in splits.values() for each in split.wholes)
+        frictions = solved.problem.scene.load.friction
+        self.history: dict[float, list[EffectContributions]] = {mu: [] for mu in frictions}
+
+    def result(self, frugal: EffectSelection | None) -> _Refined:
+        """The wholes, which others need, are solved before what splits them.
+
+        frugal  what was selected, where a level that cannot change a verdict is left out; else None
+        Raises NotComputedError where a whole has no solution on the least levels."""
+        for number in range(1, LEAST_LEVELS + 1):
+            self.solved.announce(self.every, number, LAST)
+        left_out = self._take_wholes(frugal)
+        levels = len(next(iter(self.history.values())))
+        for number in range(1, levels + 1):
+            if number <= LEAST_LEVELS or not self._is_open(number):
+                self._take(number, alone=False)
+        parts = (level for of_friction in self.history.values() for level in of_friction)
+        why = next((level.unsplit for level in parts if level.unsplit), None)
+        return _Refined(levels, self._errors(), why, left_out)
+
+    def _take_wholes(self, frugal: EffectSelection | None) -> str | None:
+        """As many levels of the wholes as it takes; which one cannot change a verdict."""
+        for number in range(1, self.most + 1):
+            if number > LEAST_LEVELS and _is_beyond(self.solved, number, self.wholes):
+                return None
+            try:
+                self._take(number, alone=True)
+            except NotComputedError:
+                if number <= LEAST_LEVELS:
+                    raise
+                return None
+            errors = self._errors()
+            if number >= LEAST_LEVELS and _settled(self.rows, errors):
+                return None
+            if LEAST_LEVELS <= number < self.most and frugal and self._is_fixed(errors, frugal):
+                further = f"level {number + 1} of the whole model"
+                return f"{further}: cannot change a verdict ({ASKED})"
+        return None
+
+    def _take(self, number: int, alone: bool) -> None:
+        """A level into the history: of the wholes alone, or of every variant."""
+        self.solved.prepare(self.wholes if alone else self.every, number)
+        new = {
+            mu: contributions_of(self.solved, self.splits[mu], mu, number, alone)
+            for mu in self.history
+        }
         for mu, parts in new.items():
-            history[mu][number - 1 : number] = [parts]
+            self.history[mu][number - 1 : number] = [parts]
 
-    def errors() -> list[ModelError]:
+    def _is_open(self, number: int) -> bool:
+        return any(self.solved.is_open(variant, number) for variant in self.every)
+
+    def _errors(self) -> list[ModelError]:
         errors = []
-        for mu, parts in history.items():
-            there = [row for row in rows if row.friction == mu]
-            errors += model_errors(problem, solved.window, runs, there, parts)
+        for mu, parts in self.history.items():
+            there = [row for row in self.rows if row.friction == mu]
+            errors += model_errors(self.problem, self.solved.window, self.runs, there, parts)
         return errors
 
-    for number in range(1, LEAST_LEVELS + 1):
-        solved.announce(every, number, LAST)
-    for number in range(1, most + 1):  # the wholes, which others need, before what splits them
-        if number > LEAST_LEVELS and _is_beyond(solved, number, wholes):
-            break
-        try:
-            take(number, alone=True)
-        except NotComputedError:
-            if number <= LEAST_LEVELS:
-                raise
-            break
-        own = errors()
-        if number >= LEAST_LEVELS and _settled(rows, own):
-            break
-        if LEAST_LEVELS <= number < most and frugal:
-            errors_so_far = (figure_of(error, frugal, tolerance) for error in own)
-            if all(figure.is_fixed for figure in errors_so_far if figure.bounds):
-                left_out = f"level {number + 1} of the whole model: cannot change a verdict"
-                left_out += f" ({ASKED})"
-                break
-    levels = len(next(iter(history.values())))
-    for number in range(1, levels + 1):
-        if number <= LEAST_LEVELS or not any(solved.is_open(each, number) for each in every):
-            take(number, alone=False)
-    own = errors()
-    why = (parts.unsplit for of_friction in history.values() for parts in of_friction)
-    return levels, own, next(filter(None, why), None), left_out
+    def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:
+        """Whether a finer solution leaves every verdict as it is."""
+        tolerance = self.problem.scene.tolerances
+        figures = (figure_of(error, selection, tolerance) for error in errors)
+        return all(figure.is_fixed for figure in figures if figure.bounds)
 
 
 def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:

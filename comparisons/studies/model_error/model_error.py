@@ -11,6 +11,7 @@ boundary of the models' difference."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -86,110 +87,194 @@ def model_errors(
     rows     the models' comparison at that friction
     history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
              the last of these"""
-    friction = rows[0].friction
-    number, divided = len(history) - 1, [parts for parts in history if parts.nothing is not None]
-    if any(parts.unsplit for parts in history):
-        divided = []
-    names = list(divided[-1].pairs) if divided else []
-    names = [name for name in names if all(name in parts.pairs for parts in divided)]
-    values = {model: values_of(run.finest, problem, friction) for model, run in runs.items()}
-    levels = {
-        model: [quantities_of(level, problem, friction) for level in run.levels]
-        for model, run in runs.items()
-    }
-    half_plane, own = levels["half_plane"], levels["finite_element"]
-    wholes, missing = [parts.whole for parts in history], [p.not_contained for p in history]
-    contains_all = not (
-        missing[-1].pressure.any() or any(map(np.any, missing[-1].figures.values()))
-    )
-    figures = {name: own[-1].figures[name] + each for name, each in missing[-1].figures.items()}
-    whole = QuantitiesOfInterest(figures, wholes[-1].pressure, wholes[-1].tau1)
-    unsolved = iteration(
-        *(level for run in runs.values() for level in (run.finest, run.levels[number]))
-    )
-    reference = runs["finite_element"].levels[number]
-    stated = uncertainties(runs["finite_element"], problem, friction)
-    edge = relative_resolution(reference, reference)
-    resolutions = dict.fromkeys(LENGTHS, edge)
-    resolutions["peak_pressure"] = peak_resolution(wholes[-1].pressure)
+    solutions = _Solutions(problem, window, runs, history, rows[0].friction)
+    return [solutions.error(row) for row in rows]
 
-    def share(name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
+
+@dataclass(frozen=True)
+class _Solutions:
+    """What was solved at one friction coefficient, and the model errors that follow."""
+
+    problem: Problem
+    window: Window | None
+    runs: dict[str, ModelRun]
+    history: list[EffectContributions]
+    friction: float
+
+    @cached_property
+    def split_levels(self) -> list[EffectContributions]:
+        """Those on which the effects are solved one by one; none where one cannot be split."""
+        split = [level for level in self.history if level.nothing is not None]
+        return [] if any(level.unsplit for level in self.history) else split
+
+    @cached_property
+    def effects(self) -> list[str]:
+        """Names of the effects that every split level has."""
+        last = self.split_levels[-1].pairs if self.split_levels else {}
+        return [name for name in last if all(name in level.pairs for level in self.split_levels)]
+
+    @cached_property
+    def values(self) -> dict[str, dict[str, float]]:
+        """Of each model's finest level, by model and quantity [SI]."""
+        runs = self.runs.items()
+        return {name: values_of(run.finest, self.problem, self.friction) for name, run in runs}
+
+    @cached_property
+    def half_plane(self) -> list[QuantitiesOfInterest]:
+        return self._levels("half_plane")
+
+    @cached_property
+    def own(self) -> list[QuantitiesOfInterest]:
+        """The scene's own finite elements, by level."""
+        return self._levels("finite_element")
+
+    def _levels(self, model: str) -> list[QuantitiesOfInterest]:
+        levels = self.runs[model].levels
+        return [quantities_of(level, self.problem, self.friction) for level in levels]
+
+    @cached_property
+    def wholes(self) -> list[QuantitiesOfInterest]:
+        """With every effect, on the levels of the effects."""
+        return [level.whole for level in self.history]
+
+    @cached_property
+    def missing(self) -> list[QuantitiesOfInterest]:
+        """What the scene's own finite elements lack of the wholes."""
+        return [level.not_contained for level in self.history]
+
+    @cached_property
+    def whole(self) -> QuantitiesOfInterest:
+        """The finest one: the scene's own finite elements there, and what they lack."""
+        lacking = self.missing[-1].figures.items()
+        figures = {name: self.own[-1].figures[name] + each for name, each in lacking}
+        return QuantitiesOfInterest(figures, self.wholes[-1].pressure, self.wholes[-1].tau1)
+
+    @cached_property
+    def contains_all(self) -> bool:
+        """Whether the scene's own finite elements are the whole already."""
+        lacking = self.missing[-1]
+        return not (lacking.pressure.any() or any(map(np.any, lacking.figures.values())))
+
+    @cached_property
+    def unsolved(self) -> float:
+        """What the solvers' iterations leave, relative."""
+        number = len(self.history) - 1
+        pairs = ((run.finest, run.levels[number]) for run in self.runs.values())
+        return iteration(*(level for pair in pairs for level in pair))
+
+    @cached_property
+    def resolutions(self) -> dict[str, float]:
+        """By quantity, what the pressure elements of the effects' finest level cannot resolve."""
+        level = self.runs["finite_element"].levels[len(self.history) - 1]
+        of_lengths = dict.fromkeys(LENGTHS, relative_resolution(level, level))
+        return of_lengths | {"peak_pressure": peak_resolution(self.wholes[-1].pressure)}
+
+    def error(self, row: Figure) -> ModelError:
+        """Of the quantity of a row of the models' comparison."""
+        name, at = row.quantity, self.whole.leading(row.quantity)
+        effects = {effect: self._effect(name, effect, at, row.numerical) for effect in self.effects}
+        interaction, jump, moved, scale = 0.0, 0.0, None, 1.0
+        if self.split_levels:
+            joint = [level.interaction(self.effects) for level in self.split_levels]
+            interaction = self._estimate(name, joint, at).value
+        if not QUANTITIES[name].of_pair:
+            value, uncertainty, scale = self._of_figure(name, row.numerical, at)
+            jump, moved = self._jump(name, row.numerical, at)
+        elif not self.contains_all:
+            value, uncertainty = self._of_norm(row)
+        else:
+            value, uncertainty = row.value, row.numerical
+        return ModelError(
+            quantity=name,
+            friction=self.friction,
+            effects=effects,
+            interaction=interaction,
+            value=value,
+            uncertainty=uncertainty,
+            scale=scale,
+            jump=jump,
+            moved=moved,
+        )
+
+    def _estimate(self, name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
+        """The relative size of changes, one a level, of a quantity at an asperity."""
         if QUANTITIES[name].of_pair:
             values = [
-                relative_sizes(change, reference, problem, window)[name]
-                for change, reference in zip(changes, wholes, strict=False)
+                relative_sizes(change, reference, self.problem, self.window)[name]
+                for change, reference in zip(changes, self.wholes, strict=False)
             ]
         else:  # by one scale: a place may jump to the surface on one level alone
-            scale = _scale(whole.figures[name][at], name, problem)
+            scale = _scale(self.whole.figures[name][at], name, self.problem)
             values = [float(change.figures[name][at] / scale) for change in changes]
         if not any(values):
             return Estimate(0.0, 0.0)
-        formal_order, resolution = QUANTITIES[name].formal_order, resolutions.get(name, 0.0)
-        refined = grid_convergence(values, formal_order, resolution)
-        return Estimate(values[-1], refined.uncertainty + unsolved)
+        resolution = self.resolutions.get(name, 0.0)
+        refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
+        return Estimate(values[-1], refined.uncertainty + self.unsolved)
 
-    def of_effect(name: str, effect: str, at: int, numerical: float) -> Estimate:
-        found = share(name, [parts.effect(effect) for parts in divided], at)
-        pair = divided[-1].pairs[effect]
-        with_it, without = (each.figures.get(LARGEST.get(name)) for each in pair)
+    def _effect(self, name: str, effect: str, at: int, numerical: float) -> Estimate:
+        changes = [level.effect(effect) for level in self.split_levels]
+        size, pair = self._estimate(name, changes, at), self.split_levels[-1].pairs[effect]
+        with_it, without = (solution.figures.get(LARGEST.get(name)) for solution in pair)
         if with_it is None:
-            return found
-        certain = with_it.max() / (1.0 + max(found.uncertainty, numerical))  # which may be infinite
-        return replace(found, moves_maximum=bool(certain > with_it[np.argmax(without)]))
+            return size
+        certain = with_it.max() / (1.0 + max(size.uncertainty, numerical))  # which may be infinite
+        return replace(size, moves_maximum=bool(certain > with_it[np.argmax(without)]))
 
-    def of_figure(row: Figure, numerical: float, at: int) -> tuple[float, float, float]:
+    def _of_figure(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
         """Error of a figure, its uncertainty, and what both are relative to [SI]."""
-        name, figure = row.quantity, whole.figures[row.quantity][at]
-        scale = _scale(figure, name, problem)
-        numerical *= _scale(values["finite_element"][name], name, problem) / scale
-        if at != own[-1].leading(name):  # the comparison is at another asperity
-            sequence = [each.figures[name][at] / scale for each in own]
-            numerical = max(
-                numerical,
-                unsolved + grid_convergence(sequence, QUANTITIES[name].formal_order).uncertainty,
-            )
-        lacking = share(name, missing, at).uncertainty
-        half_plane_value = values["half_plane"][name]
-        uncertainty = difference_of_figures(numerical, half_plane_value / scale, lacking)
+        figure, formal_order = self.whole.figures[name][at], QUANTITIES[name].formal_order
+        scale = _scale(figure, name, self.problem)
+        numerical *= _scale(self.values["finite_element"][name], name, self.problem) / scale
+        if at != self.own[-1].leading(name):  # the comparison is at another asperity
+            sequence = [level.figures[name][at] / scale for level in self.own]
+            refined = grid_convergence(sequence, formal_order)
+            numerical = max(numerical, self.unsolved + refined.uncertainty)
+        lacking = self._estimate(name, self.missing, at).uncertainty
+        half_plane = self.values["half_plane"][name]
+        uncertainty = difference_of_figures(numerical, half_plane / scale, lacking)
         if name in LARGEST:
-            largest = LARGEST[name]
-            alone = stated[largest].total  # a depth does not say where it is
-            alone = max(numerical, alone) if largest == name else alone
-            others = _competing(whole, name, at, alone, lambda k: share(largest, missing, k))
-            uncertainty += others / scale
-        return float((half_plane_value - figure) / scale), float(uncertainty), float(scale)
+            uncertainty += self._of_competitors(name, numerical, at) / scale
+        return float((half_plane - figure) / scale), float(uncertainty), float(scale)
 
-    found = []
-    for row in rows:
-        name, at = row.quantity, whole.leading(row.quantity)
-        numerical, scale = row.numerical, 1.0
-        effects = {effect: of_effect(name, effect, at, numerical) for effect in names}
-        jump, moved, joint = 0.0, None, 0.0
-        if divided:
-            joint = share(name, [parts.interaction(names) for parts in divided], at).value
-        if not QUANTITIES[name].of_pair:
-            value, uncertainty, scale = of_figure(row, numerical, at)
-            before = half_plane[-1].leading(name)
-            if before != at:
-                largest, figure = LARGEST[name], half_plane[-1].figures
-                apart = figure[name][before] - figure[name][at]
-                jump = float(apart / _scale(whole.figures[name][at], name, problem))
-                if figure[largest][before] / figure[largest][at] - 1.0 > numerical:  # no twin peaks
-                    places = half_plane[-1].places[largest][before], wholes[-1].places[largest][at]
-                    moved = float(places[0]), float(places[1])
-        elif not contains_all:
-            differences = [a - b for a, b in zip(half_plane[: len(wholes)], wholes, strict=True)]
-            norm, there = share(name, differences, at), row.levels[number]
-            lacking = share(name, missing, at).uncertainty
-            parts = numerical, abs(there - row.value), lacking
-            value, known = norm.value, row.uncertainty.parts
-            beside = known["domain"] + known["increments"]
-            uncertainty = difference_of_norms(norm.uncertainty, beside, parts)
-        else:
-            value, uncertainty = row.value, numerical
-        of_row = effects, joint, value, uncertainty, scale, jump, moved
-        found.append(ModelError(name, friction, *of_row))
-    return found
+    def _of_competitors(self, name: str, numerical: float, at: int) -> float:
+        """What asperities that may have the largest value add to the uncertainty of a figure [SI].
+
+        numerical  of the figure, relative"""
+        largest = LARGEST[name]
+        stated = uncertainties(self.runs["finite_element"], self.problem, self.friction)
+        alone = stated[largest].total  # a depth does not say where it is
+        alone = max(numerical, alone) if largest == name else alone
+        return _competing(
+            self.whole, name, at, alone, lambda k: self._estimate(largest, self.missing, k)
+        )
+
+    def _jump(
+        self, name: str, numerical: float, at: int
+    ) -> tuple[float, tuple[float, float] | None]:
+        """What the half-plane's largest value exceeds its value at the whole's asperity by, and
+        both places where these are no twin peaks, as ModelError has them."""
+        half_plane, before = self.half_plane[-1], self.half_plane[-1].leading(name)
+        if before == at:
+            return 0.0, None
+        largest, figures = LARGEST[name], half_plane.figures
+        apart = figures[name][before] - figures[name][at]
+        jump = float(apart / _scale(self.whole.figures[name][at], name, self.problem))
+        if not figures[largest][before] / figures[largest][at] - 1.0 > numerical:
+            return jump, None
+        places = half_plane.places[largest][before], self.wholes[-1].places[largest][at]
+        return jump, (float(places[0]), float(places[1]))
+
+    def _of_norm(self, row: Figure) -> tuple[float, float]:
+        """Error of a norm against the whole on the level of the effects, and its uncertainty."""
+        levels = self.half_plane[: len(self.wholes)]
+        differences = [a - b for a, b in zip(levels, self.wholes, strict=True)]
+        norm = self._estimate(row.quantity, differences, 0)
+        lacking = self._estimate(row.quantity, self.missing, 0).uncertainty
+        there, stated = row.levels[len(self.history) - 1], row.uncertainty.parts
+        beside = stated["domain"] + stated["increments"]
+        parts = row.numerical, abs(there - row.value), lacking
+        return norm.value, difference_of_norms(norm.uncertainty, beside, parts)
 
 
 def _competing(

@@ -144,7 +144,7 @@ def _solved(
     """A variant's `problem` on a level, with its mesh's `fields` where asked; raises
     NotComputedError."""
     from comparisons.models.finite_element.bodies import BodyCache
-    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
     words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
@@ -154,7 +154,7 @@ def _solved(
     refinement, stages = Refinement(pitch), Stages()
     try:
         level = finite_element_level(
-            problem, plan, refinement, window, stages, body_cache=body_cache, fields=fields
+            problem, plan, refinement, window, stages, body_cache, LevelOptions(fields=fields)
         )
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Findings
 from comparisons.studies import comparison, coupling
+from comparisons.studies.model_error import show
 from comparisons.studies.model_error.account import NAME, QUANTITIES, findings_of
 from comparisons.studies.model_error.error_budget import (
     ErrorBudget,
@@ -44,4 +45,7 @@ STUDY = Study(
     applies=lambda solved: solved.plan.compares,
     begin=begin,
     data=ErrorBudget,
+    blocks=show.blocks,
+    pictures={"model_error": show.model_error_picture},
+    lines=show.lines,
 )

@@ -1,4 +1,4 @@
-"""What uncertain inputs do to the half-plane's figures, as a run keeps it."""
+"""What uncertain inputs do to the half-plane: as figures, and what pictures show of it."""
 
 from dataclasses import dataclass, field
 
@@ -11,32 +11,37 @@ NAME = "scatter"
 DESIGN, SHARES = "Sobol, scrambled", "Saltelli et al. 2010"
 
 
-@dataclass(frozen=True)
-class ScatteredFigure:
-    """A figure of the half-plane over all samples, in SI."""
+def scattered(
+    quantity: str, friction: float, nominal: float, spread: SampleSpread, samples: int
+) -> Figure:
+    """A figure of the half-plane [SI] with every input as the scene has it, on the finest pressure
+    elements, and its spread over so many samples; these, solved on the coarsest, are scaled to it:
+    that error is in all of them alike. Their mean is as sure as their deviation over the root of
+    their number."""
+    scale = abs(nominal) or 1.0
+    error = spread.deviation / max(1, samples) ** 0.5
+    return Figure(
+        study=NAME,
+        quantity=quantity,
+        source="half_plane",
+        value=nominal,
+        at={"friction": friction},
+        scale=scale,
+        uncertainty=Uncertainty({"sampling": error / scale}),
+        spread=spread,
+    )
 
-    quantity: str
-    friction: float
-    # with every input as the scene has it, on the finest pressure elements. The samples, solved on
-    # the coarsest, are scaled to it: that error is in all of them alike
-    nominal: float
-    mean: float
-    standard_deviation: float
-    interval: tuple[float, float]  # from the 2.5th to the 97.5th percentile
-    # of its variance, by input; None where it does not vary
-    shares: dict[str, dict[str, float]] | None
 
-    @property
-    def relative(self) -> float:
-        """Half the interval over the nominal value."""
-        return 0.5 * (self.interval[1] - self.interval[0]) / abs(self.nominal or 1.0)
+def by_inputs(figure: Figure) -> float:
+    """Half the interval of a figure's spread, relative."""
+    low, high = figure.spread.interval
+    return 0.5 * (high - low) / figure.scale
 
 
 @dataclass(frozen=True)
 class InputScatter:
-    """All figures, and the samples that they are of."""
+    """The samples that the figures are of, and their pressures."""
 
-    figures: tuple[ScatteredFigure, ...]
     samples: int
     solutions: int  # of the half-plane
     failed: int  # of these, without an answer
@@ -45,33 +50,10 @@ class InputScatter:
     x: np.ndarray = field(repr=False)  # (k,) [m]
     band: np.ndarray = field(repr=False)  # (2, k) [Pa], 2.5th and 97.5th percentile at each x
 
-    def of(self, quantity: str, friction: float) -> ScatteredFigure | None:
-        """The figure of a quantity at a friction coefficient, if it has one."""
-        wanted = quantity, friction
-        return next((f for f in self.figures if (f.quantity, f.friction) == wanted), None)
-
-    def findings(self) -> Findings:
-        """The half-plane's figures with their spread, and the samples that these are of. A mean
-        of n samples is as sure as their deviation over the root of n."""
-        figures = []
-        for each in self.figures:
-            spread = SampleSpread(each.mean, each.standard_deviation, each.interval, each.shares)
-            scale = abs(each.nominal) or 1.0
-            error = each.standard_deviation / max(1, self.solutions - self.failed) ** 0.5
-            figures.append(
-                Figure(
-                    study=NAME,
-                    quantity=each.quantity,
-                    source="half_plane",
-                    value=each.nominal,
-                    at={"friction": each.friction},
-                    scale=scale,
-                    uncertainty=Uncertainty({"sampling": error / scale}),
-                    spread=spread,
-                )
-            )
+    def findings(self, figures: tuple[Figure, ...]) -> Findings:
+        """With the samples that the figures are of."""
         names = ("samples", "solutions", "failed", "pitch")
         columns = {n: Column((getattr(self, n),), "m" if n == "pitch" else "") for n in names}
         said = [Statement("design", DESIGN), Statement("shares", SHARES)]
         said += [Statement("first failure", self.why)] if self.why else []
-        return Findings(tuple(figures), (Series("samples", columns),), tuple(said))
+        return Findings(figures, (Series("samples", columns),), tuple(said), self)

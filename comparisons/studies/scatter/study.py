@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 
 import numpy as np
 
 from comparisons.common.tasks import LATER, Here, Tasks
-from comparisons.figures.figure import Findings
+from comparisons.figures.figure import Findings, SampleSpread
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import Level
@@ -15,7 +15,8 @@ from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.contact import values_of
-from comparisons.studies.scatter.figures import NAME, InputScatter, ScatteredFigure
+from comparisons.studies.scatter import show
+from comparisons.studies.scatter.figures import NAME, InputScatter, scattered
 from comparisons.studies.scatter.samples import solve_samples, solved, values_at
 from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
 from comparisons.studies.study import Solved, Study
@@ -40,8 +41,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     points, by = _points(solved.problem), _by(solved, tasks)
     batches = [by.result(_key(start)) for start in _starts(points)]
-    found = _gathered(solved.problem, solved.runs["half_plane"].finest, points, batches)
-    return replace(found.findings(), data=found)
+    return _gathered(solved.problem, solved.runs["half_plane"].finest, points, batches)
 
 
 def _points(problem: Problem) -> np.ndarray:
@@ -72,9 +72,7 @@ def _batch(
     return solve_samples(scene, surface, points, places)
 
 
-def _gathered(
-    problem: Problem, finest: Level, points: np.ndarray, batches: list[dict]
-) -> InputScatter:
+def _gathered(problem: Problem, finest: Level, points: np.ndarray, batches: list[dict]) -> Findings:
     """Figures, shares and band from the batches in their order."""
     wanted, (nominal, _) = problem.scene.scatter, solved(problem)
     x = problem.grid(problem.pitches[0]).x
@@ -93,15 +91,16 @@ def _gathered(
             if not drawn.size:
                 continue
             spread = drawn.std(ddof=1) if drawn.size > 1 else 0.0
-            ends = _interval(drawn)
             parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
-            row = quantity, friction, value, float(drawn.mean()), float(spread)
-            figures.append(ScatteredFigure(*row, tuple(map(float, ends)), parts))
+            ends = tuple(map(float, _interval(drawn)))
+            over_samples = SampleSpread(float(drawn.mean()), float(spread), ends, parts)
+            samples = len(found) - len(why)
+            figures.append(scattered(quantity, friction, float(value), over_samples, samples))
     pressures = np.concatenate([batch["pressures"] for batch in batches])
     pressures = pressures[np.isfinite(pressures[:, 0])]
     band = _interval(pressures) if len(pressures) else np.full((2, len(x)), np.nan)
     counts = wanted.samples, len(found), len(why), why[0] if why else None
-    return InputScatter(tuple(figures), *counts, problem.pitches[0], x, band)
+    return InputScatter(*counts, problem.pitches[0], x, band).findings(tuple(figures))
 
 
 def _interval(values: np.ndarray) -> np.ndarray:
@@ -122,4 +121,13 @@ def _applies(solved: Solved) -> bool:
     return solved.problem.scene.scatter is not None and "half_plane" in solved.plan.models
 
 
-STUDY = Study(NAME, QUANTITIES, solve, _applies, begin=begin, data=InputScatter)
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=_applies,
+    begin=begin,
+    data=InputScatter,
+    blocks=show.blocks,
+    lines=show.lines,
+)

@@ -137,7 +137,7 @@ def flat(content: Mapping[str, object], before: str = "") -> dict[str, object]:
     """Nested tables as one, with dots in the names; pairs are by `moments` and by `peaks`."""
     found: dict[str, object] = {}
     for name, value in content.items():
-        if isinstance(value, tuple):
+        if isinstance(value, tuple | list):
             value = dict(zip(("moments", "peaks"), value, strict=True))
         if isinstance(value, dict):
             found |= flat(value, f"{before}{name}.")

@@ -30,6 +30,7 @@ from comparisons.figures.figure import Findings
 from comparisons.models.half_plane import expected_of
 from comparisons.models.problem import Problem
 from comparisons.studies import contact
+from comparisons.studies.statistics import show
 from comparisons.studies.statistics.figures import (
     NAME,
     ContactFigures,
@@ -175,4 +176,14 @@ def _applies(solved: Solved) -> bool:
     return solved.problem.scene.statistics is not None and "half_plane" in solved.plan.models
 
 
-STUDY = Study(NAME, {}, solve, _applies, begin=begin, data=RoughContactStatistics)
+STUDY = Study(
+    name=NAME,
+    quantities={},
+    solve=solve,
+    applies=_applies,
+    begin=begin,
+    data=RoughContactStatistics,
+    blocks=show.blocks,
+    pictures={"statistics": show.statistics_pictures},
+    lines=show.lines,
+)

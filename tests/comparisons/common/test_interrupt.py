@@ -220,17 +220,21 @@ def test_an_ignored_interrupt_stays_ignored(folder):
 
 
 @pytest.mark.parametrize(
-    ("command", "work"),
+    ("command", "work", "left"),
     [
-        ("paper", "campaigns.paper.reproduce.paper"),
-        ("stability", "campaigns.robustness.run.run_robustness"),
+        ("paper", "paper.reproduce.paper", "nothing was written, the same command starts again"),
+        (
+            *("stability", "robustness.run.run_robustness"),
+            "finished cases are kept, the same command goes on from there",
+        ),
     ],
 )
-def test_a_command_that_keeps_nothing_says_so(tmp_path, monkeypatch, capsys, command, work):
+def test_an_interrupted_command_says_what_it_keeps(
+    tmp_path, monkeypatch, capsys, command, work, left
+):
     def interrupted(*given: object, **named: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(f"comparisons.{work}", interrupted)
+    monkeypatch.setattr(f"comparisons.campaigns.{work}", interrupted)
     assert main([command, "--out", str(tmp_path / "out")]) == ExitStatus.INTERRUPTED
-    told = "interrupted; nothing was written, the same command starts again"
-    assert capsys.readouterr().err == f"crosscheck: {told}\n"
+    assert capsys.readouterr().err == f"crosscheck: interrupted; {left}\n"

@@ -64,7 +64,7 @@ def keys() -> tuple[str, str, str]:
 @pytest.mark.parametrize(
     ("place", "loses"),
     [
-        ("comparisons/output/page/law.py", ""),
+        ("comparisons/output/law.py", ""),
         ("comparisons/cli.py", ""),
         ("comparisons/models/law.py", "levels cost map"),
         ("analytic/law.py", "levels cost map"),

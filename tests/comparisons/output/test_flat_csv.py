@@ -6,8 +6,10 @@ import json
 import sys
 
 import pytest
+from rich.console import Console
 
 from comparisons.cli import main
+from comparisons.common.numbers import with_unit
 from comparisons.common.provenance import as_json
 from comparisons.output.flat_csv import (
     COLUMNS,
@@ -17,6 +19,7 @@ from comparisons.output.flat_csv import (
     write_table,
 )
 from comparisons.output.result_json import content_of
+from comparisons.output.terminal import PLAIN, summary
 from comparisons.studies import meaning
 from comparisons.studies.problem import GROUPS
 
@@ -94,6 +97,26 @@ def test_a_single_model_has_its_figures_alone(runs, smooth_outcome):
     assert {row["validity"] for row in rows} == {"not compared"}
     assert {row["finite_element"] for row in rows} == {None}
     assert "pressure_l2" not in found
+
+
+def test_below_a_rough_boundary_the_depth_is_the_terminals(finish, wavy_outcome, tmp_path):
+    """It counts from the deformed boundary, of one model alone, too."""
+    rough = wavy_outcome.problem.scene.changed("finite_element.geometry", "rough")
+    alone = finish(rough.given, ("finite_element",))
+    depth = alone.figures.one(study="contact", quantity="tau1_max_depth", friction=0.0)
+    [field] = alone.runs["finite_element"].finest.stresses[:1]
+    assert abs(depth.value - field.extremes["tau1"].z) > 0.1e-6
+    (tmp_path / "result.json").write_text(as_json(content_of(alone)))
+    [row] = [
+        row
+        for row in tidy_rows([tmp_path])
+        if (row["quantity"], row["friction"]) == ("tau1_max_depth", 0.0)
+    ]
+    assert row["finite_element"] == depth.value
+    shown = io.StringIO()
+    Console(file=shown, width=80).print(summary(alone))
+    lines = [line for line in shown.getvalue().splitlines() if line.startswith("tau1 max depth")]
+    assert any(with_unit(depth.value, "m").translate(PLAIN) in line for line in lines)
 
 
 def test_long_has_a_row_for_each_figure_of_every_study(runs, wavy_outcome, capsys):

@@ -1,6 +1,5 @@
 """A whole run under mpirun: the same figures and files as from one process, and one way to end."""
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +7,7 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
+from comparisons.output.recorded_run import read_result
 
 SCENE = """
 [roller]
@@ -37,8 +37,6 @@ levels = 2
 time = "1 us"
 effects = false
 """
-# What a run measures of itself, and what is zero but for rounding.
-OF_THE_MACHINE = ("cost", "seconds", "checks", "iteration")
 COMMAND = ("-m", "comparisons.cli", "run")
 # Without the pictures: while one process draws, the other one waits at a core's full cost.
 UNDRAWN = """
@@ -48,22 +46,6 @@ from comparisons.cli import main
 comparisons.output.page.page.render = lambda *_: "page"
 sys.exit(main())
 """
-
-
-def figures(found: object, name: str = "") -> dict[str, object]:
-    """Every leaf of a result, by its path."""
-    if isinstance(found, dict):
-        items = found.items()
-    elif isinstance(found, list):
-        items = enumerate(found)
-    else:
-        return {name: found}
-    return {
-        path: leaf
-        for key, value in items
-        if key not in OF_THE_MACHINE
-        for path, leaf in figures(value, f"{name}/{key}").items()
-    }
 
 
 def files(folder: Path) -> list[str]:
@@ -86,22 +68,20 @@ def test_two_processes_report_what_one_reports(tmp_path, launch, capsys, monkeyp
     assert table(end.stdout) == table(capsys.readouterr().out)
     assert files(outs[0]) == files(outs[1])
     assert {path.name for path in tmp_path.iterdir()} == {"small.toml", "one", "two"}
-    one, two = (figures(json.loads((out / "result.json").read_text())) for out in outs)
-    assert one.keys() == two.keys() and len(one) > 100
+    one, two = (read_result(out / "result.json") for out in outs)
+    assert (one.verdict, one.next) == (two.verdict, two.next) and len(one.figures) > 50
     contact = [
         np.loadtxt(out / "finite_element/contact.csv", delimiter=",", skiprows=3) for out in outs
     ]
     np.testing.assert_allclose(contact[0], contact[1], rtol=1e-9, atol=1e-9 * contact[0].max())
-    half_width = one["/hertz/half_width"]
-    for name, value in one.items():
+    half_width = one.figures.one(study="problem", quantity="half_width").value
+    for figure, other in zip(one.figures, two.figures, strict=True):
+        assert figure.key == other.key and figure.verdict == other.verdict
         # differences of figures, and a place near the middle, have no digits to spare
-        compared = ("/comparison", "/uncertainty", "budget", "/model_error", "/operator")
-        difference = any(part in name for part in compared)
-        spare = 1.0 if difference else half_width if "_at/" in name else 0.0
-        if isinstance(value, float):
-            assert two[name] == pytest.approx(value, rel=1e-9, abs=1e-8 * spare), name
-        else:
-            assert two[name] == value, name
+        spare = 1e-8 if figure.against or figure.study == "checks" else 0.0
+        assert other.value == pytest.approx(figure.value, rel=1e-9, abs=spare), figure.key
+        if figure.place is not None:
+            assert other.place == pytest.approx(figure.place, rel=1e-9, abs=1e-8 * half_width)
 
 
 def own_words(said: str) -> list[str]:

@@ -1,6 +1,7 @@
 """Whole runs of both models: files, figures against exact values, repetition, pruning, refusals."""
 
 import json
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from scenes import QUICK, changed, problem, resolved
 
+from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
@@ -194,6 +196,15 @@ def test_one_model_alone_gives_its_own_figures(smooth, tmp_path):
     why = result.found["problem"].said("skipped", "finite_element model")
     assert why == "not asked for"
     assert not (tmp_path / "out" / "finite_element").exists()
+
+
+def test_one_model_replaces_a_comparison_with_a_word(smooth, tmp_path, capsys):
+    out = tmp_path / "out"
+    shutil.copytree(smooth.directory, out)
+    assert main(["run", "smooth", "--models", "half-plane", "--out", str(out)]) == 0
+    assert "replaces a comparison; --out keeps both" in capsys.readouterr().err
+    assert main(["run", "smooth", "--models", "half-plane", "--out", str(out)]) == 0
+    assert "replaces" not in capsys.readouterr().err
 
 
 class TestSliding:

@@ -67,4 +67,4 @@ def timeless(value: object, path: str = "") -> list[tuple[str, object]]:
         return [each for name, part in value.items() for each in timeless(part, f"{path}.{name}")]
     if isinstance(value, list):
         return [each for part in value for each in timeless(part, f"{path}[]")]
-    return [] if re.search("seconds|peak_memory|cost", path) else [(path, value)]
+    return [] if re.search("seconds|peak_memory|cost|made", path) else [(path, value)]

@@ -175,7 +175,7 @@ def test_patches_that_flow_raise_bulges_of_their_own():
     shares = sum(each["penetration"] for each in patches)
     assert shares == pytest.approx(found["penetration"], rel=1e-6)  # 4 P/(pi E*) of all loads
     [block] = bulge.blocks(outcome)
-    assert len(block.tables[0].rows) == 1 + len(patches)
+    assert len(block.items[2].rows) == 1 + len(patches)
 
 
 @pytest.mark.parametrize(
@@ -194,7 +194,8 @@ def test_what_cannot_be_measured_says_why(tables, models, why):
 def test_it_is_measured_where_it_is_asked_for(smooth, smooth_outcome):
     assert bulge.NAME not in smooth_outcome.found and bulge_picture(smooth_outcome) is None
     [block] = bulge.blocks(smooth)
-    [table] = block.tables
+    heading, shown, table, note = block.items
+    assert shown.names == ("bulge",) and heading.text and note.text
     assert [row[0] for row in table.rows] == ["0.3"] and "beyond 20 a" in table.rows[0]
     with drawing():
         picture = bulge_picture(smooth)

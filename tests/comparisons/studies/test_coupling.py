@@ -15,7 +15,6 @@ from comparisons.common.progress import Stages, no_progress
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
-from comparisons.output.page.tables.comparison import coupling_line, coupling_table
 from comparisons.runs.run import run
 from comparisons.studies import coupling
 from comparisons.studies.coupling import (
@@ -163,7 +162,7 @@ class TestFigures:
         figures = coupling.figures_of_changes(found, problem, rigid.found["contact"].figures)
         figures = [figure for figure in figures if figure.quantity == "tau1_max_depth"]
         assert [(figure.value, figure.against) for figure in figures] == [(3e-5, None)]
-        table = coupling_table(refound(rigid, coupling.NAME, figures=tuple(figures)))
+        table = coupling.coupling_table(refound(rigid, coupling.NAME, figures=tuple(figures)))
         [row] = [row for row in table.rows if "depth" in row[0]]
         assert row[1:] == ("30.00 µm", UNKNOWN)
         effect = estimate(problem, (found,))
@@ -176,8 +175,7 @@ class TestFigures:
         outcome = solved(ALIKE, friction=friction)
         [because] = [item.because for item in outcome.plan.skipped if item.step == "coupling"]
         assert why in because
-        assert coupling.NAME not in outcome.found and coupling_table(outcome) is None
-        assert coupling_line(outcome) is None
+        assert coupling.NAME not in outcome.found and coupling.coupling_table(outcome) is None
 
     def test_softer_roller_moves_the_contact_the_other_way(self):
         one = solved(RIGID, friction=0.3)

@@ -166,12 +166,12 @@ def test_a_field_that_ends_before_says_so(name, value):
     why = outcome.found[q.NAME].said(WHY_NOT)
     assert why == f"stress.{name} is less than {'1' if name == 'half_range' else '0.8'} a"
     [block] = q.blocks(outcome)
-    assert block.tables[0].rows == ((why,),) and q.lines(outcome) == []
+    assert block.items[1].rows == ((why,),) and q.lines(outcome) == []
 
 
 def test_table_and_line_say_what_the_figures_are(wavy):
     [block], [(_, line)] = q.blocks(wavy), q.lines(wavy)
-    [table] = block.tables
+    _, table, _ = block.items
     assert [row[:3] for row in table.rows] == [
         ("0", "half-plane", q.QUIESCENT),
         ("0.3", "half-plane", q.BRIDGED),

@@ -6,6 +6,7 @@ import numpy as np
 
 from comparisons.campaigns.paper.pictures.scales import RANGE, Scales, trace_surfaces
 from comparisons.common.numbers import significant, with_unit
+from comparisons.drawing.curves import load_text
 from comparisons.drawing.style import (
     BODY,
     COLUMN,
@@ -19,7 +20,6 @@ from comparisons.drawing.style import (
     figure,
 )
 from comparisons.figures.quantity import LABELS
-from comparisons.output.page.tables.problem import load_text
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:

@@ -30,17 +30,13 @@ def convergence_picture(outcome: Run) -> style.Picture | None:
     if not panels:
         return None
     said = "; ".join(f"{each.name}, {NAMES[each.source]}: {each.known.behaviour}" for each in known)
-    drawn = _drawn(panels, style.WIDE)
-    return style.Picture(
-        source=style.data_uri(drawn),
-        data=style.csv_link(drawn),
-        narrow=style.data_uri(_drawn(panels, style.COLUMN)),
-        alternative=f"Error over element size of each judged figure. {said}.",
-        caption="Distance from the extrapolated value over the size of the pressure elements, both "
+    return style.picture(
+        lambda width: _drawn(panels, width),
+        f"Error over element size of each judged figure. {said}.",
+        "Distance from the extrapolated value over the size of the pressure elements, both "
         "logarithmic; dotted, the slope of the formal order. A bar: the stated uncertainty of "
         "discretisation on the finest level. Where three levels show an order, their distances "
         "lie on its line by construction.",
-        wide=True,
     )
 
 

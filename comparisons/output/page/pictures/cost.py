@@ -41,9 +41,6 @@ def cost_picture(outcome: Run) -> style.Picture:
     axes.set_xlabel("time, logarithmic")
     times = {LABELS[n]: sum(run.seconds.values()) for n, run in outcome.runs.items()}
     totals = "; ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in times.items())
-    return style.Picture(
-        source=style.data_uri(drawn),
-        alternative=f"Run time by stage. In all: {totals}.",
-        caption="Run time by stage, all levels together; the scale is logarithmic. "
-        f"In all: {totals}.",
-    )
+    said = f"In all: {totals}."
+    caption = f"Run time by stage, all levels together; the scale is logarithmic. {said}"
+    return style.picture(drawn, f"Run time by stage. {said}", caption, data=False)

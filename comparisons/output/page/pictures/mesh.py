@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import integer, scale_of, with_unit
-from comparisons.drawing.style import COLUMN, Picture, data_uri, figure, stacked
-from comparisons.output.page.pictures.pressures import peak_position
+from comparisons.drawing.curves import panels
+from comparisons.drawing.style import COLUMN, Picture, picture
+from comparisons.studies.contact import peak_position
 from comparisons.studies.study import Run
 from meshes.block import real_points, unique_edges
 
@@ -52,10 +53,11 @@ def mesh_pictures(outcome: Run) -> list[Picture]:
         ),
     )
     return [
-        Picture(
-            source=data_uri(_drawn(points, pairs, view)),
-            alternative=f"Finite-element mesh of {words}: {count}.",
-            caption=caption,
+        picture(
+            _drawn(points, pairs, view),
+            f"Finite-element mesh of {words}: {count}.",
+            caption,
+            data=False,
         )
         for words, view, caption in views
     ]
@@ -66,8 +68,7 @@ def _drawn(points: np.ndarray, pairs: np.ndarray, view: tuple[float, float, floa
     unit = scale_of([low, high, depth], "m")
     width = COLUMN - 0.8
     height = float(np.clip(width * depth / (high - low), 0.8, 4.2))
-    drawn = figure(COLUMN, height + 0.6)
-    [axes] = stacked(drawn, [(0.14, height)], 0.68)
+    drawn, [axes] = panels(COLUMN, [(0.14, height)], 0.68)
     points, bounds = points / unit.factor, tuple(end / unit.factor for end in view)
     top = points[:, 1].min()
     cell = CELL * (bounds[1] - bounds[0]) / width

@@ -11,23 +11,23 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
+from comparisons.drawing.curves import FOOT, LEFT, over
 from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.models.level import Level
 from comparisons.output.page.pictures.surfaces import draw_surfaces
-from comparisons.output.page.tables.model_error import moved_text
-from comparisons.output.page.tables.problem import hertz_text
+from comparisons.studies.contact import closed, draw_pressures, peak_position
+from comparisons.studies.model_error.show import moved_text
 from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-LEFT, RIGHT, TOP, BETWEEN, FOOT = 0.8, 0.12, 0.24, 0.16, 0.46  # inches around the panels
+TOP, BETWEEN = 0.24, 0.16  # inches above the panels
 FARTHEST_CAP = 2.0  # peak pressures: a hardness beyond would only flatten the curves
 CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
 TICKS, STEPS = 7, (1, 2, 2.5, 5, 10)  # of x/a: how many at most, and how far apart, by tens
-MARKERS = {"half_plane": "o", "finite_element": "x", "whole": "d"}  # of nodes
 CLEAR = 0.04  # share of that axis at either end without one
 
 
@@ -39,11 +39,6 @@ def shown_levels(outcome: Run) -> dict[str, Level]:
 def reference_level(outcome: Run) -> Level:
     """The whole model's, the finite elements', or that of the only model."""
     return list(shown_levels(outcome).values())[-1]
-
-
-def peak_position(level: Level) -> float:
-    """Place [m] of a level's highest pressure."""
-    return float(level.grid.x[level.solution.pressure.argmax()])
 
 
 def pressure_picture(outcome: Run) -> style.Picture:
@@ -59,18 +54,12 @@ def pressure_picture(outcome: Run) -> style.Picture:
         f"{with_unit(peak_position(level), 'm')}"
         for name, level in shown_levels(outcome).items()
     )
-    drawn = _drawn(outcome, across, style.WIDE, 5.2)
-    return style.Picture(
-        source=style.data_uri(drawn),
-        data=style.csv_link(drawn),
-        narrow=style.data_uri(_drawn(outcome, across, style.COLUMN, 5.2)),
-        wide=True,
-        alternative=f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
-        caption=(
-            f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
-            f"Largest pressure: {peaks}. {_norm(outcome)}"
-            "Heights are stretched and known but for a constant; in contact both surfaces coincide."
-        ),
+    return style.picture(
+        lambda width: _drawn(outcome, across, width, 5.2),
+        f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
+        f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
+        f"Largest pressure: {peaks}. {_norm(outcome)}"
+        "Heights are stretched and known but for a constant; in contact both surfaces coincide.",
     )
 
 
@@ -90,15 +79,11 @@ def close_up_picture(outcome: Run) -> style.Picture:
     at = f"x = {with_unit(float(centre), 'm')}"
     across = (centre - reach, centre + reach)
     drawn = _drawn(outcome, across, style.COLUMN, 5.6, nodes=True)
-    return style.Picture(
-        source=style.data_uri(drawn),
-        data=style.csv_link(drawn),
-        alternative=f"Pressures of the models around {place}, {at}.",
-        caption=(
-            f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
-            f"{with_unit(pitch, 'm', 3)} apart ({LABELS[list(shown_levels(outcome))[-1]]})."
-        ),
+    caption = (
+        f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
+        f"{with_unit(pitch, 'm', 3)} apart ({LABELS[list(shown_levels(outcome))[-1]]})."
     )
+    return style.picture(drawn, f"Pressures of the models around {place}, {at}.", caption)
 
 
 def _norm(outcome: Run) -> str:
@@ -127,22 +112,18 @@ def _drawn(
     comparing = len(outcome.runs) > 1
     shares = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
     room = height - FOOT - TOP - BETWEEN * (len(shares) - 1)
-    drawn = style.figure(width, height)
     above = (TOP, *[BETWEEN] * (len(shares) - 1))
-    panels = style.stacked(
-        drawn, [(a, share * room) for a, share in zip(above, shares, strict=True)], LEFT, RIGHT
-    )
+    rows = [(space, share * room) for space, share in zip(above, shares, strict=True)]
+    drawn = style.figure(width, height)
+    axes = style.stacked(drawn, rows, LEFT)
     unit = scale_of(np.abs(across), "m")
-    draw_pressures(panels[0], outcome, across, unit, nodes)
-    _cap_and_legend(panels[0], outcome)
+    draw_pressures(axes[0], outcome, across, unit, nodes)
+    _cap_and_legend(axes[0], outcome)
     if comparing:
-        draw_difference(panels[1], outcome, across, unit)
-    draw_surfaces(panels[-1], outcome, across, unit)
-    for panel in panels:
-        panel.set_xlim(across[0] / unit.factor, across[1] / unit.factor)
-        panel.tick_params(labelbottom=panel is panels[-1])
-    panels[-1].set_xlabel(f"x [{unit.name}]")
-    _second_axis(panels[0], outcome.problem.hertz.half_width / unit.factor)
+        draw_difference(axes[1], outcome, across, unit)
+    draw_surfaces(axes[-1], outcome, across, unit)
+    over(axes, f"x [{unit.name}]", [end / unit.factor for end in across])
+    _second_axis(axes[0], outcome.problem.hertz.half_width / unit.factor)
     return drawn
 
 
@@ -160,40 +141,6 @@ def _second_axis(axes: "Axes", half_width: float) -> None:
     end = CLEAR * (high - low)
     top.set_ticks(ticks[(ticks >= low + end) & (ticks <= high - end)])
     axes.annotate("x/a", (0.0, 1.0), (-22, 4), "axes fraction", "offset points", ha="right")
-
-
-def draw_pressures(
-    axes: "Axes", outcome: Run, across: tuple[float, float], unit: Scale, nodes: bool = False
-) -> None:
-    """Every model's pressures and Hertz's over `across` [m], x in `unit`, with the load in words.
-
-    nodes  whether the nodes of the pressures are marked
-    """
-    hertz = outcome.problem.hertz
-    several = len(outcome.problem.scene.load.friction) > 1
-    sliding = f", μ = {plain(outcome.deciding_friction)}" if several else ""
-    for name, level in shown_levels(outcome).items():
-        x, pressure = _closed(level)
-        shown = style.near(x, across, level.grid.pitch)
-        axes.plot(
-            x[shown] / unit.factor,
-            pressure[shown] / hertz.peak_pressure,
-            label=LABELS[name] + (sliding if name == WHOLE else ""),
-            marker=MARKERS[name] if nodes else None,
-            markersize=3.2,
-            markerfacecolor="none",
-            **style.LINES[name],
-        )
-    if (scatter := outcome.data("scatter")) is not None:
-        x, (low, high) = scatter.x, scatter.band / hertz.peak_pressure
-        shown = style.near(x, across, scatter.pitch)
-        axes.fill_between(x[shown] / unit.factor, low[shown], high[shown], **style.BAND)
-    ends = np.clip([-hertz.half_width, hertz.half_width], *across)
-    x = np.union1d(np.linspace(*across, 600), ends)
-    smooth = hertz.pressure(x) / hertz.peak_pressure
-    axes.plot(x / unit.factor, smooth, label="Hertz, smooth", **style.REFERENCE)
-    axes.set_ylabel("p/p₀")
-    axes.text(0.008, 0.97, hertz_text(outcome.problem), transform=axes.transAxes, va="top")
 
 
 def _cap_and_legend(axes: "Axes", outcome: Run) -> None:
@@ -215,18 +162,12 @@ def _cap_and_legend(axes: "Axes", outcome: Run) -> None:
     axes.legend(loc=side, bbox_to_anchor=corner, ncols=columns, **gaps)
 
 
-def _closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
-    """The pressure with the feet of its first and last hat."""
-    x, pitch = level.grid.x, level.grid.pitch
-    return np.array([x[0] - pitch, *x, x[-1] + pitch]), np.pad(level.solution.pressure, 1)
-
-
 def draw_difference(axes: "Axes", outcome: Run, across: tuple[float, float], unit: Scale) -> None:
     """Pressures of the half-plane less those of the whole model, or of the finite elements where
     there is no other, on the same pressure elements."""
     one, other = outcome.pair(outcome.deciding_friction).values()
-    x, reference = _closed(other)
-    difference = np.interp(x, *_closed(one)) - reference
+    x, reference = closed(other)
+    difference = np.interp(x, *closed(one)) - reference
     difference /= outcome.problem.hertz.peak_pressure
     shown = style.near(x, across, other.grid.pitch)
     axes.plot(x[shown] / unit.factor, difference[shown], **style.DIFFERENCE)

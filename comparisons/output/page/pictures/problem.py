@@ -4,15 +4,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import given, plain, scale_of, with_unit
+from comparisons.common.numbers import given, listed, plain, scale_of, with_unit
 from comparisons.drawing import style
+from comparisons.drawing.curves import load_text
 from comparisons.output.page.tables.problem import (
     coating_text,
     elastic_text,
-    load_text,
     yielding_text,
 )
-from comparisons.output.page.tables.text import listed
 from comparisons.scenes.scene import Scene
 from comparisons.studies.study import Run
 
@@ -41,18 +40,14 @@ def problem_picture(outcome: Run) -> style.Picture:
     sliding = (
         f", sliding with friction {listed(scene.load.friction)}" if any(scene.load.friction) else ""
     )
-    return style.Picture(
-        source=style.data_uri(drawn),
-        alternative=(
-            f"A roller of radius {given(scene.roller.radius, 'm')} pressed on {body} by "
-            f"{load_text(outcome.problem)}"
-            f"{sliding}; {'; '.join(_body_in_words(scene))}."
-        ),
-        caption=(
-            "The problem. Above: to scale. Below: roller and body where they first touch, "
-            f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
-            "is the width 2a of the Hertz contact under the same load."
-        ),
+    return style.picture(
+        drawn,
+        f"A roller of radius {given(scene.roller.radius, 'm')} pressed on {body} by "
+        f"{load_text(outcome.problem)}{sliding}; {'; '.join(_body_in_words(scene))}.",
+        "The problem. Above: to scale. Below: roller and body where they first touch, "
+        f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
+        "is the width 2a of the Hertz contact under the same load.",
+        data=False,
     )
 
 

@@ -8,7 +8,8 @@ from analytic.exact.hertz import hertz_stress
 from comparisons.common.numbers import decimal, plain, significant
 from comparisons.drawing import style
 from comparisons.figures.quantity import LABELS
-from comparisons.output.page.pictures.pressures import peak_position, reference_level
+from comparisons.output.page.pictures.pressures import reference_level
+from comparisons.studies.contact import peak_position
 from comparisons.studies.quiescent_zone import NAME as ZONE
 from comparisons.studies.quiescent_zone import zones_of
 from comparisons.studies.study import Run
@@ -75,14 +76,11 @@ def _picture(outcome: Run, column: int, words: str) -> style.Picture:
         for mu in frictions
     )
     near = f" The right half enlarges the first {NEAR} a." if len(depths) > 1 else ""
-    return style.Picture(
-        source=style.data_uri(drawn),
-        data=style.csv_link(drawn),
-        alternative=f"Principal shear over depth through {words}. Largest: {largest}.",
-        caption=(
-            f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "
-            f"section of the smooth contact at the same place.{near} Largest: {largest}."
-        ),
+    return style.picture(
+        drawn,
+        f"Principal shear over depth through {words}. Largest: {largest}.",
+        f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "
+        f"section of the smooth contact at the same place.{near} Largest: {largest}.",
     )
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, scale_of, with_unit
 from comparisons.drawing import style
+from comparisons.drawing.curves import over, panels
 from comparisons.figures.quantity import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import Problem, mean_height
@@ -51,8 +52,8 @@ def surface_picture(outcome: Run) -> style.Picture:
     levels = outcome.levels(outcome.deciding_friction)
     name, level = list(levels.items())[-1]
     found = surfaces_of(outcome.problem, level)
-    drawn = style.figure(style.COLUMN, 5.6)
-    axes, below = style.stacked(drawn, [(0.22, 3.08), (0.28, 1.51)], 0.7, 0.14)
+    drawn, both = panels(style.COLUMN, [(0.22, 3.08), (0.28, 1.51)], 0.7, 0.14, foot=0.51)
+    axes, below = both
     along, up = scale_of(found.x, "m"), scale_of([np.ptp(found.roller), np.ptp(found.body)], "m")
     low = min(found.body.min(), found.body_before.min())
     high = max(found.roller.max(), found.roller_before.max())
@@ -66,32 +67,27 @@ def surface_picture(outcome: Run) -> style.Picture:
     ):
         axes.plot(x, before / up.factor, label=label, **{**style.REFERENCE, "linewidth": 0.8})
         axes.plot(x, under, label=label and "under load", **style.OUTLINE)
-    axes.set(xlim=(x[0], x[-1]), ylabel=f"height [{up.name}]")
+    axes.set_ylabel(f"height [{up.name}]")
     axes.text(0.02, 0.04, "body", transform=axes.transAxes)
     axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
     axes.legend(loc="lower right", borderaxespad=0.2)
-    axes.tick_params(labelbottom=False)
     gaps = {key: np.maximum(each.solution.gap, 0.0) for key, each in levels.items()}
     unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
     for key, gap in gaps.items():
         place = levels[key].grid.x / along.factor
         below.plot(place, gap / unit.factor, label=LABELS[key], **style.LINES[key])
-    below.set(xlim=axes.get_xlim(), xlabel=f"x [{along.name}]", ylabel=f"gap [{unit.name}]")
+    over(both, f"x [{along.name}]", x)
+    below.set_ylabel(f"gap [{unit.name}]")
     below.set_ylim(bottom=0.0)
     below.legend(loc="upper center")
     approach = with_unit(float(np.max(found.body_before - found.body)), "m", 3)
-    return style.Picture(
-        source=style.data_uri(drawn),
-        data=style.csv_link(drawn),
-        alternative=(
-            "Surfaces of roller and body before and under load, and the gap between them; the "
-            f"body's surface gives way by {approach}."
-        ),
-        caption=(
-            f"Surfaces before and under load ({LABELS[name]}), heights stretched, and the gap "
-            f"that is left. The body's surface sinks by up to {approach} against the ends of the "
-            "stretch that is drawn; the roller is set on it."
-        ),
+    return style.picture(
+        drawn,
+        "Surfaces of roller and body before and under load, and the gap between them; the "
+        f"body's surface gives way by {approach}.",
+        f"Surfaces before and under load ({LABELS[name]}), heights stretched, and the gap "
+        f"that is left. The body's surface sinks by up to {approach} against the ends of the "
+        "stretch that is drawn; the roller is set on it.",
     )
 
 

@@ -5,15 +5,22 @@ one."""
 
 from dataclasses import dataclass
 
-from comparisons.common.numbers import Scale, given_percent, percent, plain, scale_of, with_unit
+from comparisons.common.numbers import (
+    Scale,
+    given_percent,
+    listed,
+    percent,
+    scale_of,
+    with_unit,
+)
+from comparisons.drawing.blocks import TextTable
 from comparisons.figures.figure import Figure, grouped
-from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, label
+from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, error_text, label
 from comparisons.models.problem import Problem
-from comparisons.output.page.tables.model_error import left_out
-from comparisons.output.page.tables.text import REPEATED, error_text, is_shown, listed
-from comparisons.studies import comparison, contact, coupling
+from comparisons.studies import comparison, contact
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.study import MODEL_ERROR, WHY_NOT, Run, TextTable
+from comparisons.studies.model_error.show import left_out
+from comparisons.studies.study import MODEL_ERROR, Run
 
 SAME_PROBLEM = "the same problem"
 
@@ -23,7 +30,6 @@ class ComparisonRow:
     """A quantity at one friction coefficient, or at several that give the same figures."""
 
     quantity: str
-    label: str
     friction: str
     half_plane: str  # with unit; empty for the norm of a difference
     finite_element: str
@@ -44,6 +50,23 @@ def comparison_rows(run: Run) -> list[ComparisonRow]:
         for same in grouped(pairs, _shown):
             rows.append(_row(run, *same[0], listed(each.friction for each, _ in same)))
     return rows
+
+
+def comparison_table(run: Run) -> TextTable:
+    """The same for the page; below a figure in grey that over Hertz's."""
+    head = ("quantity", "friction", "half-plane", "finite elements", "difference", "uncertainty")
+    rows = tuple(
+        (
+            f"{label(row.quantity)}\n{row.note}",
+            row.friction,
+            f"{row.half_plane}\n{row.in_hertz[0]}",
+            f"{row.finite_element}\n{row.in_hertz[1]}",
+            *(row.difference, row.uncertainty, row.tolerance, row.verdict, row.reference),
+        )
+        for row in comparison_rows(run)
+        if run.shows(row.quantity)
+    )
+    return TextTable("", (*head, "tolerance", "verdict", "reference"), rows, "comparison", True)
 
 
 def _values(run: Run, difference: Figure) -> tuple[Figure | None, ...]:
@@ -73,7 +96,7 @@ def reference_of(run: Run, quantity: str) -> str:
 def figure_rows(run: Run) -> list[tuple[str, ...]]:
     """Of the only model: quantity, friction, figure with unit and over Hertz's, uncertainty."""
     known = [f for f in run.figures.of(study=contact.NAME) if f.quantity in QUANTITIES]
-    known = [figure for figure in known if is_shown(run, figure.quantity)]
+    known = [figure for figure in known if run.shows(figure.quantity)]
     known.sort(key=lambda figure: list(QUANTITIES).index(figure.quantity))
     rows = []
     for same in grouped(known, lambda figure: (figure.quantity, figure.value, figure.numerical)):
@@ -103,7 +126,6 @@ def _row(
     bound = difference.tolerance
     return ComparisonRow(
         quantity=name,
-        label=label(name),
         friction=frictions,
         half_plane=half_plane,
         finite_element=finite_element,
@@ -124,48 +146,3 @@ def in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
         return ""
     times, symbol = meaning.over
     return Scale(times * meaning.scale(problem.hertz), symbol).text(value)
-
-
-def coupling_table(run: Run) -> TextTable | None:
-    """Figures with the surfaces moved, and the change; None where friction moves nothing."""
-    changes = run.figures.of(study=coupling.NAME)
-    if not changes:
-        return None
-    names = [coupling.SHIFT, *(name for name in QUANTITIES if name != REPEATED)]
-    frictions = list(dict.fromkeys(figure.friction for figure in changes))
-    rows = []
-    for name in names:
-        cells = [cell for mu in frictions for cell in _cells(run, name, mu)]
-        if any(cells):
-            rows.append(
-                (coupling.QUANTITIES[name].label if name == coupling.SHIFT else label(name), *cells)
-            )
-    head = [cell for mu in frictions for cell in (f"friction {plain(mu)}", "change")]
-    return TextTable("Half-plane, surfaces moved by friction", ("", *head), tuple(rows))
-
-
-def coupling_line(run: Run) -> str | None:
-    """The change at the largest friction in one sentence; None where friction moves nothing."""
-    if coupling.NAME not in run.found:
-        return None
-    friction = max(run.problem.scene.load.friction, key=abs)
-    if (why := run.found[coupling.NAME].said(WHY_NOT, friction=friction)) is not None:
-        return f"not known: {why}"
-    contained = "contained" if run.problem.scene.load.coupled else "not modelled"
-    shift, of_a = _cells(run, coupling.SHIFT, friction, digits=3)
-    peak, length = (_cells(run, n, friction)[1] for n in ("peak_pressure", "contact_length"))
-    return (
-        f"friction {plain(friction)} moves the surfaces ({contained}): the contact by "
-        f"{shift} ({of_a}), peak pressure {peak}, contact length {length}"
-    )
-
-
-def _cells(run: Run, name: str, friction: float, digits: int = 4) -> tuple[str, str]:
-    """The figure and its change, in percent; of a shift, of the Hertz half-width."""
-    both = run.figures.of(study=coupling.NAME, quantity=name, friction=friction)
-    value, change = both.one(against=None), both.one(against=coupling.UNCOUPLED)
-    if value is None:
-        return "", percent(change.value) if change else ""
-    moved = percent(change and change.value, signed=True)
-    text = with_unit(value.value, coupling.QUANTITIES[name].unit, digits)
-    return text, f"{moved} of a" if name == coupling.SHIFT else moved

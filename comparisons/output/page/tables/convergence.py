@@ -5,14 +5,15 @@ In: the figures of a run, with their levels. Out: sequences for pictures, and ro
 from dataclasses import dataclass
 
 from comparisons.common.numbers import given_percent, percent, plain, scale_of, significant
+from comparisons.drawing.blocks import TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, label
+from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import COVERAGE
-from comparisons.output.page.tables.text import error_text, wording
+from comparisons.output.page.tables.text import wording
 from comparisons.studies import comparison, contact
 from comparisons.studies.model_error.account import INPUTS
-from comparisons.studies.study import Run, TextTable
+from comparisons.studies.study import Run
 
 DIFFERENCE = "difference"  # of both models, in place of one
 NO_DATA = "no data"

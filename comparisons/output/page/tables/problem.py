@@ -2,9 +2,8 @@
 
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
-from comparisons.common.numbers import decimal, given, plain, significant, with_unit
-from comparisons.models.problem import Problem
-from comparisons.output.page.tables.text import listed, wording
+from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
+from comparisons.output.page.tables.text import wording
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, CoatingSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
@@ -167,21 +166,6 @@ def _load(outcome: Run) -> Rows:
             f"{with_unit(hertz.tau1_max, 'Pa')} at depth {with_unit(hertz.tau1_max_depth, 'm')}",
         ),
     ]
-
-
-def load_text(problem: Problem) -> str:
-    """Load per length, in the digits of the scene where the scene gives it."""
-    write = given if problem.scene.load.kind == "per_length" else with_unit
-    return write(problem.hertz.load_per_length, "N/m")
-
-
-def hertz_text(problem: Problem) -> str:
-    """The load, and peak pressure and half-width of the smooth contact under it."""
-    hertz = problem.hertz
-    return (
-        f"P = {load_text(problem)},  p₀ = {with_unit(hertz.peak_pressure, 'Pa')},  "
-        f"a = {with_unit(hertz.half_width, 'm')}"
-    )
 
 
 def _groups(run: Run) -> Rows:

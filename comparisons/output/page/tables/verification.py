@@ -6,15 +6,16 @@ import shlex
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
+from comparisons.drawing.blocks import TextTable
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, label
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.output.page.tables.convergence import row_name
-from comparisons.output.page.tables.text import is_shown, wording
+from comparisons.output.page.tables.text import wording
 from comparisons.studies import comparison, contact
 from comparisons.studies.contact import values_of
-from comparisons.studies.study import Run, TextTable
+from comparisons.studies.study import Run
 
 ALL_LEVELS = "all levels together: time"
 
@@ -67,9 +68,7 @@ def _rows(run: Run, study: str, source: str, friction: float) -> list[Figure]:
     return [
         figure
         for figure in known
-        if figure.levels
-        and row_name(run, figure.quantity, friction)
-        and is_shown(run, figure.quantity)
+        if figure.levels and row_name(run, figure.quantity, friction) and run.shows(figure.quantity)
     ]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import scenes
 
-from comparisons import api
+import comparisons as crosscheck
 from comparisons.campaigns.decks.write import write_deck
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
@@ -24,15 +24,15 @@ WAVES = {"kind": "self-affine", "hurst": 0.8, "rms_height": "0.15 um", "samples"
 WAVES |= {"length": "400 um", "seed": 3, "shortest_wavelength": "40 um"}
 FINITE = {"deformation": "finite", "geometry": "rough"}
 SCENES = {
-    "smooth": api.tables("smooth"),
-    "layer": api.tables("layer"),
-    "coated": scenes.changed(api.tables("coated"), load={"friction": 0.0}),
+    "smooth": crosscheck.Scene.read("smooth").given,
+    "layer": crosscheck.Scene.read("layer").given,
+    "coated": scenes.changed(crosscheck.Scene.read("coated").given, load={"friction": 0.0}),
     "waves": scenes.changed(
-        api.tables("sinusoid") | {"roller": {"radius": "10 mm", "rigid": True}},
+        crosscheck.Scene.read("sinusoid").given | {"roller": {"radius": "10 mm", "rigid": True}},
         body=SVK,
         finite_element=FINITE,
     ),
-    "rubber": scenes.changed(api.tables("finite-strain"), body=SVK),
+    "rubber": scenes.changed(crosscheck.Scene.read("finite-strain").given, body=SVK),
     "rough": {
         "roller": {"radius": "5 mm", "rigid": True},
         "body": scenes.STEEL,
@@ -83,7 +83,7 @@ def judged(folder: Path, tables: dict, old: str = "", new: str = "") -> dict[str
     read = tomllib.loads((folder / "1/answer.toml").read_text())
     files = [str(folder / str(level) / read["file"]) for level in (1, 2)]
     asked = {"answers": {"calculix": read | {"file": files}}}
-    return differences(api.run(tables | asked, "finite-element").figures)
+    return differences(crosscheck.run(tables | asked, "finite-element").figures)
 
 
 def differences(figures: Figures) -> dict[str, Figure]:
@@ -112,13 +112,13 @@ def test_a_deck_of_another_modulus_differs(tmp_path):
 def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
     """As `run --answer` twice: the stress on the surface and below it, on two resolutions."""
     pytest.importorskip("pyvista_frd", reason="answers of CalculiX: crosscheck[answers]")
-    tables = scenes.changed(api.tables("smooth"), stress={"points": [120, 40]})
+    tables = scenes.changed(crosscheck.Scene.read("smooth").given, stress={"points": [120, 40]})
     for level in (1, 2):
         solved(tmp_path / str(level), tables, level)
     read = tomllib.loads((tmp_path / "1/answer.toml").read_text())
     files = [str(tmp_path / str(level) / read["file"]) for level in (1, 2)]
     answers = {"calculix": read | {"file": files}}
-    found = api.run(tables | {"answers": answers}, "half-plane")
+    found = crosscheck.run(tables | {"answers": answers}, "half-plane")
     rows = differences(found.figures)
     for quantity in ("peak_pressure", "contact_length", "tau1_max"):
         assert abs(rows[quantity].value) <= rows[quantity].numerical < 0.1
@@ -128,7 +128,8 @@ def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
 
 def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):
     """Like bodies: shear is friction times pressure, towards +x on the rough body."""
-    tables = {k: v for k, v in api.tables("smooth-sliding").items() if k != "stress"}
+    sliding = crosscheck.Scene.read("smooth-sliding").given
+    tables = {name: table for name, table in sliding.items() if name != "stress"}
     solved(tmp_path, coarse(tables), 1)
     shear = contact_values(tmp_path / "job.frd", 61)
     pressure = contact_values(tmp_path / "job.frd", 49)

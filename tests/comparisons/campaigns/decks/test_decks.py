@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 import scenes
 
-from comparisons import api
+import comparisons as crosscheck
 from comparisons.campaigns.decks.problem import deck_problem
 from comparisons.campaigns.decks.write import write_deck
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
+from comparisons.notebook import scene_of
 
 KNOWN = {  # keywords of Abaqus/Standard that a deck may use
     *("HEADING", "INCLUDE", "NODE", "ELEMENT", "NSET", "SURFACE", "EQUATION", "MATERIAL"),
@@ -23,7 +24,7 @@ KNOWN = {  # keywords of Abaqus/Standard that a deck may use
     *("END STEP", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "CONTACT PRINT"),
 }
 CALCULIX = {"NODE FILE", "EL FILE", "CONTACT FILE"}
-SLIDING = scenes.changed(api.tables("coated"), load={"friction": [0.0, 0.1]})
+SLIDING = scenes.changed(crosscheck.Scene.read("coated").given, load={"friction": [0.0, 0.1]})
 
 
 def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
@@ -47,7 +48,7 @@ def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
 @pytest.mark.parametrize("code", ["calculix", "abaqus"])
 @pytest.mark.parametrize("scene", ["layer", "finite-strain", SLIDING])
 def test_a_deck_is_complete(tmp_path, scene, code):
-    resolved = api.load(scene)
+    resolved = scene_of(scene)
     deck = write_deck(resolved, code, tmp_path).deck
     found = blocks(tmp_path)
     assert {keyword for keyword, *_ in found} <= KNOWN | (CALCULIX if code == "calculix" else set())
@@ -105,7 +106,7 @@ def scenes_load(resolved) -> float:
 
 def test_a_linear_deck_is_the_scene_in_flatter_form():
     """Heights over, moduli times the same factor: the gap between the two tops is the scene's."""
-    problem = scenes.problem(api.tables("sinusoid"))
+    problem = scenes.problem(crosscheck.Scene.read("sinusoid").given)
     deck = deck_problem(problem, problem.pitches[0])
     top = deck.rough.points[deck.rough.surface]
     gap = 1e-3 * deck.flatter * (deck.roller.points[deck.roller.surface, 1].max() - top[:, 1])
@@ -117,11 +118,11 @@ def test_a_linear_deck_is_the_scene_in_flatter_form():
 
 
 def test_what_a_code_cannot_have_is_refused(tmp_path):
-    hencky = scenes.changed(api.tables("finite-strain"), body={"law": "hencky"})
+    hencky = scenes.changed(crosscheck.Scene.read("finite-strain").given, body={"law": "hencky"})
     for tables, code, said in (
         (hencky, "calculix", "body.law"),
         (hencky, "fenicsx", "flat ones"),
-        (api.tables("yielding"), "calculix", "finite_element.plastic"),
+        (crosscheck.Scene.read("yielding").given, "calculix", "finite_element.plastic"),
         (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "abaqus", "body.hardness"),
     ):
         with pytest.raises(SceneError, match=said):
@@ -132,10 +133,10 @@ def test_what_a_code_cannot_have_is_refused(tmp_path):
 @pytest.mark.parametrize("level", [1, 2])
 def test_the_script_for_fenicsx_solves_the_scene(tmp_path, level):
     """Errors of Hertz's peak pressure and half-width fall with the elements."""
-    write_deck(api.load("smooth"), "fenicsx", tmp_path, level)
+    write_deck(scene_of("smooth"), "fenicsx", tmp_path, level)
     subprocess.run([sys.executable, "solve.py"], cwd=tmp_path, check=True, capture_output=True)
     x, pressure = np.loadtxt(tmp_path / "pressure.csv", delimiter=",", skiprows=1).T
-    hertz = scenes.problem(api.tables("smooth")).hertz
+    hertz = scenes.problem(crosscheck.Scene.read("smooth").given).hertz
     assert pressure.max() == pytest.approx(1e-6 * hertz.peak_pressure, rel=1e-3 / level)
     exact = np.sqrt(np.maximum(1.0 - (1e-3 * x / hertz.half_width) ** 2, 0.0)) * pressure.max()
     assert np.sqrt(np.mean((pressure - exact) ** 2)) < 0.03 / level * pressure.max()

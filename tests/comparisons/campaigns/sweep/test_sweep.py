@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scenes import STEEL
 
-from comparisons import api
+import comparisons as crosscheck
 from comparisons.campaigns.sweep.pictures import zone_map_figure
 from comparisons.campaigns.sweep.request import MARGIN, sweep_request
 from comparisons.campaigns.sweep.study import scatter
@@ -15,6 +15,7 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.drawing import style
 from comparisons.models.problem import problem_of
+from comparisons.notebook import scene_of
 from comparisons.scenes.surface import surface_of
 
 WAVES = {
@@ -28,13 +29,13 @@ WAVES = {
 
 
 def request(over, tables=WAVES):
-    return sweep_request(api.load(tables), over, ("half_plane",))
+    return sweep_request(scene_of(tables), over, ("half_plane",))
 
 
 def test_placements_keep_the_contact_on_the_trace():
     asked = request(["position=5"])
     [values] = asked.fields.values()
-    problem = problem_of(api.load(WAVES))
+    problem = problem_of(scene_of(WAVES))
     reach, surface = problem.extent, problem.surface
     start, end = surface.position + surface.profile.x[[0, -1]]
     assert values[0] + MARGIN * reach[0] == pytest.approx(start)
@@ -44,11 +45,12 @@ def test_placements_keep_the_contact_on_the_trace():
 
 
 def test_each_point_is_the_scene_with_its_values():
-    found = api.sweep(WAVES, ["position=2", "load=0.5 GPa,1 GPa"], workers=1)
+    found = crosscheck.sweep(WAVES, ["position=2", "load=0.5 GPa,1 GPa"], workers=1)
     assert len(found.content["points"]) == 4
     place, load = found.content["points"][1]["values"]
     alone = WAVES | {"load": {"hertz_peak_pressure": load, "position": place, "friction": [0.0]}}
-    expected = {row["quantity"]: row["half_plane"] for row in api.run(alone, "half-plane").rows}
+    there = crosscheck.run(alone, "half-plane").rows
+    expected = {row["quantity"]: row["half_plane"] for row in there}
     rows = [r for r in found.rows if (r["load.position"], r["load.hertz_peak_pressure"])
             == (place, load)]  # fmt: skip
     assert {row["quantity"]: row["half_plane"] for row in rows} == expected
@@ -56,7 +58,7 @@ def test_each_point_is_the_scene_with_its_values():
 
 
 def test_the_scatter_is_that_of_the_values():
-    found = api.sweep(WAVES, "friction=0:0.2:2", workers=1)
+    found = crosscheck.sweep(WAVES, "friction=0:0.2:2", workers=1)
     assert [each["friction"] for each in found.content["scatter"]] == [None] * 3
     values = np.array([1.0, 2.0, 6.0])
     rows = [[{"quantity": "peak_pressure", "friction": 0.0, "half_plane": v,
@@ -69,7 +71,7 @@ def test_the_scatter_is_that_of_the_values():
 def test_pressure_follows_the_root_of_the_load():
     """Hertz's law along a sweep of the load, both ends with their units."""
     smooth = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6}}
-    found = api.sweep(smooth, "load=0.5 kN/mm:2 kN/mm:4", workers=1)
+    found = crosscheck.sweep(smooth, "load=0.5 kN/mm:2 kN/mm:4", workers=1)
     peaks = [r["half_plane"] for r in found.rows if r["quantity"] == "peak_pressure"]
     assert np.diff(np.log(peaks)) == pytest.approx(
         0.5 * np.diff(np.log([0.5, 1, 1.5, 2])), abs=1e-4
@@ -200,17 +202,17 @@ def test_a_smooth_scene_has_no_placements_and_a_field_is_swept_once(capsys, tmp_
     assert not (tmp_path / "a").exists()
 
 
-def test_tables_of_a_named_scene_run_anywhere(tmp_path, monkeypatch):
+def test_a_named_scene_is_changed_anywhere(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    tables = api.tables("ground-polished")
-    found = [surface_of(api.load(each)).info.samples for each in (tables, "ground-polished")]
-    assert found[0] == found[1]
+    scene = crosscheck.Scene.read("ground-polished")
+    elsewhere = scene.changed("load.friction", 0.2)
+    assert surface_of(elsewhere).info.samples == surface_of(scene).info.samples
 
 
 def test_stresses_as_arrays():
     tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6},
               "stress": {"points": [21, 8], "depth": 1.0}}  # fmt: skip
-    found = api.run(tables, "half-plane")
+    found = crosscheck.run(tables, "half-plane")
     arrays = found.stress()
     shape = (*arrays["z"].shape, *arrays["x"].shape)
     assert len(shape) == 2 and arrays["z"][0] == 0.0 and np.all(np.diff(arrays["z"]) > 0.0)

@@ -6,50 +6,66 @@ from xml.etree import ElementTree
 
 import pytest
 
-from comparisons.campaigns.checks import CheckedCase, CheckedRow, study_junit
+from comparisons.campaigns.cases import Case, Row, holds, junit_of
 from comparisons.campaigns.verify.coverage import (
-    MODEL_ERROR,
-    ExactFindings,
     Pair,
     Verification,
+    compared,
     coverage,
     coverage_cases,
     observed_order,
+    pairs_of,
     verification,
 )
 from comparisons.campaigns.verify.pages import coverage_line, verify_page
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.convergence import Convergence
-from comparisons.figures.uncertainty import numerical
+from comparisons.figures.figure import Figure
+from comparisons.figures.uncertainty import Uncertainty, numerical
+from comparisons.studies.study import MODEL_ERROR
+
+KNOWN = Convergence(2.0, 2.0, 0.0, 1.0, 1.0, "monotone")
 
 
-def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
-    known = Convergence(2.0, 2.0, 0.0, 1.0, 1.0, "monotone")
-    made = Pair(
-        *("case <&>", "source", "Hertz", "half_plane", "contact_length"),
-        levels=(1.9, 1.95, 2.0 * (1.0 + error)),
-        exact=2.0,
-        scale=2.0,
-        uncertainty=numerical(0.0, stated, 0.0, convergence=known),
-        converged=True,
-    )
-    return replace(made, **others)
+def row(
+    error: float = 1e-3,
+    stated: float = 2e-3,
+    *,
+    kind: str = "Hertz",
+    converged: bool = True,
+    uncertainty: Uncertainty | None = None,
+    **fields,
+) -> Row:
+    """Of one case with an exact answer of 2."""
+    levels = 1.9, 1.95, 2.0 * (1.0 + error)
+    uncertainty = uncertainty or numerical(0.0, stated, 0.0, convergence=KNOWN)
+    more = {"scale": 2.0, "uncertainty": uncertainty, "levels": levels}
+    figure = Figure("contact", "contact_length", "half_plane", levels[-1], **more)
+    figures = compared(replace(figure, **fields), 2.0, "source", kind, converged)
+    case = Case(kind, "case <&>", "half_plane", lambda: figures)
+    return Row(case, figures, None, 0.0)
 
 
-def whole(pairs: Iterable[Pair], error: str | None = None) -> Verification:
-    """The verification of one row with these pairs."""
-    case = CheckedCase("Hertz", "case <&>", "half_plane", lambda: None)
-    return verification((CheckedRow(case, ExactFindings.of(pairs), error, 0.0),), 0.0, 200, 0)
+def pair(*numbers: float, **fields) -> Pair:
+    (made,) = pairs_of(row(*numbers, **fields))
+    return made
 
 
-ENOUGH = [pair()] * 200
+def whole(rows: Iterable[Row], error: str | None = None) -> Verification:
+    """The verification of some rows, the first of which raised `error`."""
+    first, *others = rows
+    first = replace(first, error=error)
+    return verification((first, *others), 0.0, 200, 0)
+
+
+ENOUGH = [row()] * 200
 
 
 def test_an_error_within_the_uncertainty_is_covered():
     assert pair(1e-3, 1.001e-3).covered and not pair(1e-3, 0.999e-3).covered
     assert not pair(-1e-3, 0.999e-3).covered
     assert pair(-1e-3, 2e-3).overestimation == pytest.approx(2.0)
-    three = numerical(1e-3, 2e-3, 4e-3)
+    three = numerical(1e-3, 2e-3, 4e-3, convergence=KNOWN)
     assert pair(-1e-3, uncertainty=three).overestimation == pytest.approx(7.0)
 
 
@@ -62,14 +78,14 @@ def test_an_error_of_rounding_is_not_informative():
 
 
 def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
-    assert pair().figure.holds
-    assert not pair(error=0.1, stated=1.0).figure.holds
-    assert not pair(converged=False).figure.holds
-    assert not pair(error=0.03, quantity="tau1_max").figure.holds
+    assert row().holds
+    assert not row(error=0.1, stated=1.0).holds
+    assert not row(converged=False).holds
+    assert not row(error=0.03, quantity="tau1_max").holds
 
 
 @pytest.mark.parametrize(
-    ("pairs", "holds"),
+    ("pairs", "expected"),
     [
         ([pair()] * 95 + [pair(stated=0.0)] * 5, True),
         ([pair()] * 94 + [pair(stated=0.0)] * 6, False),
@@ -77,64 +93,65 @@ def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
         ([], False),
     ],
 )
-def test_coverage_needs_both_a_share_and_a_ratio(pairs, holds):
+def test_coverage_needs_both_a_share_and_a_ratio(pairs, expected):
     [case] = coverage_cases(pairs, fewest=0, fewest_rough=0)
-    figures = case.solve().figures
-    assert all(figure.holds for figure in figures) is holds
+    assert all(map(holds, case.solve())) is expected
 
 
 @pytest.mark.parametrize(
-    ("pairs", "error"),
+    ("rows", "error"),
     [
-        (ENOUGH, "no solution"),
+        ([*ENOUGH, *ENOUGH], "no solution"),
         (ENOUGH[1:], None),
-        ([*ENOUGH, pair(error=0.1, stated=1.0)], None),
-        ([pair(stated=0.0)] * 200, None),
-        ([pair(stated=1.0)] * 200, None),
+        ([*ENOUGH, row(error=0.1, stated=1.0)], None),
+        ([row(stated=0.0)] * 200, None),
+        ([row(stated=1.0)] * 200, None),
     ],
 )
-def test_all_must_hold(pairs, error):
+def test_all_must_hold(rows, error):
     assert whole(ENOUGH).holds
-    broken = whole(pairs, error)
+    broken = whole(rows, error)
     assert not broken.holds and len(broken.faults) == 1
     assert broken.exit_status == ExitStatus.OUTSIDE_TOLERANCE
-    [suite] = ElementTree.fromstring(study_junit(broken).encode())
+    [suite] = ElementTree.fromstring(junit_of(broken).encode())
     assert suite.get("failures") == str(len(suite.findall("testcase/failure"))) == "1"
     assert "Does not hold" in verify_page(broken)
 
 
 def test_one_miss_among_many_is_reported_but_does_not_fail():
-    missed = whole([*ENOUGH, pair(stated=0.0)])
-    [suite] = ElementTree.fromstring(study_junit(missed).encode())
+    missed = whole([*ENOUGH, row(stated=0.0)])
+    [suite] = ElementTree.fromstring(junit_of(missed).encode())
     assert missed.holds and suite.get("failures") == "0"
     assert "NOT covered" in suite[200].find("system-out").text
     assert "case &lt;&amp;&gt;" in verify_page(missed)
 
 
 def test_rough_contacts_have_demands_of_their_own():
+    smooth = [pair()] * 200
     rough = [pair(kind="rough")] * 94 + [pair(kind="rough", stated=0.0)] * 6
-    every, of_rough = coverage_cases([*ENOUGH, *rough], 200, 100)
-    assert all(figure.holds for figure in every.solve().figures)
-    assert [figure.holds for figure in of_rough.solve().figures] == [False, True, True]
-    _, absent = coverage_cases(ENOUGH, 200, 1)
-    assert not any(figure.holds for figure in absent.solve().figures)
+    every, of_rough = coverage_cases([*smooth, *rough], 200, 100)
+    assert all(map(holds, every.solve()))
+    assert [*map(holds, of_rough.solve())] == [False, True, True]
+    _, absent = coverage_cases(smooth, 200, 1)
+    assert not any(map(holds, absent.solve()))
 
 
 def test_coverage_is_shown_by_table_model_quantity_and_kind():
-    error = pair(kind="layer", table=MODEL_ERROR, quantity="peak_pressure")
-    found = whole([*ENOUGH, pair(kind="rough"), error])
-    assert found.groups("table", "kind")[MODEL_ERROR, "layer"].count == 1
+    error = row(kind="layer", study=MODEL_ERROR, quantity="peak_pressure")
+    found = whole([*ENOUGH, row(kind="rough"), error])
+    assert found.groups("table", "kind")["model error", "layer"].count == 1
     assert found.groups("table", "kind")["figure", "rough"].count == 1
     assert found.groups("kind")["Hertz",].count == 200
-    assert error.figure.name == "model error, peak_pressure"
+    assert [figure.quantity for figure in error.judged] == ["model error, peak_pressure"]
     page = verify_page(found)
     assert "Coverage by table, kind" in page and "<td>model error</td>" in page
 
 
 def test_coverage_is_rounded_down():
-    assert coverage_line(whole([pair()] * 1999 + [pair(stated=0.0)])) == "coverage 99 %"
+    assert coverage_line(whole([row()] * 1999 + [row(stated=0.0)])) == "coverage 99 %"
     assert coverage_line(whole(ENOUGH)) == "coverage 100 %"
-    assert coverage_line(whole([])) == "coverage 0 %"
+    unsolved = replace(row(), figures=(), error="no solution")
+    assert coverage_line(whole([unsolved])) == "coverage 0 %"
 
 
 def test_an_observed_order_is_of_the_root_mean_square():

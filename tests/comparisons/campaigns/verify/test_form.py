@@ -5,11 +5,18 @@ from pathlib import Path
 
 import pytest
 
-from comparisons import api
+import comparisons as crosscheck
 from comparisons.campaigns.decks.write import write_deck
-from comparisons.campaigns.verify.form import COLUMNS, export_form, form_cases, judged_form
+from comparisons.campaigns.verify.form import (
+    COLUMNS,
+    export_form,
+    form_cases,
+    is_covered,
+    judged_form,
+)
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
+from comparisons.notebook import scene_of
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +65,7 @@ def test_an_exported_trace_has_the_pressures_that_it_was_made_from(folder, seed)
 
 def solved_as_expected(folder: Path, name: str, bound: float) -> None:
     """By the half-plane, from the files alone."""
-    found = api.run(folder / f"{name}.toml", "half-plane")
+    found = crosscheck.run(folder / f"{name}.toml", "half-plane")
     (case,) = (case for case in form_cases() if case.name == name)
     for quantity in ("peak_pressure", "contact_length"):
         value = found.figure(quantity, "half_plane").value
@@ -71,7 +78,7 @@ def solved_as_expected(folder: Path, name: str, bound: float) -> None:
 def test_exported_scenes_make_decks(folder, tmp_path):
     for number, name in enumerate(("rough-hard-coating-2", "layer-bonded-nu-0.3-a-1-t")):
         assert write_deck(
-            api.load(folder / f"{name}.toml"), "calculix", tmp_path / str(number)
+            scene_of(folder / f"{name}.toml"), "calculix", tmp_path / str(number)
         ).nodes
 
 
@@ -89,9 +96,9 @@ def test_a_form_is_judged_as_figures_of_a_run_are(
 ):
     judged = judged_form(filled_in(folder, tmp_path / "form.csv", factor, uncertainty))
     assert judged.exit_status == status and judged.empty == 0
-    assert {row.covered for row in judged.rows} == {covered}
-    assert [row.error for row in judged.rows] == pytest.approx(
-        [factor - 1.0] * len(judged.rows), abs=1e-9
+    assert {is_covered(figure) for figure in judged.figures} == {covered}
+    assert [figure.value for figure in judged.figures] == pytest.approx(
+        [factor - 1.0] * len(judged.figures), abs=1e-9
     )
 
 

@@ -13,13 +13,14 @@ import pytest
 
 from analytic.exact.layers import layer_references
 from comparisons import cli
-from comparisons.campaigns.checks import CheckedCase, run_case, run_cases
+from comparisons.campaigns.cases import Case, carried_out, rows_of
 from comparisons.campaigns.verify import run
 from comparisons.campaigns.verify.coverage import (
     FEWEST_ROUGH,
     LEAST_COVERAGE,
-    MODEL_ERROR,
+    PRESSURE,
     Verification,
+    pairs_of,
 )
 from comparisons.campaigns.verify.independent_solver import independent_cases
 from comparisons.campaigns.verify.manufactured import manufactured_cases
@@ -34,7 +35,6 @@ from comparisons.campaigns.verify.scenes import (
     half_plane_scenes,
     layer_scenes,
     scene_cases,
-    scene_findings,
     spread,
 )
 from comparisons.common import tasks
@@ -43,8 +43,8 @@ from comparisons.figures import convergence
 
 # Evaluated, the number of the process as a finding.
 PROCESS = """(
-    lambda c: c.CaseFindings((c.BoundedFigure("process", __import__("os").getpid(), 1e9, ""),))
-)(__import__("sys").modules["comparisons.campaigns.checks"])"""
+    lambda c: [c.bounded("process", __import__("os").getpid(), 1e9, "")]
+)(__import__("sys").modules["comparisons.campaigns.cases"])"""
 SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
 
 
@@ -112,26 +112,26 @@ class TestCases:
 
     def test_a_scene_is_solved_as_a_run_is(self):
         scene = half_plane_scenes()[0]
-        found = scene_findings(scene, "half_plane")
-        assert [pair.quantity for pair in found.pairs] == list(scene.exact)
-        assert all(figure.holds for figure in found.figures)
-        assert all(pair.converged and len(pair.levels) == 3 for pair in found.pairs)
-        assert found.pressure_errors[-1] < 0.02 and len(found.pressure_errors) == 3
+        row = carried_out(scene_cases([scene])[0])
+        assert [pair.quantity for pair in pairs_of(row)] == list(scene.exact)
+        assert row.holds and all(len(pair.figure.levels) == 3 for pair in pairs_of(row))
+        (pressure,) = (f.levels for f in row.figures if f.quantity == PRESSURE)
+        assert pressure[-1] < 0.02 and len(pressure) == 3
 
 
 def test_processes_find_what_one_finds(monkeypatch):
     """In the same order, each case once."""
     contacts = operator_contacts()[:4]
     cases = scene_cases(half_plane_scenes(rounds=1)[:4]) + operator_cases(contacts, spread(4))
-    process = CheckedCase("", "process", "half_plane", partial(eval, PROCESS))
-    alone = [run_case(case).findings for case in cases]
+    process = Case("", "process", "half_plane", partial(eval, PROCESS))
+    alone = [carried_out(case).figures for case in cases]
     for worth in ("WORTH_A_FORK", "WORTH_A_START"):
         monkeypatch.setattr(tasks, worth, 0.0)
-    *beside, last = run_cases([*cases, process])
+    *beside, last = rows_of([*cases, process])
     assert [row.case for row in beside] == cases
-    assert [row.findings for row in beside] == alone
+    assert [row.figures for row in beside] == alone
     alone = len(os.sched_getaffinity(0)) == 1
-    assert (last.findings.figures[0].value == os.getpid()) == alone
+    assert (last.judged[0].value == os.getpid()) == alone
 
 
 class TestWhole:
@@ -144,7 +144,7 @@ class TestWhole:
         assert {"order", "manufactured", "independent solver", "coverage"} <= set(groups)
         assert groups.count("order") >= 5
         tables = found.groups("table", "kind")
-        assert all(tables[MODEL_ERROR, kind].count >= 2 for kind in ("layer", "rough"))
+        assert all(tables["model error", kind].count >= 2 for kind in ("layer", "rough"))
 
     def test_files_say_the_same(self, quick):
         found, folder = quick
@@ -160,7 +160,7 @@ class TestWhole:
         found, folder = quick
         [suite] = ElementTree.parse(folder / "ci" / "verify.xml").getroot()
         names = {(case.get("classname"), case.get("name")) for case in suite}
-        assert len(names) == len(suite) == sum(len(row.findings.figures) for row in found.rows)
+        assert len(names) == len(suite) == sum(len(row.judged) for row in found.rows)
         assert all("relative error" in c.find("system-out").text for c in suite[: len(found.pairs)])
 
     def test_a_stated_uncertainty_that_is_too_small_is_seen(self, monkeypatch, tmp_path):

@@ -23,7 +23,7 @@ from comparisons.models.finite_element.compliance_check import (
     operator_check,
 )
 from comparisons.models.finite_element.contact import mutual_compliance
-from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.level import LevelOptions, finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
@@ -48,7 +48,9 @@ def scene(**sections):
 def checked(given) -> ComplianceCheck:
     problem = problem_of(given)
     plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[0])
-    return finite_element_level(problem, plan, refinement, None, Stages(), check=True).operator
+    asked = LevelOptions(check=True)
+    level = finite_element_level(problem, plan, refinement, None, Stages(), options=asked)
+    return level.operator
 
 
 def differences(waves: dict[float, float], beyond: float = 1e-4) -> Differences:

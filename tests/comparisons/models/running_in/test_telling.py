@@ -16,10 +16,10 @@ from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.output.headline import headline
 from comparisons.output.page.page import render
-from comparisons.output.page.pictures.running_in import running_in_in_words, running_in_picture
 from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.output.result_json import content_of
-from comparisons.output.terminal import run_in_text, summary
+from comparisons.output.terminal import summary
+from comparisons.studies.running_in import lines, picture, running_in_in_words
 from comparisons.studies.study import Run
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -52,7 +52,7 @@ class TestTelling:
 
     def test_result_without_running_in(self, wavy_outcome: Run):
         assert "running_in" not in wavy_outcome.found
-        assert running_in_picture(wavy_outcome) is None
+        assert picture(wavy_outcome) is None
         assert "running-in" not in render(wavy_outcome)
 
     def test_plan_and_assumptions(self, outcome: Run):
@@ -65,7 +65,7 @@ class TestTelling:
             "comparisons.drawing.style.data_uri",
             lambda figure: figures.append(figure) or "data:",
         )
-        picture = running_in_picture(outcome)
+        shown = picture(outcome)
         run_in = outcome.problem.surface.run_in
         assert len(figures) == 2  # wide and narrow
         for figure in figures:
@@ -78,7 +78,7 @@ class TestTelling:
                     profile.spline()(points[:, 0] * 1e-6), abs=1e-15
                 )
         said = running_in_in_words(outcome.problem.scene, outcome.problem.surface)
-        assert picture.caption.endswith(said)
+        assert shown.caption.endswith(said)
         assert f"In {len(run_in.passes)} passes ({run_in.sweeps} sweeps over 5 places)" in said
         assert said.count(". ") == 0 and said.endswith(" deep.")
         page = render(outcome)
@@ -97,7 +97,7 @@ class TestTelling:
         softer = replace(run_in.constraints, hardness=peak / 1.8)
         surface = replace(outcome.problem.surface, run_in=replace(run_in, constraints=softer))
         sharp = posed(outcome, problem=replace(outcome.problem, surface=surface))
-        assert run_in_text(sharp).endswith("; pressed afterwards by up to 1.80 times its hardness")
+        assert lines(sharp)[0][1].endswith("; pressed afterwards by up to 1.80 times its hardness")
         assert "times its hardness" not in row
         [surface] = [line for line in shown if line.startswith("surface")]
         assert "before running-in " in surface or "at the cut-off" not in surface

@@ -15,8 +15,7 @@ from scenes import judging, posed
 
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.page import render
-from comparisons.output.page.pictures.model_error import waterfalls
-from comparisons.output.page.tables.text import is_shown
+from comparisons.studies.model_error.show import waterfalls
 from comparisons.studies.study import Run
 
 ROOT = "{http://www.w3.org/2000/svg}"
@@ -69,7 +68,7 @@ def test_the_contact_ratio_is_shown_once(wavy_page, smooth_page, half_plane_page
         assert "× 2a" in page.text
     scene = judging(wavy_outcome.problem.scene, {"contact_ratio": 0.02})
     judged = posed(wavy_outcome, problem=replace(wavy_outcome.problem, scene=scene))
-    assert is_shown(judged, "contact_ratio") and is_shown(wavy_outcome, "peak_pressure")
+    assert judged.shows("contact_ratio") and wavy_outcome.shows("peak_pressure")
 
 
 def test_it_says_when_where_and_by_which_revision(wavy_page, wavy_outcome):

@@ -115,7 +115,7 @@ def spoil(folder: Path, what: str) -> None:
                 f / FILE,
                 outline=np.array(json.dumps({"schema": 3, "outcome": {"dict": [["x", 1]]}})),
             ),
-            "report.npz: 'problem'; allowed is",
+            "report.npz: cannot be read: 'run'; allowed is",
         ),
         (lambda f: spoil(f, "finite_element/mesh.msh"), "mesh.msh: cannot be read: "),
     ],

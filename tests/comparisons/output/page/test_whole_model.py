@@ -19,8 +19,8 @@ from comparisons.output.page.pictures.pressures import pressure_picture
 from comparisons.output.page.pictures.sections import section_pictures
 from comparisons.output.page.plots import Plots
 from comparisons.output.page.saved import read_run
-from comparisons.output.page.tables.model_error import model_error_rows, moved_text
 from comparisons.runs.write import write_files
+from comparisons.studies.model_error.show import model_error_rows, moved_text
 from comparisons.studies.study import Run
 
 MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
@@ -96,7 +96,7 @@ def test_fields_are_those_of_the_whole_at_its_friction(outcome: Run):
 
 
 def test_the_pages_values_are_those_of_the_pictures(outcome: Run):
-    content = json.loads(str(field_explorer(outcome)["fields"]))
+    content = json.loads(str(field_explorer(outcome).fields))
     plain, sliding = content["components"][1]["fields"]  # txz
     assert plain["models"] == ["half-plane", "finite elements"]
     assert sliding["models"] == ["half-plane", "whole model"]

@@ -22,6 +22,7 @@ from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
 from comparisons.scenes.studies.scatter import Spread
 from comparisons.scenes.surface import surface_of
+from comparisons.studies.scatter.figures import by_inputs
 from comparisons.studies.scatter.samples import sampled, values_at
 from comparisons.studies.scatter.shares import designs
 from comparisons.studies.scatter.study import begin, solve
@@ -54,19 +55,19 @@ def exact():
 
 @pytest.mark.parametrize("quantity", ["peak_pressure", "contact_length"])
 def test_mean_and_interval_are_those_of_hertz(outcome, exact, quantity):
-    figure, values = outcome.data("scatter").of(quantity, 0.0), exact[quantity]
-    assert figure.nominal == pytest.approx(np.median(values), rel=2e-3)
-    assert figure.mean == pytest.approx(values.mean(), rel=2e-3)
-    assert figure.standard_deviation == pytest.approx(values.std(), rel=0.1)
+    figure, values = outcome.figures.one(study="scatter", quantity=quantity), exact[quantity]
+    assert figure.value == pytest.approx(np.median(values), rel=2e-3)
+    assert figure.spread.mean == pytest.approx(values.mean(), rel=2e-3)
+    assert figure.spread.deviation == pytest.approx(values.std(), rel=0.1)
     low, high = np.percentile(values, (2.5, 97.5))
-    assert figure.relative == pytest.approx(0.5 * (high - low) / np.median(values), rel=0.15)
+    assert by_inputs(figure) == pytest.approx(0.5 * (high - low) / np.median(values), rel=0.15)
 
 
 def test_shares_are_those_of_the_powers_in_hertz(outcome):
     """p0 goes with the roots of P, E* and 1/R, and E* with half a power of one of two equal
     moduli."""
     parts = np.array([0.5 * 4.0, 0.25 * 6.0, 0.5 * 3.0]) ** 2
-    found = outcome.data("scatter").of("peak_pressure", 0.0).shares
+    found = outcome.figures.one(study="scatter", quantity="peak_pressure").spread.shares
     expected = dict(zip(("load", "body_youngs_modulus", "roller_radius"), parts, strict=True))
     for name, part in expected.items():
         assert found[name]["first"] == pytest.approx(part / parts.sum(), abs=0.06)
@@ -179,7 +180,8 @@ class TestASample:
         outcome = run(resolved(changed(ROUGH, scatter=beyond)), None, ("half_plane",))
         scatter = outcome.data("scatter")
         assert 0 < scatter.failed < scatter.solutions and "end of the trace" in scatter.why
-        assert np.isfinite(scatter.of("peak_pressure", 0.0).mean)
+        known = outcome.figures.of(study="scatter", quantity="peak_pressure")
+        assert np.isfinite(known.one(friction=0.0).spread.mean)
 
 
 @pytest.mark.parametrize(

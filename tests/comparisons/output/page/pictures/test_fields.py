@@ -7,14 +7,9 @@ import pytest
 from scenes import posed
 from scipy.interpolate import RegularGridInterpolator
 
+from comparisons.drawing.field import colour_bar, fill, layout, round_bands
 from comparisons.drawing.style import drawing
-from comparisons.output.page.pictures.fields import (
-    colour_bar,
-    field_pictures,
-    fill,
-    layout,
-    round_bands,
-)
+from comparisons.output.page.pictures.fields import field_pictures
 from comparisons.studies.study import Run
 
 
@@ -38,7 +33,7 @@ def test_the_caption_says_where_the_differences_colours_end(wavy_outcome: Run, d
 
     def caption(outcome: Run) -> tuple[str, float]:
         figures, made = drawn_by(field_pictures, outcome)
-        return made[0][1][0].caption, float(scales_of(figures[0])[1].norm.boundaries[-1])
+        return made[0].caption, float(scales_of(figures[0])[1].norm.boundaries[-1])
 
     text, end = caption(wavy_outcome)
     assert f"colours end at ±{end:#.2g} p₀" in text

@@ -2,8 +2,8 @@
 
 from scenes import posed
 
-from comparisons.output.page.tables.model_error import effects_table
 from comparisons.output.page.tables.verification import convergence_tables, refinement_text
+from comparisons.studies.model_error.show import effects_table
 from comparisons.studies.study import Run
 
 

@@ -12,10 +12,10 @@ from scenes import PROJECT
 from comparisons.drawing.style import collected_figures
 
 NOTEBOOK = PROJECT / "comparisons/docs/tutorial.ipynb"
-SCRIPT = """from comparisons import api
+SCRIPT = """import comparisons as crosscheck
 steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 smooth = {"roller": {"radius": 8e-3, **steel}, "body": steel, "load": {"per_length": 1e6}}
-print(len(api.sweep(smooth, {"load": [1e6, 2e6]}, workers=2).rows))
+print(len(crosscheck.sweep(smooth, {"load": [1e6, 2e6]}, workers=2).rows))
 """
 
 

@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 from functools import partial
 from xml.etree import ElementTree
 
@@ -9,41 +10,45 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from comparisons.campaigns.checks import (
-    BoundedFigure,
-    CaseFindings,
-    CheckedCase,
-    CheckedRow,
+from comparisons.campaigns.cases import (
+    ENDED,
+    Case,
+    Row,
+    answers_of,
+    bounded,
+    carried_out,
+    junit_of,
     order_figure,
     relative_error,
+    rows_of,
     rows_table,
-    run_case,
-    study_junit,
     verdict_lines,
 )
 from comparisons.campaigns.robustness import run as robustness
 from comparisons.campaigns.robustness.run import all_cases, run_robustness
 from comparisons.cli import main
+from comparisons.common import tasks
 from comparisons.common.errors import ExitStatus
+from comparisons.figures.figure import Figure
 
 
-def findings(value: float, high: float = 1.0, low: float = 0.0) -> CaseFindings:
-    return CaseFindings((BoundedFigure("error", value, high, "the exact one", low, "a note"),))
+def figure(value: float, high: float = 1.0, low: float = 0.0) -> Figure:
+    return bounded("error", value, high, "the exact one", low, "a note")
 
 
-def case(found: CaseFindings, name: str = "made") -> CheckedCase:
-    return CheckedCase("tests", name, "half_plane", lambda: found)
+def case(*figures: Figure, name: str = "made") -> Case:
+    return Case("tests", name, "half_plane", partial(tuple, figures))
 
 
-def failing() -> CaseFindings:
+def failing() -> None:
     raise ArithmeticError("no\nsolution [bold]")
 
 
-RAISES = CheckedCase("tests", "raises", "finite_element", failing)
+RAISES = Case("tests", "raises", "finite_element", failing)
 
 
-def row(*figures: BoundedFigure) -> CheckedRow:
-    return run_case(case(CaseFindings(figures)))
+def row(*figures: Figure) -> Row:
+    return carried_out(case(*figures))
 
 
 @pytest.mark.parametrize(
@@ -57,34 +62,50 @@ def row(*figures: BoundedFigure) -> CheckedRow:
         (-0.1, 1.0, 0.0, False),
     ],
 )
-def test_a_figure_holds_within_its_bounds(value, high, low, holds):
-    assert run_case(case(findings(value, high, low))).holds is holds
+def test_a_case_holds_within_the_bounds_of_its_figure(value, high, low, holds):
+    assert row(figure(value, high, low)).holds is holds
 
 
 def test_orders_and_errors_count_on_both_sides():
-    held = [order_figure("", order, 2.0, 0.25, "").holds for order in (1.7, 1.8, 2.2, 2.3)]
+    held = [row(order_figure("", order, 2.0, 0.25, "")).holds for order in (1.7, 1.8, 2.2, 2.3)]
     assert held == [False, True, True, False]
     assert relative_error("", 0.75, 1.0, 1.0, "").value == 0.25
 
 
 def test_a_row_without_a_figure_or_with_an_error_fails_and_says_why():
     assert not row().holds and row().faults == ["half_plane, tests, made: no figures"]
-    raised = run_case(RAISES)
+    raised = carried_out(RAISES)
     assert not raised.holds and raised.error == "ArithmeticError: no solution [bold]"
 
 
 def test_an_interrupt_is_no_row():
-    def stop() -> CaseFindings:
+    def stop() -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_case(CheckedCase("tests", "stops", "half_plane", stop))
+        carried_out(Case("tests", "stops", "half_plane", stop))
+
+
+def test_a_case_that_ends_its_process_is_a_row(monkeypatch):
+    monkeypatch.setattr(tasks, "cores", lambda: 2)
+    for worth in ("WORTH_A_FORK", "WORTH_A_START"):
+        monkeypatch.setattr(tasks, worth, 0.0)
+    deadly = Case("tests", "deadly", "half_plane", partial(os._exit, 3))
+    assert [row.fault for row in rows_of([deadly, case(figure(0.5))])] == [ENDED, None]
+
+
+def test_what_is_kept_of_a_stopped_command_is_not_computed_again(tmp_path):
+    good = case(figure(0.5))
+    (first,) = rows_of([good], kept=answers_of(tmp_path, [good]))
+    again = Case(good.group, good.name, good.model, failing)
+    (row,) = rows_of([again], kept=answers_of(tmp_path, [again]))
+    assert row.figures == first.figures and row.holds
+    assert answers_of(tmp_path, [good, RAISES]).load("1") is None  # of other cases
 
 
 def test_the_decisive_figure_is_the_first_or_the_one_that_fails_by_most():
-    right, wrong = BoundedFigure("a", 0.5, 1.0, "x"), BoundedFigure("b", 3.0, 1.0, "x")
-    worse = BoundedFigure("c", np.nan, 1.0, "x")
-    assert row(right, right).decisive is right
+    right, wrong, worse = figure(0.5), figure(3.0), figure(np.nan)
+    assert row(right, figure(0.6)).decisive is right
     assert row(right, wrong).decisive is wrong
     assert row(wrong, worse).decisive is worse
 
@@ -94,7 +115,7 @@ def written(tmp_path):
     """A study of three rows, its folder and what was announced."""
     (tmp_path / "result.json").write_text("a run's own")
     announced = []
-    cases = (case(findings(np.inf)), RAISES, case(findings(0.1), "good"))
+    cases = case(figure(np.inf)), RAISES, case(figure(0.1), name="good")
     junit = tmp_path / "ci" / "rows.xml"
     return run_robustness(tmp_path, junit, announced.append, lambda: cases), tmp_path, announced
 
@@ -132,7 +153,7 @@ def test_json_holds_all_rows_beside_the_other_files_of_the_folder(written):
 def test_junit_has_a_testcase_for_each_figure_and_error(written):
     study, folder, _ = written
     text = (folder / "ci" / "rows.xml").read_text()
-    assert text == study_junit(study)
+    assert text == junit_of(study)
     [suite] = ElementTree.fromstring(text.encode())
     assert (suite.get("tests"), suite.get("failures")) == ("3", "2")
     first, raised, good = suite
@@ -150,7 +171,7 @@ def test_no_rows_are_no_success(tmp_path):
 @pytest.mark.parametrize(("value", "status"), [(0.5, 0), (2.0, 1)])
 def test_the_command_ends_with_what_the_rows_say(tmp_path, monkeypatch, capsys, value, status):
     monkeypatch.chdir(tmp_path)
-    short = partial(run_robustness, cases=lambda: [case(findings(value))])
+    short = partial(run_robustness, cases=lambda: [case(figure(value))])
     monkeypatch.setattr(robustness, "run_robustness", short)
     assert main(["stability", "--junit", "ci.xml"]) == status
     out, err = capsys.readouterr()

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from scenes import PROJECT, STEEL
 
-from comparisons import api
-from comparisons.api.results import CostStudy, FinishedRun, Map
+import comparisons as crosscheck
 from comparisons.campaigns.maps.content import read_map
 from comparisons.cli import main
 from comparisons.common.errors import InputError
+from comparisons.figures.quantity import models_named
+from comparisons.notebook import CostStudy, FinishedRun, Map, scene_of
 from comparisons.scenes.surface import surface_of
 
 SMALL = {
@@ -71,10 +72,10 @@ def test_the_same_scene_from_python_and_from_the_command_line(
     Path("scene.toml").write_text(toml(tables))
     status = main(["run", "scene.toml", "--out", "out", "--json"])
     told = without_cost(json.loads(capsys.readouterr().out))
-    found = api.run(tables)
+    found = crosscheck.run(tables)
     assert without_cost(json.loads(json.dumps(found.result))) == told
     assert status == found.outcome.exit_status
-    again = api.read("out")
+    again = crosscheck.read("out")
     assert without_cost(again.result) == told
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
 
@@ -82,34 +83,45 @@ def test_the_same_scene_from_python_and_from_the_command_line(
 def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("scene.toml").write_text(toml(SCENES["smooth, sliding"]))
-    by_path, by_tables = api.load("scene.toml"), api.load(SCENES["smooth, sliding"])
-    assert by_path.tables == by_tables.tables == api.load(by_path).tables
-    assert surface_of(api.load("ground-unrun")).info.samples == 2237
-    assert set(api.load("smooth", tolerance=0.1).tolerances.values()) == {0.1}
+    by_path, by_tables = scene_of("scene.toml"), scene_of(SCENES["smooth, sliding"])
+    assert by_path.tables == by_tables.tables == scene_of(by_path).tables
+    assert surface_of(scene_of("ground-unrun")).info.samples == 2237
 
 
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: api.load("smoth"), "the nearest scene is smooth"),
-        (lambda: api.run("smooth", "fem"), "models: there is no model fem"),
-        (lambda: api.run("smooth", ()), "models: is empty"),
-        (lambda: api.compare(), "is given no run"),
-        (lambda: api.read("nowhere"), "nowhere: is no folder"),
-        (lambda: api.map("smooth", "8"), "--points"),
-        (lambda: api.cost("smooth", repeats=0), "--repeats"),
-        (lambda: api.cost("smooth", repeats="3"), 'repeats: is "3"; allowed is a whole number'),
-        (lambda: api.run("smooth", 5), "models: is 5; allowed are half-plane, finite-element"),
-        (lambda: api.run("smooth", fields="foo"), 'fields: is "foo"; allowed is auto, vtu'),
-        (lambda: api.run("smooth", fields=["vtu"]), "fields: is a list; allowed is auto"),
-        (lambda: api.run("smooth", tolerance="0.1"), 'tolerance: is "0.1"; allowed is a number'),
-        (lambda: api.run("smooth", tolerance=True), "tolerance: is true; allowed is a number"),
-        (lambda: api.run("smooth", out="/dev/null/a"), "/dev/null is not a folder"),
-        (lambda: api.run("smooth", out=7), "out: is 7; allowed is a path"),
-        (lambda: api.load(7), "scene: is 7; allowed is a name, a path, tables"),
-        (lambda: api.load({"title": object()}), "title: is of type object; allowed is"),
-        (lambda: api.read(7), "folder: is 7; allowed is a path"),
-        (lambda: api.map("smooth", 8), "points: is 8; allowed is a text"),
+        (lambda: scene_of("smoth"), "the nearest scene is smooth"),
+        (lambda: crosscheck.run("smooth", "fem"), "models: there is no model fem"),
+        (lambda: crosscheck.run("smooth", ()), "models: is empty"),
+        (lambda: crosscheck.compare(), "is given no run"),
+        (lambda: crosscheck.read("nowhere"), "nowhere: is no folder"),
+        (lambda: crosscheck.map("smooth", "8"), "--points"),
+        (lambda: crosscheck.cost("smooth", repeats=0), "--repeats"),
+        (
+            lambda: crosscheck.cost("smooth", repeats="3"),
+            'repeats: is "3"; allowed is a whole number',
+        ),
+        (
+            lambda: crosscheck.run("smooth", 5),
+            "models: is 5; allowed are half-plane, finite-element",
+        ),
+        (lambda: crosscheck.run("smooth", fields="foo"), 'fields: is "foo"; allowed is auto, vtu'),
+        (lambda: crosscheck.run("smooth", fields=["vtu"]), "fields: is a list; allowed is auto"),
+        (
+            lambda: crosscheck.run("smooth", tolerance="0.1"),
+            'tolerance: is "0.1"; allowed is a number',
+        ),
+        (
+            lambda: crosscheck.run("smooth", tolerance=True),
+            "tolerance: is true; allowed is a number",
+        ),
+        (lambda: crosscheck.run("smooth", out="/dev/null/a"), "/dev/null is not a folder"),
+        (lambda: crosscheck.run("smooth", out=7), "out: is 7; allowed is a path"),
+        (lambda: scene_of(7), "scene: is 7; allowed is a name, a path, tables"),
+        (lambda: scene_of({"title": object()}), "title: is of type object; allowed is"),
+        (lambda: crosscheck.read(7), "folder: is 7; allowed is a path"),
+        (lambda: crosscheck.map("smooth", 8), "points: is 8; allowed is a text"),
     ],
 )
 def test_wrong_input_is_one_line_before_anything_is_solved(call, words, monkeypatch):
@@ -144,7 +156,7 @@ def test_curves_are_those_of_the_finest_level(found):
 
 
 def test_several_runs_in_one_table(found, smooth_outcome):
-    both = api.compare(found, FinishedRun(smooth_outcome))
+    both = crosscheck.compare(found, FinishedRun(smooth_outcome))
     assert len(both.rows) == len(found.rows) + len(FinishedRun(smooth_outcome).rows)
     text = repr(both)
     assert "Wavy body" in text and "Smooth roller" in text
@@ -223,10 +235,10 @@ def test_a_view_holds_the_field_with_depth_downwards(found):
 
 def test_report_is_written_where_it_is_asked_for(found, tmp_path, monkeypatch):
     monkeypatch.setattr("comparisons.output.page.page.render", lambda run, *_: f"<p>{id(run)}</p>")
-    path = api.report(found, tmp_path / "mine.html")
+    path = found.report(tmp_path / "mine.html")
     assert path.read_text() == f"<p>{id(found.outcome)}</p>"
     with pytest.raises(InputError, match="is no place"):
-        api.report(found, tmp_path / "no" / "mine.html")
+        found.report(tmp_path / "no" / "mine.html")
 
 
 def test_a_finished_map_prints_and_draws(pyplot):
@@ -239,11 +251,39 @@ def test_a_finished_map_prints_and_draws(pyplot):
 
 def test_examples_run(tmp_path, monkeypatch, pyplot):
     monkeypatch.chdir(tmp_path)
-    results = doctest.testmod(importlib.import_module("comparisons.api"))
-    assert results.attempted > 15 and results.failed == 0
+    results = [
+        doctest.testmod(importlib.import_module(name), extraglobs={"crosscheck": crosscheck})
+        for name in ("comparisons", "comparisons.notebook")
+    ]
+    assert all(result.attempted > 8 and result.failed == 0 for result in results)
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("package", ["analytic", "meshes", "fem", "comparisons"])
 def test_packages_say_that_they_are_typed(package):
     assert (PROJECT / package / "py.typed").read_bytes() == b""
+
+
+def test_figures_are_a_table_and_records(found):
+    figures = found.figures
+    assert tuple(figures) == tuple(found.outcome.figures)
+    text = repr(figures)
+    assert "model_error" in text and "peak_pressure" in text and "0.1" in text
+    frame = figures.of(study="contact")
+    assert {figure.study for figure in frame} == {"contact"}
+    assert len(figures.rows) == len(figures)
+    pandas = pytest.importorskip("pandas")
+    table = figures.frame()
+    assert isinstance(table, pandas.DataFrame) and len(table) == len(figures)
+
+
+@pytest.mark.parametrize("name", ["half-plane", "half_plane"])
+def test_a_model_has_one_name_written_in_two_ways(found, name):
+    assert found.figure("peak_pressure", name, friction=0.1).source == "half_plane"
+    assert found.contact(name)["x"] is not None and found.stress(name)["x"] is not None
+    assert models_named(name, "models") == ("half_plane",)
+
+
+def test_a_scene_prints_itself_in_few_lines():
+    lines = repr(crosscheck.Scene.read("ground-unrun")).splitlines()
+    assert len(lines) <= 12 and any("roller" in line and "mm" in line for line in lines)

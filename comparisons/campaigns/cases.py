@@ -1,0 +1,336 @@
+"""Named cases whose figures must lie within bounds: carried out, shown and written.
+
+In: cases, each a function that yields figures: those with bounds decide, others are accounts. Out:
+a row a case; of all rows the terminal's table, json and JUnit. A case that raises, that ends its
+process, or that yields nothing to judge is a row that does not hold. `verify` and `stability`
+differ in their cases, and in what they say of them."""
+
+import math
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import process_time
+from typing import TYPE_CHECKING
+
+from comparisons.common.cache import NO_CACHE, Cache, kinds_of
+from comparisons.common.errors import ExitStatus, one_line
+from comparisons.common.files import check_writable, publish, unfinished
+from comparisons.common.mpi import is_first
+from comparisons.common.numbers import finite
+from comparisons.common.progress import ProgressCallback, Step, no_progress
+from comparisons.common.provenance import as_json, key_of, machine, program_code, versions
+from comparisons.common.tasks import Here, ProcessEnded, tasks_here
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import LABELS
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.output.junit import JunitCase, check_place, junit_xml, write_junit
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.table import Table
+
+SCHEMA = 2
+CASE, CONDITION, COST = "case", "condition", "cost"  # studies of what cases yield
+# Quantity of a cost: iterations over those of the ordinary case.
+TIMES_THE_ORDINARY = "times_the_ordinary"
+MODEL_LABELS = LABELS | {"layer": "analytic layer", "both": "both"}
+# Of a case, by its model: whether other processes are worth their start.
+USUAL_SECONDS = {"finite_element": 0.5, "half_plane": 0.05}
+CaseFigures = tuple[Figure, ...]
+COLUMNS = ("model", "case", "holds", "figure", "value", "bound", "cond.", "cost x", "s")
+ENDED, NOTHING = "the process that solved it ended", "no figures"
+
+
+def bounded(
+    quantity: str, value: float, high: float, against: str, low: float = 0.0, note: str = ""
+) -> Figure:
+    """A dimensionless number that must lie between `low` and `high`, both included."""
+    return Figure(
+        *(CASE, quantity, "computed", float(value)),
+        against=against,
+        uncertainty=Uncertainty(),
+        bounds=(low, high),
+        notes=(note,) if note else (),
+    )
+
+
+def order_figure(
+    quantity: str, order: float, expected: float, margin: float, against: str
+) -> Figure:
+    """An observed order of convergence: one above the expected order is a mistake, too."""
+    return bounded(quantity, order, expected + margin, against, expected - margin)
+
+
+def relative_error(
+    quantity: str, value: float, expected: float, high: float, against: str
+) -> Figure:
+    """|value / expected - 1|."""
+    return bounded(quantity, abs(value / expected - 1.0), high, against)
+
+
+def account(study: str, quantity: str, value: float) -> Figure:
+    """CONDITION, the estimated condition number of a case's matrix; or COST, its iterations."""
+    return Figure(study, quantity, "computed", float(value))
+
+
+def holds(figure: Figure) -> bool:
+    return figure.verdict == "agree"
+
+
+def excess(figure: Figure) -> float:
+    """By what factor a value is beyond its nearer bound."""
+    value, (low, high) = figure.value, figure.bounds
+    if not math.isfinite(value):
+        return math.inf
+    if value > high:
+        return value / high if high > 0.0 else math.inf
+    return low / value if value > 0.0 else math.inf
+
+
+def bounds_text(figure: Figure) -> str:
+    low, high = figure.bounds
+    if math.isinf(high):
+        return f"at least {low:.4g}"
+    return f"{low:.4g} to {high:.4g}" if low else f"at most {high:.4g}"
+
+
+@dataclass(frozen=True)
+class Case:
+    """A named case of a model; `solve` computes its figures."""
+
+    group: str
+    name: str
+    model: str
+    solve: Callable[[], Iterable[Figure]]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A case with what it yields; `error` is the message of what it raised, else None."""
+
+    case: Case
+    figures: CaseFigures
+    error: str | None
+    seconds: float  # of a processor
+
+    @property
+    def judged(self) -> CaseFigures:
+        """The figures that decide; the first is what the case is about."""
+        return tuple(figure for figure in self.figures if figure.bounds is not None)
+
+    @property
+    def failed(self) -> list[Figure]:
+        return [figure for figure in self.judged if not holds(figure)]
+
+    @property
+    def fault(self) -> str | None:
+        """Why there is nothing to judge."""
+        return self.error or (None if self.judged else NOTHING)
+
+    @property
+    def holds(self) -> bool:
+        return self.fault is None and not self.failed
+
+    @property
+    def condition(self) -> float | None:
+        """The condition number of the case's matrix; None where it has none."""
+        return next((f.value for f in self.figures if f.study == CONDITION), None)
+
+    @property
+    def cost(self) -> dict[str, float]:
+        return {f.quantity: f.value for f in self.figures if f.study == COST}
+
+    @property
+    def decisive(self) -> Figure | None:
+        """The figure that fails by most, or else the one that the case is about."""
+        return max(self.failed, key=excess, default=next(iter(self.judged), None))
+
+    @property
+    def faults(self) -> list[str]:
+        """A line for each figure that does not hold, for an error, or for the lack of figures."""
+        label = f"{self.case.model}, {self.case.group}, {self.case.name}"
+        if self.fault:
+            return [f"{label}: {self.fault}"]
+        return [
+            f"{label}, {f.quantity}: {f.value:.4g}, expected {bounds_text(f)}" for f in self.failed
+        ]
+
+    def as_dict(self) -> dict:
+        return {
+            "group": self.case.group,
+            "case": self.case.name,
+            "model": self.case.model,
+            "holds": self.holds,
+            "figures": [
+                {
+                    "name": figure.quantity,
+                    "value": figure.value,
+                    "high": figure.bounds[1],
+                    "reference": figure.against,
+                    "low": figure.bounds[0],
+                    "holds": holds(figure),
+                }
+                for figure in self.judged
+            ],
+            "condition": self.condition,
+            "cost": self.cost,
+            "seconds": self.seconds,
+            "error": self.error,
+        }
+
+
+def carried_out(case: Case) -> Row:
+    return Row(case, *_solved(None, case.solve))
+
+
+def _solved(
+    here: Here | None, solve: Callable[[], Iterable[Figure]]
+) -> tuple[CaseFigures, str | None, float]:
+    start, figures, error = process_time(), (), None
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # an overflow shows in the figures
+            figures = tuple(solve())
+    except Exception as raised:
+        error = one_line(f"{type(raised).__name__}: {raised}")
+    return figures, error, process_time() - start
+
+
+def rows_of(
+    cases: Iterable[Case], callback: ProgressCallback = no_progress, kept: Cache = NO_CACHE
+) -> tuple[Row, ...]:
+    """The rows of all cases, which processes share where that pays (`comparisons.common.tasks`):
+    what solves a case can be pickled then."""
+    cases, rows = tuple(cases), []
+    with tasks_here(kept=kept) as tasks:
+        for number, case in enumerate(cases, start=1):
+            tasks.add(str(number), _solved, case.solve, seconds=USUAL_SECONDS.get(case.model, 0.0))
+        for number, case in enumerate(cases, start=1):
+            failed = sum(not row.holds for row in rows)
+            name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
+            name += f"{case.model}: {case.group}: {case.name}"
+            callback(Step(name, (number - 1) / len(cases)))
+            try:
+                rows.append(Row(case, *tasks.result(str(number))))
+            except ProcessEnded:
+                rows.append(Row(case, (), ENDED, 0.0))
+    return tuple(rows)
+
+
+def answers_of(out: Path, cases: Iterable[Case]) -> Cache:
+    """Answers of a command into `out` that was stopped, of the same cases by the same code."""
+    names = [[case.group, case.name, case.model] for case in cases]
+    code = program_code("analytic", "comparisons", "fem", "meshes")
+    return Cache(unfinished(out), key_of(names, versions(), code), kinds_of(Figure))
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """All rows of a command, and the seconds that they took together."""
+
+    command: str
+    rows: tuple[Row, ...]
+    seconds: float
+
+    @property
+    def faults(self) -> list[str]:
+        return [line for row in self.rows for line in row.faults] or ["no rows"] * (not self.rows)
+
+    @property
+    def holds(self) -> bool:
+        return not self.faults
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        return ExitStatus.DONE if self.holds else ExitStatus.OUTSIDE_TOLERANCE
+
+    @property
+    def passed(self) -> int:
+        return sum(row.holds for row in self.rows)
+
+    def as_dict(self) -> dict:
+        return {
+            "schema": SCHEMA,
+            "holds": self.holds,
+            "faults": self.faults,
+            "passed": self.passed,
+            "failed": len(self.rows) - self.passed,
+            "rows": [row.as_dict() for row in self.rows],
+            "seconds": self.seconds,
+            "versions": versions(),
+            "machine": machine(),
+        }
+
+
+def check_places(command: str, out: Path, junit: Path | None) -> None:
+    """Raise InputError unless the command's files can be written in `out`, and the file `junit`."""
+    check_writable(out, (f"{command}.json", f"{command}.html"))
+    check_place(junit)
+
+
+def write(campaign: Campaign, out: Path, junit: Path | None, page: str | None = None) -> None:
+    """Leave <command>.json, and .html where there is a page, in `out`; JUnit XML in `junit`."""
+    if not is_first():
+        return
+    files = {f"{campaign.command}.json": as_json(finite(campaign.as_dict()))}
+    if page is not None:
+        files[f"{campaign.command}.html"] = page
+    publish(out, files)
+    write_junit(junit, junit_of(campaign))
+
+
+def junit_of(campaign: Campaign) -> str:
+    cases = (case for row in campaign.rows for case in _junit_cases(campaign.command, row))
+    return junit_xml(campaign.command, cases, campaign.seconds)
+
+
+def _junit_cases(command: str, row: Row) -> list[JunitCase]:
+    name, group = f"{row.case.group}: {row.case.name}", f"{command}.{row.case.model}"
+    if row.fault:
+        return [JunitCase(group, name, row.fault, "failure", f"{NOTHING}: {row.fault}")]
+    cases = []
+    for f in row.judged:
+        text = "; ".join((f"{f.value:.6g}, expected {bounds_text(f)} ({f.against})", *f.notes))
+        result, label = "passed" if holds(f) else "failure", f"{name}: {f.quantity}"
+        cases.append(JunitCase(group, label, text, result, f"out of bounds: {text}"))
+    return cases
+
+
+def rows_table(rows: Sequence[Row]) -> "Table":
+    from rich.table import Table
+    from rich.text import Text
+
+    cells = []
+    for row in rows:
+        shown, cost = row.decisive, row.cost.get(TIMES_THE_ORDINARY)
+        about = shown and f"{shown.quantity} ({shown.against})"
+        cells.append(
+            (
+                MODEL_LABELS[row.case.model],
+                Text(f"{row.case.group}: {row.case.name}"),
+                Text("yes", style="green") if row.holds else Text("NO", style="bold red"),
+                Text(row.error or about or NOTHING),
+                f"{shown.value:.2g}" if shown else "",
+                bounds_text(shown) if shown else "",
+                "" if row.condition is None else f"{row.condition:.0e}",
+                "" if cost is None else f"{cost:.1f}",
+                f"{row.seconds:.1f}",
+            )
+        )
+    filled = [k for k in range(len(COLUMNS)) if any(row[k] for row in cells)]
+    table = Table(*(COLUMNS[k] for k in filled))
+    for row in cells:
+        table.add_row(*(row[k] for k in filled))
+    return table
+
+
+def verdict_lines(campaign: Campaign) -> "RenderableType":
+    from rich.console import Group
+    from rich.text import Text
+
+    verdict = Text("HOLDS" if campaign.holds else "DOES NOT HOLD", style="bold")
+    count = f"  {campaign.passed} of {len(campaign.rows)} cases hold, {campaign.seconds:.0f} s"
+    verdict.append(count, "not bold")
+    faults = [Text(f"does not hold: {line}", style="bold red") for line in campaign.faults]
+    return Group(*faults, verdict)

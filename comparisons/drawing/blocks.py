@@ -1,0 +1,71 @@
+"""What a page is made of, as data: blocks of tables, pictures and notes, in order.
+
+In: texts, names of pictures. Out: dataclasses, which a template shows by their classes' names."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class TextTable:
+    """Text cells by row; the first column names the row. Lines after a cell's first are grey."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    # "comparison": on narrow screens a row becomes a list, and verdicts have colours; with
+    # "prose": its cells are words
+    style: str = ""
+    words: bool = False  # the last column of a comparison holds words
+
+
+@dataclass(frozen=True)
+class Names:
+    """Rows of a name and what it stands for; before them such of a name and a command."""
+
+    rows: "tuple[tuple[str, str], ...] | list[tuple[str, str]]"
+    commands: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Note:
+    """How to read what stands above; *words* between asterisks are set off."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Heading:
+    text: str
+
+
+@dataclass(frozen=True)
+class Bullets:
+    texts: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """What the drawing functions of these names give, one below the other or `abreast`; of several
+    those of `part`. The heading is left out where there is nothing."""
+
+    names: tuple[str, ...]
+    heading: str = ""
+    abreast: bool = False
+    part: slice | None = None  # all
+
+
+@dataclass(frozen=True)
+class Box:
+    """Items together, of a class of the page's style: columns | sheet | stack."""
+
+    style: str
+    items: tuple
+
+
+@dataclass(frozen=True)
+class Block:
+    """Items of a section of the page, which the first block of a section gives its title."""
+
+    section: str  # id
+    items: tuple
+    title: str = ""

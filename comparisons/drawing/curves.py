@@ -1,0 +1,50 @@
+"""Panels of curves under each other over one axis, and the load in words above them."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from comparisons.common.numbers import given, with_unit
+from comparisons.drawing import style
+from comparisons.models.problem import Problem
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LEFT, FOOT = 0.8, 0.46  # inches: left of the panels, below the last
+
+
+def panels(
+    width: float,
+    rows: Sequence[tuple[float, float]],
+    left: float = LEFT,
+    right: float = 0.12,
+    foot: float = FOOT,
+) -> "tuple[Figure, list[Axes]]":
+    """A figure `width` inches wide with panels by their space above and height in inches."""
+    drawn = style.figure(width, sum(map(sum, rows)) + foot)
+    return drawn, style.stacked(drawn, rows, left, right)
+
+
+def over(axes: "Sequence[Axes]", label: str, ends: Sequence[float] | None = None) -> None:
+    """One axis for all panels, with numbers and label under the last."""
+    for each in axes:
+        if ends is not None:
+            each.set_xlim(ends[0], ends[-1])
+        each.tick_params(labelbottom=each is axes[-1])
+    axes[-1].set_xlabel(label)
+
+
+def load_text(problem: Problem) -> str:
+    """Load per length, in the digits of the scene where the scene gives it."""
+    write = given if problem.scene.load.kind == "per_length" else with_unit
+    return write(problem.hertz.load_per_length, "N/m")
+
+
+def hertz_text(problem: Problem) -> str:
+    """The load, and peak pressure and half-width of the smooth contact under it."""
+    hertz = problem.hertz
+    return (
+        f"P = {load_text(problem)},  p₀ = {with_unit(hertz.peak_pressure, 'Pa')},  "
+        f"a = {with_unit(hertz.half_width, 'm')}"
+    )

@@ -1,0 +1,217 @@
+"""Fields over x and depth as bands of colour, each above its scale.
+
+In: values (m, n) at places x (n,) and depths z (m,). Out: axes of a picture. What is negative is
+striped, so that a grey printer leaves the sign."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.drawing.style import COLUMN, figure, hatch, stacked
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.figure import Figure
+
+LEFT, WIDTH = 0.62, COLUMN - 0.85  # inches, of a field
+LOW, TALL = 0.9, 2.6  # inches: least and greatest height of a field to scale
+TITLE, FOOT, BAR, BAR_LABEL, INSET = 0.28, 0.42, 0.1, 0.34, 0.36  # inches
+BANDS = 16  # of colour on the whole scale, about
+COVERED = 99.5  # per cent of a field's points that its scale covers at least
+NOTHING = 1e-12  # a largest value below it is none
+PIXELS = 220  # to the inch
+SMALLEST_POWER = -2  # of ten: smaller ticks are written with the power apart
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+MOST_TICKS = 9  # of a colour bar
+STRIPES = 0.045, 0.3  # inches from one to the next, and the share that each covers
+SHADE = 0.22  # of black, of a stripe
+ROUND = np.array([1.0, 2.0, 2.5, 5.0, 10.0])  # steps of a scale, times a power of ten
+DIFFERENCE_COLOURS = "PuOr_r"
+
+
+def round_bands(fields: list[np.ndarray], signed: bool) -> np.ndarray:
+    """Ascending bounds in round steps, symmetric if `signed`, that cover nearly every point."""
+    top = max(max(np.nanpercentile(np.abs(field), COVERED) for field in fields), NOTHING)
+    wanted = (2.0 if signed else 1.0) * top / BANDS
+    power = 10.0 ** np.floor(np.log10(wanted))
+    step = power * ROUND[np.searchsorted(ROUND, wanted / power * (1.0 - 1e-9))]
+    count = int(np.ceil(top / step * (1.0 - 1e-9)))
+    # zero lies inside the middle band of a signed scale, so that noise about it has one colour
+    return step * (np.arange(-count, count + 2) - 0.5 if signed else np.arange(count + 1.0))
+
+
+def cross(axes: "Axes", x: float, z: float) -> None:
+    """Mark a point so that it is seen on every colour."""
+    for colour, thick in (("white", 2.6), ("black", 1.1)):
+        look = {"color": colour, "markersize": 7.5, "markeredgewidth": thick, "clip_on": False}
+        axes.plot(x, z, marker="+", **look)
+
+
+def layout(models: int, height: float) -> "tuple[Figure, list[Axes], list[Axes]]":
+    """An empty figure, its fields from top to bottom, and its colour bars. The models stand above
+    one bar; with two models their difference follows, above another."""
+    block, bar = (TITLE, height), (FOOT, BAR)
+    panels = [block] * models + [bar]
+    if models > 1:
+        panels += [(BAR_LABEL + TITLE, height), bar]
+    drawn = figure(COLUMN, sum(map(sum, panels)) + BAR_LABEL)
+    places = stacked(drawn, panels, LEFT, COLUMN - LEFT - WIDTH)
+    bars = places[models::2]
+    places = places[:models] + places[models + 1 :: 2]
+    for axes in bars:
+        box, inset = axes.get_position(), INSET / COLUMN
+        axes.set_position((box.x0 + inset, box.y0, box.width - inset, box.height))
+    for axes in places[: models - 1]:
+        axes.tick_params(labelbottom=False)
+    places[models - 1].set_xlabel("x/a")
+    return drawn, places, bars
+
+
+def fill(
+    axes: "Axes",
+    x: np.ndarray,
+    z: np.ndarray,
+    values: np.ndarray,
+    bands: np.ndarray,
+    colours: str,
+    signed: bool,
+) -> "ScalarMappable":
+    """Bands of colour, drawn as pixels: as curves they would take megabytes.
+
+    bands   in equal steps
+    What is negative is striped, so that a grey printer leaves the sign.
+    """
+    import matplotlib
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import BoundaryNorm
+
+    colour_map = matplotlib.colormaps[colours]
+    norm = BoundaryNorm(bands, colour_map.N, extend="both" if signed else "max")
+    scale, step = ScalarMappable(norm, colour_map), bands[1] - bands[0]
+    # a colour for each band, below and beyond them, and none where there is no value
+    middles = bands[0] + step * (np.arange(-1, len(bands)) + 0.5)
+    table = np.vstack([scale.to_rgba(middles, bytes=True), np.zeros(4, dtype=np.uint8)])
+    pixels = (_pixels(axes, x, z, values) - bands[0]) / step
+    band = np.clip(np.floor(pixels), -1.0, len(bands) - 1.0) + 1.0
+    band = np.where(np.isnan(band), len(middles), band).astype(np.uint8)
+    if signed:
+        table = np.vstack([table, table])
+        table[len(middles) + 1 :, :3] = (1.0 - SHADE) * table[: len(middles) + 1, :3]
+        negative = np.count_nonzero(bands < 0.0)
+        band[_stripes(band.shape) & (band < negative)] += len(middles) + 1
+    axes.imshow(table[band], interpolation="none", aspect="auto", extent=(x[0], x[-1], z[-1], z[0]))
+    axes.set(xlim=(x[0], x[-1]), ylim=(z[-1], z[0]), ylabel="z/a")
+    axes.grid(False)
+    return scale
+
+
+def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The field on even pixels, linear between the window's points."""
+    box, (wide, tall) = axes.get_position(), axes.figure.get_size_inches()
+    columns, rows = int(PIXELS * box.width * wide), int(PIXELS * box.height * tall)
+    across = x[0] + (np.arange(columns) + 0.5) / columns * (x[-1] - x[0])
+    down = z[0] + (np.arange(rows) + 0.5) / rows * (z[-1] - z[0])
+    return _between(x, across, _between(z, down, values).T).T
+
+
+def _between(places: np.ndarray, wanted: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Rows of values at ascending places, linear in between, at the wanted places."""
+    at = np.interp(wanted, places, np.arange(len(places)))
+    before = np.minimum(at.astype(int), len(places) - 2)
+    share = (at - before)[:, None]
+    return (1.0 - share) * values[before] + share * values[before + 1]
+
+
+@cache
+def _stripes(shape: tuple[int, int]) -> np.ndarray:
+    """Which pixels are struck."""
+    apart, share = STRIPES
+    down, across = np.arange(shape[0])[:, None], np.arange(shape[1])
+    return ((down + across) / (apart * PIXELS)) % 1.0 < share
+
+
+def colour_bar(
+    drawn: "Figure", axes: "Axes", shown: "ScalarMappable", label: str, bands: np.ndarray
+) -> None:
+    """The scale under a field: ticks in round steps, at zero if it is on the scale."""
+    bar = drawn.colorbar(shown, cax=axes, orientation="horizontal")
+    bar.outline.set_linewidth(0.5)
+    step = bands[1] - bands[0]
+    apart = step * (1 + len(bands) // MOST_TICKS)
+    ticks = apart * np.arange(np.ceil(bands[0] / apart), np.floor(bands[-1] / apart * 1.000001) + 1)
+    power = int(np.floor(np.log10(ticks[-1])))
+    if power < SMALLEST_POWER:
+        label = f"{label}\n× 10{str(power).translate(SUPERSCRIPT)}"
+    else:
+        power = 0
+    labels = [f"{tick * 10.0**-power:.4g}" for tick in ticks]
+    bar.set_ticks(ticks, labels=[text.replace("-", "−") for text in labels])
+    bar.minorticks_off()
+    if bands[0] < 0.0:
+        ends = [bands[0], -0.5 * step]
+        negative = axes.fill([*ends, *reversed(ends)], [0.0, 0.0, 1.0, 1.0], facecolor="none")
+        hatch(axes, negative, (0.0, 0.0, 0.0, SHADE))
+    axes.tick_params(length=2.0, pad=1.5)
+    beside = {"xytext": (-18, 0), "xycoords": "axes fraction", "textcoords": "offset points"}
+    axes.annotate(label, (0.0, 0.5), **beside, ha="right", va="center")
+
+
+@dataclass(frozen=True)
+class FieldPanel:
+    """A field under its title, and where it is marked."""
+
+    title: str
+    values: np.ndarray  # (m, n)
+    mark: tuple[float, float] | None = None  # x, z
+
+
+@dataclass(frozen=True)
+class ColourScale:
+    """What a scale is of, its bands, and their colours."""
+
+    label: str
+    bands: np.ndarray
+    colours: str = "viridis"
+    signed: bool = False
+
+
+def signed_scale(label: str, bands: np.ndarray) -> ColourScale:
+    """Of a difference."""
+    return ColourScale(label, bands, DIFFERENCE_COLOURS, signed=True)
+
+
+def draw_fields(
+    x: np.ndarray,
+    z: np.ndarray,
+    panels: Sequence[FieldPanel],
+    scale: ColourScale,
+    height: float,
+    difference: tuple[str, ColourScale] | None = None,
+) -> "tuple[Figure, list[Axes]]":
+    """One or two fields of `height` inches above one scale; of two also the first less the second,
+    with its title, above another. The axes from top to bottom."""
+    drawn, places, bars = layout(len(panels), height)
+    rows = [(panel, scale) for panel in panels]
+    if difference is not None:
+        title, other = difference
+        rows.append((FieldPanel(title, panels[0].values - panels[1].values), other))
+    shown = []
+    for place, (panel, of) in zip(places, rows, strict=True):
+        shown.append(fill(place, x, z, panel.values, of.bands, of.colours, of.signed))
+        if panel.mark is not None:
+            cross(place, *panel.mark)
+        place.set_title(panel.title)
+    for bar, row in zip(bars, (len(panels) - 1, len(rows) - 1), strict=False):
+        of = rows[row][1]
+        colour_bar(drawn, bar, shown[row], of.label, of.bands)
+    places[-1].set_xlabel("x/a")
+    return drawn, places
+
+
+def height_to_scale(x: np.ndarray, z: np.ndarray) -> float:
+    """Inches of a field as tall as it is deep, within bounds."""
+    return float(np.clip(WIDTH * np.ptp(z) / np.ptp(x), LOW, TALL))

@@ -1,0 +1,484 @@
+"""Scenes in, results out, as plain functions: tables that print themselves, plots, arrays.
+
+In: a `Scene`, or its name, path or tables. Out: what `comparisons` offers to notebooks and
+scripts; figures are those of the command line, in SI units."""
+
+import io
+import os
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.campaigns.cost.recommend import Cost
+from comparisons.common.errors import InputError
+from comparisons.common.files import check_writable, write_whole
+from comparisons.common.numbers import percent, with_unit
+from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.units import describe
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.quantity import MODELS, models_named
+from comparisons.output.field_files import AUTOMATIC, FORMATS
+from comparisons.output.flat_csv import Row, long_rows, rows_of
+from comparisons.output.headline import verdict_of
+from comparisons.output.page.plots import Plots
+from comparisons.output.result_json import content_of, result_of
+from comparisons.scenes.scene import Scene, with_tolerance
+from comparisons.studies import meaning, study
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
+    from rich.console import Console, RenderableType
+
+    from comparisons.models.level import Level
+
+AnyScene = Scene | Mapping | str | os.PathLike
+"""A scene, its tables, its name or its path."""
+
+COLUMNS = 100  # of text; a notebook's cell is as wide
+PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
+
+
+class Printed(ABC):
+    """Prints as text and shows as HTML what `_table` returns for rich."""
+
+    @abstractmethod
+    def _table(self) -> "RenderableType": ...
+
+    def __repr__(self) -> str:
+        return "\n".join(line.rstrip() for line in self._console().export_text().splitlines())
+
+    def _repr_html_(self) -> str:
+        return self._console().export_html(inline_styles=True, code_format=PAGE)
+
+    def _console(self) -> "Console":
+        from rich.console import Console
+
+        console = Console(file=io.StringIO(), width=COLUMNS, record=True, force_jupyter=False)
+        console.print(self._table())
+        return console
+
+
+class RunFigures(Printed, Figures):
+    """Every number of a run that is a result, with its uncertainty and verdict."""
+
+    rows: list[Row]  # the figures as records, one each (`comparisons.output.flat_csv`, long)
+
+    @classmethod
+    def of_run(cls, run: study.Run) -> "RunFigures":
+        made = cls(run.figures)
+        made.rows = long_rows(result_of(run), _name(run))
+        return made
+
+    def frame(self) -> "DataFrame":
+        """`rows` as a table of pandas. Raises InputError where pandas is not installed."""
+        try:
+            from pandas import DataFrame
+        except ImportError:
+            raise InputError("frame: pandas is not installed; `rows` are records") from None
+        return DataFrame(self.rows)
+
+    def _table(self) -> "RenderableType":
+        from comparisons.output.terminal import PLAIN, plain_table
+
+        table = plain_table("study", "quantity", "source", numbers=("at", "value", "uncertainty"))
+        table.add_column("verdict")
+        for figure in self:
+            if figure.against is None:
+                value = with_unit(figure.value, meaning(figure).unit)
+            else:
+                value = percent(figure.value, signed=True)
+            stated = "" if figure.uncertainty is None else percent(figure.numerical)
+            cells = figure.study, figure.quantity, figure.source, *_of_place(figure), value, stated
+            table.add_row(*(cell.translate(PLAIN) for cell in cells), figure.verdict or "")
+        return table
+
+
+def _of_place(figure: Figure) -> list[str]:
+    return [", ".join(f"{name} {value:g}" for name, value in figure.at.items())]
+
+
+@dataclass(frozen=True, repr=False)
+class FinishedRun(Printed):
+    """A finished run; `outcome` is everything that was computed."""
+
+    outcome: study.Run
+
+    @property
+    def result(self) -> dict:
+        """As result.json has it, SI units."""
+        return content_of(self.outcome)
+
+    @property
+    def figures(self) -> RunFigures:
+        """Every number that is a result; `figures.of(study="contact")` are some of them."""
+        return RunFigures.of_run(self.outcome)
+
+    def figure(
+        self, quantity: str, source: str, study: str = "contact", **at: float
+    ) -> Figure | None:
+        """One of them, by the model or other source that it is of; None where the run has none.
+
+        study  that found it
+        at     of several friction coefficients: friction=0.1"""
+        source, wanted = _model(source), {"study": study, "quantity": quantity}
+        known = self.outcome.figures.of(source=source, **wanted)
+        return next((f for f in known if at.items() <= f.at.items()), None)
+
+    @property
+    def verdict(self) -> str:
+        """Of the half-plane here: holds, fails or inconclusive; not compared, not converged."""
+        return verdict_of(self.outcome)[0]
+
+    @property
+    def rows(self) -> list[Row]:
+        """The compared figures as records, one a friction coefficient and quantity, as `table` of
+        the command line has them (`comparisons.output.flat_csv`)."""
+        return rows_of(result_of(self.outcome), _name(self.outcome))
+
+    @property
+    def plot(self) -> Plots:
+        """What draws the run."""
+        return Plots(self.outcome)
+
+    def report(self, path: str | os.PathLike) -> Path:
+        """Write the report, one page that needs no network; returns its path. Raises InputError
+        where there is no folder for it."""
+        from comparisons.output.page.page import render
+
+        path = _path(path, "path")
+        if not path.parent.is_dir() or path.is_dir():
+            raise InputError(f"{path}: is no place for a page; allowed is a file in a folder")
+        write_whole(path, render(self.outcome))
+        return path
+
+    def contact(self, model: str = "half-plane") -> dict[str, np.ndarray]:
+        """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
+        from comparisons.models.level import deformed_height
+
+        level = self._level(model)
+        return {
+            "x": level.grid.x,
+            "pressure": level.solution.pressure,
+            "gap": level.solution.gap,
+            "deformed_height": deformed_height(self.outcome.problem, level),
+        }
+
+    def stress(self, model: str = "half-plane", friction: float | None = None) -> dict:
+        """Stresses of a model's finest level below the contact, as arrays.
+
+        friction  coefficient; the scene's first by default
+        x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
+        [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
+        stress across the plane is Poisson's ratio times sx + sz."""
+        level = self._level(model)
+        frictions = self.outcome.problem.scene.load.friction
+        stresses = level.stress(frictions[0] if friction is None else friction)
+        if stresses is None:
+            raise InputError(
+                "stress: this run has none there; allowed is a scene with [stress], at friction "
+                + " or ".join(f"{mu:g}" for mu in frictions)
+            )
+        window, names = self.outcome.window, ("sx", "sz", "txz", "tau1")
+        places = {"x": window.x, "z": window.z}
+        return places | {name: np.asarray(getattr(stresses.field, name)) for name in names}
+
+    def _level(self, model: str) -> "Level":
+        levels = self.outcome.levels(self.outcome.deciding_friction)
+        if _model(model) not in levels:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(levels)}")
+        return levels[_model(model)]
+
+    def _table(self) -> "RenderableType":
+        from comparisons.output.terminal import summary
+
+        return summary(self.outcome)
+
+
+@dataclass(frozen=True, repr=False)
+class FigureTable(Printed):
+    """Figures of several runs, as records (`comparisons.output.flat_csv`)."""
+
+    rows: tuple[Row, ...]
+
+    def _table(self) -> "RenderableType":
+        from comparisons.output.terminal import PLAIN, SHORT, plain_table
+
+        numbers = ("mu", "half-plane", "finite elements", "model error")
+        table = plain_table("run", "quantity", numbers=numbers)
+        for row in self.rows:
+            values = (row["half_plane"], row["finite_element"])
+            cells = ["" if v is None else with_unit(v, row["unit"]) for v in values]
+            error = row["model_error"]
+            cells.append("" if error is None else percent(error, signed=True))
+            head = (row["title"], SHORT[row["quantity"]], f"{row['friction']:g}")
+            table.add_row(*(cell.translate(PLAIN) for cell in (*head, *cells)))
+        return table
+
+
+@dataclass(frozen=True, repr=False)
+class CostStudy(Printed):
+    """Error against time of every method on one scene."""
+
+    study: Cost
+
+    def plot(self, quantity: str = "peak_pressure") -> "list[Axes]":
+        """The diagram of a quantity."""
+        from comparisons.campaigns.cost.picture import cost_picture
+        from comparisons.drawing.style import collected_figures
+
+        if quantity not in self.study.references:
+            allowed = ", ".join(self.study.references)
+            raise InputError(f"quantity: is {quantity}; allowed is {allowed}")
+        with collected_figures() as drawn:
+            cost_picture(self.study, quantity)
+        return drawn[0].axes
+
+    def _table(self) -> "RenderableType":
+        from comparisons.campaigns.cost.show import cost_table
+
+        return cost_table(self.study)
+
+
+@dataclass(frozen=True, repr=False)
+class Map(Printed):
+    """Where the half-plane holds; `content` is that of map.json, in `folder` if it was kept."""
+
+    content: dict
+    folder: Path | None
+
+    def plot(self) -> "list[Axes]":
+        """The map."""
+        from comparisons.campaigns.maps.picture import map_figure
+        from comparisons.drawing.style import collected_figures
+
+        with collected_figures():
+            return map_figure(self.content).axes
+
+    def _table(self) -> "RenderableType":
+        from comparisons.campaigns.maps.content import map_table
+
+        return map_table(self.content, self.folder)
+
+
+@dataclass(frozen=True, repr=False)
+class Sweep(Printed):
+    """One scene at many values of its fields; `content` is that of sweep.json, in `folder`."""
+
+    content: dict
+    folder: Path | None
+
+    @property
+    def rows(self) -> list[Row]:
+        """The figures as records, each with the values of the swept fields."""
+        names = [axis["field"] for axis in self.content["over"]]
+        return [
+            dict(zip(names, point["values"], strict=True)) | row
+            for point in self.content["points"]
+            for row in point["rows"]
+        ]
+
+    def plot(self) -> "list[Axes]":
+        """Each figure over the first swept field."""
+        from comparisons.campaigns.sweep.pictures import sweep_figure
+        from comparisons.drawing.style import collected_figures
+
+        with collected_figures():
+            return sweep_figure(self.content).axes
+
+    def _table(self) -> "RenderableType":
+        from comparisons.campaigns.sweep.study import sweep_table
+
+        return sweep_table(self.content, self.folder)
+
+
+def run(
+    scene: AnyScene,
+    models: str | Sequence[str] = MODELS,
+    *,
+    tolerance: float | None = None,
+    out: str | os.PathLike | None = None,
+    fields: str = AUTOMATIC,
+    progress: ProgressCallback = no_progress,
+) -> FinishedRun:
+    """Solve a scene, compare the models, judge: what `crosscheck run` does.
+
+    models     half-plane, finite-element, or both
+    tolerance  relative, of all that is judged, in place of the scene's own
+    out        folder for the files of the run; None writes none
+    fields     format of the stress fields in files: auto, vtu, vtkhdf, msh
+    progress   gets each stage as it begins
+    Raises SceneError for a wrong scene, SolverError where no solution is found.
+
+    >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+    >>> coarse = {
+    ...     "roller": {"radius": 8e-3, **steel},
+    ...     "body": steel,
+    ...     "load": {"per_length": 1e6},
+    ...     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5},
+    ...     "resolution": {"pitch": "20 um", "levels": 2},
+    ...     "finite_element": {"block": 20},
+    ...     "budget": {"effects": False},
+    ... }
+    >>> both = run(coarse)
+    >>> both.verdict
+    'holds'
+    >>> [figure.verdict for figure in both.figures.of(study="comparison")]
+    ['agree', 'agree', None, None]"""
+    from comparisons.runs.run import run as run_scene
+
+    chosen = models_named(models, "models")
+    place = _path(out, "out")
+    if fields not in (words := (AUTOMATIC, *FORMATS)):
+        raise InputError(f"fields: is {describe(fields)}; allowed is {', '.join(words)}")
+    if place is not None:
+        check_writable(place)
+    asked = scene_of(scene)
+    if tolerance is not None:
+        asked = with_tolerance(asked, tolerance)
+    return FinishedRun(run_scene(asked, place, chosen, progress, fields))
+
+
+def read(folder: str | os.PathLike) -> FinishedRun:
+    """A run from the folder that it has left, without solving. InputError where there is none."""
+    from comparisons.output.page.saved import read_run
+
+    return FinishedRun(read_run(_path(folder, "folder")))
+
+
+def compare(*runs: FinishedRun) -> FigureTable:
+    """The figures of several runs, a row for each run, friction coefficient and quantity."""
+    if not runs:
+        raise InputError("compare: is given no run; allowed is at least one")
+    return FigureTable(tuple(row for run in runs for row in run.rows))
+
+
+def cost(
+    scene: AnyScene,
+    *,
+    repeats: int = 3,
+    out: str | os.PathLike | None = None,
+    progress: ProgressCallback = no_progress,
+) -> CostStudy:
+    """Error against run time of every method that applies: what `crosscheck cost` does. It takes
+    minutes. `out` keeps what was measured, and goes on from there."""
+    from comparisons.campaigns.cost.cost import cost as measured
+
+    if not isinstance(repeats, int):
+        raise InputError(f"repeats: is {describe(repeats)}; allowed is a whole number from 1")
+    with _folder(out, "cost") as place:
+        return CostStudy(measured(scene_of(scene), place, repeats, progress))
+
+
+def map(
+    scene: str | os.PathLike,
+    points: str = "8x8",
+    *,
+    x: str | None = None,
+    y: str | None = None,
+    quantity: str = "peak_pressure",
+    workers: int | str | None = None,
+    out: str | os.PathLike | None = None,
+    progress: ProgressCallback = no_progress,
+) -> Map:
+    """The half-plane's model error over two dimensionless groups: what `crosscheck map` does.
+
+    scene    a name or a path
+    points   along x and y, "NxM"
+    x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
+    workers  processes, one a core by default, or a Dask scheduler's address
+    It takes minutes. `out` keeps each point, and goes on from there."""
+    from comparisons.campaigns.maps.make import make_map
+    from comparisons.campaigns.maps.request import request_of
+
+    scene = os.fspath(scene) if isinstance(scene, os.PathLike) else scene
+    texts = {"scene": scene, "points": points, "x": x, "y": y, "quantity": quantity}
+    for name, text in texts.items():
+        if not isinstance(text, str) and not (text is None and name in ("x", "y")):
+            raise InputError(f"{name}: is {describe(text)}; allowed is a text")
+    request = request_of(**texts)
+    with _folder(out, "map") as place:
+        content = make_map(request, place, workers, progress)
+    return Map(content, None if out is None else place)
+
+
+def sweep(
+    scene: AnyScene,
+    over: str | Sequence[str] | Mapping[str, Sequence[float | str]],
+    models: str | Sequence[str] = "half-plane",
+    *,
+    workers: int | str | None = None,
+    out: str | os.PathLike | None = None,
+    progress: ProgressCallback = no_progress,
+) -> Sweep:
+    """One scene at many placements, loads, or values of any field: what `crosscheck sweep` does.
+
+    over     "position=40", "FIELD=FROM:TO:N", "FIELD=A,B,C", several of them, or values by field
+    workers  processes, one a core by default, or a Dask scheduler's address
+    `out` keeps each point, and goes on from there.
+
+    >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+    >>> smooth = {"roller": {"radius": 8e-3, **steel}, "body": steel, "load": {"per_length": 1e6}}
+    >>> loads = sweep(smooth, {"load": [1e6, 4e6]}, workers=1)
+    >>> peaks = [row["half_plane"] for row in loads.rows if row["quantity"] == "peak_pressure"]
+    >>> round(peaks[1] / peaks[0], 4)
+    2.0"""
+    from comparisons.campaigns.sweep.request import sweep_request
+    from comparisons.campaigns.sweep.study import make_sweep
+
+    if isinstance(over, Mapping):
+        over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
+    asked = [over] if isinstance(over, str) else list(over)
+    request = sweep_request(scene_of(scene), asked, models_named(models, "models"))
+    with _folder(out, "sweep") as place:
+        content = make_sweep(request, place, workers, progress)
+    return Sweep(content, None if out is None else place)
+
+
+def scene_of(scene: AnyScene) -> Scene:
+    """The scene, checked. Raises SceneError, one line, for anything that is wrong with it.
+
+    >>> scene_of("sinusoid").load.hertz_peak_pressure
+    1000000000.0
+    >>> scene_of({"roller": {}})
+    Traceback (most recent call last):
+    comparisons.common.errors.SceneError: scene: roller.radius: is missing; allowed is a length \
+above 0: a number in m or "8.2 mm"
+    """
+    if isinstance(scene, Mapping):
+        return Scene.of(scene)
+    if isinstance(scene, str | os.PathLike):
+        return Scene.read(scene)
+    if not isinstance(scene, Scene):
+        allowed = "allowed is a name, a path, tables or a Scene"
+        raise InputError(f"scene: is {describe(scene)}; {allowed}")
+    return scene
+
+
+def _model(name: str) -> str:
+    """Both ways of writing a model's name, as figures have it."""
+    return name.replace("-", "_")
+
+
+def _name(run: study.Run) -> str:
+    return str(run.directory or run.problem.scene.name)
+
+
+@contextmanager
+def _folder(out: str | os.PathLike | None, name: str) -> Iterator[Path]:
+    """`out`, or a folder that goes at the block's end."""
+    with TemporaryDirectory() as scratch:
+        yield _path(out, "out") or Path(scratch) / name
+
+
+def _path(path: object, name: str) -> Path | None:
+    """An argument that names a file or folder; None where it is."""
+    if path is not None and not isinstance(path, str | os.PathLike):
+        raise InputError(f"{name}: is {describe(path)}; allowed is a path")
+    return None if path is None else Path(path)

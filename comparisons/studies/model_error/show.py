@@ -1,0 +1,400 @@
+"""The half-plane's model error on the page and in the terminal: rows, effects, waterfalls.
+
+In: a run of both models. Out: tables, lines, and a picture of waterfalls: from nothing, effect by
+effect, to the error; one for each judged figure and friction coefficient, or for each there is
+where nothing is judged. Norms have no sign and do not add up: their bars all start at zero."""
+
+import math
+from dataclasses import dataclass
+from textwrap import wrap
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import given_percent, listed, percent, with_unit
+from comparisons.drawing import style
+from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
+from comparisons.figures.figure import Figure, grouped
+from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
+from comparisons.studies.model_error.account import INPUTS, INTERACTION, JUMP, LEFT
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.study import MODEL_ERROR, Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawn
+
+WORTH_A_MOVE = 0.75  # of the pressures' difference that is left without it, at most
+SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed
+WORDS = {INTERACTION: "interaction", JUMP: "another asperity"}  # of parts that are no effects
+ROW, TITLE, FOOT, TOP = 0.21, 0.42, 0.5, 0.06  # inches: a step, the words above and below
+NAMES, BETWEEN, RIGHT = 1.95, 0.25, 0.1  # inches: names of the steps, from panel to panel
+WIDTH = 2.85  # inches of a panel, about
+BAR = 0.66  # of a row
+NOTHING = 1e-6  # a step below it is none
+TITLE_LETTERS = 15.0  # to the inch
+ROOM = 0.3, 0.08  # beyond the bars, share of their range: for numbers to the right, to the left
+NUMERICAL, OTHERS, ERROR = "without any effect", "smaller steps", "model error"
+LOOKS = {
+    True: {"facecolor": "#E69F00", "edgecolor": "#333333"},
+    False: {"facecolor": "#56B4E9", "edgecolor": "#333333"},  # and hatched
+    None: {"facecolor": "#cccccc", "edgecolor": "#333333"},  # without a sign
+}
+NOTE = """Model error: (half-plane − whole model) / whole model, which is a finite element
+solution with every effect that may matter here. A minus says that the half-plane's figure is
+too low. Contributions: each effect was computed by itself, as the difference that it makes in the
+finite elements; *interaction* is what the effects change jointly beyond their sum. A largest
+value is followed at the asperity where the whole model has it; *another asperity* is what the
+half-plane's largest exceeds its own value there, and both places are named. Norms have no sign and
+do not add up; *with peaks moved* is what is left of the pressures' norm after the shift and the
+even stretch along x that bring the half-plane's pressures nearest to the whole model's, and how far
+that moves them on average. *Not modelled* under a quantity: effects that no model has may
+exceed its tolerance. The verdict is taken from these errors."""
+OF_EFFECTS = """An effect is computed where its estimate, from the scene's dimensionless groups,
+exceeds a tenth of a tolerance; an effect that was not computed counts with its estimate."""
+
+
+def blocks(run: Run) -> list[Block]:
+    items = [Pictures(("model_error",)), error_table(run), Note(NOTE)]
+    if (effects := effects_table(run)) is not None:
+        items += [effects, Note(OF_EFFECTS)]
+    return [Block("model-error", tuple(items), "Model error of the half-plane")]
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """What is not modelled, and which largest values stand at another asperity."""
+    said = [("not modelled", not_modelled_line(run))]
+    for row in model_error_rows(run, judged=True):
+        if row.moved:
+            name = QUANTITIES[row.quantity].short
+            said.append(("another asperity", f"{name}, friction {row.friction}: {row.moved}"))
+    return said
+
+
+def error_table(run: Run) -> TextTable:
+    """The rows for the page; what they are made of where any error is split."""
+    rows = [row for row in model_error_rows(run) if run.shows(row.quantity)]
+    head, split = ("quantity", "friction", "model error", "uncertainty", "tolerance"), ()
+    if any(row.contributions for row in rows):
+        split = ("dominant contributions",)
+    cells = []
+    for row in rows:
+        name = "\n".join(filter(None, (label(row.quantity), row.note, row.moved)))
+        parts = (", ".join(row.contributions),) * len(split)
+        cells.append((name, row.friction, row.error, row.uncertainty, row.tolerance, *parts))
+    return TextTable("", head + split, tuple(cells), "comparison", words=bool(split))
+
+
+@dataclass(frozen=True)
+class ModelErrorRow:
+    """The half-plane's model error in a quantity, at one or more friction coefficients."""
+
+    quantity: str
+    friction: str
+    error: str
+    uncertainty: str
+    tolerance: str
+    # what makes it up with signs, the largest first; of pressures first what moved peaks leave
+    contributions: tuple[str, ...]
+    note: str  # what to know before the figure is taken for evidence
+    moved: str  # where the whole has its largest value, if not at the half-plane's asperity
+
+
+def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
+    """In the order of quantities, then of friction coefficients; only `judged` ones, if asked."""
+    rows = []
+    for name in QUANTITIES:
+        errors = run.figures.of(study=MODEL_ERROR, quantity=name)
+        if judged and not any(error.bounds for error in errors):
+            continue
+        for same in grouped(errors, lambda error: (_shown(error), error.place)):
+            error, uncertainty, contributions = _shown(same[0])
+            without = moved_text(run, same[0].friction) if name == "pressure_l2" else ()
+            bound = same[0].tolerance
+            rows.append(
+                ModelErrorRow(
+                    quantity=name,
+                    friction=listed(error.friction for error in same),
+                    error=error,
+                    uncertainty=uncertainty,
+                    tolerance="" if bound is None else given_percent(bound),
+                    contributions=(*without, *contributions),
+                    note=left_out(run, same[0]),
+                    moved=_moved(same[0]),
+                )
+            )
+    return rows
+
+
+def _shown(error: Figure) -> tuple[str, str, tuple[str, ...]]:
+    size = error_text(error.quantity, error.value, error.numerical)
+    return size, percent(error.numerical), contributions_in_words(error)
+
+
+def left_out(run: Run, figure: Figure) -> str:
+    """That effects which no model has may exceed the tolerance of a quantity; else nothing."""
+    wanted = {"study": MODEL_ERROR, "quantity": figure.quantity, "at": figure.at}
+    error = run.figures.one(**wanted)
+    if error is None or error.bounds is None or error.not_modelled <= error.tolerance:
+        return ""
+    return f"{percent(error.not_modelled)} not modelled"
+
+
+def _moved(error: Figure) -> str:
+    if error.place is None:
+        return ""
+    before, after = (with_unit(x, "m", 4) for x in error.place)
+    return f"at x = {after}, of the half-plane at {before}"
+
+
+def contributions_of(error: Figure) -> dict[str, float]:
+    """What a model error is made of, with its sign: an effect that raises the finite elements'
+    figure makes the half-plane's too low. Norms have sizes alone."""
+    sizes = {}
+    for part in error.parts:
+        if part.name != INPUTS:
+            size = part.value if part.name == JUMP else -part.value
+            name = EFFECTS[part.name].label if part.name in EFFECTS else WORDS[part.name]
+            sizes[name] = abs(size) if QUANTITIES[error.quantity].of_pair else size
+    return sizes
+
+
+def contributions_in_words(error: Figure) -> tuple[str, ...]:
+    """The same in words, the largest first."""
+    least = max(SHOWN, 0.1 * abs(error.value))
+    return tuple(
+        f"{name} {error_text(error.quantity, size)}"
+        for name, size in sorted(contributions_of(error).items(), key=lambda item: -abs(item[1]))
+        if abs(size) >= least
+    )
+
+
+def moved_text(run: Run, friction: float) -> tuple[str, ...]:
+    """What is left of the pressures' difference once peaks are moved, unless most of it is."""
+    known = run.figures.of(study=MODEL_ERROR, friction=friction)
+    error, left = known.one(quantity="pressure_l2"), known.one(quantity=LEFT)
+    if left is None or run.problem.scene.profile is None:
+        return ()
+    if left.value > WORTH_A_MOVE * error.value:
+        return ()
+    mean = with_unit(known.one(quantity="pressure_mean_shift").value, "m", 2)
+    return (f"{percent(left.value)} with peaks moved by {mean}",)
+
+
+def not_modelled_line(run: Run) -> str:
+    """The effects that no model of the run has, by reason, each with its largest estimate."""
+    selection = run.data(MODEL_ERROR).selection
+    effects = (*selection.impossible, *selection.negligible)
+    parts = []
+    for same in grouped(effects, lambda name: selection.impossible.get(name, "")):
+        sizes = [percent(_largest(run, selection.estimates[name])) for name in same]
+        named = ", ".join(
+            f"{EFFECTS[name].label} (at most {size})"
+            for name, size in zip(same, sizes, strict=True)
+        )
+        parts.append(": ".join(filter(None, (named, selection.impossible.get(same[0])))))
+    if (left := run.found[MODEL_ERROR].said("left out")) is not None:
+        parts.append(f"left out is {left}")
+    return "; ".join(parts) or "nothing"
+
+
+def effects_table(run: Run) -> TextTable | None:
+    """What became of each effect that the half-plane does not model; None without any."""
+    rows = []
+    for found in run.found[MODEL_ERROR].table("effects").rows():
+        if found["status"] != "does not apply":
+            effect = EFFECTS[found["effect"]]
+            estimate = {name: found[name] for name in QUANTITIES if found[name] is not None}
+            largest = percent(_largest(run, estimate)) if estimate else ""
+            rows.append((effect.label, effect.words, found["status"], largest, found["because"]))
+    head = ("effect", "not modelled by the half-plane", "status", "estimate, at most", "because")
+    return TextTable("", head, tuple(rows), "comparison prose") if rows else None
+
+
+def _largest(run: Run, estimate: dict[str, float]) -> float:
+    """Of the estimates of an effect on what is judged, or on anything where nothing is."""
+    judged = set(run.problem.scene.tolerances) & set(estimate)
+    return max(estimate[name] for name in judged or estimate)
+
+
+@dataclass(frozen=True)
+class Waterfall:
+    """The steps to the error of a quantity at one or more friction coefficients."""
+
+    quantity: str
+    name: str
+    # relative sizes by name, with the sign of the error; of a figure they add up to it
+    steps: dict[str, float]
+    error: float
+    uncertainty: float  # of `error`; `not_modelled` is the estimate of what else it may be
+    not_modelled: float
+    tolerance: float | None
+
+    @property
+    def is_norm(self) -> bool:
+        return QUANTITIES[self.quantity].of_pair
+
+
+def waterfalls(run: Run) -> list[Waterfall]:
+    """Of what is judged, or of everything; coefficients of equal figures together."""
+    found, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
+    names = dict.fromkeys(error.quantity for error in run.model_errors or errors)
+    for quantity in (name for name in QUANTITIES if name in names):
+        for same in grouped(errors.of(quantity=quantity), _drawn_of):
+            some = len(same) < len(run.problem.scene.load.friction)
+            frictions = listed(error.friction for error in same)
+            found.append(
+                Waterfall(
+                    quantity=quantity,
+                    name=label(quantity) + (f", μ = {frictions}" if some else ""),
+                    steps=_steps(same[0]),
+                    error=same[0].value,
+                    uncertainty=same[0].numerical,
+                    not_modelled=same[0].not_modelled,
+                    tolerance=same[0].tolerance,
+                )
+            )
+    return found
+
+
+def _drawn_of(error: Figure) -> tuple:
+    """What a panel shows of an error: equal ones have one."""
+    return error.value, tuple(part for part in error.parts if part.name in EFFECTS)
+
+
+def _steps(error: Figure) -> dict[str, float]:
+    """From nothing to the error; of a norm its sizes alone."""
+    steps = contributions_of(error)
+    if QUANTITIES[error.quantity].of_pair:
+        return steps
+    return {NUMERICAL: error.value - sum(steps.values()), **steps}
+
+
+def model_error_picture(run: Run) -> style.Picture | None:
+    """Waterfalls side by side; None with one model."""
+    panels = waterfalls(run)
+    if not panels:
+        return None
+    judged = [panel for panel in panels if panel.tolerance]
+    said = "; ".join(
+        f"{panel.name}: {error_text(panel.quantity, panel.error, panel.uncertainty)}"
+        + "".join(f", {name} {error_text(panel.quantity, size)}" for name, size in _large(panel))
+        for panel in panels
+    )
+    lines = "; broken lines: the tolerance" if judged else ""
+    most = max(1, int((style.WIDE - NAMES) / WIDTH))
+    return style.picture(
+        lambda width: _drawn(panels, most if width == style.WIDE else 1),
+        f"The half-plane's model error, step by step. {said}.",
+        "How the half-plane's model error comes about, in per cent of the whole model's "
+        "figure: it starts with the half-plane's difference from finite elements without any of "
+        "the effects, which is numerical, and each effect moves it, to the left (hatched) where "
+        "the half-plane's figure becomes too low. Norms have sizes alone, which do not add up. "
+        "Black: the error with its uncertainty; thin: with what is not modelled, "
+        f"cut off without an end where it would hide the steps{lines}.",
+        data=("CSV", style.csv_uri(_table(panels))),
+    )
+
+
+def _table(panels: list[Waterfall]) -> list[list[object]]:
+    """Every step of every panel, relative; then the error with what may be wrong with it."""
+    rows: list[list[object]] = [["quantity", "step", "relative size"]]
+    for panel in panels:
+        ends = {
+            ERROR: panel.error,
+            "uncertainty": panel.uncertainty,
+            "not modelled (estimate)": panel.not_modelled,
+            "tolerance": panel.tolerance,
+        }
+        sizes = (panel.steps | ends).items()
+        rows += [[panel.name, step, f"{size:.6g}"] for step, size in sizes if size is not None]
+    return rows
+
+
+def _large(panel: Waterfall) -> list[tuple[str, float]]:
+    """The steps that are worth a row."""
+    least = max(SHOWN, 0.1 * abs(panel.error))
+    return [(name, size) for name, size in panel.steps.items() if abs(size) >= least]
+
+
+def _drawn(panels: list[Waterfall], columns: int) -> "Drawn":
+    """All panels with the same rows, so many side by side."""
+    columns = min(columns, len(panels))
+    worth = {name for panel in panels for name, _ in _large(panel)}
+    names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), *WORDS.values()]
+    rows = [name for name in names if name in worth]
+    every = [step for panel in panels for step in panel.steps.items()]
+    if any(abs(size) > NOTHING for name, size in every if name not in worth):
+        rows.append(OTHERS)
+    rows.append(ERROR)
+    width = style.WIDE if columns > 1 else style.COLUMN
+    across = (width - NAMES - RIGHT - BETWEEN * (columns - 1)) / columns
+    stacks = -(-len(panels) // columns)
+    tall = [(TITLE + (FOOT if k else TOP), ROW * len(rows)) for k in range(stacks)]
+    drawn = style.figure(width, sum(map(sum, tall)) + FOOT)
+    for column in range(columns):
+        left = NAMES + column * (across + BETWEEN)
+        places = style.stacked(drawn, tall, left, width - left - across)
+        for axes, panel in zip(places, panels[column::columns], strict=False):
+            _draw(axes, panel, rows, across)
+            if column:
+                axes.tick_params(labelleft=False)
+        for axes in places[len(panels[column::columns]) :]:
+            axes.remove()
+    return drawn
+
+
+def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> None:
+    shown = {name: panel.steps.get(name, 0.0) for name in rows[:-1]}
+    left_out = [size for name, size in panel.steps.items() if name not in shown]
+    if OTHERS in shown:
+        shown[OTHERS] = max(left_out, default=0.0) if panel.is_norm else sum(left_out)
+    place, start, ends = -np.arange(len(rows), dtype=float), 0.0, [0.0]
+    hatched: list = []
+    for y, size in zip(place, shown.values(), strict=False):
+        begin = 0.0 if panel.is_norm else start
+        start = begin + 100.0 * size
+        if abs(size) > NOTHING:
+            sign = None if panel.is_norm else size > 0.0
+            look = {"height": BAR, "linewidth": 0.5, **LOOKS[sign]}
+            [bar] = axes.barh(y, start - begin, left=begin, **look)
+            hatched += [bar] * (sign is False)
+            text = error_text(panel.quantity, size, panel.uncertainty)
+            _beside(axes, max(begin, start), y, text)
+        if not panel.is_norm:
+            # past a step that does not apply
+            top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
+            axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
+        ends += [begin, start]
+    style.hatch(axes, hatched, LOOKS[False]["edgecolor"])
+    value, y = 100.0 * panel.error, place[-1]
+    axes.barh(y, value, height=BAR, facecolor="#bbbbbb", edgecolor="#000000", linewidth=0.8)
+    certain = 100.0 * panel.uncertainty if math.isfinite(panel.uncertainty) else 0.0
+    at = 100.0 * (panel.tolerance or 0.0)
+    most = max(*map(abs, ends), abs(value) + certain, at)
+    estimate = min(100.0 * panel.not_modelled, most)  # more would hide the steps
+    bars = (certain, 1.4, 3.0), (certain + estimate, 0.6, 2.0 * (estimate < most))
+    for reach, thick, caps in bars:
+        look = {"elinewidth": thick, "capsize": caps, "color": "#000000", "fmt": "none"}
+        low = min(reach, value) if panel.is_norm else reach
+        axes.errorbar(value, y, xerr=[[low], [reach]], **look)
+        ends += [value - low, value + reach]
+    text = error_text(panel.quantity, panel.error, panel.uncertainty)
+    _beside(axes, max(ends[-1], value, 0.0), y, text)
+    for side in ((1.0,) if panel.is_norm else (-1.0, 1.0)) if panel.tolerance else ():
+        axes.axvline(side * at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
+        ends.append(side * at)
+    axes.axvline(0.0, color="#555555", linewidth=0.7)
+    low, high = min(ends), max(ends)
+    axes.set_xlim(low - ROOM[1] * (high - low) * (low < 0.0), high + ROOM[0] * (high - low))
+    style.horizontal_bars(axes, place, rows)
+    axes.locator_params(axis="x", nbins=6)
+    axes.set_title("\n".join(wrap(panel.name, int(TITLE_LETTERS * across))))
+    axes.set_xlabel("per cent")
+
+
+def _beside(axes: "Axes", x: float, y: float, text: str) -> None:
+    """Words to the right of a bar's end."""
+    behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
+    beside = {"textcoords": "offset points", "va": "center", "fontsize": 7.5, "bbox": behind}
+    axes.annotate(text, (x, y), (3, 0), **beside)
