@@ -7,7 +7,13 @@ import pytest
 
 from comparisons import api
 from comparisons.campaigns.decks.write import write_deck
-from comparisons.campaigns.verify.form import COLUMNS, export_form, form_cases, is_covered, judged_form
+from comparisons.campaigns.verify.form import (
+    COLUMNS,
+    export_form,
+    form_cases,
+    is_covered,
+    judged_form,
+)
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
 
