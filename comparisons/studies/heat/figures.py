@@ -9,8 +9,8 @@ from comparisons.figures.figure import Figure, Findings, Part, Statement, figure
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.figures.verdict import Verdict, judge
-from comparisons.models.heat import HeatedContact
-from comparisons.models.thermal_stress import HeatedStress
+from comparisons.studies.heat.half_plane_stress import HeatedStress
+from comparisons.studies.heat.half_space import HeatedContact
 
 NAME = "heat"
 QUANTITIES = {

@@ -17,8 +17,8 @@ from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.models.heat import reach_of
 from comparisons.studies.heat.figures import NAME, QUANTITIES, HeatFigure
+from comparisons.studies.heat.half_space import reach_of
 from comparisons.studies.study import Run
 
 HEIGHT = 1.9  # inches, of a field
