@@ -5,7 +5,7 @@ new one. Goes with the release after the one that writes schema 3."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import partial
 from math import inf
 from types import SimpleNamespace
@@ -407,16 +407,18 @@ def _heat(old: Mapping) -> Items:
     for name, number in known["peclet"].items():
         yield from figures_of(heat.NAME, name, {"peclet_number": number}, None, at)
     for row in known["figures"].values():
-        size = abs(list((row["elastic"] or row["values"]).values())[-1]) or 1.0
-        of_row = heat.HeatFigure(**_heat_row(row, max(size, abs(list(row["values"].values())[-1]))))
-        yield from heat.figures_of_row(of_row, at, {})
+        last = [list(sizes.values())[-1] for sizes in (row["elastic"], row["values"]) if sizes]
+        parts = [Part(n, e["value"], e["uncertainty"]) for n, e in row["effects"].items()]
+        if row["by_pressure"] is not None:
+            parts.append(Part(heat.OTHER_PRESSURES, row["by_pressure"]))
+        sizes = row["values"], row["own"], max(map(abs, last)) or 1.0, row["difference"]
+        of_row = heat.HeatRow(
+            row["quantity"], *sizes, tuple(parts), row["tolerance"], row["elastic"]
+        )
+        yield from of_row.figures(known["friction"])
     for rule, values in known["rules"].items():
         yield from figures_of(heat.NAME, rule, values, None, at)
     yield from (Statement("the finite elements have", text) for text in known["contains"])
-
-
-def _heat_row(row: Mapping, scale: float) -> dict:
-    return {name: value for name, value in row.items() if name != "verdict"} | {"scale": scale}
 
 
 def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
@@ -430,7 +432,7 @@ def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
         "PairHistory": SimpleNamespace,
         "Comparison": SimpleNamespace,
         "InputScatter": lambda figures, **row: scatter.InputScatter(**row),
-        "HeatFigure": lambda **row: heat.HeatFigure(**_heat_row(row, 1.0)),
+        "HeatStudy": lambda **row: heat.HeatStudy(*(row[f.name] for f in fields(heat.HeatStudy))),
         "AnswerRow": lambda **row: answers.AnswerRow(
             **{n: v for n, v in row.items() if n not in ("uncertainty", "verdict")},
             model=_number(row["uncertainty"]),

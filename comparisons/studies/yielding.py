@@ -29,6 +29,7 @@ from comparisons.studies.study import Run, Solved, Study
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
+FOUND = {FIELD: "in the field", PEAK: "by the peak"}
 BEYOND_DOUBT = "beyond doubt"  # name of what is said of flow
 QUANTITIES = {
     "yield_stress": Quantity("yield stress", "Pa"),
@@ -44,6 +45,9 @@ QUANTITIES = {
     "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/2"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
 }
+INDICES = "plasticity_index_summits", "plasticity_index_slope"
+OF_FIRST_FLOW = ("over_first_flow_tresca", "over_first_flow_von_mises", "share_at_hardness")
+OF_FIRST_FLOW += ("peak_pressure_over_shear_yield", "shakedown_limit")
 BY_THE_PEAK = "by the peak: those below Hertz's contact of the same peak pressure"
 OF_A_YIELD_STRESS = """First flow: τ₁ = Y/2 (Tresca, in the plane), or von Mises' stress = Y; a
 hardness stands for Y = H/3, a yield stress for H = 3 Y (Tabor). Elastic shakedown: the largest peak
@@ -251,35 +255,26 @@ def flow_sentence(run: Run) -> str:
 
 def flow_table(run: Run) -> TextTable:
     """Figures of flow by friction coefficient; without a yield stress its first rows alone."""
-    flow = run.data(NAME)
-    rows = [
-        ("largest principal shear stress τ₁", *(with_unit(c.tau1, "Pa") for c in flow.checks)),
-        ("von Mises", *(with_unit(c.von_mises, "Pa") for c in flow.checks)),
-        ("found", *("in the field" if c.from_field else "by the peak" for c in flow.checks)),
-    ]
-    if flow.yield_stress is not None:
-        rows += _of_yield_stress(flow)
-    head = ("", *(f"friction {plain(check.friction)}" for check in flow.checks))
+    frictions, known = run.problem.scene.load.friction, run.figures.of(study=NAME)
+
+    def row(quantity: str) -> tuple[str, ...]:
+        meaning, of_scene = QUANTITIES[quantity], known.one(quantity=quantity, friction=None)
+        texts = []
+        for friction in frictions:
+            figure = known.one(quantity=quantity, friction=friction) or of_scene
+            value = figure and figure.value
+            by_unit = with_unit(value, meaning.unit) if meaning.unit else significant(value, 3)
+            texts.append(percent(value) if quantity == "share_at_hardness" else by_unit)
+        return meaning.label, *texts
+
+    read = (run.found[NAME].said("read", friction=friction) for friction in frictions)
+    rows = [row("tau1_max"), row("von_mises_max"), ("found", *(FOUND[text] for text in read))]
+    if known.one(quantity="yield_stress") is not None:
+        rows += map(row, OF_FIRST_FLOW)
+    if known.one(quantity="plasticity_index_slope") is not None:
+        rows += map(row, INDICES)
+    head = ("", *(f"friction {plain(friction)}" for friction in frictions))
     return TextTable(flow_sentence(run), head, tuple(rows))
-
-
-def _of_yield_stress(flow: FlowAssessment) -> list[tuple[str, ...]]:
-    shear = 0.5 * flow.yield_stress
-    ratios = [check.over_first_flow(flow.yield_stress) for check in flow.checks]
-    rows = [
-        ("over first flow, Tresca", *(significant(tresca, 3) for tresca, _ in ratios)),
-        ("over first flow, von Mises", *(significant(mises, 3) for _, mises in ratios)),
-        ("contact at the hardness or above", *(percent(c.at_hardness) for c in flow.checks)),
-        ("peak pressure over k = Y/2", *(significant(c.peak / shear, 3) for c in flow.checks)),
-        ("elastic shakedown up to", *(significant(c.shakedown, 3) for c in flow.checks)),
-    ]
-    if flow.slope_index is not None:
-        indices = (
-            ("plasticity index, summits", flow.summit_index),
-            ("plasticity index, slope", flow.slope_index),
-        )
-        rows += [(words, *(significant(value, 3) for _ in ratios)) for words, value in indices]
-    return rows
 
 
 def blocks(run: Run) -> list[Block]:

@@ -17,7 +17,6 @@ from comparisons.campaigns.grid import SOLVED, Point, failed
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import HEAT_QUANTITIES, MODELS
-from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
@@ -88,20 +87,13 @@ def heat_errors(problem: Problem, runs: Runs) -> tuple[Figures, Values]:
     from comparisons.studies.heat.study import heat_figures
 
     without = set() if problem.scene.finite_element.roller_shape == "circle" else {"roller"}
-    heats, _ = heat_figures(problem, runs, without)
-    errors = Figures(
-        Figure(
-            study=NAME,
-            quantity=heat.quantity,
-            source="half_plane",
-            value=heat.difference,
-            against="finite_element",
-            scale=heat.scale,
-            uncertainty=Uncertainty({"numerical": heat.uncertainty}),
-        )
-        for heat in heats
-    )
-    return errors, {name: {heat.quantity: heat.values[name] for heat in heats} for name in runs}
+    figures, _ = heat_figures(problem, runs, without)
+    known = Figures(figures)
+    values = {
+        name: {each.quantity: each.value for each in known.of(source=name, against=None)}
+        for name in runs
+    }
+    return known.of(against="finite_element"), values
 
 
 def _entry(error: Figure, values: Values) -> dict[str, float | None]:

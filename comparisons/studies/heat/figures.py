@@ -5,10 +5,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
-from comparisons.figures.quantity import Quantity
+from comparisons.figures.figure import Figure, Part
+from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.figures.verdict import Verdict, judge
 from comparisons.studies.heat.half_plane_stress import HeatedStress
 from comparisons.studies.heat.half_space import HeatedContact
 
@@ -26,116 +25,79 @@ QUANTITIES = {
     "peclet_number": Quantity("Peclet number V a / 2κ"),
 }
 COMPARED = tuple(QUANTITIES)[:6]  # by both models
+WITHOUT = "_without_heat"
 HEATED = ("tau1_heated", "tau1_depth_heated", "sx_heated")  # with thermal stresses
 
 
+OTHER_PRESSURES = "other pressures"  # the part of a difference that these make
+
+
 @dataclass(frozen=True)
-class HeatFigure:
-    """A figure of one or both models; all but their `values` and `elastic` relative."""
+class HeatRow:
+    """A quantity by one or both models, from which its figures follow; all but `values`, `cold` and
+    `places` relative."""
 
     quantity: str
-    values: dict[str, float]
-    own: dict[str, float]  # numerical uncertainty of each model's value
+    values: Mapping[str, float]
+    own: Mapping[str, float]  # numerical uncertainty of each model's value
     scale: float  # what all that is relative is relative to [SI]
     # (half-plane - finite elements) / finite elements; None for one model
     difference: float | None = None
-    # the part of it that the half-plane finds under the finite elements' pressures
-    by_pressure: float | None = None
-    # of each feature that the finite elements alone have: what the figure is without it, over what
-    # it is with it, less 1 (`value`), and the numerical `uncertainty` of that
-    effects: dict[str, dict[str, float]] = field(default_factory=dict)
-    uncertainty: float | None = None  # of the difference, numerical
+    # by the half-plane under the finite elements' pressures; of each feature that the finite
+    # elements alone have, what the figure is without it, over what it is with it, less 1
+    parts: tuple[Part, ...] = ()
     tolerance: float | None = None
-    # of a stress with heat, by model: what it is without
-    elastic: dict[str, float] = field(default_factory=dict)
+    cold: Mapping[str, float] = field(default_factory=dict)  # of a stress, what it is without heat
+    places: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # by model [m]
 
-    @property
-    def verdict(self) -> Verdict | None:
-        """None where nothing is compared."""
-        if self.difference is None:
-            return None
-        return judge(self.difference, self.uncertainty, self.tolerance)
+    def figures(self, friction: float) -> Iterator[Figure]:
+        """By each model, with heat and without, and their difference."""
+        common = {"study": NAME, "at": {"friction": friction}, "scale": self.scale}
+        for model, value in self.values.items():
+            stated = Uncertainty({"numerical": self.own[model]})
+            yield Figure(
+                quantity=self.quantity,
+                source=model,
+                value=value,
+                uncertainty=stated,
+                parts=self.parts if self.difference is None and model == MODELS[1] else (),
+                place=self.places.get(model),
+                **common,
+            )
+            if model in self.cold:
+                bare, alone = f"{self.quantity}{WITHOUT}", self.cold[model]
+                yield Figure(quantity=bare, source=model, value=alone, uncertainty=stated, **common)
+        if self.difference is not None:
+            yield Figure(
+                quantity=self.quantity,
+                source="half_plane",
+                value=self.difference,
+                against="finite_element",
+                uncertainty=Uncertainty(self.own),
+                bounds=(-self.tolerance, self.tolerance),
+                parts=self.parts,
+                **common,
+            )
+
+
+def place_of(quantity: str, values: Mapping[str, float]) -> tuple[float, ...] | None:
+    """Where a largest value stands [m], by a model's figures."""
+    if quantity == "flash_temperature":
+        return (values["flash_position"],)
+    if quantity in ("tau1_heated", "sx_heated"):
+        deep = (values["tau1_depth_heated"],) if quantity == "tau1_heated" else ()
+        return (values[f"{quantity.removesuffix('_heated')}_position"], *deep)
+    return None
 
 
 @dataclass(frozen=True)
 class HeatStudy:
-    """Temperatures of a scene at its largest friction coefficient."""
+    """Temperatures of a scene at its largest friction coefficient, for pictures and files."""
 
-    friction: float
-    peclet: dict[str, float]
     contacts: dict[str, HeatedContact]  # by model, on the finest level
-    figures: tuple[HeatFigure, ...]
-    # part of the heat into the body, and flash temperature [K], by older rules' one fraction
-    rules: dict[str, dict[str, float]]
     contains: dict[str, str]  # what the finite elements alone have, in words
     # by model, on the finest level; empty where thermal stresses are not asked for
     stresses: dict[str, HeatedStress] = field(repr=False)
     x: np.ndarray = field(repr=False)  # (n,) [m]
     z: np.ndarray = field(repr=False)  # (m,) [m]
     field: np.ndarray = field(repr=False)  # (2, m, n) [K] in body and roller, half-planes
-
-    def findings(self) -> Findings:
-        """Figures by model, their differences, what older rules say, and in words what the finite
-        elements have."""
-        at, figures = {"friction": self.friction}, []
-        for name, number in self.peclet.items():
-            figures += figures_of(NAME, name, {"peclet_number": number}, None, at)
-        for each in self.figures:
-            places = {model: self._place(each.quantity, model) for model in each.values}
-            figures += figures_of_row(each, at, places)
-        first = next(iter(self.contacts))
-        stated = {
-            each.quantity: Uncertainty({"numerical": each.own[first]}) for each in self.figures
-        }
-        for rule, values in self.rules.items():
-            for name, value in values.items():
-                figures += figures_of(NAME, rule, {name: value}, stated[name], at)
-        said = [Statement("the finite elements have", text, n) for n, text in self.contains.items()]
-        return Findings(tuple(figures), statements=tuple(said))
-
-    def _place(self, quantity: str, model: str) -> tuple[float, ...] | None:
-        """Where a largest value stands [m]."""
-        if quantity == "flash_temperature":
-            return (self.contacts[model].figures["flash_position"],)
-        if quantity in ("tau1_heated", "sx_heated"):
-            values = self.stresses[model].figures
-            deep = (values["tau1_depth_heated"],) if quantity == "tau1_heated" else ()
-            return (values[f"{quantity.removesuffix('_heated')}_position"], *deep)
-        return None
-
-
-def figures_of_row(
-    each: HeatFigure, at: dict[str, float], places: Mapping[str, tuple[float, ...] | None]
-) -> Iterator[Figure]:
-    """Of one quantity: by each model, with heat and without, and their difference."""
-    effects = [Part(name, e["value"], e["uncertainty"]) for name, e in each.effects.items()]
-    common = {"study": NAME, "at": at, "scale": each.scale}
-    for model, value in each.values.items():
-        stated = Uncertainty({"numerical": each.own[model]})
-        alone = each.difference is None and model == "finite_element"
-        yield Figure(
-            quantity=each.quantity,
-            source=model,
-            value=value,
-            uncertainty=stated,
-            parts=tuple(effects) if alone else (),
-            place=places.get(model),
-            **common,
-        )
-        if model in each.elastic:
-            bare = f"{each.quantity}_without_heat"
-            cold = each.elastic[model]
-            yield Figure(quantity=bare, source=model, value=cold, uncertainty=stated, **common)
-    if each.difference is not None:
-        if each.by_pressure is not None:
-            effects.append(Part("other pressures", each.by_pressure))
-        yield Figure(
-            quantity=each.quantity,
-            source="half_plane",
-            value=each.difference,
-            against="finite_element",
-            uncertainty=Uncertainty(each.own),
-            bounds=(-each.tolerance, each.tolerance),
-            parts=tuple(effects),
-            **common,
-        )

@@ -16,8 +16,16 @@ from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
+from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.studies.heat.figures import NAME, QUANTITIES, HeatFigure
+from comparisons.studies.heat.figures import (
+    COMPARED,
+    HEATED,
+    NAME,
+    OTHER_PRESSURES,
+    QUANTITIES,
+    WITHOUT,
+)
 from comparisons.studies.heat.half_space import reach_of
 from comparisons.studies.study import Run
 
@@ -27,6 +35,7 @@ RULES = {
     "equal_mean": "one fraction, mean temperatures equal (Jaeger)",
     "conductivities": "one fraction, by conductivities alone (Seireg)",
 }
+OF_RULES = "flash_temperature", "fraction_into_body"
 NOTE = """Heat μ p V of the solved pressures, at the scene's largest friction coefficient. It
 divides between both bodies so that their surfaces have one temperature wherever they touch; one
 fraction for the whole contact is what older rules take. The pattern of pressures is taken as steady
@@ -60,36 +69,45 @@ def blocks(run: Run) -> list[Block]:
 
 def heat_table(run: Run) -> TextTable:
     """A row for each figure, then what older rules say of the first."""
-    study = run.data(NAME)
-    rows = [(QUANTITIES[figure.quantity].label, *_cells(figure)) for figure in study.figures]
-    for name, rule in study.rules.items():
-        value = f"{significant(rule['flash_temperature'])} K"
-        share = f"{percent(rule['fraction_into_body'])} enter the body"
-        rows.append((RULES[name], value, "", "", "", "", share))
+    known = run.figures.of(study=NAME)
+    shown = [name for name in COMPARED if known.one(quantity=name)]
+    rows = [(QUANTITIES[name].label, *_cells(known, name)) for name in shown]
+    for rule, words in RULES.items():
+        rise, share = (known.one(source=rule, quantity=name).value for name in OF_RULES)
+        rises, enters = f"{significant(rise)} K", f"{percent(share)} enter the body"
+        rows.append((words, rises, "", "", "", "", enters))
     numbers = ("difference", "uncertainty", "tolerance")
     return TextTable("", ("", *map(LABELS.get, MODELS), *numbers, "verdict"), tuple(rows))
 
 
-def _cells(figure: HeatFigure) -> tuple[str, ...]:
-    unit = QUANTITIES[figure.quantity].unit
-    values = [with_unit(figure.values.get(name), unit) for name in MODELS]
-    for name, alone in figure.elastic.items():
-        values[MODELS.index(name)] += f" ({with_unit(alone, unit)} without)"
-    if figure.difference is None:
-        return *values, "", percent(*figure.own.values()), "", "not compared"
-    judged = percent(figure.uncertainty), given_percent(figure.tolerance), figure.verdict
-    return *values, _difference(figure, figure.difference), *judged
+def _cells(known: Figures, quantity: str) -> tuple[str, ...]:
+    unit, texts = QUANTITIES[quantity].unit, []
+    values = [known.one(quantity=quantity, source=name, against=None) for name in MODELS]
+    for name, figure in zip(MODELS, values, strict=True):
+        texts.append(with_unit(figure and figure.value, unit))
+        if (cold := known.one(quantity=f"{quantity}{WITHOUT}", source=name)) is not None:
+            texts[-1] += f" ({with_unit(cold.value, unit)} without)"
+    difference = known.one(quantity=quantity, against=MODELS[1])
+    if difference is None:
+        own = next(filter(None, values))
+        return *texts, "", percent(own.numerical), "", "not compared"
+    judged = given_percent(difference.tolerance), difference.verdict
+    return *texts, _relative(difference), percent(difference.numerical), *judged
 
 
-def _difference(figure: HeatFigure, value: float) -> str:
-    return percent(value, signed=True, uncertainty=figure.uncertainty)
+def _relative(difference: Figure, value: float | None = None) -> str:
+    """A difference, or a part of it, in the digits that are certain."""
+    value = difference.value if value is None else value
+    return percent(value, signed=True, uncertainty=difference.numerical)
 
 
 def heat_facts(run: Run) -> list[tuple[str, str]]:
     """What moves, what the finite elements have, and where the largest rise stands."""
     study, heat = run.data(NAME), run.problem.scene.heat
     body, roller = (f"{significant(abs(v), 3)} m/s" for v in heat.velocities)
-    numbers = (f"{name} {significant(number, 3)}" for name, number in study.peclet.items())
+    known = run.figures.of(study=NAME)
+    peclet = known.of(quantity="peclet_number")
+    numbers = (f"{each.source} {significant(each.value, 3)}" for each in peclet)
     places = (each.figures["flash_position"] for each in study.contacts.values())
     reach = with_unit(reach_of(run.problem), "m")
     datum = f"{plain(heat.bulk_temperature)} K, at rest {reach} away"
@@ -100,30 +118,35 @@ def heat_facts(run: Run) -> list[tuple[str, str]]:
         ("largest rise at x =", ", ".join(dict.fromkeys(with_unit(x, "m") for x in places))),
         ("the finite elements have", ", ".join(study.contains.values())),
     ]
-    first = study.figures[0]
-    if first.by_pressure is not None:
-        share = _difference(first, first.by_pressure)
-        facts.append(("of its difference, by other pressures", share))
-    for feature, effect in first.effects.items():
-        share = percent(effect["value"], signed=True, uncertainty=effect["uncertainty"])
-        share = f"{share} ± {percent(effect['uncertainty'])}"
-        facts.append((f"the largest rise without {study.contains[feature]}", share))
+    first = known.of(quantity="flash_temperature")
+    difference = first.one(against=MODELS[1])
+    parts = (difference or first.one(source=list(run.runs)[-1])).parts
+    for part in sorted(parts, key=lambda part: part.name != OTHER_PRESSURES):
+        if part.name == OTHER_PRESSURES:
+            share = _relative(difference, part.value)
+            facts.append(("of its difference, by other pressures", share))
+        else:
+            share = percent(part.value, signed=True, uncertainty=part.uncertainty)
+            share = f"{share} ± {percent(part.uncertainty)}"
+            facts.append((f"the largest rise without {study.contains[part.name]}", share))
     return [fact for fact in facts if fact[1]]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """The largest rise in a line, and largest stresses with heat in others."""
-    said = []
-    for figure in run.data(NAME).figures:
-        if figure.quantity != "flash_temperature" and not figure.elastic:
+    known, said = run.figures.of(study=NAME), []
+    for quantity in ("flash_temperature", *HEATED):
+        of_models = known.of(quantity=quantity, against=None)
+        sources = {figure.source for figure in of_models}
+        cells = zip(_cells(known, quantity), MODELS, strict=False) if of_models else ()
+        values = [f"{cell} ({LABELS[name]})" for cell, name in cells if name in sources]
+        if not values:
             continue
-        cells = zip(_cells(figure), MODELS, strict=False)
-        values = (f"{cell} ({LABELS[name]})" for cell, name in cells if name in figure.values)
-        name = QUANTITIES[figure.quantity].label if figure.elastic else "flash temperature"
+        name = QUANTITIES[quantity].label if quantity in HEATED else "flash temperature"
         text = f"{name} {', '.join(values)}"
-        if figure.verdict is not None:
-            difference = _difference(figure, figure.difference)
-            text += f": {difference} ± {percent(figure.uncertainty)}, {figure.verdict}"
+        if (difference := known.one(quantity=quantity, against=MODELS[1])) is not None:
+            size = f"{_relative(difference)} ± {percent(difference.numerical)}"
+            text += f": {size}, {difference.verdict}"
         said.append(("heat", text))
     return said
 

@@ -5,16 +5,15 @@ difference has what both theories leave out: `by_pressure` is the part of it tha
 finds under the finite elements' pressures. One rule judges it, as everything else."""
 
 from collections.abc import Iterable, Mapping, Set
-from dataclasses import replace
 
 import numpy as np
 
 from comparisons.common.progress import ProgressCallback
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.figure import Findings
+from comparisons.figures.figure import Figure, Figures, Findings, Part, Statement, figures_of
 from comparisons.figures.quantity import HEAT_QUANTITIES
-from comparisons.figures.uncertainty import far_boundary, iteration
+from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -23,9 +22,11 @@ from comparisons.studies.heat.figures import (
     COMPARED,
     HEATED,
     NAME,
+    OTHER_PRESSURES,
     QUANTITIES,
-    HeatFigure,
+    HeatRow,
     HeatStudy,
+    place_of,
 )
 from comparisons.studies.heat.half_plane_stress import HeatedStress, half_plane_stress
 from comparisons.studies.heat.half_space import (
@@ -43,23 +44,41 @@ FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
 
 
-def heat_study(
+def findings_of(
     problem: Problem, runs: dict[str, ModelRun], window: Window | None, callback: ProgressCallback
-) -> HeatStudy:
+) -> Findings:
     """Temperatures on every level of every model that was run, with thermal stresses in the window
-    where they are asked for, and the comparison."""
+    where they are asked for, and the comparison; what older rules say, and in words what the
+    finite elements have."""
     callback("frictional heat")
     contains = what_it_contains(problem) if "finite_element" in runs else {}
     figures, finest = heat_figures(problem, runs, effects=contains)
-    stresses = {}
+    at, stresses = {"friction": friction_of(problem)}, {}
     if problem.scene.heat.stresses:
         callback("thermal stresses")
         histories, moved = _stresses(problem, runs, window)
-        figures += tuple(_figure(problem, runs, histories, moved, {}, name) for name in HEATED)
+        for name in HEATED:
+            figures += _figures(problem, runs, histories, moved, {}, name)
         stresses = {model: history[-1] for model, history in histories.items()}
-    first, peclet = next(iter(finest.values())), peclet_numbers(problem)
-    found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
-    return HeatStudy(*found, stresses, *_subsurface(problem, first))
+    model, first = next(iter(finest.items()))
+    numbers = [
+        figure
+        for body, number in peclet_numbers(problem).items()
+        for figure in figures_of(NAME, body, {"peclet_number": number}, None, at)
+    ]
+    rules = [
+        figure
+        for rule, values in _rules(problem, first).items()
+        for name, value in values.items()
+        for figure in figures_of(NAME, rule, {name: value}, _stated(figures, name, model), at)
+    ]
+    said = tuple(Statement("the finite elements have", text, n) for n, text in contains.items())
+    data = HeatStudy(finest, contains, stresses, *_subsurface(problem, first))
+    return Findings((*numbers, *figures, *rules), statements=said, data=data)
+
+
+def _stated(figures: Iterable[Figure], quantity: str, model: str) -> Uncertainty:
+    return Figures(figures).one(quantity=quantity, source=model, against=None).uncertainty
 
 
 def heat_figures(
@@ -67,7 +86,7 @@ def heat_figures(
     runs: dict[str, ModelRun],
     without: Set[str] = frozenset(),
     effects: Iterable[str] = (),
-) -> tuple[tuple[HeatFigure, ...], dict[str, HeatedContact]]:
+) -> tuple[list[Figure], dict[str, HeatedContact]]:
     """The figures, and both models' contacts on the finest level. The finite elements are `without`
     features (`what_it_contains`); the `effects` of some are stated."""
     histories, moved, dropped = {}, {}, {}
@@ -86,8 +105,9 @@ def heat_figures(
         for feature in effects:
             bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
             dropped[feature] = list(zip(bare, own, strict=True))
-    given = problem, runs, histories, moved, dropped
-    figures = tuple(_figure(*given, name) for name in HEAT_QUANTITIES)
+    figures = []
+    for name in HEAT_QUANTITIES:
+        figures += _figures(problem, runs, histories, moved, dropped, name)
     return figures, {name: history[-1] for name, history in histories.items()}
 
 
@@ -110,43 +130,44 @@ def _stresses(
     return histories, moved
 
 
-def _figure(
+def _figures(
     problem: Problem,
     runs: dict[str, ModelRun],
     histories: dict[str, list[HeatedContact | HeatedStress]],
     moved: dict[str, float],
     dropped: dict[str, list[tuple[HeatedContact, HeatedContact]]],
     name: str,
-) -> HeatFigure:
+) -> list[Figure]:
     """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
     is infinite, they discretise it each in its own way. All is over the finite elements' value; of
     stresses over that without heat where it is larger, as heat may cancel it; of depths over a."""
     values = {model: [each.figures[name] for each in h] for model, h in histories.items()}
     shown, own = {model: history[-1] for model, history in values.items()}, {}
-    elastic = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
-    size = max(abs(each[list(shown)[-1]]) for each in (shown, elastic) if each)
+    cold = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
+    size = max(abs(each[list(shown)[-1]]) for each in (shown, cold) if each)
     size = problem.hertz.half_width if name == "tau1_depth_heated" else size
     for model, history in values.items():
         left = grid_convergence(history, FORMAL_ORDER).uncertainty
         left += moved[name] if model == "finite_element" else 0.0
         own[model] = left / size + iteration(runs[model].finest)
-    effects = {feature: _effect(pairs, name) for feature, pairs in dropped.items()}
-    if len(values) < 2:
-        return HeatFigure(name, shown, own, size, effects=effects, elastic=elastic)
-    difference, by_pressure = (shown["half_plane"] - shown["finite_element"]) / size, None
-    if not elastic:
+    parts = [_effect(feature, pairs, name) for feature, pairs in dropped.items()]
+    difference = None
+    if len(values) > 1:
+        difference = (shown["half_plane"] - shown["finite_element"]) / size
+    if difference is not None and not cold:
         under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
-        by_pressure = (shown["half_plane"] - under_theirs) / size
-    judged = sum(own.values()), problem.scene.heat.tolerance
-    found = by_pressure, effects, *judged, elastic
-    return HeatFigure(name, shown, own, size, difference, *found)
+        parts.append(Part(OTHER_PRESSURES, (shown["half_plane"] - under_theirs) / size))
+    places = {model: place_of(name, h[-1].figures) for model, h in histories.items()}
+    judged = difference, tuple(parts), problem.scene.heat.tolerance
+    row = HeatRow(name, shown, own, size, *judged, cold, places)
+    return list(row.figures(friction_of(problem)))
 
 
-def _effect(pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> dict[str, float]:
+def _effect(feature: str, pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> Part:
     """Of what the first of each pair has not and the second has, on every level."""
     moved = [bare.figures[name] / whole.figures[name] - 1.0 for bare, whole in pairs]
-    found = grid_convergence(moved, FORMAL_ORDER)
-    return {"value": found.value, "uncertainty": found.uncertainty}
+    change = grid_convergence(moved, FORMAL_ORDER)
+    return Part(feature, change.value, change.uncertainty)
 
 
 def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, float]]:
@@ -192,8 +213,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    study = heat_study(solved.problem, solved.runs, solved.window, tasks.callback)
-    return replace(study.findings(), data=study)
+    return findings_of(solved.problem, solved.runs, solved.window, tasks.callback)
 
 
 STUDY = Study(

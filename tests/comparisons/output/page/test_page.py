@@ -13,10 +13,12 @@ from dataclasses import replace
 import pytest
 from scenes import judging, posed
 
+from comparisons.drawing.blocks import Block, Box, Heading, Names, Note, Pictures, TextTable
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.page import render
+from comparisons.studies import contact
 from comparisons.studies.model_error.show import waterfalls
-from comparisons.studies.study import Run
+from comparisons.studies.study import Run, Study
 
 ROOT = "{http://www.w3.org/2000/svg}"
 SECTIONS = ["problem", "comparison", "model-error", "contact", "yield", "stresses", "convergence"]
@@ -31,6 +33,25 @@ def test_drawn_side_by_side_as_in_one_process(wavy_outcome, monkeypatch):
         monkeypatch.setattr(os, "sched_getaffinity", lambda process, cores=cores: cores)
         pages.append(render(wavy_outcome))
     assert pages[0] == pages[1]
+
+
+def test_a_new_study_shows_itself(wavy_outcome, page_of, no_pictures, monkeypatch):
+    """A section of its own after what flows, a part of another one, and no box for a picture that
+    there is none of; what stands in a text is no tag."""
+    table = TextTable("Slip", ("", "a < b"), (("*all*", "1 %"),))
+    boxed = Box("columns", (Pictures(("fields",), "Nothing to see"),))
+    own = Block("slip", (Heading("Where"), table, boxed, Note("All *stick* & some slip")), "Slip")
+    added = Block("contact", (Names([("slides", "0.1 a")]),))
+    study = Study(contact.NAME, {}, contact.solve, blocks=lambda run: [own, added])
+    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+    monkeypatch.setattr("comparisons.output.page.blocks.STUDIES", (study,))
+    page = page_of(render(wavy_outcome))
+    place = page.sections.index("slip")
+    assert page.sections[place - 1 : place + 2] == ["contact", "slip", "stresses"]
+    assert "All <i>stick</i> &amp; some slip" in page.source and "a &lt; b" in page.source
+    sections = dict(re.findall(r'<section id="([\w-]+)">(.*?)</section>', page.source, re.DOTALL))
+    assert 'class="columns"' not in sections["slip"] and "Nothing to see" not in sections["slip"]
+    assert '<th scope="row">slides</th><td>0.1 a</td>' in sections["contact"]
 
 
 def test_every_tag_is_closed_in_order(wavy_page, smooth_page, half_plane_page, page_of):

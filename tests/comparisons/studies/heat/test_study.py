@@ -13,6 +13,7 @@ from comparisons.output.junit import run_cases_of
 from comparisons.output.page.saved import read_run
 from comparisons.output.recorded_run import read_result
 from comparisons.runs.run import run
+from comparisons.studies.heat.figures import HEATED, WITHOUT
 from comparisons.studies.heat.show import heat_facts, heat_table, lines
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
@@ -33,6 +34,15 @@ TRACE = {
 }
 
 
+def differences(outcome):
+    """Of both models, in the order of the quantities."""
+    return outcome.figures.of(study="heat", against="finite_element")
+
+
+def value(outcome, quantity, source="half_plane"):
+    return outcome.figures.one(study="heat", quantity=quantity, source=source, against=None).value
+
+
 @pytest.fixture(scope="module")
 def rough(tmp_path_factory):
     out = tmp_path_factory.mktemp("heat") / "out"
@@ -42,14 +52,13 @@ def rough(tmp_path_factory):
 def test_a_rough_trace_has_one_flash_temperature_by_both_models(rough):
     """Both solve one problem but for the roller, a disc in the finite elements: what is left of
     their difference is numerical, and within what is stated."""
-    for figure in rough.data("heat").figures:
-        (roller,) = figure.effects.values()
-        assert roller["uncertainty"] < 1e-4 < 1e-3 < abs(roller["value"]) < 0.02
-        assert abs(figure.difference - roller["value"]) < figure.uncertainty < 0.02
-        assert figure.verdict == "agree"
-        assert abs(figure.by_pressure) < figure.uncertainty
-    assert rough.data("heat").figures[0].values["half_plane"] > 100.0
-    assert rough.data("heat").friction == 0.1
+    for figure in differences(rough):
+        roller, other_pressures = figure.parts
+        assert roller.uncertainty < 1e-4 < 1e-3 < abs(roller.value) < 0.02
+        assert abs(figure.value - roller.value) < figure.numerical < 0.02
+        assert figure.verdict == "agree" and figure.friction == 0.1
+        assert abs(other_pressures.value) < figure.numerical
+    assert value(rough, "flash_temperature") > 100.0
 
 
 def test_figures_in_result_json(rough):
@@ -106,17 +115,17 @@ def test_below_the_surface_it_cools(rough):
         assert field.shape == (len(study.z), len(study.x))
         assert field.max() == pytest.approx(field[0].max())
         assert np.all(np.diff(field.max(axis=1)) < 0.0)
-    largest = study.figures[0].values["half_plane"]
+    largest = value(rough, "flash_temperature")
     assert study.field[0].max() == pytest.approx(largest, rel=5e-3)
 
 
 def test_one_model_alone():
     scene = resolved(changed(TRACE, heat={"slide_to_roll": -2.0}))
     outcome = run(scene, None, ("half_plane",))
-    figure = outcome.data("heat").figures[0]
-    assert (figure.difference, figure.verdict) == (None, None)
-    assert 0.0 < figure.own["half_plane"] < 0.05
-    assert outcome.data("heat").peclet["body"] == 0.0
+    [flash] = outcome.figures.of(study="heat", quantity="flash_temperature", source="half_plane")
+    assert (flash.against, flash.verdict) == (None, None)
+    assert 0.0 < flash.numerical < 0.05
+    assert value(outcome, "peclet_number", "body") == 0.0
 
 
 STRESSED = {
@@ -137,28 +146,26 @@ def stressed(tmp_path_factory):
 def test_thermal_stresses_by_both_models(stressed):
     """Transforms and elements, whose meshes and boundaries differ, have one answer; without heat
     it is that of the comparison."""
-    tau1, depth, along = stressed.data("heat").figures[3:]
+    tau1, depth, along = differences(stressed)[3:]
     for figure in (tau1, depth, along):
-        assert abs(figure.difference) < figure.uncertainty + 3e-3  # held 400 a away
-        assert figure.uncertainty < 0.05
+        assert abs(figure.value) < figure.numerical + 3e-3  # held 400 a away
+        assert figure.numerical < 0.05
     assert tau1.verdict == depth.verdict == "agree"
     own = stressed.runs["half_plane"].finest.stress(0.1).extremes["tau1"]
-    assert tau1.elastic["half_plane"] == own.value
-    assert depth.elastic["half_plane"] == own.z
+    assert value(stressed, "tau1_heated_without_heat") == own.value
+    assert value(stressed, "tau1_depth_heated_without_heat") == own.z
     # 2 mu p0 at the trailing edge (Johnson 1985, section 7.1), which heat takes back
-    assert along.elastic["half_plane"] == pytest.approx(0.2e9, rel=2e-3)
-    assert along.elastic["finite_element"] == pytest.approx(0.2e9, rel=1e-2)
-    assert max(along.values.values()) < 0.0
+    cold, other = (value(stressed, "sx_heated_without_heat", model) for model in MODELS)
+    assert cold == pytest.approx(0.2e9, rel=2e-3) and other == pytest.approx(0.2e9, rel=1e-2)
+    assert max(value(stressed, "sx_heated", model) for model in MODELS) < 0.0
 
 
 def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
     less = changed(STRESSED, heat={"body_expansion": "1e-9 1/K"})
-    without = run(resolved(less), None, ("half_plane",)).data("heat")
-    for figure in without.figures[3:]:
-        alone = figure.elastic["half_plane"]
-        assert figure.values["half_plane"] == pytest.approx(alone, rel=1e-3)
-    flash, *_ = without.figures
-    assert flash.values["half_plane"] == stressed.data("heat").figures[0].values["half_plane"]
+    without = run(resolved(less), None, ("half_plane",))
+    for name in HEATED:
+        assert value(without, name) == pytest.approx(value(without, f"{name}{WITHOUT}"), rel=1e-3)
+    assert value(without, "flash_temperature") == value(stressed, "flash_temperature")
 
 
 def test_thermal_stresses_in_every_output(stressed):
@@ -182,14 +189,14 @@ def test_a_slab_is_no_half_space():
     tables["load"] = {"hertz_peak_pressure": 1e9, "friction": 0.1}
     del tables["profile"], tables["resolution"]
     outcome = run(resolved(tables), None, MODELS)
-    figure = outcome.data("heat").figures[0]
+    figure = differences(outcome)[0]
     assert figure.verdict == "differ"
     assert outcome.exit_status == 1
     assert list(outcome.data("heat").contains) == ["thickness", "roller"]
-    effects = figure.effects
+    effects = {part.name: part.value for part in figure.parts}
     # without the slab more heat enters the roller: together they are less than their sum
-    assert 1.0 < figure.difference < effects["thickness"]["value"] < 2.0
-    assert -0.02 < effects["roller"]["value"] < -0.002
+    assert 1.0 < figure.value < effects["thickness"] < 2.0
+    assert -0.02 < effects["roller"] < -0.002
     assert [fact for fact, _ in heat_facts(outcome)][-2:] == [
         "the largest rise without the body's thickness, its base at its bulk temperature",
         "the largest rise without the roller as a disc",
