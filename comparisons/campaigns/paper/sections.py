@@ -61,7 +61,7 @@ def sections_of(
             callback(f"drawing {drawn}")
             blocks = []
             for heading, figures, draw in plans:
-                claims = [claim_row(each) for each in judged if each.claim.figure in figures]
+                claims = [claim_row(j) for j in judged if j.claim.figure in figures]
                 blocks.append(PaperBlock(heading, tuple(draw()), tuple(claims)))
             sections.append(Section(number, title, tuple(blocks)))
     return tuple(sections)

@@ -193,7 +193,7 @@ def scaled_findings(
     other, reference = pressed(height, load, metre, pascal), "the ordinary line"
     length = other.contact_length / usual.contact_length
     approach = other.solution.approach / usual.solution.approach
-    spent, most = (each.solution.iterations["applications"] for each in (other, usual))
+    spent, most = (line.solution.iterations["applications"] for line in (other, usual))
     pressure = other.pressure / (pascal * slope)
     return other.findings(
         deviation(pressure, usual.pressure, "pressure", same, reference),

@@ -216,12 +216,12 @@ def coverage_cases(
     ]
 
 
-def _covered(found: Coverage, most: float, fewest: int) -> CaseFigures:
-    ratio, uncertainties = found.median_overestimation, "the stated uncertainties"
+def _covered(shown: Coverage, most: float, fewest: int) -> CaseFigures:
+    ratio, uncertainties = shown.median_overestimation, "the stated uncertainties"
     return (
-        bounded("share covered", found.covered, 1.0, uncertainties, LEAST_COVERAGE),
+        bounded("share covered", shown.covered, 1.0, uncertainties, LEAST_COVERAGE),
         bounded("median overestimation ratio", ratio, most, uncertainties),
-        bounded("informative figures", found.informative, np.inf, "exact answers", fewest),
+        bounded("informative figures", shown.informative, np.inf, "exact answers", fewest),
     )
 
 

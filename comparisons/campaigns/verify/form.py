@@ -133,17 +133,17 @@ def judged_form(path: Path) -> JudgedForm:
         raise InputError(f"{path}: has no column {sorted(missing)[0]}; allowed is a form.csv")
     exact = {(c.name, q): value for c in form_cases() for q, value in c.exact.items()}
     figures, empty = [], 0
-    for line, given in enumerate(table, start=2):
-        if not (given["answer"] or "").strip():
+    for line, row in enumerate(table, start=2):
+        if not (row["answer"] or "").strip():
             empty += 1
             continue
         where = f"{path}: line {line}"
-        key = given["case"], given["quantity"]
+        key = row["case"], row["quantity"]
         if key not in exact:
             raise InputError(f"{where}: {' '.join(map(str, key))} is no figure of the form")
-        answer = _number(given, "answer", where)
-        tolerance = _number(given, "tolerance", where, least=0.0)
-        uncertainty = _number(given, "uncertainty", where, least=0.0)
+        answer = _number(row, "answer", where)
+        tolerance = _number(row, "tolerance", where, least=0.0)
+        uncertainty = _number(row, "uncertainty", where, least=0.0)
         figures.append(
             Figure(
                 *("verify", key[1], key[0], answer / exact[key] - 1.0),
@@ -183,9 +183,9 @@ def unit_of(quantity: str) -> str:
     return QUANTITIES[quantity].unit if quantity in QUANTITIES else "m"
 
 
-def _number(given: Mapping[str, str], column: str, where: str, least: float = -math.inf) -> float:
+def _number(row: Mapping[str, str], column: str, where: str, least: float = -math.inf) -> float:
     """A cell as a number; nothing counts as 0 but for the answer, which is there."""
-    text = (given[column] or "0").strip()
+    text = (row[column] or "0").strip()
     try:
         value = float(text)
     except ValueError:

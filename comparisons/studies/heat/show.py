@@ -36,6 +36,20 @@ OF_STRESSES = """ Stresses are elastic and steady, zero at the bulk temperature;
 over the larger one with heat and without, a depth's over a."""
 
 
+def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
+    """temperature.csv of each model: a row for each pressure element."""
+    return {
+        f"{name}/temperature.csv": {
+            "x [m]": contact.x,
+            "heat [W/m^2]": contact.heat,
+            "into the body [W/m^2]": contact.into_body,
+            "rise of the body [K]": contact.body,
+            "rise of the roller [K]": contact.roller,
+        }
+        for name, contact in run.data(NAME).contacts.items()
+    }
+
+
 def blocks(run: Run) -> list[Block]:
     note = Note(NOTE + OF_STRESSES * bool(run.data(NAME).stresses))
     shown = Names(heat_facts(run)), note, Pictures(("heat_below",), abreast=True)

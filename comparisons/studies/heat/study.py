@@ -28,7 +28,14 @@ from comparisons.models.problem import Problem
 from comparisons.models.thermal_stress import HeatedStress, half_plane_stress
 from comparisons.models.window import Window
 from comparisons.studies.heat import show
-from comparisons.studies.heat.figures import HEATED, NAME, QUANTITIES, HeatFigure, HeatStudy
+from comparisons.studies.heat.figures import (
+    COMPARED,
+    HEATED,
+    NAME,
+    QUANTITIES,
+    HeatFigure,
+    HeatStudy,
+)
 from comparisons.studies.study import Solved, Study
 
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
@@ -188,7 +195,9 @@ STUDY = Study(
     solve=solve,
     applies=lambda solved: solved.problem.scene.heat is not None,
     data=HeatStudy,
+    tabled=COMPARED,
     blocks=show.blocks,
     pictures=show.PICTURES,
+    files=show.files,
     lines=show.lines,
 )

@@ -22,11 +22,12 @@ STUDY = '''
 import numpy as np
 
 from analytic.contact.patches import contact_patches
+from comparisons.drawing.blocks import Block, Heading, Note, TextTable
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Statement
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
-from comparisons.studies.study import Block, Study, TextTable
+from comparisons.studies.study import Study
 
 NAME, SHARE = "partial_slip", 0.5
 QUANTITIES = {
@@ -69,7 +70,8 @@ def solve(solved, before, tasks):
 def blocks(run):
     length, _ = run.found[NAME].figures
     rows = (("stuck", f"{1e6 * length.value:.1f} um"),)
-    return [Block("Partial slip", (TextTable("Stick", ("", "length"), rows),), "A note.", "yield")]
+    table = TextTable("Stick", ("", "length"), rows)
+    return [Block("yield", (Heading("Partial slip"), table, Note("A note.")))]
 
 
 STUDY = Study(

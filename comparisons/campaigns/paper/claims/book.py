@@ -33,8 +33,8 @@ NODES = np.linspace(-1.1, 1.1, 1101)
 @cache
 def contact(summits: Summits, load: float) -> RoughContact:
     """Of the sphere under a load T in units of set A: other sets have other units, s^(3/2)."""
-    own = load * (SETS["A"].deviation / summits.deviation) ** 1.5
-    return rough_contact("sphere", own, bearing_of(summits, SPHERE))
+    load_of_set = load * (SETS["A"].deviation / summits.deviation) ** 1.5
+    return rough_contact("sphere", load_of_set, bearing_of(summits, SPHERE))
 
 
 def real_pressure(summits: Summits, load: float) -> float:
@@ -64,13 +64,13 @@ def area_of_rougher() -> float:
 
 
 def effective_radius(load: float) -> float:
-    found = contact(SETS["A"], load)
-    return found.effective_width / found.smooth[0]
+    sphere = contact(SETS["A"], load)
+    return sphere.effective_width / sphere.smooth[0]
 
 
 def peak_pressure(load: float) -> float:
-    found = contact(SETS["A"], load)
-    return float(found.pressure[0]) / found.smooth[1]
+    sphere = contact(SETS["A"], load)
+    return float(sphere.pressure[0]) / sphere.smooth[1]
 
 
 def penetration_coefficient(kind: str) -> float:
@@ -121,7 +121,7 @@ def slab_over_half_space(late: float) -> float:
 def heat_into_body(roller: float) -> float:
     """Part of the heat that enters the body past which Hertz's contact moves, of a roller of the
     same material whose surface moves at `roller` times the body's speed."""
-    given, fast = (UNIT, len(NODES), float(NODES[1] - NODES[0])), -2.0 * PECLET
+    surface, fast = (UNIT, len(NODES), float(NODES[1] - NODES[0])), -2.0 * PECLET
     heat = np.sqrt(np.maximum(1.0 - NODES**2, 0.0))
-    bodies = (HeatedSurface(*given, velocity, REACH) for velocity in (fast, fast * roller))
+    bodies = (HeatedSurface(*surface, velocity, REACH) for velocity in (fast, fast * roller))
     return divided(*bodies, heat).fraction

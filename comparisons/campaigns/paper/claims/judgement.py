@@ -7,6 +7,7 @@ stand-in profile was made to show what the claim says."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
 
 from comparisons.campaigns.paper.claims.readings import SLIDING, LevelView
@@ -16,7 +17,6 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.figures.verdict import is_within
-from comparisons.models.level import Level
 from comparisons.studies.contact import by_repetition
 from comparisons.studies.study import MODEL_ERROR, Run
 
@@ -135,34 +135,24 @@ def measured(claim: Claim, run: Run | None, model: str) -> Figure:
     Discretisation, far boundary and iteration as for a run's figures; besides, what reading only
     every second row and column of the window changes. An error against an exact value has no
     uncertainty of its own, nor has what a theory says."""
-    reading, uncertainty, notes = claim.reading, Uncertainty(), ()
+    number = partial(Figure, "paper", claim.key, model, bounds=claim.confirms)
     if run is None:
-        value = reading(None)
-    else:
-        views, solved = views_of(run, model), run.runs[model]
-        values = [reading(view) for view in views]
-        value = values[-1]
-        if not all(level.solution.converged for level in solved.levels):
-            notes = (NOT_CONVERGED,)
-        if not claim.exact:
-            by_level = by_repetition(solved, lambda level: {"": reading(_at(views[-1], level))})
-            parts = {
-                "discretisation": grid_convergence(values, ORDER).uncertainty,
-                "iteration": iteration(solved.finest) * abs(value),
-                "reading": abs(reading(replace(views[-1], every=2)) - value),
-                **dict(zip(("domain", "increments"), by_level[""], strict=True)),
-            }
-            uncertainty = Uncertainty(parts)
-    return Figure(
-        *("paper", claim.key, model, float(value)),
-        uncertainty=uncertainty,
-        bounds=claim.confirms,
-        notes=notes,
+        return number(claim.reading(None), uncertainty=Uncertainty())
+    views, levels = views_of(run, model), run.runs[model].levels
+    values = [claim.reading(view) for view in views]
+    notes = () if all(level.solution.converged for level in levels) else (NOT_CONVERGED,)
+    if claim.exact:
+        return number(values[-1], uncertainty=Uncertainty(), notes=notes)
+    repeated = by_repetition(
+        run.runs[model], lambda level: {"": claim.reading(replace(views[-1], level=level))}
     )
-
-
-def _at(view: LevelView, level: Level) -> LevelView:
-    return replace(view, level=level)
+    parts = {
+        "discretisation": grid_convergence(values, ORDER).uncertainty,
+        "iteration": iteration(levels[-1]) * abs(values[-1]),
+        "reading": abs(claim.reading(replace(views[-1], every=2)) - values[-1]),
+        **dict(zip(("domain", "increments"), repeated[""], strict=True)),
+    }
+    return number(values[-1], uncertainty=Uncertainty(parts), notes=notes)
 
 
 def judgement(claim: Claim, numbers: Mapping[str, Figure]) -> tuple[str, str | None]:

@@ -98,9 +98,9 @@ class LevelView:
 
     def extreme(self, name: str, friction: float) -> Extremum:
         """Largest tau1 | |txz|, found off the grid: value [p0], x and z [a]."""
-        found, hertz = self.level.stress(friction).extremes[name], self.problem.hertz
+        extremum, hertz = self.level.stress(friction).extremes[name], self.problem.hertz
         a = hertz.half_width
-        return Extremum(abs(found.value) / hertz.peak_pressure, found.x / a, found.z / a)
+        return Extremum(abs(extremum.value) / hertz.peak_pressure, extremum.x / a, extremum.z / a)
 
 
 def contact_ratio(view: LevelView) -> float:
@@ -306,9 +306,9 @@ def error_on_rough_surface(view: LevelView, element: Element, largest: bool = Fa
     places = (x[:, None] + pitch * ACROSS).ravel()
     places = places[np.abs(places) <= reach]
     z = _below(pitch)
-    found = stress_at(x, pressure[nodes], SLIDING, places, z, element)
+    stress = stress_at(x, pressure[nodes], SLIDING, places, z, element)
     reference = stress_at(grid.x, pressure, SLIDING, places, z)
-    errors = _normal_errors(found, reference, hertz.peak_pressure)
+    errors = _normal_errors(stress, reference, hertz.peak_pressure)
     return float(np.max(errors) if largest else np.sqrt(np.mean(errors**2)))
 
 
@@ -317,9 +317,9 @@ def _below(pitch: float) -> np.ndarray:
     return np.geomspace(SHALLOWEST, 1.0, 8)[:, None] * pitch
 
 
-def _normal_errors(found: StressState, reference: StressState, unit: float = 1.0) -> np.ndarray:
+def _normal_errors(stress: StressState, reference: StressState, unit: float = 1.0) -> np.ndarray:
     """Amounts (2, ...) by which sx and sz of two stresses differ, over a unit."""
-    return np.abs([found.sx - reference.sx, found.sz - reference.sz]) / unit
+    return np.abs([stress.sx - reference.sx, stress.sz - reference.sz]) / unit
 
 
 def _axis_error(view: LevelView, depth: float) -> float:

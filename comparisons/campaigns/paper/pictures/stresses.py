@@ -39,10 +39,10 @@ def axis_picture(smooth: Run, depth: float, high: float) -> Picture:
             at = np.flatnonzero(view.z <= depth * (1.0 + 1e-9))
             at = at[:: max(1, len(at) // 16)]
             middle = int(np.argmin(np.abs(view.x)))
-            found = getattr(view.stress(0.0), part)[at, middle]
+            computed = getattr(view.stress(0.0), part)[at, middle]
             look = {"marker": markers[name], "markersize": 4.5, "markerfacecolor": "none"}
             look |= {"linestyle": "none", "color": colour, "label": f"{symbol}, {LABELS[name]}"}
-            axes.plot(found, view.z[at], **look)
+            axes.plot(computed, view.z[at], **look)
         place = 0.82 * depth
         value = float(np.interp(place, fine, values))
         axes.annotate(symbol, (value, place), (7, 4), textcoords="offset points", color=colour)
@@ -77,7 +77,7 @@ def contour_picture(outcome: Run, component: Component, scales: Scales, of: str)
     bands = scales.bands[component.name]
     total = FOOT + len(frictions) * (TALL + TITLE)
     drawn = figure(COLUMN, total)
-    found = []
+    extremes = []
     for place, friction in enumerate(frictions, start=1):
         low = total - place * (TALL + TITLE)
         axes = drawn.add_axes((0.62 / COLUMN, low / total, 2 * RANGE * TALL / COLUMN, TALL / total))
@@ -90,11 +90,11 @@ def contour_picture(outcome: Run, component: Component, scales: Scales, of: str)
         at = extreme.x / hertz.half_width, extreme.z / hertz.half_width
         cross(axes, *at)
         largest = significant(abs(extreme.value) / hertz.peak_pressure, 3)
-        found.append(
+        extremes.append(
             f"friction {plain(friction)}: largest {largest} p₀ at x = {decimal(at[0], 2)} a, "
             f"z = {significant(at[1], 2)} a"
         )
-        axes.set_title(found[-1])
+        axes.set_title(extremes[-1])
         axes.tick_params(labelbottom=place == len(frictions))
     axes.set_xlabel("x/a")
     bar = drawn.add_axes((1.1 / COLUMN, 0.3 / total, (COLUMN - 1.3) / COLUMN, BAR / total))
@@ -102,7 +102,7 @@ def contour_picture(outcome: Run, component: Component, scales: Scales, of: str)
     words = f"{component.words.capitalize()} {component.symbol} below the {of}"
     return Picture(
         source=data_uri(drawn),
-        alternative=f"Contours. {words}. {'; '.join(found)}.",
+        alternative=f"Contours. {words}. {'; '.join(extremes)}.",
         caption=(
             f"{words}: colours are the half-plane's, dashed lines the finite elements' at the "
             f"bounds of the colours; + marks the largest amount"

@@ -131,11 +131,6 @@ def test_exact_figures_are_met_even_so_coarsely(made):
     assert numbers["edge-friction"].numbers["finite_element"].value > 1.05
 
 
-def test_progress_names_surfaces_and_figures(made):
-    assert all(any(name in stage for stage in made.stages) for name in SCENES)
-    assert "drawing figure 11" in made.stages
-
-
 class TestPictures:
     def test_pressures_share_one_scale_and_are_over_hertz(self, made):
         trace, *panels = made.figures["pressure"]
@@ -171,15 +166,6 @@ class TestPictures:
                 assert figure.axes[-2].get_xlabel() == "x/a"
                 assert {axes.get_ylabel() for axes in figure.axes[:-1]} == {"z/a"}
                 assert any(t.get_text().endswith("/p₀") for t in figure.axes[-1].texts)
-
-    def test_depth_sections_carry_units_and_both_models(self, made):
-        first, near, *_ = made.figures["stresses"]
-        for figure in (first, near):
-            axes = figure.axes[0]
-            assert (axes.get_xlabel(), axes.get_ylabel()) == ("stress/p₀", "z/a")
-            labels = [line.get_label() for line in axes.lines]
-            assert sum("finite elements" in label for label in labels) == 2
-        assert near.axes[0].get_ylim() == (0.1, 0.0)
 
 
 @pytest.mark.parametrize("step", ["solve_surfaces", "sections_of"])
