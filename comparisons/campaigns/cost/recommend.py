@@ -9,7 +9,7 @@ from operator import itemgetter
 
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.reference import Reference, errors_of, references
-from comparisons.campaigns.cost.study import OK, CostRow, CostRun, measuring_machine
+from comparisons.campaigns.cost.study import OK, CostRow, measuring_machine
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import given_percent, integer, percent, with_unit
 from comparisons.common.provenance import versions
@@ -51,16 +51,16 @@ class Cost:
     machine: dict
 
 
-def assess(problem: Problem, study: CostRun) -> Cost:
+def assess(problem: Problem, measured: list[CostRow]) -> Cost:
     """Errors, Pareto fronts and recommendations of what was measured. Raises SceneError without a
     reference."""
     scene = problem.scene
     window = window_of(problem) if scene.stress is not None else None
-    known = references(problem, study, window)
+    known = references(problem, measured, window)
     if not known:
-        failed = next((row.because for row in study.rows if row.because), "nothing was solved")
+        failed = next((row.because for row in measured if row.because), "nothing was solved")
         raise SceneError(f"{scene.source}: there is no reference for errors: {failed}")
-    rows = [replace(row, errors=errors_of(row, known, problem, window)) for row in study.rows]
+    rows = [replace(row, errors=errors_of(row, known, problem, window)) for row in measured]
     floors = {name: reference.floor for name, reference in known.items()}
     return Cost(
         problem=problem,

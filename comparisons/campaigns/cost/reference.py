@@ -16,7 +16,7 @@ import numpy as np
 from analytic.exact.hertz import hertz_extremes, hertz_stress
 from comparisons.campaigns.cost.measure import MeasuredRun
 from comparisons.campaigns.cost.methods import FINEST, is_half_plane_problem
-from comparisons.campaigns.cost.study import CostRow, CostRun
+from comparisons.campaigns.cost.study import OK, CostRow
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import Uncertainty
@@ -45,14 +45,16 @@ class Reference:
     row: CostRow | None  # that it is, None where it is exact
 
 
-def references(problem: Problem, study: CostRun, window: Window | None) -> dict[str, Reference]:
+def references(
+    problem: Problem, rows: list[CostRow], window: Window | None
+) -> dict[str, Reference]:
     """By quantity; without those that no solved row has."""
     if is_exact(problem):
         return _exact(problem, window)
     names = [FINEST.name] if is_half_plane_problem(problem) else ["P1", "P2", "P3"]
     best: dict[str, Reference] = {}
     for name in names:
-        for quantity, reference in _finest(problem, study, name, window).items():
+        for quantity, reference in _finest(problem, rows, name, window).items():
             if quantity not in best or reference.floor < best[quantity].floor:
                 best[quantity] = reference
     return best
@@ -154,14 +156,14 @@ def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
 
 
 def _finest(
-    problem: Problem, study: CostRun, name: str, window: Window | None
+    problem: Problem, measured: list[CostRow], name: str, window: Window | None
 ) -> dict[str, Reference]:
     """References by the finest row of a method, with the uncertainty that its levels show."""
-    rows = study.of(name)
+    rows = [row for row in measured if row.method.name == name and row.status == OK]
     if len(rows) < 3:
         return {}
     row, before = rows[-1], rows[-2]
-    check = study.far_boundary_check.get(name)
+    check = rows[0].far_boundary_check
     levels = tuple(known.measured.level for known in rows)
     run = ModelRun(row.method.model, levels, None if check is None else check.level)
     known = [uncertainties(run, problem, friction) for friction in problem.scene.load.friction]

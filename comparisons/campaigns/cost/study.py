@@ -6,7 +6,7 @@ machine or the number of repeats differ; the time it took counts as before."""
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
@@ -55,6 +55,8 @@ class CostRow:
     status: str  # ok | failed | skipped
     because: str | None = None  # why it is not ok
     measured: MeasuredRun | None = None
+    # of a method's coarsest setting: with the far boundary at half its distance, where that counts
+    far_boundary_check: MeasuredRun | None = None
     # relative, by quantity; once they are known, and without those that the row has none of
     errors: Mapping[str, Figure] = field(default_factory=dict)
 
@@ -71,18 +73,6 @@ class CostRow:
         """Whether every error agrees with none within its tolerance; None where one is unknown."""
         errors = [self.errors.get(name) for name in quantities]
         return None if None in errors else all(error.verdict == "agree" for error in errors)
-
-
-@dataclass(frozen=True)
-class CostRun:
-    """What was measured."""
-
-    rows: tuple[CostRow, ...]  # by method, from coarse to fine
-    # the coarsest setting with the far boundary at half its distance, by method, where needed
-    far_boundary_check: dict[str, MeasuredRun]
-
-    def of(self, name: str) -> tuple[CostRow, ...]:
-        return tuple(r for r in self.rows if r.method.name == name and r.status == OK)
 
 
 def measuring_machine() -> dict:
@@ -102,10 +92,10 @@ def measured_study(
     cache: Cache,
     callback: ProgressCallback,
     methods: tuple[SolutionMethod, ...] = METHODS,
-) -> CostRun:
-    """Measure what the cache does not have, and save it there. Each method has a process of its
-    own, so that memory is its own, on one thread."""
-    spent, rows, check = 0.0, [], {}
+) -> list[CostRow]:
+    """By method, from coarse to fine. What the cache does not have is measured, and saved there.
+    Each method has a process of its own, so that memory is its own, on one thread."""
+    spent, rows = 0.0, []
     shares = SHARES[-len(methods) :]
     for number, (share, method) in enumerate(zip(shares, methods, strict=True)):
         because = why_not(method, problem)
@@ -120,10 +110,10 @@ def measured_study(
             if _wants_far_boundary_check(method, problem) and series[0].status == OK:
                 task = CostTask(problem, method, series[0].setting, half_block=True)
                 with suppress(RefusedError, ProcessEnded):
-                    check[method.name] = run(task)
+                    series[0] = replace(series[0], far_boundary_check=run(task))
         rows += series
         spent += sum(row.measured.spent for row in series if row.measured is not None)
-    return CostRun(tuple(rows), check)
+    return rows
 
 
 def _series(

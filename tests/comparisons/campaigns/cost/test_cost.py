@@ -14,7 +14,7 @@ from comparisons.campaigns.cost.cost import cost
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.recommend import scene_sections
 from comparisons.campaigns.cost.show import cells, content_of, cost_table, shown
-from comparisons.campaigns.cost.study import FOLDER, OK, CostRun
+from comparisons.campaigns.cost.study import FOLDER, OK
 from comparisons.cli import main
 from comparisons.output.terminal import PLAIN
 from comparisons.runs.run import run
@@ -159,7 +159,7 @@ class TestCommand:
         (tmp_path / "result.json").write_text("{}")
         monkeypatch.setattr(
             "comparisons.campaigns.cost.cost.measured_study",
-            lambda *a: CostRun(tuple(small[0].rows), {}),
+            lambda *a: small[0].rows,
         )
         monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda found: "")
         cost(resolved(SMOOTH), tmp_path, 1)

@@ -2,7 +2,6 @@
 
 import time
 import types
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ from comparisons.campaigns.cost.methods import (
 from comparisons.campaigns.cost.recommend import assess
 from comparisons.campaigns.cost.reference import error_of, is_exact, references
 from comparisons.campaigns.cost.show import cells, shown
-from comparisons.campaigns.cost.study import OK, CostRow, CostRun
+from comparisons.campaigns.cost.study import OK, CostRow
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
 
@@ -91,14 +90,14 @@ def study():
         CostRow(FINEST, pitch, OK, None, measure(CostTask(made, FINEST, pitch)))
         for pitch in FINEST.settings(made)[:5]
     ]
-    return made, CostRun(tuple(rows), {})
+    return made, rows
 
 
 class TestReference:
     def test_of_a_rough_half_plane_is_its_finest_with_its_uncertainty(self, study):
         made, rows = study
         found = references(made, rows, None)
-        last = rows.rows[-1]
+        last = rows[-1]
         for name, reference in found.items():
             assert reference.row is last and reference.source.startswith("hats, FFT at ")
             assert 0.0 < reference.floor < 0.05, name
@@ -119,7 +118,7 @@ class TestReference:
 
     def test_two_rows_have_no_uncertainty(self, study):
         made, rows = study
-        assert references(made, replace(rows, rows=rows.rows[:2]), None) == {}
+        assert references(made, rows[:2], None) == {}
 
 
 class TestMeasure:

@@ -19,7 +19,7 @@ from comparisons.campaigns.cost.show import (
     refusals,
     shown,
 )
-from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, CostRun, _series
+from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, _series
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
 from comparisons.common.tasks import ProcessEnded
@@ -110,7 +110,7 @@ class TestRows:
     def test_files_and_table_have_them(self, monkeypatch):
         rows = [row("P2", 1e-5, 1.0, 1e-4), row("P2", 5e-6, 1.0, 1e-4, status=FAILED)]
         rows += [CostRow(BY_NAME["P1"], None, SKIPPED, "does not apply")]
-        found = assess(problem(SMOOTH), CostRun(tuple(rows), {}))
+        found = assess(problem(SMOOTH), rows)
         names = shown(found)
         texts = [cells(found, each, names) for each in found.rows]
         assert texts[1][-1].endswith("failed") and "skipped" in texts[2]
@@ -129,7 +129,7 @@ class TestRows:
         wave = {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6}
         wavy = problem(changed(SMOOTH, profile=wave))
         with pytest.raises(SceneError, match="no reference for errors: why"):
-            assess(wavy, CostRun((CostRow(FINEST, 1e-6, FAILED, "why"),), {}))
+            assess(wavy, [CostRow(FINEST, 1e-6, FAILED, "why")])
 
 
 class TestRecommendation:
