@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from time import process_time
+from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
@@ -222,7 +222,8 @@ def answers_of(out: Path, cases: Iterable[Case]) -> Cache:
     """Answers of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
     code = program_code("analytic", "comparisons", "fem", "meshes")
-    return Cache(unfinished(out), key_of(names, versions(), code), kinds_of(Figure))
+    key = key_of(names, versions(), code)
+    return Cache(unfinished(out), key, kinds_of(Figure), by_all=True)
 
 
 @dataclass(frozen=True)
@@ -263,21 +264,32 @@ class Campaign:
         }
 
 
-def check_places(command: str, out: Path, junit: Path | None) -> None:
-    """Raise InputError unless the command's files can be written in `out`, and the file `junit`."""
+def carry_out(
+    command: str,
+    cases: Sequence[Case],
+    out: Path,
+    junit: Path | None,
+    callback: ProgressCallback,
+    concluded: Callable[[str, tuple[Row, ...], float], Campaign] = Campaign,
+    page: Callable[[Campaign], str] | None = None,
+) -> Campaign:
+    """Carry out all cases of a command, and leave <command>.json, and .html where there is a page,
+    in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written.
+
+    concluded  the campaign of command, rows and seconds"""
     check_writable(out, (f"{command}.json", f"{command}.html"))
     check_place(junit)
-
-
-def write(campaign: Campaign, out: Path, junit: Path | None, page: str | None = None) -> None:
-    """Leave <command>.json, and .html where there is a page, in `out`; JUnit XML in `junit`."""
-    if not is_first():
-        return
-    files = {f"{campaign.command}.json": as_json(finite(campaign.as_dict()))}
-    if page is not None:
-        files[f"{campaign.command}.html"] = page
-    publish(out, files)
-    write_junit(junit, junit_of(campaign))
+    start, kept = perf_counter(), answers_of(out, cases)
+    rows = rows_of(cases, callback, kept)
+    campaign = concluded(command, rows, perf_counter() - start)
+    if is_first():
+        files = {f"{command}.json": as_json(finite(campaign.as_dict()))}
+        if page is not None:
+            files[f"{command}.html"] = page(campaign)
+        publish(out, files)
+        write_junit(junit, junit_of(campaign))
+    kept.discard()
+    return campaign
 
 
 def junit_of(campaign: Campaign) -> str:

@@ -27,7 +27,7 @@ OPERATORS: dict[str, Callable[[int], Convolution]] = {
 }
 
 
-def direct_findings(operator: str, count: int, nodes: Sequence[int] | None = None) -> CaseFigures:
+def direct_figures(operator: str, count: int, nodes: Sequence[int] | None = None) -> CaseFigures:
     """Nodes from the first to the second of `nodes`, or 120 scattered ones."""
     made, rng = OPERATORS[operator](count), np.random.default_rng(1)
     scattered = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
@@ -40,7 +40,7 @@ def direct_findings(operator: str, count: int, nodes: Sequence[int] | None = Non
     return figure, account(CONDITION, "dense", np.linalg.cond(matrix))
 
 
-def product_findings(operator: str, count: int, single: bool = False) -> CaseFigures:
+def product_figures(operator: str, count: int, single: bool = False) -> CaseFigures:
     """A product by FFT against one in longer numbers, row by row; `single` with 32-bit pressures.
     The ratio grows like log n at most, which THRESHOLD leaves room for."""
     made = OPERATORS[operator](count)

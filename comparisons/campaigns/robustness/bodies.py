@@ -83,7 +83,7 @@ def body_on(
     return elastic_body(mesh_named(mesh), Material(*material), held, degree=degree, coating=layer)
 
 
-def factor_findings(mesh: str = "plain", **settings: object) -> CaseFigures:
+def factor_figures(mesh: str = "plain", **settings: object) -> CaseFigures:
     """Random forces, and the forces of a hat: residual against rounding, and the condition."""
     body = body_on(mesh, **settings)
     matrix = csr_matrix(body.stiffness())
@@ -114,7 +114,7 @@ def factor_findings(mesh: str = "plain", **settings: object) -> CaseFigures:
     )
 
 
-def even_findings(mesh: str = "plain", **settings: object) -> CaseFigures:
+def even_figures(mesh: str = "plain", **settings: object) -> CaseFigures:
     """Even compression, which elements of any shape represent, below a rough boundary, too. uz =
     depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu)."""
     body = body_on(mesh, support="even", **settings)
@@ -151,7 +151,7 @@ def pressed(
     return compliance, solve_with_model(compliance, model, gap, grid.weights, constraints)
 
 
-def closed_findings() -> CaseFigures:
+def closed_figures() -> CaseFigures:
     """A load that closes all gaps of a rough line: every node touches."""
     grid, load = HatGrid(0.1, -14, 14), 10.0
     height = 1e-3 * np.random.default_rng(8).standard_normal(grid.count)
@@ -161,7 +161,7 @@ def closed_findings() -> CaseFigures:
     expected = np.linalg.solve(system, np.append(grid.pitch * height, load))[:-1]
     asymmetry = float(np.abs(matrix - matrix.T).max() / np.abs(matrix).max())
     touching = np.count_nonzero(solution.pressure)
-    return finite_element_findings(
+    return finite_element_figures(
         solution,
         deviation(solution.pressure, expected, "pressure", SAME, "elimination on the whole matrix"),
         bounded("nodes in contact", touching, grid.count, "all", low=grid.count),
@@ -170,17 +170,17 @@ def closed_findings() -> CaseFigures:
     )
 
 
-def slope_findings() -> CaseFigures:
+def slope_figures() -> CaseFigures:
     """A rough boundary of rms slope 1: quadratic against cubic displacements on one mesh."""
     grid = HatGrid(0.1, -12, 12)
     line = -(grid.x**2) / 20.0, 0.05, grid, "rough"
     (_, quadratic), (_, cubic) = (pressed(*line, degree) for degree in (2, 3))
     reference = "cubic elements, same mesh"
     figure = deviation(quadratic.pressure, cubic.pressure, "pressure", 2e-2, reference)
-    return finite_element_findings(quadratic, figure)
+    return finite_element_figures(quadratic, figure)
 
 
-def finite_element_findings(
+def finite_element_figures(
     solution: ContactSolution,
     *figures: Figure,
     most: int = MOST_STEPS,

@@ -69,7 +69,7 @@ def ordinary_shape() -> tuple[np.ndarray, float]:
     return contact.pressure / hertz.peak_pressure, contact.contact_length / hertz.half_width
 
 
-def hertz_findings(
+def hertz_figures(
     body: Constants = STEEL,
     roller: Constants | None = None,
     radius: float = 8.2e-3,
@@ -79,7 +79,7 @@ def hertz_findings(
     peak, half_width = hertz.peak_pressure, hertz.half_width
     (shape, length), reference = ordinary_shape(), "the ordinary case"
     scaled = contact.contact_length / half_width
-    return contact.findings(
+    return contact.figures(
         *peak_and_length(contact, (peak, half_width), HIGHS, "Hertz, exact"),
         deviation(contact.pressure / peak, shape, "shape", SAME, reference),
         relative_error("scaled length", scaled, length, 1e-7, reference),
@@ -87,7 +87,7 @@ def hertz_findings(
     )
 
 
-def sized_findings(points: int) -> CaseFigures:
+def sized_figures(points: int) -> CaseFigures:
     """Hertz on so many hats, a third of which touch; few of them by least squares, too."""
     half_width = points / 6.0 + 0.3
     hertz = hertz_from_peak_pressure(1.0, 0.5 * half_width, 1.0)
@@ -100,10 +100,10 @@ def sized_findings(points: int) -> CaseFigures:
     figures = [bounded("pressure, L2", distance, 0.4 / half_width, reference)]
     if points <= 64:
         figures.append(least_squares_deviation(contact, 1.0))
-    return contact.findings(*figures)
+    return contact.figures(*figures)
 
 
-def hardness_findings(over_peak: float) -> CaseFigures:
+def hardness_figures(over_peak: float) -> CaseFigures:
     """Hardness just above or below the peak: 1 + `over_peak` of the highest pressure found."""
     pitch = 1.0 / HATS_PER_HALF_WIDTH
     operator = HalfPlane(CYLINDER_COUNT, pitch, 1.0)
@@ -114,14 +114,14 @@ def hardness_findings(over_peak: float) -> CaseFigures:
     if over_peak < -1e-3:
         exact, length = flattened_cylinder(load, 0.5, 1.0, hardness), 0.5 * capped.contact_length
         reference = "flattened cylinder, exact"
-        return capped.findings(
+        return capped.figures(
             relative_error("contact length", length, exact.contact, HIGHS[1], reference),
             flowed_figure(capped.pressure >= hardness, pitch, exact.flowed),
         )
     # the cap takes off `over_peak` of the peak, over a share of the contact: no more may change
     high = SAME if over_peak > 0.0 else max(SAME, 3.0 * abs(over_peak))
     reference = "the uncapped contact"
-    return capped.findings(deviation(capped.pressure, plain.pressure, "pressure", high, reference))
+    return capped.figures(deviation(capped.pressure, plain.pressure, "pressure", high, reference))
 
 
 def flowed_figure(flowed: np.ndarray, pitch: float, half_width: float) -> Figure:
@@ -143,23 +143,23 @@ def pressed(
     return load_line(HalfPlane(len(height), pitch, modulus), height, Constraints(load=load))
 
 
-def vanishing_findings(load: float) -> CaseFigures:
+def vanishing_figures(load: float) -> CaseFigures:
     """Under next to no load one node alone carries it, and the gap is as it was."""
     height = rough(LINE_COUNT)
     contact = pressed(height, load)
     opened = np.abs(contact.solution.gap - (height.max() - height)).max() / np.ptp(height)
     touching, reference = np.count_nonzero(contact.pressure), "the load over the node's weight"
-    return contact.findings(
+    return contact.figures(
         bounded("nodes in contact", touching, 1, "one", low=1),
         relative_error("pressure", contact.pressure.max(), load, 4e-16, reference),
         bounded("gap", opened, max(1e-14, 10.0 * load), "the initial gap"),
     )
 
 
-def shape_findings(shape: str, load: float) -> CaseFigures:
+def shape_figures(shape: str, load: float) -> CaseFigures:
     """Few nodes against bounded least squares, which needs no iteration of ours."""
     contact = pressed(SHAPES[shape](FEW), load)
-    return contact.findings(least_squares_deviation(contact, 1.0), dense_violation(contact, 1.0))
+    return contact.figures(least_squares_deviation(contact, 1.0), dense_violation(contact, 1.0))
 
 
 def plateau(count: int) -> np.ndarray:
@@ -182,7 +182,7 @@ def steps(count: int) -> np.ndarray:
 SHAPES = {"plateau": plateau, "spike": spike, "steps": steps, "flat": np.zeros}
 
 
-def scaled_findings(
+def scaled_figures(
     metre: float = TRACE, pascal: float = 1.0, same: float = SAME, amplitude: float | None = None
 ) -> CaseFigures:
     """All lengths times `metre`, all stresses times `pascal`, and heights, to which pressures are
@@ -195,7 +195,7 @@ def scaled_findings(
     approach = other.solution.approach / usual.solution.approach
     spent, most = (line.solution.iterations["applications"] for line in (other, usual))
     pressure = other.pressure / (pascal * slope)
-    return other.findings(
+    return other.figures(
         deviation(pressure, usual.pressure, "pressure", same, reference),
         relative_error("contact length", length, metre, max(1e2 * same, 1e-15), reference),
         relative_error("approach", approach, metre * slope, same, reference),
@@ -203,7 +203,7 @@ def scaled_findings(
     )
 
 
-def sliding_findings(
+def sliding_figures(
     body: Constants = SOFT, roller: Constants | None = None, friction: float = 1.0
 ) -> CaseFigures:
     """A cylinder that slides (`roller` None: rigid) against the exact one."""
@@ -219,7 +219,7 @@ def sliding_findings(
     x, pressure = contact.x, contact.pressure
     reference = "sliding cylinder, exact"
     place = abs(x @ pressure / pressure.sum() - exact.load_position) / size
-    return contact.findings(
+    return contact.figures(
         relative_error("peak pressure", pressure.max(), exact.peak_pressure, BY_GRID, reference),
         bounded("trailing edge", abs(start - left) / size, 1e-2, reference),
         bounded("leading edge", abs(stop - right) / size, 1e-2, reference),
@@ -228,13 +228,13 @@ def sliding_findings(
     )
 
 
-def sliding_line_findings(friction_dundurs: float) -> CaseFigures:
+def sliding_line_figures(friction_dundurs: float) -> CaseFigures:
     operator = CoupledHalfPlane(LINE_COUNT, 1.0, 1.0, friction_dundurs)
     contact = load_line(operator, rough(LINE_COUNT), Constraints(load=LOAD))
-    return contact.findings(dense_violation(contact, 1.0, friction_dundurs))
+    return contact.figures(dense_violation(contact, 1.0, friction_dundurs))
 
 
-def coated_findings(
+def coated_figures(
     coating: Constants, thickness: float, base: Constants, equivalent: Constants, high: float
 ) -> CaseFigures:
     """A coating so thin or thick (over a) that it is a half-plane of the `equivalent` material."""
@@ -245,4 +245,4 @@ def coated_findings(
     contact = load_cylinder(LayeredSurface(CYLINDER_COUNT, PITCH, body), *under_load)
     plain = load_cylinder(HalfPlane(CYLINDER_COUNT, PITCH, modulus), *under_load).pressure
     reference = "the equivalent half-plane"
-    return contact.findings(deviation(contact.pressure, plain, "pressure", high, reference))
+    return contact.figures(deviation(contact.pressure, plain, "pressure", high, reference))

@@ -64,7 +64,7 @@ class LoadedContact:
         """Sum of the patches [m]."""
         return float(np.ptp(self.patches, axis=1).sum())
 
-    def findings(self, *figures: Figure) -> CaseFigures:
+    def figures(self, *figures: Figure) -> CaseFigures:
         """The figures, the contact conditions, and the operator's applications; with the condition
         number of the compliance of few nodes in contact."""
         spent = float(self.solution.iterations["applications"])

@@ -5,9 +5,8 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from time import perf_counter
 
-from comparisons.campaigns.cases import Campaign, Case, answers_of, check_places, rows_of, write
+from comparisons.campaigns.cases import Campaign, Case, carry_out
 from comparisons.common.progress import ProgressCallback, no_progress
 
 
@@ -35,10 +34,4 @@ def run_robustness(
 ) -> Campaign:
     """Run all cases; leave stability.json in `out`, JUnit XML in the file `junit`. Raises
     InputError where those cannot be written."""
-    check_places("stability", out, junit)
-    start, named = perf_counter(), tuple(cases())
-    kept = answers_of(out, named)
-    campaign = Campaign("stability", rows_of(named, callback, kept), perf_counter() - start)
-    write(campaign, out, junit)
-    kept.discard()
-    return campaign
+    return carry_out("stability", tuple(cases()), out, junit, callback)

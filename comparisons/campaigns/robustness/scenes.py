@@ -14,7 +14,7 @@ from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.sliding import sliding_from_load
 from analytic.material import dundurs_constants
 from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
-from comparisons.campaigns.robustness.bodies import MOST_STEPS, finite_element_findings
+from comparisons.campaigns.robustness.bodies import MOST_STEPS, finite_element_figures
 from comparisons.campaigns.robustness.half_plane import flowed_figure
 from comparisons.campaigns.robustness.loaded_contact import deviation, peak_and_length
 from comparisons.common.progress import Stages
@@ -65,31 +65,31 @@ def ordinary_level() -> Level:
     return finite_element_solution(ORDINARY)[1]
 
 
-def findings(level: Level, *figures: Figure, most: int = MOST_STEPS) -> CaseFigures:
+def level_figures(level: Level, *figures: Figure, most: int = MOST_STEPS) -> CaseFigures:
     """Of a level, its steps beside those of the ordinary scene."""
     ordinary = ordinary_level().solution.iterations["steps"]
-    return finite_element_findings(level.solution, *figures, most=most, ordinary=ordinary)
+    return finite_element_figures(level.solution, *figures, most=most, ordinary=ordinary)
 
 
-def hertz_findings(peak: float = PEAK, **tables: dict) -> CaseFigures:
+def hertz_figures(peak: float = PEAK, **tables: dict) -> CaseFigures:
     """Of the ordinary scene with other fields; `peak`, what its relative error may be."""
     problem, level = finite_element_solution(changed(tables))
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
-    return findings(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
+    return level_figures(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
 
 
-def shear_findings(**tables: dict) -> CaseFigures:
+def shear_figures(**tables: dict) -> CaseFigures:
     problem, level = finite_element_solution(changed(tables | {"stress": {"points": [40, 20]}}))
     hertz, largest = problem.hertz, level.stresses[0].extremes["tau1"]
     depth, reference = hertz.tau1_max_depth, "Hertz, exact"
-    return findings(
+    return level_figures(
         level,
         relative_error("tau1", largest.value, hertz.tau1_max, 1e-2, reference),
         relative_error("depth of tau1", largest.z, depth, 3e-2, reference),
     )
 
 
-def sliding_findings(**tables: dict) -> CaseFigures:
+def sliding_figures(**tables: dict) -> CaseFigures:
     """A rigid roller that slides, its traction moving the surface."""
     problem, level = finite_element_solution(changed(tables))
     hertz, (friction,) = problem.hertz, problem.scene.load.friction
@@ -97,7 +97,7 @@ def sliding_findings(**tables: dict) -> CaseFigures:
     exact = sliding_from_load(hertz.load_per_length, hertz.radius, problem.modulus, friction, beta)
     x, pressure, reference = level.grid.x, level.solution.pressure, "sliding cylinder, exact"
     place = abs(x @ pressure / pressure.sum() - exact.load_position) / exact.half_width
-    return findings(
+    return level_figures(
         level,
         relative_error("peak pressure", pressure.max(), exact.peak_pressure, PEAK, reference),
         bounded("place of the load", place, PLACE, reference),
@@ -105,16 +105,16 @@ def sliding_findings(**tables: dict) -> CaseFigures:
     )
 
 
-def hardness_findings(share: float) -> CaseFigures:
+def hardness_figures(share: float) -> CaseFigures:
     hardness = share * float(ordinary_level().solution.pressure.max())
     if share >= 1.0:
-        return hertz_findings(body={"hardness": hardness})
+        return hertz_figures(body={"hardness": hardness})
     problem, level = finite_element_solution(changed({"body": {"hardness": hardness}}))
     hertz = problem.hertz
     exact = flattened_cylinder(hertz.load_per_length, hertz.radius, problem.modulus, hardness)
     length, reference = 0.5 * level.contact_length, "flattened cylinder, exact"
     flowed = level.solution.pressure >= hardness * (1.0 - 1e-9)
-    return findings(
+    return level_figures(
         level,
         relative_error("contact length", length, exact.contact, LENGTH, reference),
         flowed_figure(flowed, level.grid.pitch, exact.flowed),
@@ -130,14 +130,14 @@ def in_units(metre: float, pascal: float) -> Tables:
     }
 
 
-def unit_findings(metre: float, pascal: float) -> CaseFigures:
+def unit_figures(metre: float, pascal: float) -> CaseFigures:
     """In other units the same triangles and the same figures."""
     usual = ordinary_level()
     _, level = finite_element_solution(in_units(metre, pascal))
     length = level.contact_length / usual.contact_length
     pressure, expected = level.solution.pressure / pascal, usual.solution.pressure
     unknowns = level.unknowns / usual.unknowns
-    return findings(
+    return level_figures(
         level,
         deviation(pressure, expected, "pressure", SAME, "in metres"),
         relative_error("contact length", length, metre, 1e-5, "in metres"),
@@ -145,21 +145,21 @@ def unit_findings(metre: float, pascal: float) -> CaseFigures:
     )
 
 
-def layer_findings(a_over_t: float, high: float = THICK, **tables: dict) -> CaseFigures:
+def layer_figures(a_over_t: float, high: float = THICK, **tables: dict) -> CaseFigures:
     """A layer of thickness t on a rigid base against the analytic one on the same hats."""
     thickness = problem_from(ORDINARY).hertz.half_width / a_over_t
     body = tables.get("body", {}) | {"thickness": thickness}
-    return analytic_findings(tables | {"body": body}, high)
+    return analytic_figures(tables | {"body": body}, high)
 
 
-def coating_findings(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> CaseFigures:
+def coating_figures(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> CaseFigures:
     """A coating against the analytic one on the same hats."""
     coating = {"youngs_modulus": times_as_stiff * STEEL["youngs_modulus"], "poissons_ratio": 0.25}
     coating["thickness"] = problem_from(ORDINARY).hertz.half_width / a_over_t
-    return analytic_findings({"coating": coating}, THICK, refinement)
+    return analytic_figures({"coating": coating}, THICK, refinement)
 
 
-def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> CaseFigures:
+def analytic_figures(tables: Tables, high: float, refinement: int = 0) -> CaseFigures:
     problem, level = finite_element_solution(changed(tables), refinement)
     grid, pressure = level.grid, level.solution.pressure
     expected = solve_contact(
@@ -170,7 +170,7 @@ def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> CaseF
     ).pressure
     error = float(np.linalg.norm(pressure - expected) / np.linalg.norm(expected))
     reference = "the analytic layer on the same hats"
-    return findings(
+    return level_figures(
         level,
         bounded("pressure, L2", error, high, reference),
         relative_error("peak pressure", pressure.max(), expected.max(), high, reference),

@@ -22,10 +22,10 @@ SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_
 
 def independent_cases(names: Iterable[str] = SCENES) -> list[Case]:
     model, group = "finite_element", "independent solver"
-    return [Case(group, n, model, partial(independent_findings, n)) for n in names]
+    return [Case(group, n, model, partial(independent_figures, n)) for n in names]
 
 
-def independent_findings(name: str) -> CaseFigures:
+def independent_figures(name: str) -> CaseFigures:
     """Largest difference of the pressures under one load, over the largest pressure; and relative
     difference of the loads at one approach."""
     from comparisons.models.finite_element.bodies import BodyCache, bodies_of

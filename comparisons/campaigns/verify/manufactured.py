@@ -160,11 +160,11 @@ def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
 
 
 def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[Case]:
-    model, group, solve = "finite_element", "manufactured", manufactured_findings
+    model, group, solve = "finite_element", "manufactured", manufactured_figures
     return [Case(group, f"{k}, P{d}", model, partial(solve, k, d)) for k, d in bodies]
 
 
-def manufactured_findings(kind: str, degree: int) -> CaseFigures:
+def manufactured_figures(kind: str, degree: int) -> CaseFigures:
     coarse, fine = (np.array(errors_of(kind, cells, degree)) for cells in CELLS[degree])
     orders, reference = np.log2(coarse / fine), "manufactured displacement"
     figures = []

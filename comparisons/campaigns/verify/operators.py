@@ -70,13 +70,13 @@ def operator_cases(contacts: Sequence[OperatorContact], resolutions: Sequence[fl
             contact.kind,
             f"{contact.name}, {elements:g} elements",
             contact.model,
-            partial(operator_findings, contact, elements),
+            partial(operator_figures, contact, elements),
         )
         for contact, elements in zip(contacts, resolutions, strict=True)
     ]
 
 
-def operator_findings(case: OperatorContact, elements: float) -> CaseFigures:
+def operator_figures(case: OperatorContact, elements: float) -> CaseFigures:
     levels = [_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1)]
     history = [_values(case, *level) for level in levels]
     grid, solution = levels[-1]

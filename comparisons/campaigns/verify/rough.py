@@ -91,20 +91,16 @@ def rough_scenes(
     """So many half-planes for the half-plane and for the finite elements, and bodies of LAYERED for
     the finite elements; with the model error where there are finite elements."""
     bodies = [HALF_PLANE] * (half_planes + finite_elements) + list(LAYERED[:layers])
-    scenes = []
     resolutions = spread(half_planes, *ELEMENTS) + spread(len(bodies) - half_planes, *MESHED)
+    scenes = []
     for seed, (body, elements) in enumerate(zip(bodies, resolutions, strict=True)):
         held = seed % 2 or body.base is not None
         settings = {} if held else {"far_field": "half-plane"}
         contact = rough_contact(seed, body, MANY if seed < half_planes else FEW)
         scene = rough_scene(_name(seed, body, contact), contact, elements, settings)
-        if seed < half_planes:
-            scene = replace(scene, models=("half_plane",))
-        elif body.base is None:
-            scene = replace(scene, half_plane=partial(_no_error, scene))
-        else:
-            scene = replace(scene, half_plane=fine_half_plane)
-        scenes.append(scene)
+        reference = partial(_no_error, scene) if body.base is None else fine_half_plane
+        asked = {"models": ("half_plane",)} if seed < half_planes else {"half_plane": reference}
+        scenes.append(replace(scene, **asked))
     return tuple(scenes)
 
 
@@ -139,36 +135,28 @@ def rough_scene(
         "txz_max_abs": extremes["txz"].value,
     }
     name += f", {elements:g} elements"
-    given = contact.pressure, ("finite_element",), trace_of(contact)
-    return ExactScene(name, SOURCE, "rough", tables, exact, *given)
+    solved = contact.pressure, ("finite_element",), trace_of(contact)
+    return ExactScene(name, SOURCE, "rough", tables, exact, *solved)
 
 
 def rough_operator_contacts() -> tuple[OperatorContact, ...]:
     """Layers and coatings on the library's own operators."""
-    found = []
-    for seed, body in enumerate(LAYERED * 2):
-        contact = rough_contact(seed, body)
-        margin = 0.5 * REACH
-        found.append(
-            OperatorContact(
-                name=_name(seed, body, contact),
-                source=SOURCE,
-                kind="rough",
-                model="layer",
-                make=partial(LayeredSurface, body=contact.layer),
-                gap=contact.gap,
-                knots=(),
-                load=contact.load,
-                span=(contact.ends[0] - margin, contact.ends[1] + margin),
-                scale=_half_patch(contact),
-                exact={
-                    "peak_pressure": contact.peak_pressure,
-                    "contact_length": contact.contact_length,
-                },
-                patches=len(contact.patches),
-            )
-        )
-    return tuple(found)
+    return tuple(_operator_contact(seed, body) for seed, body in enumerate(LAYERED * 2))
+
+
+def _operator_contact(seed: int, body: RoughBody) -> OperatorContact:
+    contact, margin = rough_contact(seed, body), 0.5 * REACH
+    return OperatorContact(
+        *(_name(seed, body, contact), SOURCE, "rough", "layer"),
+        make=partial(LayeredSurface, body=contact.layer),
+        gap=contact.gap,
+        knots=(),
+        load=contact.load,
+        span=(contact.ends[0] - margin, contact.ends[1] + margin),
+        scale=_half_patch(contact),
+        exact={name: getattr(contact, name) for name in ("peak_pressure", "contact_length")},
+        patches=len(contact.patches),
+    )
 
 
 def roller_radius(contact: ManufacturedContact) -> float:

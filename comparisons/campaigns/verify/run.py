@@ -7,9 +7,8 @@ orders (`coverage`); manufactured solutions (`manufactured`); the contact by PET
 
 from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter
 
-from comparisons.campaigns.cases import Case, answers_of, carried_out, check_places, rows_of, write
+from comparisons.campaigns.cases import Case, Row, carried_out, carry_out
 from comparisons.campaigns.verify.coverage import (
     FEWEST,
     FEWEST_ROUGH,
@@ -62,15 +61,12 @@ def verify(
     InputError where those cannot be written, and under mpirun."""
     if is_several():
         raise InputError("verify: runs in several processes; allowed is one, without mpirun")
-    check_places("verify", out, junit)
     scope = scope or everything()
-    start = perf_counter()
+
+    def concluded(command: str, rows: tuple[Row, ...], seconds: float) -> Verification:
+        exact, others = rows[: len(scope.exact)], rows[len(scope.exact) :]
+        rows = (*exact, *map(carried_out, order_cases(exact)), *others)
+        return verification(rows, seconds, scope.fewest, scope.fewest_rough)
+
     cases = (*scope.exact, *scope.others)
-    kept = answers_of(out, cases)
-    rows = rows_of(cases, callback, kept)
-    exact, others = rows[: len(scope.exact)], rows[len(scope.exact) :]
-    rows = (*exact, *map(carried_out, order_cases(exact)), *others)
-    verified = verification(rows, perf_counter() - start, scope.fewest, scope.fewest_rough)
-    write(verified, out, junit, verify_page(verified))
-    kept.discard()
-    return verified
+    return carry_out("verify", cases, out, junit, callback, concluded, verify_page)

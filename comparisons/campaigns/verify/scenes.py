@@ -221,13 +221,13 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
 
 def scene_cases(scenes: Iterable[ExactScene]) -> list[Case]:
     return [
-        Case(scene.kind, scene.name, model, partial(scene_findings, scene, model))
+        Case(scene.kind, scene.name, model, partial(scene_figures, scene, model))
         for scene in scenes
         for model in scene.models
     ]
 
 
-def scene_findings(scene: ExactScene, model: str) -> Iterator[Figure]:
+def scene_figures(scene: ExactScene, model: str) -> Iterator[Figure]:
     """Solve a scene with one model, as `run` does, and compare each figure with the exact one.
     Where the half-plane's are known too, both solve it, and its model error is compared."""
     asked = Scene.of(scene.tables, Origin("verify", source=f"verify: {scene.name}"))

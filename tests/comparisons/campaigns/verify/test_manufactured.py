@@ -12,7 +12,7 @@ from comparisons.campaigns.verify.manufactured import (
     BODY,
     Exact,
     errors,
-    manufactured_findings,
+    manufactured_figures,
     skewed,
 )
 from fem.body import elasticity
@@ -24,7 +24,7 @@ from meshes.real_shape import roughen
 @pytest.mark.parametrize("degree", [1, 2, 3])
 @pytest.mark.parametrize("kind", BODIES)
 def test_orders(kind, degree):
-    figures = manufactured_findings(kind, degree)
+    figures = manufactured_figures(kind, degree)
     assert len(figures) == 4
     assert [figure for figure in figures if not holds(figure)] == []
 
