@@ -6,7 +6,8 @@ process on one thread; it is on disk as soon as it is done."""
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -78,6 +79,11 @@ Answer = tuple[dict, float | None]  # with the seconds that it took, where that 
 def failed(why: str) -> dict:
     """The answer where there is none."""
     return {"status": FAILED, "why": one_line(why)}
+
+
+def failures(points: Iterable[dict]) -> Counter[str]:
+    """How many of a campaign's points failed, by why."""
+    return Counter(point["why"] for point in points if point["status"] == FAILED)
 
 
 @contextmanager

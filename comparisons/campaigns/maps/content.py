@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.grid import FAILED, SOLVED
+from comparisons.campaigns.grid import FAILED, SOLVED, failures
 from comparisons.campaigns.maps.groups import GROUPS, Axis
 from comparisons.campaigns.maps.point import TOLERANCES
 from comparisons.campaigns.maps.request import MapRequest
@@ -140,11 +140,10 @@ def map_table(content: dict, out: Path | None) -> "Group":
         FAILED: "failed",
     }
     counts = ", ".join(f"{kinds[kind]} {words}" for kind, words in account.items() if kinds[kind])
-    reasons = Counter(point["why"] for point in points if point["status"] == FAILED)
     return Group(
         rules,
         Text(f"{len(points)} points: {counts}"),
-        *(Text(f"failed, {count}: {why}") for why, count in reasons.most_common()),
+        *(Text(f"failed, {count}: {why}") for why, count in failures(points).most_common()),
         Text(f"made by: {content['command']}"),
         *([] if out is None else [Text(f"map: {out / MAP}, {out / PICTURE}")]),
     )

@@ -4,7 +4,7 @@ In: a request, or the name of a map that comes with the project. Out: map.json a
 
 from pathlib import Path
 
-from comparisons.campaigns.grid import FAILED, solved_in
+from comparisons.campaigns.grid import failures, solved_in
 from comparisons.campaigns.maps.content import MAP, PICTURE, map_content, showing
 from comparisons.campaigns.maps.place import finished_map, mark_of
 from comparisons.campaigns.maps.point import NOT_CONVERGED, solve_point
@@ -61,6 +61,5 @@ def _files(content: dict, marked: Problem | None) -> dict[str, str]:
 
 def exit_status(content: dict) -> ExitStatus:
     """3 where a solver did not converge at a point."""
-    whys = [point["why"] for point in content["points"] if point["status"] == FAILED]
-    failed = any(NOT_CONVERGED in why for why in whys)
+    failed = any(NOT_CONVERGED in why for why in failures(content["points"]))
     return ExitStatus.NOT_CONVERGED if failed else ExitStatus.DONE

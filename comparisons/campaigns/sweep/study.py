@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.grid import FAILED, SOLVED, Point, solved_in
+from comparisons.campaigns.grid import SOLVED, Point, failures, solved_in
 from comparisons.campaigns.sweep.request import SweepRequest
 from comparisons.common.errors import InputError
 from comparisons.common.files import publish
@@ -49,8 +49,9 @@ def make_sweep(
     if answers is None:
         return None
     content = sweep_content(request, [answer for answer, _ in answers])
-    if all(point["status"] == FAILED for point in content["points"]):
-        raise InputError(content["points"][0]["why"])
+    whys = failures(content["points"])
+    if whys.total() == len(content["points"]):
+        raise InputError(next(iter(whys)))
     from comparisons.campaigns.sweep.pictures import bulge_curve, sweep_picture, zone_map
 
     files = {TABLE: sweep_csv(content), PICTURE: sweep_picture(content), SWEEP: as_json(content)}
@@ -169,14 +170,14 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
     for row in content["scatter"]:
         table.add_row(*(cell.translate(PLAIN) for cell in _cells(row)))
     points = content["points"]
-    whys = [point["why"] for point in points if point["status"] == FAILED]
+    whys = failures(points)
     pictures = [file for name, file in PICTURES.items() if any(name in p for p in points)]
     files = TABLE, PICTURE, *pictures, SWEEP
     over = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in content["over"])
     return Group(
         table,
-        Text(f"{len(points)} scenes ({over}), {len(whys)} failed"),
-        *(Text(f"failed, {whys.count(why)}: {why}") for why in dict.fromkeys(whys)),
+        Text(f"{len(points)} scenes ({over}), {whys.total()} failed"),
+        *(Text(f"failed, {count}: {why}") for why, count in whys.items()),
         *([] if out is None else [Text(f"sweep: {', '.join(str(out / name) for name in files)}")]),
     )
 
