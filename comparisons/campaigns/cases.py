@@ -106,25 +106,18 @@ class Case:
 
 
 @dataclass(frozen=True)
-class CaseAnswer:
-    """What a case yields; `error` is the message of what it raised, else None."""
+class Row:
+    """A case with what it yields; `error` is the message of what it raised, else None."""
 
+    case: Case
     figures: CaseFigures
     error: str | None
     seconds: float  # of a processor
 
-
-@dataclass(frozen=True)
-class Row:
-    """A case with its answer."""
-
-    case: Case
-    answer: CaseAnswer
-
     @property
     def judged(self) -> CaseFigures:
         """The figures that decide; the first is what the case is about."""
-        return tuple(figure for figure in self.answer.figures if figure.bounds is not None)
+        return tuple(figure for figure in self.figures if figure.bounds is not None)
 
     @property
     def failed(self) -> list[Figure]:
@@ -133,7 +126,7 @@ class Row:
     @property
     def fault(self) -> str | None:
         """Why there is nothing to judge."""
-        return self.answer.error or (None if self.judged else NOTHING)
+        return self.error or (None if self.judged else NOTHING)
 
     @property
     def holds(self) -> bool:
@@ -142,11 +135,11 @@ class Row:
     @property
     def condition(self) -> float | None:
         """The condition number of the case's matrix; None where it has none."""
-        return next((f.value for f in self.answer.figures if f.study == CONDITION), None)
+        return next((f.value for f in self.figures if f.study == CONDITION), None)
 
     @property
     def cost(self) -> dict[str, float]:
-        return {f.quantity: f.value for f in self.answer.figures if f.study == COST}
+        return {f.quantity: f.value for f in self.figures if f.study == COST}
 
     @property
     def decisive(self) -> Figure | None:
@@ -182,16 +175,18 @@ class Row:
             ],
             "condition": self.condition,
             "cost": self.cost,
-            "seconds": self.answer.seconds,
-            "error": self.answer.error,
+            "seconds": self.seconds,
+            "error": self.error,
         }
 
 
 def carried_out(case: Case) -> Row:
-    return Row(case, _answer(None, case.solve))
+    return Row(case, *_solved(None, case.solve))
 
 
-def _answer(here: Here | None, solve: Callable[[], Iterable[Figure]]) -> CaseAnswer:
+def _solved(
+    here: Here | None, solve: Callable[[], Iterable[Figure]]
+) -> tuple[CaseFigures, str | None, float]:
     start, figures, error = process_time(), (), None
     try:
         with warnings.catch_warnings():
@@ -199,7 +194,7 @@ def _answer(here: Here | None, solve: Callable[[], Iterable[Figure]]) -> CaseAns
             figures = tuple(solve())
     except Exception as raised:
         error = one_line(f"{type(raised).__name__}: {raised}")
-    return CaseAnswer(figures, error, process_time() - start)
+    return figures, error, process_time() - start
 
 
 def rows_of(
@@ -210,16 +205,16 @@ def rows_of(
     cases, rows = tuple(cases), []
     with tasks_here(kept=kept) as tasks:
         for number, case in enumerate(cases, start=1):
-            tasks.add(str(number), _answer, case.solve, seconds=USUAL_SECONDS.get(case.model, 0.0))
+            tasks.add(str(number), _solved, case.solve, seconds=USUAL_SECONDS.get(case.model, 0.0))
         for number, case in enumerate(cases, start=1):
             failed = sum(not row.holds for row in rows)
             name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
             name += f"{case.model}: {case.group}: {case.name}"
             callback(Step(name, (number - 1) / len(cases)))
             try:
-                rows.append(Row(case, tasks.result(str(number))))
+                rows.append(Row(case, *tasks.result(str(number))))
             except ProcessEnded:
-                rows.append(Row(case, CaseAnswer((), ENDED, 0.0)))
+                rows.append(Row(case, (), ENDED, 0.0))
     return tuple(rows)
 
 
@@ -227,7 +222,7 @@ def answers_of(out: Path, cases: Iterable[Case]) -> Cache:
     """Answers of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
     code = program_code("analytic", "comparisons", "fem", "meshes")
-    return Cache(unfinished(out), key_of(names, versions(), code), kinds_of(CaseAnswer))
+    return Cache(unfinished(out), key_of(names, versions(), code), kinds_of(Figure))
 
 
 @dataclass(frozen=True)
@@ -315,12 +310,12 @@ def rows_table(rows: Sequence[Row]) -> "Table":
                 MODEL_LABELS[row.case.model],
                 Text(f"{row.case.group}: {row.case.name}"),
                 Text("yes", style="green") if row.holds else Text("NO", style="bold red"),
-                Text(row.answer.error or about or NOTHING),
+                Text(row.error or about or NOTHING),
                 f"{shown.value:.2g}" if shown else "",
                 bounds_text(shown) if shown else "",
                 "" if row.condition is None else f"{row.condition:.0e}",
                 "" if cost is None else f"{cost:.1f}",
-                f"{row.answer.seconds:.1f}",
+                f"{row.seconds:.1f}",
             )
         )
     filled = [k for k in range(len(COLUMNS)) if any(row[k] for row in cells)]

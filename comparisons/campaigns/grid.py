@@ -80,10 +80,6 @@ def failed(why: str) -> dict:
     return {"status": FAILED, "why": one_line(why)}
 
 
-def point_cache(out: Path, what: str) -> Cache:
-    return Cache(out / f"{what}_points", "", {})
-
-
 @contextmanager
 def tasks_by(workers: int | str | None, kept: Cache) -> Iterator[Tasks | None]:
     """Tasks on so many processes, one a core (None), or on a Dask cluster, by its address. Under
@@ -117,43 +113,33 @@ def solved_in(
     workers: int | str | None,
     callback: ProgressCallback,
 ) -> list[Answer] | None:
-    """Solve the points that `out` does not have. The answer at every point; None in processes that
-    only work for the first one under mpirun.
+    """Solve the points that `out` does not have, and keep them there; one that kills its process
+    has failed. The answer at every point; None in processes that only work for the first one under
+    mpirun.
 
     files    that are to be written in `out`; the first one's name is what the points are of
     workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, KeyboardInterrupt with how to go on."""
-    what = files[0].partition(".")[0]
-    cache = point_cache(out, what)
+    what, keys = files[0].partition(".")[0], dict.fromkeys(point.key for point in points)
+    cache = Cache(out / f"{what}_points", "", {})
     try:
         with tasks_by(workers, cache) as tasks:
             if tasks is None:
                 return None
             check_writable(out, files)
             cache.remove_leftovers()
-            finish(points, solve, tasks, callback, what)
+            callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
+            for point in points:
+                tasks.add(point.key, called, answered, solve, point, seconds=1.0)
+            for number, key in enumerate(tasks.as_done(keys), start=1):
+                try:
+                    tasks.result(key)
+                except ProcessEnded:
+                    cache.save(key, (failed(DIED), None))
+                callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     return [cache.load(point.key) for point in points]
-
-
-def finish(
-    points: Sequence[Point], solve: Solve, tasks: Tasks, callback: ProgressCallback, what: str
-) -> None:
-    """Solve every point that the tasks do not keep, for them to keep. One that kills its process
-    has failed.
-
-    what  the points are of, for the progress"""
-    keys = dict.fromkeys(point.key for point in points)
-    callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
-    for point in points:
-        tasks.add(point.key, called, answered, solve, point, seconds=1.0)
-    for number, key in enumerate(tasks.as_done(keys), start=1):
-        try:
-            tasks.result(key)
-        except ProcessEnded:
-            tasks.kept.save(key, (failed(DIED), None))
-        callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
 
 
 def answered(solve: Solve, point: Point) -> Answer:

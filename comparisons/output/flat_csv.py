@@ -37,10 +37,9 @@ from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.output.recorded_run import read_result
 from comparisons.output.result_json import Result
-from comparisons.studies import comparison, contact, meaning
+from comparisons.studies import STUDIES, comparison, contact, meaning
 from comparisons.studies import problem as asked
 from comparisons.studies.answers import answer as answers
-from comparisons.studies.heat import figures as heat
 from comparisons.studies.model_error.account import INTERACTION, JUMP
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.study import MODEL_ERROR
@@ -155,7 +154,7 @@ def rows_of(result: Result, run: str) -> list[Row]:
     }
     compared = figures.of(study=comparison.NAME)
     rows = _compared(figures, compared) if compared else _of_one_model(figures)
-    every = [*rows, *_of_heat(figures), *_of_answers(figures)]
+    every = [*rows, *_of_studies(figures), *_of_answers(figures)]
     return [{name: (common | row).get(name) for name in COLUMNS} for row in every]
 
 
@@ -232,16 +231,16 @@ def _of_one_model(figures: Figures) -> Iterable[Row]:
             yield {**_judged(figure), figure.source: figure.value}
 
 
-def _of_heat(figures: Figures) -> Iterable[Row]:
-    """Temperatures, the part of the heat that enters the body, stresses, by both models."""
-    known = [f for f in figures.of(study=heat.NAME) if f.source in MODELS]
-    for same in grouped(known, lambda figure: figure.quantity):
+def _of_studies(figures: Figures) -> Iterable[Row]:
+    """What studies have found by both models and put into the table."""
+    tabled = {(study.name, name) for study in STUDIES for name in study.tabled}
+    known = [f for f in figures if (f.study, f.quantity) in tabled and f.source in MODELS]
+    for same in grouped(known, lambda figure: (figure.study, figure.quantity)):
         values = [figure for figure in same if figure.against is None]
         difference = next((figure for figure in same if figure.against), None)
-        if same[0].quantity in heat.COMPARED:
-            base = difference or max(values, key=lambda figure: figure.numerical)
-            sizes = {figure.source: figure.value for figure in values}
-            yield {**_judged(base), **sizes, "difference": difference and difference.value}
+        base = difference or max(values, key=lambda figure: figure.numerical)
+        sizes = {figure.source: figure.value for figure in values}
+        yield {**_judged(base), **sizes, "difference": difference and difference.value}
 
 
 def _of_answers(figures: Figures) -> Iterable[Row]:

@@ -10,11 +10,10 @@ from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here
-from comparisons.models.heat import HeatedContact
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.field_files import AUTOMATIC, field_of, scene_text, write_field
 from comparisons.output.result_json import content_of
-from comparisons.scenes.surface import SceneSurface
+from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
@@ -35,11 +34,10 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
             (folder / name).mkdir(parents=True, exist_ok=True)
             tasks.add(f"files of {name}", _write_level, folder, name, fields)
         tasks.add(FILE, _save_shown, folder / FILE)
-        heat = outcome.data("heat")
-        for name, contact in heat.contacts.items() if heat else ():
-            write_temperatures(folder / name / "temperature.csv", contact)
-        if outcome.problem.surface.run_in is not None:
-            write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.surface)
+        for study in STUDIES:
+            files = study.files(outcome) if study.name in outcome.found else {}
+            for path, columns in files.items():
+                _write_csv(folder / path, ",".join(columns), *columns.values())
         (folder / "result.json").write_text(as_json(content_of(outcome)), encoding="utf-8")
         callback("drawing the report")
         (folder / "report.html").write_text(render(outcome, tasks), encoding="utf-8")
@@ -96,20 +94,6 @@ def write_contact(path: Path, outcome: Run, level: Level) -> None:
     head = f"# {program}: {one_line(problem.scene.title)}\n# scene: {scene_text(problem)}\n"
     head += "x [m],pressure [Pa],gap [m],deformed height [m]"
     _write_csv(path, head, *columns, deformed_height(problem, level))
-
-
-def write_temperatures(path: Path, contact: HeatedContact) -> None:
-    """temperature.csv: a row for each pressure element."""
-    head = "x [m],heat [W/m^2],into the body [W/m^2],rise of the body [K],rise of the roller [K]"
-    columns = contact.x, contact.heat, contact.into_body, contact.body, contact.roller
-    _write_csv(path, head, *columns)
-
-
-def write_run_in_profile(path: Path, surface: SceneSurface) -> None:
-    """run_in_profile.csv: the trace along its own x, its height before and after."""
-    x, after = surface.run_in.profile.x + surface.position, surface.run_in.profile.height
-    head = "x [m],height before running-in [m],height [m]"
-    _write_csv(path, head, x, after + surface.run_in.lowering, after)
 
 
 def _write_csv(path: Path, head: str, *columns: np.ndarray) -> None:

@@ -116,6 +116,18 @@ def _drawn(run: Run, width: float) -> "Figure":
     return drawn
 
 
+def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
+    """run_in_profile.csv: the trace along its own x, its height before and after."""
+    surface = run.problem.surface
+    after = surface.run_in.profile.height
+    columns = {
+        "x [m]": surface.run_in.profile.x + surface.position,
+        "height before running-in [m]": after + surface.run_in.lowering,
+        "height [m]": after,
+    }
+    return {"run_in_profile.csv": columns}
+
+
 def blocks(run: Run) -> list[Block]:
     return [Block("running-in", (Pictures(("running_in",)),), "Running-in")]
 
@@ -141,5 +153,6 @@ STUDY = Study(
     applies=lambda solved: solved.problem.surface.run_in is not None,
     blocks=blocks,
     pictures={"running_in": picture},
+    files=files,
     lines=lines,
 )

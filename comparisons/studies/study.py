@@ -11,6 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from comparisons.common.errors import ExitStatus
 from comparisons.drawing.blocks import Block
 from comparisons.figures.figure import FAILED, Figures, Findings, Statement
@@ -150,6 +152,10 @@ def _empty(run: Run) -> list:
     return []
 
 
+def _no_files(run: Run) -> dict:
+    return {}
+
+
 @dataclass(frozen=True)
 class Study:
     """One question, by the functions that answer it."""
@@ -168,6 +174,10 @@ class Study:
     # what draws its pictures, by name; None where there is nothing to draw
     pictures: Mapping[str, Callable[[Run], object]] = field(default_factory=dict)
     data: type | None = None  # of its findings' `data`
+    # quantities that have a row of the wide table, by both models
+    tabled: tuple[str, ...] = ()
+    # files of its own in the run's folder, by path: columns (n,) of a CSV by their headings
+    files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = _no_files
     # its lines of the terminal, each with its name
     lines: Callable[[Run], list[tuple[str, str]]] = _empty
 

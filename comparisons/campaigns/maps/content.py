@@ -38,7 +38,7 @@ def map_content(request: MapRequest, answers: list[dict]) -> dict:
     content = {
         "schema": SCHEMA,
         "command": request.command,
-        "scene": described(request),
+        "scene": request.tables,
         "finite_element": request.finite_element,
         "quantity": request.quantity,
         "x": _axis(request.x),
@@ -86,11 +86,6 @@ def scaled(error: np.ndarray | float) -> np.ndarray | float:
 
 def unscaled(value: np.ndarray | float) -> np.ndarray | float:
     return SMALLEST * np.sinh(value)
-
-
-def described(request: MapRequest) -> dict:
-    """The tables of the scene without [budget], which limits runs alone."""
-    return {name: fields for name, fields in request.tables.items() if name != "budget"}
 
 
 def _axis(axis: Axis) -> dict:

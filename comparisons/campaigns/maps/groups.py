@@ -25,12 +25,12 @@ import numpy as np
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import InputError, SceneError
 from comparisons.figures.quantity import HEAT_QUANTITIES
-from comparisons.models.heat import peclet_numbers
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.fields import SceneSection, plain
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import surface_of
+from comparisons.studies.heat.half_space import peclet_numbers
 
 # Fields of made profiles that are lengths along x, and the one that heights are proportional to.
 WAVES = {

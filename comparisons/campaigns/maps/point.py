@@ -23,6 +23,7 @@ from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import values_of
+from comparisons.studies.heat.half_space import check_heat
 from meshes.block import MeshError
 
 NAME = "map"
@@ -47,6 +48,8 @@ def solve_point(point: Point) -> dict:
     problem = problem_of(point.scene)
     plan, heats = make_plan(problem, MODELS), point.asked in HEAT_QUANTITIES
     window = window_of(problem) if plan.stress and not heats else None
+    if heats:
+        check_heat(problem)
     for runs in _refined(problem, plan, window, heats):
         for run in runs.values():
             if not run.finest.solution.converged:

@@ -57,8 +57,10 @@ class MapRequest:
 
     @property
     def tables(self) -> dict:
-        """Of the scene, SI, [finite_element] as given: what follows there changes with groups."""
-        return self.scene.tables | {"finite_element": self.scene.given.get("finite_element", {})}
+        """Of the scene, SI, without [budget], which limits runs alone; [finite_element] as the
+        scene gives it: what follows there changes with groups."""
+        tables = {name: table for name, table in self.scene.tables.items() if name != "budget"}
+        return tables | {"finite_element": self.scene.given.get("finite_element", {})}
 
     @cached_property
     def points(self) -> tuple[Point, ...]:

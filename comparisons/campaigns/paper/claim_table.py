@@ -1,6 +1,6 @@
 """Claims and their numbers in words, for the page and as a table for the terminal."""
 
-from math import hypot, isfinite
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.paper.claims.judgement import (
@@ -8,11 +8,10 @@ from comparisons.campaigns.paper.claims.judgement import (
     DENIED,
     INCONCLUSIVE,
     THEORY,
-    FigureModelError,
     JudgedClaim,
-    MeasuredNumber,
 )
 from comparisons.common.numbers import MINUS, UNKNOWN, percent, significant
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, MODELS, error_text, label
 from comparisons.output.terminal import PLAIN, STYLES, plain_table
 from comparisons.studies.model_error.catalogue import EFFECTS
@@ -48,20 +47,20 @@ def claim_row(judged: JudgedClaim) -> dict:
     }
 
 
-def model_error_text(error: FigureModelError) -> str:
+def model_error_text(error: Figure) -> str:
     """What was computed, with its uncertainty, and the most that was not."""
-    size = error_text(error.quantity, error.value, error.uncertainty)
-    text = f"{label(error.quantity)} {size} ± {percent(error.uncertainty)}"
-    if error.not_modelled:
-        most = EFFECTS[max(error.not_modelled, key=error.not_modelled.get)].label
-        left = percent(hypot(*error.not_modelled.values()))
+    size = error_text(error.quantity, error.value, error.numerical)
+    text = f"{label(error.quantity)} {size} ± {percent(error.numerical)}"
+    if error.unknown:
+        most = EFFECTS[max(error.unknown, key=error.unknown.get)].label
+        left = percent(error.not_modelled)
         text += f"; not modelled, by estimate: at most {left}, {most} most"
     return text
 
 
-def number_text(number: MeasuredNumber, unit: str) -> str:
+def number_text(number: Figure, unit: str) -> str:
     """Value and uncertainty down to one digit beyond its first, at most DIGITS digits in all."""
-    value, uncertainty = number.value, number.uncertainty
+    value, uncertainty = number.value, number.numerical
     if not isfinite(uncertainty):
         return f"{significant(value, DIGITS)} ± {UNKNOWN} {unit}".rstrip()
     shown = 3 if uncertainty == 0.0 else DIGITS

@@ -31,7 +31,7 @@ def paper_page(paper: "Paper", sections: tuple[Section, ...]) -> str:
         Path(__file__).parent / "paper.html.j2",
         policy=STYLES,
         summary=summary(paper.judged),
-        claims=[claim_row(each) for each in paper.judged],
+        claims=[claim_row(claim) for claim in paper.judged],
         sections=sections,
         models=_models(paper),
         surfaces=_surfaces(paper),
@@ -49,8 +49,8 @@ def _models(paper: "Paper") -> TextTable:
     for name, outcome in paper.outcomes.items():
         for friction in outcome.problem.scene.load.friction:
             compared = outcome.figures.of(study="comparison", friction=friction)
-            found = {figure.quantity: _difference(figure) for figure in compared}
-            cells = [found.get(quantity, UNKNOWN) for quantity in SHOWN]
+            differences = {figure.quantity: _difference(figure) for figure in compared}
+            cells = [differences.get(quantity, UNKNOWN) for quantity in SHOWN]
             rows.append((_short(name), f"{friction:g}", *cells))
     head = ("surface", "friction", *SHOWN.values())
     return TextTable("How far the two models are apart", head, tuple(rows))
@@ -62,8 +62,8 @@ def _short(scene: str) -> str:
 
 def _difference(figure: Figure) -> str:
     signed = not QUANTITIES[figure.quantity].of_pair
-    found = percent(figure.value, signed=signed, uncertainty=figure.numerical)
-    return f"{found} ({percent(figure.numerical, digits=1)})"
+    difference = percent(figure.value, signed=signed, uncertainty=figure.numerical)
+    return f"{difference} ({percent(figure.numerical, digits=1)})"
 
 
 def _surfaces(paper: "Paper") -> TextTable:

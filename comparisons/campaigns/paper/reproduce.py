@@ -5,8 +5,7 @@ from pathlib import Path
 from time import perf_counter
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.paper.claims.book import judged_book
-from comparisons.campaigns.paper.claims.claim_list import SCENES, SURFACES, claims
+from comparisons.campaigns.paper.claims.claim_list import SCENES, SURFACES, book_claims, claims
 from comparisons.campaigns.paper.claims.judgement import OUTCOMES, JudgedClaim, judge
 from comparisons.campaigns.paper.claims.readings import SLIDING
 from comparisons.campaigns.paper.page import paper_page
@@ -105,19 +104,19 @@ def paper(
     start = perf_counter()
     outcomes = solve_surfaces(fineness, within(callback, 0.0, SOLVING), effects)
     callback(Step("measuring the claims", SOLVING))
-    judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims()) + judged_book()
-    found = Paper(outcomes, judged, perf_counter() - start, out)
-    page = paper_page(found, sections_of(outcomes, judged, callback))
+    judged = tuple(judge(claim, outcomes.get(claim.scene)) for claim in (*claims(), *book_claims()))
+    result = Paper(outcomes, judged, perf_counter() - start, out)
+    page = paper_page(result, sections_of(outcomes, judged, callback))
     callback("writing files")
-    publish(out, {PAGE: page, NUMBERS: as_json(found.as_dict())})
-    return found
+    publish(out, {PAGE: page, NUMBERS: as_json(result.as_dict())})
+    return result
 
 
 def solve_surfaces(
     fineness: Fineness, callback: ProgressCallback = no_progress, effects: bool = False
 ) -> dict[str, Run]:
     """By the scene's name. Raises SolverError where a model finds no solution."""
-    found = {}
+    runs = {}
     for number, name in enumerate(SCENES, start=1):
         scene = Scene.read(name)
         scene = scene.changed(
@@ -134,11 +133,13 @@ def solve_surfaces(
             plan = replace(make_plan(problem, MODELS), effects=effects)
             solved = solve(unsolved(problem, plan), None, part)
             # figure 11 is drawn as the paper's, without the quiescent zone
-            shown = {n: each for n, each in solved.found.items() if n != quiescent_zone.NAME}
-            found[name] = replace(solved, found=shown)
+            shown = {
+                n: findings for n, findings in solved.found.items() if n != quiescent_zone.NAME
+            }
+            runs[name] = replace(solved, found=shown)
         except (ContactError, FemError, MeshError) as error:
             raise SolverError(f"{name}: no solution was found: {error}") from error
-    return found
+    return runs
 
 
 def _prefixed(callback: ProgressCallback, prefix: str) -> ProgressCallback:

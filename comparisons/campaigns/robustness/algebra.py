@@ -34,8 +34,8 @@ def direct_findings(operator: str, count: int, nodes: Sequence[int] | None = Non
     nodes = np.arange(*nodes) if nodes else scattered
     right = rng.standard_normal((len(nodes), 2)) * made.column[0]
     matrix = made.block(nodes)
-    found = made.solve(nodes, right)
-    ratio = np.inf if found is None else backward_ratio(matrix, found, right)
+    solution = made.solve(nodes, right)
+    ratio = np.inf if solution is None else backward_ratio(matrix, solution, right)
     figure = bounded("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
     return figure, account(CONDITION, "dense", np.linalg.cond(matrix))
 

@@ -83,9 +83,9 @@ def body_on(
     return elastic_body(mesh_named(mesh), Material(*material), held, degree=degree, coating=layer)
 
 
-def factor_findings(mesh: str = "plain", **given: object) -> CaseFigures:
+def factor_findings(mesh: str = "plain", **settings: object) -> CaseFigures:
     """Random forces, and the forces of a hat: residual against rounding, and the condition."""
-    body = body_on(mesh, **given)
+    body = body_on(mesh, **settings)
     matrix = csr_matrix(body.stiffness())
     shape, x = body.nodes.shape, body.surface.x
     hats = np.linspace(0.25 * x[0], 0.25 * x[-1], 7)
@@ -114,10 +114,10 @@ def factor_findings(mesh: str = "plain", **given: object) -> CaseFigures:
     )
 
 
-def even_findings(mesh: str = "plain", **given: object) -> CaseFigures:
+def even_findings(mesh: str = "plain", **settings: object) -> CaseFigures:
     """Even compression, which elements of any shape represent, below a rough boundary, too. uz =
     depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu)."""
-    body = body_on(mesh, support="even", **given)
+    body = body_on(mesh, support="even", **settings)
     material, matrix = body.material, csr_matrix(body.stiffness())
     moved = np.zeros(body.nodes.shape)
     moved[:, 1] = body.mesh.spec.depth - body.nodes[:, 1]
@@ -155,15 +155,15 @@ def closed_findings() -> CaseFigures:
     """A load that closes all gaps of a rough line: every node touches."""
     grid, load = HatGrid(0.1, -14, 14), 10.0
     height = 1e-3 * np.random.default_rng(8).standard_normal(grid.count)
-    compliance, found = pressed(height, load, grid, "plain")
+    compliance, solution = pressed(height, load, grid, "plain")
     matrix, weights = compliance.matrix(), grid.weights
     system = np.block([[matrix, -weights[:, None]], [weights, np.zeros((1, 1))]])
     expected = np.linalg.solve(system, np.append(grid.pitch * height, load))[:-1]
     asymmetry = float(np.abs(matrix - matrix.T).max() / np.abs(matrix).max())
-    touching = np.count_nonzero(found.pressure)
+    touching = np.count_nonzero(solution.pressure)
     return finite_element_findings(
-        found,
-        deviation(found.pressure, expected, "pressure", SAME, "elimination on the whole matrix"),
+        solution,
+        deviation(solution.pressure, expected, "pressure", SAME, "elimination on the whole matrix"),
         bounded("nodes in contact", touching, grid.count, "all", low=grid.count),
         bounded("asymmetry", asymmetry, 1e-12, "none"),
         account(CONDITION, "dense", np.linalg.cond(matrix)),
@@ -173,8 +173,8 @@ def closed_findings() -> CaseFigures:
 def slope_findings() -> CaseFigures:
     """A rough boundary of rms slope 1: quadratic against cubic displacements on one mesh."""
     grid = HatGrid(0.1, -12, 12)
-    given = -(grid.x**2) / 20.0, 0.05, grid, "rough"
-    (_, quadratic), (_, cubic) = (pressed(*given, degree) for degree in (2, 3))
+    line = -(grid.x**2) / 20.0, 0.05, grid, "rough"
+    (_, quadratic), (_, cubic) = (pressed(*line, degree) for degree in (2, 3))
     reference = "cubic elements, same mesh"
     figure = deviation(quadratic.pressure, cubic.pressure, "pressure", 2e-2, reference)
     return finite_element_findings(quadratic, figure)

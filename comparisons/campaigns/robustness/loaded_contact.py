@@ -171,10 +171,10 @@ def least_squares_deviation(contact: LoadedContact, modulus: float) -> Figure:
 
 
 def deviation(
-    found: np.ndarray, expected: np.ndarray, name: str, high: float, reference: str
+    values: np.ndarray, expected: np.ndarray, name: str, high: float, reference: str
 ) -> Figure:
     """Largest difference, relative to the largest expected value."""
-    value = float(np.abs(found - expected).max() / np.abs(expected).max())
+    value = float(np.abs(values - expected).max() / np.abs(expected).max())
     return bounded(name, value, high, reference)
 
 
@@ -185,6 +185,6 @@ def peak_and_length(
     contact: LoadedContact | Level, exact: Two, highs: Two, reference: str
 ) -> CaseFigures:
     """Relative errors of peak pressure and contact length; `exact` peak [Pa] and half-width [m]."""
-    found = contact.solution.pressure.max(), 0.5 * contact.contact_length
-    named = zip(("peak pressure", "contact length"), found, exact, highs, strict=True)
-    return tuple(relative_error(*each, reference) for each in named)
+    values = contact.solution.pressure.max(), 0.5 * contact.contact_length
+    named = zip(("peak pressure", "contact length"), values, exact, highs, strict=True)
+    return tuple(relative_error(*three, reference) for three in named)

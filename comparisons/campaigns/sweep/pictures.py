@@ -12,6 +12,7 @@ from comparisons.campaigns.sweep.request import POSITION
 from comparisons.common.numbers import plain, scale_of
 from comparisons.common.units import DIMENSIONS, UnitError, to_si
 from comparisons.drawing import style
+from comparisons.drawing.curves import over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
 from comparisons.studies.quiescent_zone import BRIDGED, NAME, QUIESCENT, SMOOTH, UNCLEAR
 
@@ -49,39 +50,38 @@ def sweep_figure(content: dict) -> "Figure":
     first line mean and standard deviation as a band."""
     rows = [row for point in content["points"] for row in point["rows"]]
     names = [name for name in DRAWN if any(row["quantity"] == name for row in rows)]
-    drawn = style.figure(WIDTH, len(names) * (ABOVE + TALL) + FOOT)
-    panels = style.stacked(drawn, [(ABOVE, TALL)] * len(names), LEFT)
-    for name, axes in zip(names, panels, strict=True):
+    drawn, stack = panels(WIDTH, [(ABOVE, TALL)] * len(names), LEFT, foot=FOOT)
+    for name, axes in zip(names, stack, strict=True):
         _draw_figures(axes, content, name)
     field = content["over"][0]["field"]
     moved = "position of the roller on the trace, mm"
-    panels[-1].set_xlabel(moved if field == POSITION else field)
-    panels[0].set_title(content["scene"]["title"], loc="left")
-    handles, labels = panels[-1].get_legend_handles_labels()
+    stack[-1].set_xlabel(moved if field == POSITION else field)
+    stack[0].set_title(content["scene"]["title"], loc="left")
+    handles, labels = stack[-1].get_legend_handles_labels()
     if len(labels) > 1:
         drawn.legend(handles, labels, loc="lower left", ncols=4, borderaxespad=0.2)
     return drawn
 
 
-def _places(over: dict) -> tuple[np.ndarray, list[str] | None]:
+def _places(axis: dict) -> tuple[np.ndarray, list[str] | None]:
     """Where the values of a field are drawn, and what stands there where these are no numbers."""
     for dimension in DIMENSIONS:
         try:
-            values = np.array([to_si(value, dimension) for value in over["values"]])
+            values = np.array([to_si(value, dimension) for value in axis["values"]])
         except UnitError:
             continue
-        return (1e3 * values if over["field"] == POSITION else values), None
-    return np.arange(len(over["values"]), dtype=float), [str(v) for v in over["values"]]
+        return (1e3 * values if axis["field"] == POSITION else values), None
+    return np.arange(len(axis["values"]), dtype=float), [str(v) for v in axis["values"]]
 
 
 def _lines(content: dict, name: str, places: np.ndarray) -> dict[tuple, list[tuple[float, float]]]:
     """Points of a quantity by the values of the other fields, and by friction where that is none:
     by the model that the sweep is of, the half-plane where there are both."""
-    over, lines = content["over"], {}
+    axes, lines = content["over"], {}
     model = "finite_element" if "half_plane" not in content["models"] else "half_plane"
-    swept = any(axis["field"] == FRICTION for axis in over)
+    swept = any(axis["field"] == FRICTION for axis in axes)
     for point in content["points"]:
-        at = places[over[0]["values"].index(point["values"][0])]
+        at = places[axes[0]["values"].index(point["values"][0])]
         for row in point["rows"]:
             if row["quantity"] == name and row[model] is not None:
                 other = (*point["values"][1:], *(() if swept else (row["friction"],)))
@@ -114,50 +114,47 @@ def bulge_figure(content: dict) -> "Figure":
     relative penetration, a line for each friction."""
     entries = [entry for point in content["points"] for entry in point.get("bulge", ())]
     entries.sort(key=lambda entry: entry[DEPTH])
-    tall, above = 1.5, 0.2
-    drawn = style.figure(style.COLUMN, len(PANELS) * (tall + above) + 0.75)
-    places = style.stacked(drawn, [(above, tall)] * len(PANELS), 0.85)
-    for (name, (unsure, unit, words)), axes in zip(PANELS.items(), places, strict=True):
+    drawn, stack = panels(style.COLUMN, [(0.2, 1.5)] * len(PANELS), 0.85, foot=0.75)
+    for (name, (unsure, unit, words)), axes in zip(PANELS.items(), stack, strict=True):
         for k, friction in enumerate(sorted({entry["friction"] for entry in entries})):
             rows = [e for e in entries if e["friction"] == friction and e[unsure] is not None]
             depth = [e[DEPTH] for e in rows]
             value, bar = ([e[which] / e[unit] for e in rows] for which in (name, unsure))
             look = {"marker": MARKERS[k % len(MARKERS)], "markersize": 3.0, "capsize": 2.0}
             axes.errorbar(depth, value, bar, label=f"friction {plain(friction)}", **look)
-        ends = (0.9 * entries[0][DEPTH], 1.1 * entries[-1][DEPTH])
-        axes.set(xscale="log", xlim=ends, ylabel=words)
-        axes.tick_params(labelbottom=axes is places[-1])
-    places[0].legend(loc="upper left")
-    places[0].set_title(content["scene"]["title"], loc="left")
-    places[-1].set_xlabel("h/R")
+        axes.set(xscale="log", ylabel=words)
+    over(stack, "h/R", (0.9 * entries[0][DEPTH], 1.1 * entries[-1][DEPTH]))
+    stack[0].legend(loc="upper left")
+    stack[0].set_title(content["scene"]["title"], loc="left")
     return drawn
 
 
 def zone_map_figure(content: dict) -> "Figure":
     """A field for each friction, a column for each value of the first swept field, a row for each
     combination of the others; in it the least mean shear over that of the Hertz zone."""
-    names = [axis["field"] for axis in content["over"]]
-    over = [axis for axis in content["over"] if axis["field"] != FRICTION]
-    model = content["models"][0]
-    panels: dict[float, dict[tuple, dict]] = {}  # by friction, then by values of the other fields
+    names, model = [axis["field"] for axis in content["over"]], content["models"][0]
+    fields = {
+        axis["field"]: axis["values"] for axis in content["over"] if axis["field"] != FRICTION
+    }
+    by_friction: dict[float, dict[tuple, dict]] = {}  # then by values of the other fields
     for point in content["points"]:
         values = tuple(v for n, v in zip(names, point["values"], strict=True) if n != FRICTION)
         for entry in point.get(NAME, {}).get(model, ()):
-            panels.setdefault(entry["friction"], {})[values] = entry
-    columns = list(over[0]["values"]) if over else [""]
-    rows = list(dict.fromkeys(key[1:] for entries in panels.values() for key in entries))
+            by_friction.setdefault(entry["friction"], {})[values] = entry
+    first, *others = fields or [""]
+    columns = list(fields.get(first, [""]))
+    rows = list(dict.fromkeys(key[1:] for entries in by_friction.values() for key in entries))
     (across, down), left, right, above = CELL, 1.25, 0.3, 0.32
     wide = max(left + across * len(columns) + right, LEAST_WIDE)
-    drawn = style.figure(wide, (above + down * len(rows)) * len(panels) + 0.8)
-    places = style.stacked(drawn, [(above, down * len(rows))] * len(panels), left, right)
-    for axes, friction in zip(places, sorted(panels), strict=True):
-        _draw_zones(axes, panels[friction], columns, rows)
+    heights = [(above, down * len(rows))] * len(by_friction)
+    drawn, stack = panels(wide, heights, left, right, foot=0.8)
+    for axes, friction in zip(stack, sorted(by_friction), strict=True):
+        _draw_zones(axes, by_friction[friction], columns, rows)
         axes.set_title(f"friction {plain(friction)}, {LABELS[model]}")
-        axes.tick_params(labelbottom=axes is places[-1])
-    places[-1].set_xlabel(over[0]["field"] if over else "")
-    places[0].set_ylabel(", ".join(axis["field"] for axis in over[1:]))
+    over(stack, first)
+    stack[0].set_ylabel(", ".join(others))
     look = {"marker": "s", "linestyle": "none", "markersize": 7.0}
-    keys = [places[0].plot([], [], color=c, label=n, **look)[0] for n, c in COLOURS.items()]
+    keys = [stack[0].plot([], [], color=c, label=n, **look)[0] for n, c in COLOURS.items()]
     drawn.legend(handles=keys, loc="lower left", ncols=4, columnspacing=1.0, handlelength=1.0)
     return drawn
 

@@ -173,7 +173,7 @@ class Pair:
 
 def pairs_of(row: Row) -> list[Pair]:
     """The figures of a row that have an exact value."""
-    known = grouped(row.answer.figures, lambda figure: (figure.study, figure.quantity))
+    known = grouped(row.figures, lambda figure: (figure.study, figure.quantity))
     case = row.case.group, row.case.name
     return [Pair(*case, *both) for both in known if both[-1].source == EXACT]
 
@@ -216,12 +216,12 @@ def coverage_cases(
     ]
 
 
-def _covered(found: Coverage, most: float, fewest: int) -> CaseFigures:
-    ratio, uncertainties = found.median_overestimation, "the stated uncertainties"
+def _covered(shown: Coverage, most: float, fewest: int) -> CaseFigures:
+    ratio, uncertainties = shown.median_overestimation, "the stated uncertainties"
     return (
-        bounded("share covered", found.covered, 1.0, uncertainties, LEAST_COVERAGE),
+        bounded("share covered", shown.covered, 1.0, uncertainties, LEAST_COVERAGE),
         bounded("median overestimation ratio", ratio, most, uncertainties),
-        bounded("informative figures", found.informative, np.inf, "exact answers", fewest),
+        bounded("informative figures", shown.informative, np.inf, "exact answers", fewest),
     )
 
 
@@ -235,7 +235,7 @@ def order_cases(rows: Iterable[Row]) -> list[Case]:
     """Orders of the figures of Hertz's contact and of all pressures, where there are enough."""
     errors: dict[tuple[str, str], list[Sequence[float]]] = {key: [] for key in ORDERS}
     for row in rows:
-        for figure in row.answer.figures:
+        for figure in row.figures:
             if figure.quantity == PRESSURE:
                 errors[figure.source, PRESSURE].append(figure.levels)
         for pair in pairs_of(row):

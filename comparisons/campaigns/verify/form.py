@@ -11,7 +11,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,12 +19,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.exact.cases import ExactContact, exact_contacts
+from comparisons.campaigns.verify.coverage import EXACT
 from comparisons.campaigns.verify.rough import FEW, LAYERED, RoughBody, rough_contact, rough_scene
 from comparisons.campaigns.verify.scenes import ExactScene, gallery_scenes, layer_scenes
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import publish
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.figures.verdict import Verdict, judge
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.output.flat_csv import csv_text
 from comparisons.output.page.html import rendered
 
@@ -53,36 +55,41 @@ class FormCase:
 
 
 @dataclass(frozen=True)
-class FormRow:
-    """A filled-in figure; error, uncertainty and tolerance are relative."""
-
-    case: str
-    quantity: str
-    expected: float
-    answer: float
-    error: float
-    uncertainty: float
-    tolerance: float
-    verdict: Verdict
-    covered: bool
-
-
-@dataclass(frozen=True)
 class JudgedForm:
-    """The rows that were filled in, and the number of those that were not."""
+    """What was filled in, and the number of rows that were not. Each figure is an error over the
+    expected value, its scale, with the answer as its one level."""
 
-    rows: tuple[FormRow, ...]
+    figures: tuple[Figure, ...]
     empty: int
 
     @property
     def exit_status(self) -> ExitStatus:
-        verdicts = {row.verdict for row in self.rows}
+        verdicts = {figure.verdict for figure in self.figures}
         if "differ" in verdicts:
             return ExitStatus.OUTSIDE_TOLERANCE
         return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
 
     def as_dict(self) -> dict:
-        return {"rows": [asdict(row) for row in self.rows], "empty": self.empty}
+        rows = [
+            {
+                "case": figure.source,
+                "quantity": figure.quantity,
+                "expected": figure.scale,
+                "answer": figure.levels[0],
+                "error": figure.value,
+                "uncertainty": figure.numerical,
+                "tolerance": figure.tolerance,
+                "verdict": figure.verdict,
+                "covered": is_covered(figure),
+            }
+            for figure in self.figures
+        ]
+        return {"rows": rows, "empty": self.empty}
+
+
+def is_covered(figure: Figure) -> bool:
+    """Whether an answer lies within its own uncertainty."""
+    return abs(figure.value) <= figure.numerical
 
 
 @cache
@@ -125,28 +132,31 @@ def judged_form(path: Path) -> JudgedForm:
     if missing:
         raise InputError(f"{path}: has no column {sorted(missing)[0]}; allowed is a form.csv")
     exact = {(c.name, q): value for c in form_cases() for q, value in c.exact.items()}
-    rows, empty = [], 0
-    for line, given in enumerate(table, start=2):
-        if not (given["answer"] or "").strip():
+    figures, empty = [], 0
+    for line, row in enumerate(table, start=2):
+        if not (row["answer"] or "").strip():
             empty += 1
             continue
         where = f"{path}: line {line}"
-        key = given["case"], given["quantity"]
+        key = row["case"], row["quantity"]
         if key not in exact:
             raise InputError(f"{where}: {' '.join(map(str, key))} is no figure of the form")
-        answer = _number(given, "answer", where)
-        tolerance = _number(given, "tolerance", where, least=0.0)
-        uncertainty = _number(given, "uncertainty", where, least=0.0)
-        expected = exact[key]
-        error = answer / expected - 1.0
-        verdict = judge(error, uncertainty, tolerance)
-        covered = abs(error) <= uncertainty
-        rows.append(
-            FormRow(*key, expected, answer, error, uncertainty, tolerance, verdict, covered)
+        answer = _number(row, "answer", where)
+        tolerance = _number(row, "tolerance", where, least=0.0)
+        uncertainty = _number(row, "uncertainty", where, least=0.0)
+        figures.append(
+            Figure(
+                *("verify", key[1], key[0], answer / exact[key] - 1.0),
+                against=EXACT,
+                scale=exact[key],
+                uncertainty=Uncertainty({"stated": uncertainty}),
+                bounds=(-tolerance, tolerance),
+                levels=(answer,),
+            )
         )
-    if not rows:
+    if not figures:
         raise InputError(f"{path}: has no answer; allowed is a form with at least one filled in")
-    return JudgedForm(tuple(rows), empty)
+    return JudgedForm(tuple(figures), empty)
 
 
 def form_table(judged: JudgedForm) -> "Group":
@@ -156,14 +166,14 @@ def form_table(judged: JudgedForm) -> "Group":
 
     numbers = "expected", "answer", "error, %", "uncert., %", "tol., %", "verdict", "covered"
     table = plain_table("case", "quantity", numbers=numbers)
-    for row in judged.rows:
-        values = (f"{value:.5g} {unit_of(row.quantity)}" for value in (row.expected, row.answer))
-        shares = (f"{100 * value:.3g}" for value in (row.error, row.uncertainty, row.tolerance))
-        covered = "yes" if row.covered else "no"
-        table.add_row(row.case, row.quantity, *values, *shares, row.verdict, covered)
-    counts = Counter(row.verdict for row in judged.rows)
+    for f in judged.figures:
+        values = (f"{value:.5g} {unit_of(f.quantity)}" for value in (f.scale, *f.levels))
+        shares = (f"{100 * value:.3g}" for value in (f.value, f.numerical, f.tolerance))
+        covered = "yes" if is_covered(f) else "no"
+        table.add_row(f.source, f.quantity, *values, *shares, f.verdict, covered)
+    counts = Counter(figure.verdict for figure in judged.figures)
     listed = ", ".join(f"{counts[v]} {v}" for v in ("agree", "differ", "inconclusive"))
-    covered = sum(row.covered for row in judged.rows)
+    covered = sum(map(is_covered, judged.figures))
     return Group(
         table, f"{listed}; {covered} within their own uncertainty; {judged.empty} not filled in"
     )
@@ -173,9 +183,9 @@ def unit_of(quantity: str) -> str:
     return QUANTITIES[quantity].unit if quantity in QUANTITIES else "m"
 
 
-def _number(given: Mapping[str, str], column: str, where: str, least: float = -math.inf) -> float:
+def _number(row: Mapping[str, str], column: str, where: str, least: float = -math.inf) -> float:
     """A cell as a number; nothing counts as 0 but for the answer, which is there."""
-    text = (given[column] or "0").strip()
+    text = (row[column] or "0").strip()
     try:
         value = float(text)
     except ValueError:

@@ -63,14 +63,14 @@ class Exact:
         if self.coat is not None:
             coated = z < self.thickness
             (ai, bi), (ai_z, bi_z), _ = profiles(self.thickness)
-            own, own_bulk = lame(self.coat)
-            twist = shear / own * (ai_z - K * bi) + K * bi - ai_z
-            down = (bulk - own_bulk) * K * ai + (bulk + 2 * shear) * bi_z
-            down = down / (own_bulk + 2 * own) - bi_z
+            coat_shear, coat_bulk = lame(self.coat)
+            twist = shear / coat_shear * (ai_z - K * bi) + K * bi - ai_z
+            down = (bulk - coat_bulk) * K * ai + (bulk + 2 * shear) * bi_z
+            down = down / (coat_bulk + 2 * coat_shear) - bi_z
             above = np.where(coated, z - self.thickness, 0.0)
             a, b = a + twist * above, b + down * above
             a_z, b_z = a_z + twist * coated, b_z + down * coated
-            shear, bulk = np.where(coated, own, shear), np.where(coated, own_bulk, bulk)
+            shear, bulk = np.where(coated, coat_shear, shear), np.where(coated, coat_bulk, bulk)
         angle = K * x + PHASE
         return shear, bulk, (a, b), (a_z, b_z), second, np.sin(angle), np.cos(angle)
 

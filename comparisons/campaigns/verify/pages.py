@@ -20,45 +20,47 @@ PAIR_COLUMNS = ("table", "model", "case", "quantity", "exact", "error")
 PAIR_COLUMNS += ("uncertainty", "ratio", "covered")
 
 
-def coverage_line(found: Verification) -> str:
+def coverage_line(verification: Verification) -> str:
     """The line that scripts look for; rounded down, so that 95 means at least 95."""
-    share = found.coverage.covered
+    share = verification.coverage.covered
     return f"coverage {np.floor(100.0 * share + 1e-9) if np.isfinite(share) else 0.0:.0f} %"
 
 
-def verify_summary(found: Verification) -> "RenderableType":
+def verify_summary(verification: Verification) -> "RenderableType":
     """Coverage by model, quantity and kind, rows without pairs or that do not hold, the verdict."""
     from rich.console import Group
 
     tables = []
     for names in GROUPS:
         table = plain_table(*names, numbers=COLUMNS)
-        for row in _coverage_rows(found, names):
+        for row in _coverage_rows(verification, names):
             table.add_row(*row)
         tables += [table, ""]
-    shown = [row for row in found.rows if not (row.holds and pairs_of(row))]
-    return Group(*tables, rows_table(shown), verdict_lines(found), coverage_line(found))
+    shown = [row for row in verification.rows if not (row.holds and pairs_of(row))]
+    return Group(
+        *tables, rows_table(shown), verdict_lines(verification), coverage_line(verification)
+    )
 
 
-def verify_page(found: Verification) -> str:
+def verify_page(verification: Verification) -> str:
     figures = [
         [
             *(row.case.group, f"{row.case.name}: {f.quantity}"),
             *(f"{f.value:.4g}", bounds_text(f), _yes(holds(f))),
         ]
-        for row in found.rows
+        for row in verification.rows
         if not pairs_of(row)
         for f in row.judged
     ]
     coverages = (
-        (f"Coverage by {', '.join(names)}", (*names, *COLUMNS), _coverage_rows(found, names))
+        (f"Coverage by {', '.join(names)}", (*names, *COLUMNS), _coverage_rows(verification, names))
         for names in GROUPS
     )
     tables = [*coverages, (OTHERS, OTHER_COLUMNS, figures)]
-    tables.append(("Figures", PAIR_COLUMNS, map(_pair_row, found.pairs)))
-    title = f"{'Holds' if found.holds else 'Does not hold'}: {coverage_line(found)}"
+    tables.append(("Figures", PAIR_COLUMNS, map(_pair_row, verification.pairs)))
+    title = f"{'Holds' if verification.holds else 'Does not hold'}: {coverage_line(verification)}"
     template = Path(__file__).parent / "verify.html.j2"
-    return rendered(template, policy=STYLES, title=title, faults=found.faults, tables=tables)
+    return rendered(template, policy=STYLES, title=title, faults=verification.faults, tables=tables)
 
 
 def _pair_row(pair: Pair) -> tuple[str, ...]:
@@ -68,13 +70,13 @@ def _pair_row(pair: Pair) -> tuple[str, ...]:
     return (*words, *numbers, ratio, _yes(pair.covered))
 
 
-def _coverage_rows(found: Verification, names: tuple[str, ...]) -> list[tuple[str, ...]]:
+def _coverage_rows(verification: Verification, names: tuple[str, ...]) -> list[tuple[str, ...]]:
     rows = []
-    for group, covered in found.groups(*names).items():
+    for group, covered in verification.groups(*names).items():
         named = zip(names, group, strict=True)
         words = (MODEL_LABELS[word] if name == "model" else word for name, word in named)
         rows.append((*words, *_cells(covered)))
-    return [*rows, ("all", *[""] * (len(names) - 1), *_cells(found.coverage))]
+    return [*rows, ("all", *[""] * (len(names) - 1), *_cells(verification.coverage))]
 
 
 def _cells(group: Coverage) -> tuple[str, ...]:

@@ -91,7 +91,7 @@ def rough_scenes(
     """So many half-planes for the half-plane and for the finite elements, and bodies of LAYERED for
     the finite elements; with the model error where there are finite elements."""
     bodies = [HALF_PLANE] * (half_planes + finite_elements) + list(LAYERED[:layers])
-    found = []
+    scenes = []
     resolutions = spread(half_planes, *ELEMENTS) + spread(len(bodies) - half_planes, *MESHED)
     for seed, (body, elements) in enumerate(zip(bodies, resolutions, strict=True)):
         held = seed % 2 or body.base is not None
@@ -104,8 +104,8 @@ def rough_scenes(
             scene = replace(scene, half_plane=partial(_no_error, scene))
         else:
             scene = replace(scene, half_plane=fine_half_plane)
-        found.append(scene)
-    return tuple(found)
+        scenes.append(scene)
+    return tuple(scenes)
 
 
 def rough_scene(

@@ -70,7 +70,7 @@ def verify(
     rows = rows_of(cases, callback, kept)
     exact, others = rows[: len(scope.exact)], rows[len(scope.exact) :]
     rows = (*exact, *map(carried_out, order_cases(exact)), *others)
-    found = verification(rows, perf_counter() - start, scope.fewest, scope.fewest_rough)
-    write(found, out, junit, verify_page(found))
+    verified = verification(rows, perf_counter() - start, scope.fewest, scope.fewest_rough)
+    write(verified, out, junit, verify_page(verified))
     kept.discard()
-    return found
+    return verified

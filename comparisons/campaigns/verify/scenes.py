@@ -129,15 +129,15 @@ def spread(count: int, fewest: float = FEWEST_ELEMENTS, most: float = MOST_ELEME
 
 def layer_scenes() -> tuple[ExactScene, ...]:
     """Rigid cylinders on layers, for the finite elements alone."""
-    found = []
+    scenes = []
     for reference in layer_references():
         nu = reference.poissons_ratio
         ratios = (0.3, NEARLY_INCOMPRESSIBLE) if nu is None else (nu,)
-        found += [layer_scene(reference, ratio) for ratio in ratios]
+        scenes += [layer_scene(reference, ratio) for ratio in ratios]
     # every other one's model error: with both models it takes twice the time
     return tuple(
         replace(scene, half_plane=smooth_half_plane) if number % 2 else scene
-        for number, scene in enumerate(found)
+        for number, scene in enumerate(scenes)
     )
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from comparisons.figures.figure import Figure, Part
 from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.models.heat import HeatedContact
-from comparisons.models.thermal_stress import HeatedStress
+from comparisons.studies.heat.half_plane_stress import HeatedStress
+from comparisons.studies.heat.half_space import HeatedContact
 
 NAME = "heat"
 QUANTITIES = {

@@ -18,7 +18,6 @@ from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.models.heat import reach_of
 from comparisons.studies.heat.figures import (
     COMPARED,
     HEATED,
@@ -27,6 +26,7 @@ from comparisons.studies.heat.figures import (
     QUANTITIES,
     WITHOUT,
 )
+from comparisons.studies.heat.half_space import reach_of
 from comparisons.studies.study import Run
 
 HEIGHT = 1.9  # inches, of a field
@@ -43,6 +43,20 @@ where the contact is: exact where the contact stays on the rough body (slide-to-
 snapshot else. Difference: (half-space − finite elements) / finite elements."""
 OF_STRESSES = """ Stresses are elastic and steady, zero at the bulk temperature; their difference is
 over the larger one with heat and without, a depth's over a."""
+
+
+def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
+    """temperature.csv of each model: a row for each pressure element."""
+    return {
+        f"{name}/temperature.csv": {
+            "x [m]": contact.x,
+            "heat [W/m^2]": contact.heat,
+            "into the body [W/m^2]": contact.into_body,
+            "rise of the body [K]": contact.body,
+            "rise of the roller [K]": contact.roller,
+        }
+        for name, contact in run.data(NAME).contacts.items()
+    }
 
 
 def blocks(run: Run) -> list[Block]:

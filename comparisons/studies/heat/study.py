@@ -14,20 +14,12 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Figures, Findings, Part, Statement, figures_of
 from comparisons.figures.quantity import HEAT_QUANTITIES
 from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration
-from comparisons.models.heat import (
-    HeatedContact,
-    friction_of,
-    half_space_heat,
-    half_spaces,
-    peclet_numbers,
-    what_it_contains,
-)
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
-from comparisons.models.thermal_stress import HeatedStress, half_plane_stress
 from comparisons.models.window import Window
 from comparisons.studies.heat import show
 from comparisons.studies.heat.figures import (
+    COMPARED,
     HEATED,
     NAME,
     OTHER_PRESSURES,
@@ -35,6 +27,16 @@ from comparisons.studies.heat.figures import (
     HeatRow,
     HeatStudy,
     place_of,
+)
+from comparisons.studies.heat.half_plane_stress import HeatedStress, half_plane_stress
+from comparisons.studies.heat.half_space import (
+    HeatedContact,
+    check_heat,
+    friction_of,
+    half_space_heat,
+    half_spaces,
+    peclet_numbers,
+    what_it_contains,
 )
 from comparisons.studies.study import Solved, Study
 
@@ -92,7 +94,7 @@ def heat_figures(
         levels = runs["half_plane"].levels
         histories["half_plane"] = [half_space_heat(problem, level) for level in levels]
     if "finite_element" in runs:
-        from comparisons.models.finite_element.heat import finite_element_heat
+        from comparisons.studies.heat.conduction import finite_element_heat
 
         levels = runs["finite_element"].levels
         coarse, *_ = own = [finite_element_heat(problem, each, without=without) for each in levels]
@@ -118,7 +120,7 @@ def _stresses(
         levels = runs["half_plane"].levels
         histories["half_plane"] = [half_plane_stress(problem, each, window) for each in levels]
     if "finite_element" in runs:
-        from comparisons.models.finite_element.thermal_stress import finite_element_stress
+        from comparisons.studies.heat.element_stress import finite_element_stress
 
         levels = runs["finite_element"].levels
         coarse, *_ = own = [finite_element_stress(problem, each, window) for each in levels]
@@ -204,6 +206,12 @@ def _subsurface(
     return x[shown], z, np.array(fields)
 
 
+def begin(solved: Solved, tasks: Tasks) -> None:
+    """Raise SceneError for a sliding speed that no temperature can be computed for."""
+    if not solved.runs:
+        check_heat(solved.problem)
+
+
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     return findings_of(solved.problem, solved.runs, solved.window, tasks.callback)
 
@@ -213,8 +221,11 @@ STUDY = Study(
     quantities=QUANTITIES,
     solve=solve,
     applies=lambda solved: solved.problem.scene.heat is not None,
+    begin=begin,
     data=HeatStudy,
+    tabled=COMPARED,
     blocks=show.blocks,
     pictures=show.PICTURES,
+    files=show.files,
     lines=show.lines,
 )

@@ -75,7 +75,7 @@ def test_orders_and_errors_count_on_both_sides():
 def test_a_row_without_a_figure_or_with_an_error_fails_and_says_why():
     assert not row().holds and row().faults == ["half_plane, tests, made: no figures"]
     raised = carried_out(RAISES)
-    assert not raised.holds and raised.answer.error == "ArithmeticError: no solution [bold]"
+    assert not raised.holds and raised.error == "ArithmeticError: no solution [bold]"
 
 
 def test_an_interrupt_is_no_row():
@@ -99,7 +99,7 @@ def test_what_is_kept_of_a_stopped_command_is_not_computed_again(tmp_path):
     (first,) = rows_of([good], kept=answers_of(tmp_path, [good]))
     again = Case(good.group, good.name, good.model, failing)
     (row,) = rows_of([again], kept=answers_of(tmp_path, [again]))
-    assert row.answer == first.answer and row.holds
+    assert row.figures == first.figures and row.holds
     assert answers_of(tmp_path, [good, RAISES]).load("1") is None  # of other cases
 
 

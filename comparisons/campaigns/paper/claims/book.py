@@ -1,23 +1,20 @@
-"""Seireg's (1998) claims on rough contact, and the numbers of its theory that judge them; those
-on heat are judged by `comparisons.campaigns.paper.claims.heat`."""
+"""The numbers of Seireg's (1998) theory that judge its claims.
 
-import tomllib
+Of rough contact, solved to eight digits. Of heat, chapter 5, its short formulas against exact
+solutions, its partition against the one that is solved under Hertz's pressure: temperatures are
+parts of the surface's rise, times multiples of tL, in which heat passes a slab."""
+
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 
+from analytic.heat import transient
+from analytic.heat.moving_source import HeatedSurface
+from analytic.heat.partition import divided
+from analytic.material import ThermalMaterial
 from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.penetration import BOOK_POISSON, relative_penetration
 from analytic.statistics.rough_bodies import RoughContact, bearing_of, rough_contact
-from comparisons.campaigns.paper.claims import heat
-from comparisons.campaigns.paper.claims.judgement import (
-    THEORY,
-    Claim,
-    JudgedClaim,
-    MeasuredNumber,
-    judgement,
-)
 
 SPHERE = 10e-3  # m
 SETS = {
@@ -27,13 +24,17 @@ SETS = {
 }
 SMALLER = Summits(density=500e6, radius=0.1e-3, deviation=0.5e-6)
 LIGHT, MIDDLE, HEAVY = 0.1, 10.0, 100.0  # T of figure 4.5, in units of set A
+UNIT = ThermalMaterial(1.0, 1.0, 1.0)
+LATE = np.linspace(1.0, 40.0, 3901) / 12.0  # from tL on, in L^2/kappa
+PECLET, REACH = 21.0, 14.0  # of steel at 1 m/s under the paper's contact; in half-widths
+NODES = np.linspace(-1.1, 1.1, 1101)
 
 
 @cache
 def contact(summits: Summits, load: float) -> RoughContact:
     """Of the sphere under a load T in units of set A: other sets have other units, s^(3/2)."""
-    own = load * (SETS["A"].deviation / summits.deviation) ** 1.5
-    return rough_contact("sphere", own, bearing_of(summits, SPHERE))
+    load_of_set = load * (SETS["A"].deviation / summits.deviation) ** 1.5
+    return rough_contact("sphere", load_of_set, bearing_of(summits, SPHERE))
 
 
 def real_pressure(summits: Summits, load: float) -> float:
@@ -63,13 +64,13 @@ def area_of_rougher() -> float:
 
 
 def effective_radius(load: float) -> float:
-    found = contact(SETS["A"], load)
-    return found.effective_width / found.smooth[0]
+    sphere = contact(SETS["A"], load)
+    return sphere.effective_width / sphere.smooth[0]
 
 
 def peak_pressure(load: float) -> float:
-    found = contact(SETS["A"], load)
-    return float(found.pressure[0]) / found.smooth[1]
+    sphere = contact(SETS["A"], load)
+    return float(sphere.pressure[0]) / sphere.smooth[1]
 
 
 def penetration_coefficient(kind: str) -> float:
@@ -77,18 +78,50 @@ def penetration_coefficient(kind: str) -> float:
     return float(relative_penetration(1.0 - BOOK_POISSON**2, 1.0)[kind])
 
 
-def judged_book() -> tuple[JudgedClaim, ...]:
-    """All of them; the theory is solved to eight digits, its numbers have no uncertainty."""
-    tables = tomllib.loads(Path(__file__).with_name("book.toml").read_text(encoding="utf-8"))
-    return tuple(map(_judged, tables["claim"]))
+def parabola_error() -> float:
+    """Largest error of the parabola in a half-space."""
+    depth = np.linspace(0.0, 6.0, 6001)
+    error = transient.parabola(depth, 1.0, 1.0) - transient.step_half_space(depth, 1.0, 1.0)
+    return float(np.abs(error).max())
 
 
-def _judged(table: dict) -> JudgedClaim:
-    def number(name: str, *given: float) -> float:
-        return (globals().get(name) or getattr(heat, name))(*given)
+def bottom_error() -> float:
+    """Largest error of the short formula for a slab's bottom."""
+    exact = transient.step_slab(1.0, LATE, 1.0, 1.0)
+    return float(np.abs(transient.bottom_rise(LATE, 1.0, 1.0) - exact).max())
 
-    besides = {words: {THEORY: number(*how)} for words, how in table.pop("besides", {}).items()}
-    numbers = {THEORY: MeasuredNumber(number(*table["reading"]), 0.0)}
-    fields = table | {"confirms": tuple(table["confirms"]), "models": (THEORY,), "exact": True}
-    claim = Claim(**fields, scene="")
-    return JudgedClaim(claim, numbers, besides, *judgement(claim, numbers))
+
+def bottom_lacks(late: float) -> float:
+    """What a slab's bottom lacks at `late` tL, exactly."""
+    return float(1.0 - transient.step_slab(1.0, late / 12.0, 1.0, 1.0))
+
+
+def mean_lacks(late: float) -> float:
+    points, weights = np.polynomial.legendre.leggauss(20)
+    rise = transient.step_slab(0.5 * (1.0 + points), late / 12.0, 1.0, 1.0)
+    return float(1.0 - 0.5 * weights @ rise)
+
+
+def formula_lacks(late: float) -> float:
+    return float(1.0 - transient.bottom_rise(late / 12.0, 1.0, 1.0))
+
+
+def surface_coefficient() -> float:
+    """1.12 over the exact coefficient of the rise under a constant flux."""
+    short = transient.surface_rise(1.0, 1.0, UNIT)
+    return float(short / transient.flux_half_space(0.0, 1.0, 1.0, UNIT))
+
+
+def slab_over_half_space(late: float) -> float:
+    """Rise of an insulated slab's surface under a constant flux, over the half-space's."""
+    slab = transient.flux_slab(0.0, late / 12.0, 1.0, 1.0, UNIT)
+    return float(slab / transient.flux_half_space(0.0, late / 12.0, 1.0, UNIT))
+
+
+def heat_into_body(roller: float) -> float:
+    """Part of the heat that enters the body past which Hertz's contact moves, of a roller of the
+    same material whose surface moves at `roller` times the body's speed."""
+    surface, fast = (UNIT, len(NODES), float(NODES[1] - NODES[0])), -2.0 * PECLET
+    heat = np.sqrt(np.maximum(1.0 - NODES**2, 0.0))
+    bodies = (HeatedSurface(*surface, velocity, REACH) for velocity in (fast, fast * roller))
+    return divided(*bodies, heat).fraction

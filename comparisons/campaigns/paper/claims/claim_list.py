@@ -1,11 +1,13 @@
-"""The paper's claims that numbers can judge, as `claims.toml` states them, and its surfaces."""
+"""The claims that numbers can judge, the paper's of claims.toml and Seireg's of book.toml; and the
+scenes that stand for the paper's surfaces."""
 
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
+from types import ModuleType
 
-from comparisons.campaigns.paper.claims import readings, waves
-from comparisons.campaigns.paper.claims.judgement import Claim
-from comparisons.campaigns.paper.claims.readings import Reading
+from comparisons.campaigns.paper.claims import book, readings
+from comparisons.campaigns.paper.claims.judgement import THEORY, Claim, Reading
 
 # The scenes that stand for the paper's surfaces, its figures of them, and their names.
 SMOOTH, UNRUN, RUN_IN, POLISHED = "smooth", "ground-unrun", "ground-run-in", "ground-polished"
@@ -20,27 +22,46 @@ SURFACES = {
 
 
 def claims() -> tuple[Claim, ...]:
-    tables = tomllib.loads(Path(__file__).with_name("claims.toml").read_text(encoding="utf-8"))
-    found = [_claim(table, {}) for table in tables["claim"]]
+    """The paper's, in the order of its figures."""
+    tables = _tables("claims.toml")
+    listed = [_claim(table, readings) for table in tables["claim"]]
     for scene in (UNRUN, RUN_IN, POLISHED):
         short = scene.removeprefix("ground-")
         words = {"figure": FIGURES[scene], "surface": SURFACES[scene], "short": short}
         words["words"] = short.replace("-", " ")
-        found += [_claim(table | {"scene": scene}, words) for table in tables["rough_surface"]]
-    return tuple(sorted(found, key=lambda claim: int(claim.figure.partition("(")[0])))
+        for table in tables["rough_surface"]:
+            said = {name: _filled(value, words) for name, value in table.items()}
+            listed.append(_claim(said | {"scene": scene}, readings))
+    return tuple(sorted(listed, key=lambda claim: int(claim.figure.partition("(")[0])))
 
 
-def _claim(table: dict, words: dict[str, str]) -> Claim:
-    """A claim by its table in claims.toml; `words` stand for names in braces."""
-    fields = {
-        name: value.format(**words) if isinstance(value, str) else value
-        for name, value in table.items()
-    }
-    fields |= {name: tuple(value) for name, value in fields.items() if isinstance(value, list)}
-    besides = tuple((name, _reading(*each)) for name, each in fields.get("besides", {}).items())
-    return Claim(**fields | {"reading": _reading(*fields["reading"]), "besides": besides})
+def book_claims() -> tuple[Claim, ...]:
+    """Seireg's, whose numbers are of the theory alone."""
+    by_theory = {"scene": "", "models": [THEORY], "exact": True}
+    return tuple(_claim(table | by_theory, book) for table in _tables("book.toml")["claim"])
 
 
-def _reading(name: str, *given: float | str | bool) -> Reading:
-    function = getattr(readings, name, None) or getattr(waves, name)
-    return function(*given) if given else function
+def _tables(name: str) -> dict:
+    return tomllib.loads(Path(__file__).with_name(name).read_text(encoding="utf-8"))
+
+
+def _filled(value: object, words: Mapping[str, str]) -> object:
+    """`words` stand for names in braces."""
+    return value.format(**words) if isinstance(value, str) else value
+
+
+def _claim(table: dict, module: ModuleType) -> Claim:
+    """A claim by its table, with readings of a module."""
+    fields = {name: tuple(v) if isinstance(v, list) else v for name, v in table.items()}
+    fields["besides"] = tuple(
+        (words, _reading(module, *how)) for words, how in table.get("besides", {}).items()
+    )
+    return Claim(**fields | {"reading": _reading(module, *table["reading"])})
+
+
+def _reading(module: ModuleType, name: str, *arguments: float | str) -> Reading:
+    """A function of a view and arguments; of a theory of the arguments alone."""
+    function = getattr(module, name)
+    if module is book:
+        return lambda _: function(*arguments)
+    return lambda view: function(view, *arguments)

@@ -5,14 +5,17 @@ where it lies outside of them (of wider bounds where the paper gives words and n
 outcome is inconclusive unless all models that can measure the claim say the same, and wherever the
 stand-in profile was made to show what the claim says."""
 
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
 
-from comparisons.campaigns.paper.claims.readings import SLIDING, LevelView, Reading
+from comparisons.campaigns.paper.claims.readings import SLIDING, LevelView
 from comparisons.common.numbers import finite, plain
 from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.figures.uncertainty import iteration
+from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.figures.verdict import is_within
 from comparisons.studies.contact import by_repetition
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -24,7 +27,10 @@ ORDER = 1.0  # formal, of what is read: with it a regular sequence gets the wide
 
 PLAIN = ("key", "figure", "title", "text", "measure", "scene")  # fields of a claim in paper.json
 
+NOT_CONVERGED = "not converged"  # note of a number
+
 Bounds = tuple[float, float]
+Reading = Callable[[LevelView | None], float]  # None: of a theory, which has no level
 
 
 @dataclass(frozen=True)
@@ -61,103 +67,97 @@ class Claim:
 
 
 @dataclass(frozen=True)
-class MeasuredNumber:
-    """A number of one model with what numerical error may account for, both in its unit."""
-
-    value: float
-    # 0 of an error against an exact value; infinite where fewer than three levels are known
-    uncertainty: float
-    converged: bool = True  # all levels met their contact conditions
-
-
-@dataclass(frozen=True)
-class FigureModelError:
-    """The half-plane's model error in the quantity of a claim's figure, relative."""
-
-    quantity: str
-    # value, uncertainty: of the effects that were computed
-    value: float
-    uncertainty: float
-    not_modelled: dict[str, float]  # estimates of the others, by name
-
-
-@dataclass(frozen=True)
 class JudgedClaim:
     """A claim with its outcome."""
 
     claim: Claim
-    numbers: dict[str, MeasuredNumber]  # by model
-    besides: dict[str, dict[str, float]]  # by what they are, then by model
+    numbers: Mapping[str, Figure]  # by model, in the claim's unit, with its bounds
+    besides: Mapping[str, Mapping[str, float]]  # by what they are, then by model
     outcome: str  # one of OUTCOMES
     why: str | None = None  # why it is inconclusive; None where it is not
-    model_error: FigureModelError | None = None  # of its figure; None where there is none
+    # of the half-plane in the quantity of the claim's figure; None where there is none
+    model_error: Figure | None = None
 
     def as_dict(self) -> dict:
         """For paper.json: None stands for what is infinite."""
-        claim = self.claim
+        claim, error = self.claim, self.model_error
         content = {
             **{name: getattr(claim, name) for name in PLAIN},
             "unit": {"p₀": "p0"}.get(claim.unit, claim.unit),
             "confirmed_within": claim.confirms,
             "denied_outside": claim.allows or claim.confirms,
             "criterion": claim.criterion,
-            "numbers": {model: asdict(number) for model, number in self.numbers.items()},
+            "numbers": {
+                model: {
+                    "value": number.value,
+                    "uncertainty": number.numerical,
+                    "converged": NOT_CONVERGED not in number.notes,
+                }
+                for model, number in self.numbers.items()
+            },
             "besides": self.besides,
             "outcome": self.outcome,
             "why": self.why,
-            "model_error": self.model_error and asdict(self.model_error),
+            "model_error": error
+            and {
+                "quantity": error.quantity,
+                "value": error.value,
+                "uncertainty": error.numerical,
+                "not_modelled": error.unknown,
+            },
         }
         return finite(content)
 
 
-def judge(claim: Claim, outcome: Run) -> JudgedClaim:
-    """Measure a claim on the run of its scene by every model that can, and judge it."""
-    numbers = {m: measured(outcome, m, claim.reading, claim.exact) for m in claim.models}
+def judge(claim: Claim, run: Run | None) -> JudgedClaim:
+    """Measure a claim on the run of its scene by every model that can, and judge it; None: by the
+    theory alone."""
+    numbers = {model: measured(claim, run, model) for model in claim.models}
+    finest = {model: None if run is None else views_of(run, model)[-1] for model in claim.models}
     besides = {
-        words: {m: measured(outcome, m, reading, exact=True).value for m in claim.models}
+        words: {model: reading(view) for model, view in finest.items()}
         for words, reading in claim.besides
     }
-    error = model_error_of(claim, outcome)
+    friction = SLIDING if claim.slides else 0.0
+    wanted = {"study": MODEL_ERROR, "quantity": claim.quantity, "friction": friction}
+    error = None if run is None else run.figures.one(**wanted)
     return JudgedClaim(claim, numbers, besides, *judgement(claim, numbers), error)
 
 
-def model_error_of(claim: Claim, outcome: Run) -> FigureModelError | None:
-    """What the half-plane does not model in the figure of a claim."""
-    friction = SLIDING if claim.slides else 0.0
-    wanted = {"study": MODEL_ERROR, "quantity": claim.quantity, "friction": friction}
-    error = outcome.figures.one(**wanted)
-    if error is None:
-        return None
-    return FigureModelError(error.quantity, error.value, error.numerical, dict(error.unknown))
+def views_of(run: Run, model: str) -> list[LevelView]:
+    levels = run.runs[model].levels
+    return [LevelView(model, run.problem, level, run.window) for level in levels]
 
 
-def measured(outcome: Run, model: str, reading: Reading, exact: bool = False) -> MeasuredNumber:
-    """A number on the finest level of a model, with its uncertainty from all levels.
+def measured(claim: Claim, run: Run | None, model: str) -> Figure:
+    """A claim's number on the finest level of a model, with its uncertainty from all levels.
 
     Discretisation, far boundary and iteration as for a run's figures; besides, what reading only
-    every second row and column of the window changes.
-    exact  the number is an error against an exact value: it has no uncertainty of its own"""
-    run = outcome.runs[model]
-    views = [LevelView(model, outcome.problem, level, outcome.window) for level in run.levels]
-    values = [reading(view) for view in views]
-    value = values[-1]
-    converged = all(level.solution.converged for level in run.levels)
-    if exact:
-        return MeasuredNumber(value, 0.0, converged)
-    uncertainty = grid_convergence(values, ORDER).uncertainty
-    uncertainty += iteration(run.finest) * abs(value)
-    uncertainty += abs(reading(replace(views[-1], every=2)) - value)
+    every second row and column of the window changes. An error against an exact value has no
+    uncertainty of its own, nor has what a theory says."""
+    number = partial(Figure, "paper", claim.key, model, bounds=claim.confirms)
+    if run is None:
+        return number(claim.reading(None), uncertainty=Uncertainty())
+    views, levels = views_of(run, model), run.runs[model].levels
+    values = [claim.reading(view) for view in views]
+    notes = () if all(level.solution.converged for level in levels) else (NOT_CONVERGED,)
+    if claim.exact:
+        return number(values[-1], uncertainty=Uncertainty(), notes=notes)
     repeated = by_repetition(
-        run,
-        lambda level: {"": reading(LevelView(model, outcome.problem, level, outcome.window))},
+        run.runs[model], lambda level: {"": claim.reading(replace(views[-1], level=level))}
     )
-    uncertainty += sum(repeated[""])
-    return MeasuredNumber(value, float(uncertainty), converged)
+    parts = {
+        "discretisation": grid_convergence(values, ORDER).uncertainty,
+        "iteration": iteration(levels[-1]) * abs(values[-1]),
+        "reading": abs(claim.reading(replace(views[-1], every=2)) - values[-1]),
+        **dict(zip(("domain", "increments"), repeated[""], strict=True)),
+    }
+    return number(values[-1], uncertainty=Uncertainty(parts), notes=notes)
 
 
-def judgement(claim: Claim, numbers: dict[str, MeasuredNumber]) -> tuple[str, str | None]:
+def judgement(claim: Claim, numbers: Mapping[str, Figure]) -> tuple[str, str | None]:
     """Outcome by the numbers of each model, and why it is inconclusive."""
-    unsolved = [LABELS[model] for model, number in numbers.items() if not number.converged]
+    unsolved = [LABELS[model] for model, n in numbers.items() if NOT_CONVERGED in n.notes]
     if unsolved:
         return INCONCLUSIVE, f"the contact of the {' and the '.join(unsolved)} did not converge"
     places = {model: _place(claim, number) for model, number in numbers.items()}
@@ -181,10 +181,10 @@ def judgement(claim: Claim, numbers: dict[str, MeasuredNumber]) -> tuple[str, st
     return CONFIRMED, None
 
 
-def _place(claim: Claim, number: MeasuredNumber) -> str:
+def _place(claim: Claim, number: Figure) -> str:
     """Where a number with its uncertainty lies: inside | outside | between | on a bound."""
     inner, outer = (
-        is_within(number.value, number.uncertainty, *bounds)
+        is_within(number.value, number.numerical, *bounds)
         for bounds in (claim.confirms, claim.allows or claim.confirms)
     )
     if inner:

@@ -1,15 +1,18 @@
-"""The numbers that judge the claims, each read off one level of one model (`LevelView`).
+"""The numbers that judge the claims.
+
+In: one level of one model (`LevelView`), and what claims.toml calls a reading with. Out: a number.
 
 Lengths in a, stresses in p0: half-width and peak pressure of the smooth (Hertz) contact under the
 same load. Shares and ratios have no unit. "Smooth maximum" is the largest tau1 of the smooth
 contact without friction, 0.3003 p0."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.stress.field import friction_field
 from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
@@ -21,10 +24,11 @@ from comparisons.campaigns.paper.claims.zones import (
     top_of_zone,
 )
 from comparisons.models.level import Level
+from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import layer_thickness
-from comparisons.studies.quiescent_zone import ShearDip, shear_dip, zone_of
+from comparisons.studies.quiescent_zone import QUIET, ShearDip, mean_shear, shear_dip, zone_of
 
 NEAR, DEEP = 0.1, 0.5  # a: asperities shear above the one, the smooth contact below the other
 AGREEMENT = 0.05  # of the smooth maximum: fields nearer to each other than that agree
@@ -33,6 +37,10 @@ SLIDING = 0.1  # friction of the paper's sliding contacts
 ACROSS = np.array([0.0, 0.25, 0.48, 0.5, 0.52, 0.75])  # elements: both sides of edges too
 SHALLOWEST = 0.02  # sampling intervals: the least depth at which the sum of elements is read
 EDGE = 0.9  # a: farther out the elements' error at the edge of the contact shows
+# Waves of a body that may bridge the quiescent zone [a]; their severity [p0] is the mean pressure
+# that would close them, pi E* height / wavelength.
+WAVES = np.geomspace(0.2, 0.8, 9)
+SEVERITY = 2.0
 
 
 @dataclass(frozen=True)
@@ -90,12 +98,9 @@ class LevelView:
 
     def extreme(self, name: str, friction: float) -> Extremum:
         """Largest tau1 | |txz|, found off the grid: value [p0], x and z [a]."""
-        found, hertz = self.level.stress(friction).extremes[name], self.problem.hertz
+        extremum, hertz = self.level.stress(friction).extremes[name], self.problem.hertz
         a = hertz.half_width
-        return Extremum(abs(found.value) / hertz.peak_pressure, found.x / a, found.z / a)
-
-
-Reading = Callable[[LevelView], float]
+        return Extremum(abs(extremum.value) / hertz.peak_pressure, extremum.x / a, extremum.z / a)
 
 
 def contact_ratio(view: LevelView) -> float:
@@ -113,33 +118,25 @@ def carried_load(view: LevelView) -> float:
     return float(grid.weights @ view.level.solution.pressure / hertz.load_per_length)
 
 
-def pressed_beyond(limit: float) -> Reading:
+def pressed_beyond(view: LevelView, limit: float) -> float:
     """Share of the contact patches whose peak pressure exceeds `limit` [p0]."""
-
-    def reading(view: LevelView) -> float:
-        x, pressure = view.level.grid.x, view.level.solution.pressure
-        most = limit * view.problem.hertz.peak_pressure
-        peaks = [pressure[_within(x, patch)].max() for patch in view.level.patches]
-        return float(np.mean(np.array(peaks) > most))
-
-    return reading
+    x, pressure = view.level.grid.x, view.level.solution.pressure
+    most = limit * view.problem.hertz.peak_pressure
+    peaks = [pressure[_within(x, patch)].max() for patch in view.level.patches]
+    return float(np.mean(np.array(peaks) > most))
 
 
-def sheared_beyond(limit: float) -> Reading:
+def sheared_beyond(view: LevelView, limit: float) -> float:
     """Share of the contact patches under which tau1 exceeds `limit` smooth maxima."""
-
-    def reading(view: LevelView) -> float:
-        tau1 = view.stress(0.0).tau1[view.z <= NEAR]
-        x = view.x * view.problem.hertz.half_width
-        peaks = [tau1[:, _within(x, patch)].max() for patch in view.level.patches]
-        return float(np.mean(np.array(peaks) > limit * view.smooth_maximum))
-
-    return reading
+    tau1 = view.stress(0.0).tau1[view.z <= NEAR]
+    x = view.x * view.problem.hertz.half_width
+    peaks = [tau1[:, _within(x, patch)].max() for patch in view.level.patches]
+    return float(np.mean(np.array(peaks) > limit * view.smooth_maximum))
 
 
-def largest(name: str, friction: float = 0.0) -> Reading:
+def largest(view: LevelView, name: str, friction: float = 0.0) -> float:
     """Largest tau1 | txz [p0]."""
-    return lambda view: view.extreme(name, friction).value
+    return view.extreme(name, friction).value
 
 
 def largest_over_smooth(view: LevelView) -> float:
@@ -184,53 +181,69 @@ def low_layer(view: LevelView) -> float:
     return shear_dip(view.z, view.stress(0.0).tau1[:, peak_column(view)], DEEP).ratio
 
 
-def zone_ratio(friction: float) -> Reading:
+def zone_ratio(view: LevelView, friction: float) -> float:
     """Least mean shear of the quiescent zone over the smaller of the maxima above and below."""
-    return lambda view: _zone(view, friction).ratio
+    return _zone(view, friction).ratio
 
 
-def zone_end(name: str) -> Reading:
+def zone_end(view: LevelView, name: str) -> float:
     """Where the quiescent zone begins (start) or ends (stop) without friction [a]."""
-    return lambda view: getattr(_zone(view, 0.0), name) / view.problem.hertz.half_width
+    return getattr(_zone(view, 0.0), name) / view.problem.hertz.half_width
 
 
 def _zone(view: LevelView, friction: float) -> ShearDip:
     return zone_of(view.problem, view.level, view.window, friction, view.every)
 
 
-def reach_against_smooth(level: float) -> Reading:
+def reach_against_smooth(view: LevelView, level: float) -> float:
     """Depth of the top of the Hertz zone in the smooth contact, less that in this one [a].
     The zone is what is joined with the largest deep tau1 at `level` smooth maxima, no friction."""
-
-    def reading(view: LevelView) -> float:
-        rough, smooth = (stress.tau1 for stress in (view.stress(0.0), view.smooth(0.0)))
-        return _top_of_hertz_zone(view, smooth, level) - _top_of_hertz_zone(view, rough, level)
-
-    return reading
+    rough, smooth = (stress.tau1 for stress in (view.stress(0.0), view.smooth(0.0)))
+    return _top_of_hertz_zone(view, smooth, level) - _top_of_hertz_zone(view, rough, level)
 
 
-def open_to_surface(friction: float) -> Reading:
+def open_to_surface(view: LevelView, friction: float) -> float:
     """Highest level at which the Hertz zone is joined with the surface, in smooth maxima."""
-
-    def reading(view: LevelView) -> float:
-        tau1 = view.stress(friction).tau1
-        surface = np.zeros(tau1.shape, dtype=bool)
-        surface[0] = True
-        return joining_level(tau1, _hertz_zone(view, tau1), surface) / view.smooth_maximum
-
-    return reading
+    tau1 = view.stress(friction).tau1
+    surface = np.zeros(tau1.shape, dtype=bool)
+    surface[0] = True
+    return joining_level(tau1, _hertz_zone(view, tau1), surface) / view.smooth_maximum
 
 
-def joined_share(friction: float) -> Reading:
+def joined_share(view: LevelView, friction: float) -> float:
     """Of what the asperities shear beyond HALF, the share joined with the Hertz zone."""
+    tau1 = view.stress(friction).tau1
+    part = _near(view) & (np.abs(view.x) <= 1.0)
+    level = HALF * view.smooth_maximum
+    return share_joined(tau1, view.weights, level, _hertz_zone(view, tau1), part)
 
-    def reading(view: LevelView) -> float:
-        tau1 = view.stress(friction).tau1
-        part = _near(view) & (np.abs(view.x) <= 1.0)
-        level = HALF * view.smooth_maximum
-        return share_joined(tau1, view.weights, level, _hertz_zone(view, tau1), part)
 
-    return reading
+def bridging_wavelength(view: LevelView, friction: float) -> float:
+    """Shortest wave [a], a crest under the roller's middle, over whose zone the mean shear falls
+    nowhere below QUIET of both maxima; infinite where there is none up to 0.8 a."""
+    ratios = np.array([_bridging_ratio(view, wave, friction) for wave in WAVES])
+    bridging = np.flatnonzero(ratios >= QUIET)
+    if len(bridging) == 0:
+        return np.inf
+    pair = slice(max(bridging[0] - 1, 0), bridging[0] + 1)
+    return float(np.exp(np.interp(QUIET, ratios[pair], np.log(WAVES[pair]))))
+
+
+def _bridging_ratio(view: LevelView, wave: float, friction: float) -> float:
+    """Least mean shear over the smaller maximum, under waves [a] on the view's smooth body."""
+    problem, grid, window = view.problem, view.level.grid, view.window
+    hertz, length = problem.hertz, wave * problem.hertz.half_width
+    height = SEVERITY * hertz.peak_pressure * length / (np.pi * problem.modulus)
+    weighted_gap = grid.hat_integrals(
+        lambda x: problem.gap(x) - height * np.cos(2.0 * np.pi * x / length), problem.knots
+    )
+    operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, 0.0)
+    pressure = solve_on(operator, weighted_gap, grid.weights, problem.constraints()).pressure
+    spacing = window.subdivisions(grid.pitch), "hat", window.stride(grid.pitch)
+    points = (window.x[0], window.x[-1]), window.z[view.rows]
+    field = friction_field(grid.x, pressure, *points, *spacing).at(friction)
+    shear = mean_shear(problem, window, field.stress.tau1, view.every)
+    return shear_dip(field.z, shear, DEEP * hertz.half_width).ratio
 
 
 def edge_ratio(view: LevelView) -> float:
@@ -281,26 +294,22 @@ def error_below_sampling(view: LevelView) -> float:
     return _axis_error(view, view.level.grid.pitch / view.problem.hertz.half_width)
 
 
-def error_on_rough_surface(element: Element, largest: bool = False) -> Reading:
+def error_on_rough_surface(view: LevelView, element: Element, largest: bool = False) -> float:
     """Error of sx and sz at depths less than a sampling interval of the trace, sliding [p0].
     The sum over elements that are one sampling interval wide, against the level's own finer
     pressures joined linearly. The root mean square of all errors, or the largest."""
-
-    def reading(view: LevelView) -> float:
-        grid, pressure, hertz = view.level.grid, view.level.solution.pressure, view.problem.hertz
-        coarser = max(1, round(view.problem.surface.info.spacing / grid.pitch))
-        nodes = slice(grid.count // 2 % coarser, None, coarser)
-        pitch, reach = coarser * grid.pitch, EDGE * hertz.half_width
-        x = grid.x[nodes]
-        places = (x[:, None] + pitch * ACROSS).ravel()
-        places = places[np.abs(places) <= reach]
-        z = _below(pitch)
-        found = stress_at(x, pressure[nodes], SLIDING, places, z, element)
-        reference = stress_at(grid.x, pressure, SLIDING, places, z)
-        errors = _normal_errors(found, reference, hertz.peak_pressure)
-        return float(np.max(errors) if largest else np.sqrt(np.mean(errors**2)))
-
-    return reading
+    grid, pressure, hertz = view.level.grid, view.level.solution.pressure, view.problem.hertz
+    coarser = max(1, round(view.problem.surface.info.spacing / grid.pitch))
+    nodes = slice(grid.count // 2 % coarser, None, coarser)
+    pitch, reach = coarser * grid.pitch, EDGE * hertz.half_width
+    x = grid.x[nodes]
+    places = (x[:, None] + pitch * ACROSS).ravel()
+    places = places[np.abs(places) <= reach]
+    z = _below(pitch)
+    stress = stress_at(x, pressure[nodes], SLIDING, places, z, element)
+    reference = stress_at(grid.x, pressure, SLIDING, places, z)
+    errors = _normal_errors(stress, reference, hertz.peak_pressure)
+    return float(np.max(errors) if largest else np.sqrt(np.mean(errors**2)))
 
 
 def _below(pitch: float) -> np.ndarray:
@@ -308,9 +317,9 @@ def _below(pitch: float) -> np.ndarray:
     return np.geomspace(SHALLOWEST, 1.0, 8)[:, None] * pitch
 
 
-def _normal_errors(found: StressState, reference: StressState, unit: float = 1.0) -> np.ndarray:
+def _normal_errors(stress: StressState, reference: StressState, unit: float = 1.0) -> np.ndarray:
     """Amounts (2, ...) by which sx and sz of two stresses differ, over a unit."""
-    return np.abs([found.sx - reference.sx, found.sz - reference.sz]) / unit
+    return np.abs([stress.sx - reference.sx, stress.sz - reference.sz]) / unit
 
 
 def _axis_error(view: LevelView, depth: float) -> float:

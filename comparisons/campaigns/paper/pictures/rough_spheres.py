@@ -38,12 +38,12 @@ def spheres_picture() -> Picture:
     drawn = figure(COLUMN, 3.7)
     for place, (words, load) in enumerate(LOADS.items()):
         axes = drawn.add_axes((0.1 + 0.47 * place, 0.125, 0.41, 0.745))
-        found = contact(SETS["A"], load)
-        a, peak = found.smooth
+        sphere = contact(SETS["A"], load)
+        a, peak = sphere.smooth
         x = np.linspace(0.0, 1.0, 201)
         axes.plot(x, np.sqrt(1.0 - x**2), label="Hertz", **REFERENCE)
-        axes.plot(found.rho / a, found.pressure / peak, color=COLOURS["A"], label="rough")
-        bears = found.rho[found.pressure > 1e-3 * found.pressure[0]].max() / a
+        axes.plot(sphere.rho / a, sphere.pressure / peak, color=COLOURS["A"], label="rough")
+        bears = sphere.rho[sphere.pressure > 1e-3 * sphere.pressure[0]].max() / a
         axes.set(xlim=(0.0, max(bears, 1.1)), ylim=(0.0, 1.05), xlabel="r/a")
         axes.set_title(f"{words}, T = {load:g}")
     drawn.axes[0].set_ylabel("p/p₀")

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 from comparisons.campaigns.grid import FAILED, SOLVED
-from comparisons.campaigns.maps.content import described, read_map
+from comparisons.campaigns.maps.content import read_map
 from comparisons.campaigns.maps.picture import map_picture
 from comparisons.campaigns.maps.point import TOLERANCES, solve_point
 from comparisons.campaigns.maps.request import FINISHED, request_of
@@ -47,7 +47,7 @@ def test_the_command_asks_for_the_same_points(finished):
     name, content = finished
     request = asked_for(name)
     assert request.scene.source == name
-    assert described(request) == content["scene"]
+    assert request.tables == content["scene"]
     assert request.finite_element == content["finite_element"]
     assert [[*p.at.values()] for p in request.points] == [
         [p["y"], p["x"]] for p in content["points"]

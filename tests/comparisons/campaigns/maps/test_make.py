@@ -5,28 +5,22 @@ import json
 import os
 import signal
 import sys
-from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import nullcontext, suppress
-from functools import partial
 from pathlib import Path
 from unittest.mock import patch
 
 import pytest
 from rich.console import Console
 
-from comparisons.campaigns.grid import DIED, Point, finish, point_cache
 from comparisons.campaigns.maps.content import MAP, PICTURE, map_table
 from comparisons.campaigns.maps.make import TIMES, exit_status, make_map
 from comparisons.campaigns.maps.point import NOT_CONVERGED
 from comparisons.campaigns.maps.request import request_of
 from comparisons.cli import main
-from comparisons.common.cache import NO_CACHE
+from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import ExitStatus
-from comparisons.common.executors import ExecutorWorker
 from comparisons.common.processes import ProcessWorker
-from comparisons.common.progress import no_progress
-from comparisons.common.tasks import Tasks, called, carried_out
-from comparisons.scenes.scene import Scene
+from comparisons.common.tasks import Tasks, called
 
 SCENE = """
 title = "Small"
@@ -65,7 +59,7 @@ def made(scene, tmp_path_factory) -> tuple[Path, list[str]]:
     """A map that nothing disturbed, and what the worker that solved it had loaded."""
     out = tmp_path_factory.mktemp("undisturbed") / "out"
     with (
-        Tasks(ProcessWorker, 1, point_cache(out, "map")) as tasks,
+        Tasks(ProcessWorker, 1, Cache(out / FOLDER, "", {})) as tasks,
         patch("comparisons.campaigns.grid.tasks_by", lambda *_: nullcontext(tasks)),
     ):
         make_map(request_of(str(scene), *ASKED[1::2]), out)
@@ -151,55 +145,6 @@ def test_a_worker_loads_what_solves_and_nothing_that_shows(made):
     assert "dolfinx" in made[1] and not shows & set(made[1])
 
 
-class Fragile(Executor):
-    """Solves at once what is submitted; at a deadly point it says what Dask would."""
-
-    def __init__(self, *deadly: float) -> None:
-        self.deadly = deadly
-
-    def submit(self, *task):
-        future = Future()
-        if task[-1].at["x"] in self.deadly:
-            future.set_exception(BrokenExecutor("killed"))
-        else:
-            future.set_result(carried_out(*task[1:]))
-        return future
-
-
-def point_at(x: float) -> Point:
-    return Point({"x": x}, "peak_pressure", Scene.read("smooth"), None, f"key{x:g}")
-
-
-class Solved(list[float]):
-    """Where points were solved, in order; what solves them says where they are."""
-
-    def solve(self, point: Point) -> dict:
-        self.append(point.at["x"])
-        return {"status": "solved", "x": point.at["x"]}
-
-
-def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path):
-    cache, solved = point_cache(tmp_path, "map"), Solved()
-    with Tasks(partial(ExecutorWorker, Fragile(2, 7)), 2, cache) as tasks:
-        finish([point_at(x) for x in range(8)], solved.solve, tasks, no_progress, "map")
-    found = [cache.load(f"key{x}")[0] for x in range(8)]
-    for x in (2, 7):
-        assert found[x] == {"status": "failed", "why": DIED}
-    assert [f["x"] for f in found if f["status"] == "solved"] == [0, 1, 3, 4, 5, 6]
-    assert sorted(solved) == [0, 1, 3, 4, 5, 6]
-
-
-def test_what_is_kept_whole_is_not_solved_again(tmp_path):
-    cache, solved, stages = point_cache(tmp_path, "map"), Solved(), []
-    for points in ((0, 1, 2), (0, 1, 1, 2, 3)):
-        before = list(solved)
-        finish([point_at(x) for x in points], solved.solve, Tasks(kept=cache), stages.append, "map")
-        path = tmp_path / FOLDER / "key1.npz"
-        path.write_bytes(path.read_bytes()[:-9])
-    assert sorted(solved[len(before) :]) == [1, 3]
-    assert stages[-5:] == [f"map: {done} of 4 points" for done in range(5)]
-
-
 def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeypatch):
     request = request_of(str(scene), "2x2", "a_over_width=0.3:3", "poissons_ratio=0.2:0.6")
     assert [point.why is None for point in request.points] == [True, True, False, False]
@@ -216,6 +161,15 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     content["points"][0]["why"] = f"half_plane: {NOT_CONVERGED}"
     assert exit_status(content) == ExitStatus.NOT_CONVERGED
     assert "failed, 2: " in printed(map_table(content, tmp_path))
+
+
+def test_without_a_folder_it_is_named_after_the_scene(scene, monkeypatch, capsys):
+    asked = []
+    monkeypatch.setattr(
+        "comparisons.campaigns.maps.make.make_map", lambda request, out, *more: asked.append(out)
+    )
+    assert main(["map", str(scene), *ASKED]) == 0
+    assert asked == [Path("results/small")]
 
 
 def printed(renderable: object) -> str:

@@ -1,5 +1,6 @@
 """Where scenes lie on the finished maps, and what is said of them before they are solved."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,7 @@ from comparisons.campaigns.maps.place import (
 )
 from comparisons.campaigns.maps.request import request_of
 from comparisons.cli import main
+from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
 from comparisons.models.finite_element.level import problem_of_approach
 from comparisons.models.problem import problem_of
@@ -120,7 +122,7 @@ def test_a_scene_on_no_map_gets_bounds_by_estimates():
 
 
 def test_a_finished_map_is_shown_and_not_solved(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.campaigns.grid.finish", None)
+    monkeypatch.setattr("comparisons.campaigns.maps.make.solved_in", None)
     out = tmp_path / "map"
     asked = ["map", "curvature-thickness", "--quantity", "contact_length", "--out", str(out)]
     assert main([*asked, "--mark", "smooth"]) == 0
@@ -151,26 +153,36 @@ def test_what_a_map_does_not_have_is_refused(tmp_path, capsys):
     assert not (tmp_path / "map").exists()
 
 
-def test_a_prescribed_approach_is_marked_under_its_load(tmp_path, capsys):
-    """As a scene of that load is."""
-    tables = {
-        "roller": {"radius": 0.01, "rigid": True},
-        "body": {"youngs_modulus": 2e9, "poissons_ratio": 0.3, "thickness": 1e-3},
-        "load": {"approach": 4e-6},
-        "resolution": {"elements": 8, "levels": 2},
-    }
+@pytest.fixture
+def pressed(tmp_path) -> str:
+    """A scene of a prescribed approach."""
     path = tmp_path / "pressed.toml"
-    text = "".join(
-        f"[{name}]\n" + "".join(f"{k} = {str(v).lower()}\n" for k, v in table.items())
-        for name, table in tables.items()
+    path.write_text(
+        "[roller]\nradius = 0.01\nrigid = true\n[body]\nyoungs_modulus = 2e9\n"
+        "poissons_ratio = 0.3\nthickness = 1e-3\n[load]\napproach = 4e-6\n"
+        "[resolution]\nelements = 8\nlevels = 2\n"
     )
-    path.write_text(text)
-    content = finished_map("curvature-thickness")
-    _, (x, y) = mark_of(content, problem_named(str(path)))
-    a = problem_of_approach(Scene.of(tables), no_progress).hertz.half_width
-    assert sorted((x, y)) == pytest.approx(sorted((a / 1e-3, a / 0.01)))
+    return str(path)
+
+
+def test_a_prescribed_approach_is_marked_under_its_load(pressed, tmp_path, capsys):
+    _, values = mark_of(finished_map("curvature-thickness"), problem_named(pressed))
+    a = problem_of_approach(Scene.read(pressed), no_progress).hertz.half_width
+    assert sorted(values) == pytest.approx([a / 0.01, a / 1e-3])
     out = str(tmp_path / "map")
-    assert main(["map", "curvature-thickness", "--mark", str(path), "--out", out]) == 0
+    assert main(["map", "curvature-thickness", "--mark", pressed, "--out", out]) == 0
+
+
+def test_of_a_prescribed_approach_nothing_is_said_before_its_load_is_known(
+    pressed, tmp_path, capsys, monkeypatch
+):
+    def refused(*_):
+        raise SceneError("as far as that")
+
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setattr("comparisons.runs.run.run", refused)
+    assert main(["run", pressed, "--out", str(tmp_path / "out")]) == 2
+    assert "as far as that" in capsys.readouterr().err
 
 
 def test_marks_are_the_scenes_groups():

@@ -9,9 +9,10 @@ from scenes import DATA
 from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.rough_bodies import bearing_of
 from comparisons.campaigns.paper.claims import book
-from comparisons.campaigns.paper.claims.judgement import CONFIRMED, DENIED, THEORY
+from comparisons.campaigns.paper.claims.claim_list import book_claims
+from comparisons.campaigns.paper.claims.judgement import CONFIRMED, DENIED, THEORY, judge
 
-JUDGED = {each.claim.key: each for each in book.judged_book()}
+JUDGED = {claim.key: judge(claim, None) for claim in book_claims()}
 REFERENCE = json.loads((DATA / "g_greenwood.json").read_text())["GT"]
 
 

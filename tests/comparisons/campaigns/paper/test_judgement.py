@@ -11,11 +11,14 @@ from comparisons.campaigns.paper.claims.judgement import (
     CONFIRMED,
     DENIED,
     INCONCLUSIVE,
+    NOT_CONVERGED,
     Claim,
-    MeasuredNumber,
     judgement,
     measured,
 )
+from comparisons.campaigns.paper.claims.readings import LevelView
+from comparisons.figures.figure import Figure
+from comparisons.figures.uncertainty import Uncertainty
 
 
 def claim(**changes) -> Claim:
@@ -25,9 +28,14 @@ def claim(**changes) -> Claim:
 
 
 def outcome_of(value, uncertainty, other=None, **changes):
-    numbers = {"half_plane": MeasuredNumber(value, uncertainty)}
-    numbers["finite_element"] = MeasuredNumber(value if other is None else other, uncertainty)
+    values = {"half_plane": value, "finite_element": value if other is None else other}
+    numbers = {model: number(model, value, uncertainty) for model, value in values.items()}
     return judgement(claim(**changes), numbers)
+
+
+def number(model: str, value: float, uncertainty: float, *notes: str) -> Figure:
+    stated = Uncertainty({"discretisation": uncertainty})
+    return Figure("paper", "key", model, value, uncertainty=stated, notes=notes)
 
 
 class TestJudgement:
@@ -67,7 +75,9 @@ class TestJudgement:
         assert found == INCONCLUSIVE and "finite elements" in why and "half-plane" not in why
 
     def test_an_unsolved_contact_is_inconclusive(self):
-        found, why = judgement(claim(), {"half_plane": MeasuredNumber(2.5, 0.1, converged=False)})
+        found, why = judgement(
+            claim(), {"half_plane": number("half_plane", 2.5, 0.1, NOT_CONVERGED)}
+        )
         assert found == INCONCLUSIVE and why == "the contact of the half-plane did not converge"
 
     @pytest.mark.parametrize(
@@ -83,35 +93,35 @@ class TestJudgement:
 
 
 class TestMeasured:
-    def outcome(self, values, check=None):
-        levels = [SimpleNamespace(value=v, solution=self.solution()) for v in values]
-        level = None if check is None else SimpleNamespace(value=check, solution=None)
+    def number(self, values, check=None, exact=False, by_row=0.0) -> Figure:
+        """What levels of these values, and a far-boundary check, come to."""
+        solution = SimpleNamespace(converged=True, residuals=SimpleNamespace(worst=0.0))
+        levels = [SimpleNamespace(value=value, solution=solution) for value in values]
+        level = None if check is None else SimpleNamespace(value=check)
         checks = {"far_boundary_check": level, "longer_increments": ()}
         run = SimpleNamespace(levels=levels, finest=levels[-1], **checks)
-        return SimpleNamespace(runs={"m": run}, problem=None, window=None)
 
-    def solution(self):
-        return SimpleNamespace(converged=True, residuals=SimpleNamespace(worst=0.0))
+        def reading(view: LevelView) -> float:
+            return view.level.value + by_row * (view.every - 1)
+
+        outcome = SimpleNamespace(runs={"m": run}, problem=None, window=None)
+        return measured(claim(reading=reading, exact=exact), outcome, "m")
 
     def test_uncertainty_grows_with_levels_boundary_and_reading(self):
-        def reading(view):
-            return view.level.value + 0.01 * (view.every - 1)
-
-        plain = measured(self.outcome([1.04, 1.02, 1.01]), "m", lambda view: view.level.value)
+        number = self.number
+        plain = number([1.04, 1.02, 1.01])
         assert plain.value == 1.01
-        assert plain.uncertainty == pytest.approx(1.25 * 0.01)  # order 1: 1.25 times the last step
-        fast = measured(self.outcome([1.05, 1.01, 1.0]), "m", lambda view: view.level.value)
+        assert plain.numerical == pytest.approx(1.25 * 0.01)  # order 1: 1.25 times the last step
         # faster than order 1: no order is trusted, and the fit with order 1 scatters
-        assert fast.uncertainty == pytest.approx(0.02533, abs=1e-5)
-        read = measured(self.outcome([1.04, 1.02, 1.01]), "m", reading)
-        assert read.uncertainty == pytest.approx(plain.uncertainty + 0.01)
-        bound = measured(self.outcome([1.04, 1.02, 1.01], check=1.05), "m", reading)
-        assert bound.uncertainty == pytest.approx(read.uncertainty + 0.01 / (np.sqrt(2.0) - 1.0))
+        assert number([1.05, 1.01, 1.0]).numerical == pytest.approx(0.02533, abs=1e-5)
+        read = number([1.04, 1.02, 1.01], by_row=0.01).numerical
+        assert read == pytest.approx(plain.numerical + 0.01)
+        bound = number([1.04, 1.02, 1.01], check=1.05, by_row=0.01).numerical
+        assert bound == pytest.approx(read + 0.01 / (np.sqrt(2.0) - 1.0))
 
     def test_an_error_against_an_exact_value_has_none(self):
-        assert measured(self.outcome([3.0, 2.0, 1.0]), "m", lambda v: v.level.value, True) == (
-            MeasuredNumber(1.0, 0.0)
-        )
+        error = self.number([3.0, 2.0, 1.0], exact=True)
+        assert (error.value, error.numerical) == (1.0, 0.0)
 
 
 def test_the_list_of_claims_is_whole():

@@ -13,7 +13,6 @@ from analytic.grid import HatGrid
 from analytic.stress.points import stress_at
 from analytic.stress_state import Extremum, StressState
 from comparisons.campaigns.paper.claims import readings as r
-from comparisons.campaigns.paper.claims import waves
 from comparisons.campaigns.paper.claims.zones import (
     agreement_depth,
     joining_level,
@@ -141,8 +140,8 @@ class TestReadings:
     def test_smooth_field_agrees_everywhere_and_is_quiet_at_the_surface(self):
         view = view_of({0.0: smooth_tau1()})
         assert r.depth_of_agreement(view) == 0.0
-        assert r.reach_against_smooth(r.HALF)(view) == pytest.approx(0.0, abs=1e-12)
-        assert r.open_to_surface(0.0)(view) == pytest.approx(0.0, abs=1e-9)
+        assert r.reach_against_smooth(view, r.HALF) == pytest.approx(0.0, abs=1e-12)
+        assert r.open_to_surface(view, 0.0) == pytest.approx(0.0, abs=1e-9)
         assert r.contact_ratio(view) == pytest.approx(1.0)
         assert r.carried_load(view) == pytest.approx(1.0, abs=2e-3)
 
@@ -157,32 +156,32 @@ class TestReadings:
         view = view_of({0.0: np.maximum(smooth_tau1(), asperity(0.2, 0.0196, 0.7))})
         assert r.largest_near(view) == pytest.approx(0.7 / view.smooth_maximum, rel=2e-2)
         assert r.depth_of_largest_near(view) == pytest.approx(0.0196, abs=1e-9)
-        assert r.sheared_beyond(2.0)(view) == 1.0
-        assert r.sheared_beyond(2.5)(view) == 0.0
+        assert r.sheared_beyond(view, 2.0) == 1.0
+        assert r.sheared_beyond(view, 2.5) == 0.0
         assert view.x[r.peak_column(view)] == pytest.approx(0.2, abs=0.02)
 
     def test_a_ridge_draws_the_hertz_zone_to_the_surface(self):
         ridge = np.where(np.abs(WINDOW.x / A) < 0.1, 0.2, 0.0) * np.ones((len(WINDOW.z), 1))
         ridge[WINDOW.z < 0.01 * A] = 0.0
         view = view_of({0.0: np.maximum(smooth_tau1(), ridge)})
-        assert r.reach_against_smooth(r.HALF)(view) > 0.05
-        assert r.reach_against_smooth(r.CORE)(view) == pytest.approx(0.0, abs=1e-12)
+        assert r.reach_against_smooth(view, r.HALF) > 0.05
+        assert r.reach_against_smooth(view, r.CORE) == pytest.approx(0.0, abs=1e-12)
 
     def test_zones_open_and_merge_where_a_ridge_joins_them(self):
         apart = np.maximum(smooth_tau1(), asperity(0.2, 0.01, 0.5, 0.2))
         ridge = np.where(np.abs(WINDOW.x / A - 0.2) < 0.05, 0.2, 0.0) * np.ones((len(WINDOW.z), 1))
         view = view_of({0.0: apart, 0.1: np.maximum(apart, ridge)})
-        assert r.joined_share(0.1)(view) == pytest.approx(1.0)
-        assert r.joined_share(0.0)(view) < 0.7
-        assert r.open_to_surface(0.1)(view) == pytest.approx(0.2 / view.smooth_maximum)
-        assert r.open_to_surface(0.0)(view) < 0.5
+        assert r.joined_share(view, 0.1) == pytest.approx(1.0)
+        assert r.joined_share(view, 0.0) < 0.7
+        assert r.open_to_surface(view, 0.1) == pytest.approx(0.2 / view.smooth_maximum)
+        assert r.open_to_surface(view, 0.0) < 0.5
         assert r.low_layer(view) < 0.5
 
     def test_a_sheared_layer_has_a_zone_below_it_until_the_shear_reaches_down(self):
         layer = 0.3 * np.exp(-((WINDOW.z / (0.02 * A)) ** 2))[:, None] + 0.0 * WINDOW.x
         view = view_of({0.0: np.maximum(smooth_tau1(), layer), 0.1: smooth_tau1() + 0.5})
-        assert r.zone_ratio(0.0)(view) < 0.4 and r.zone_ratio(0.1)(view) > 0.9
-        assert 0.0 < r.zone_end("start")(view) < 0.04 < r.zone_end("stop")(view) < 0.6
+        assert r.zone_ratio(view, 0.0) < 0.4 and r.zone_ratio(view, 0.1) > 0.9
+        assert 0.0 < r.zone_end(view, "start") < 0.04 < r.zone_end(view, "stop") < 0.6
 
     def test_long_waves_bridge_the_zone_and_friction_shorter_ones(self):
         """As the map of the quiescent zone in docs/figures.md shows of rough scenes."""
@@ -190,10 +189,10 @@ class TestReadings:
         window = window_of(posed)
         level = half_plane_level(posed, posed.pitches[0], window, Stages())
         view = r.LevelView("half_plane", posed, level, window)
-        found = [waves.bridging_wavelength(mu)(view) for mu in (0.0, 0.1, 0.3)]
+        found = [r.bridging_wavelength(view, mu) for mu in (0.0, 0.1, 0.3)]
         assert found[0] == pytest.approx(0.362, abs=0.01)
         assert found[1] == pytest.approx(0.342, abs=0.01)
-        assert found[2] == waves.WAVES[0]  # every wave
+        assert found[2] == r.WAVES[0]  # every wave
 
     def test_edge_ratio_follows_the_shear_there(self):
         view = view_of({0.0: smooth_tau1(), 0.1: 1.25 * smooth_tau1()})
@@ -202,7 +201,7 @@ class TestReadings:
     def test_pressures_beyond_a_limit(self):
         view = view_of({0.0: smooth_tau1()})
         assert r.peak_pressure(view) == pytest.approx(1.0)
-        assert (r.pressed_beyond(0.9)(view), r.pressed_beyond(1.1)(view)) == (1.0, 0.0)
+        assert (r.pressed_beyond(view, 0.9), r.pressed_beyond(view, 1.1)) == (1.0, 0.0)
 
     def test_every_second_point_keeps_the_middle(self):
         view = view_of({0.0: smooth_tau1()}, every=2)
@@ -211,7 +210,7 @@ class TestReadings:
 
     def test_extremes_are_in_units_of_the_smooth_contact(self):
         view = view_of({0.0: smooth_tau1()})
-        assert r.largest("tau1")(view) == pytest.approx(0.4)
+        assert r.largest(view, "tau1") == pytest.approx(0.4)
         assert r.largest_over_smooth(view) == pytest.approx(0.4 / 0.300283, rel=1e-5)
         assert r.depth_of_largest(view) == pytest.approx(0.6)
 
@@ -267,10 +266,10 @@ class TestErrors:
     def test_strips_on_sampled_pressures(self):
         """Next to their edges half the step from one to the next."""
         smooth = view_of()
-        largest, mean = (r.error_on_rough_surface("strip", size)(smooth) for size in (True, False))
+        largest, mean = (r.error_on_rough_surface(smooth, "strip", size) for size in (True, False))
         step = np.diff(HERTZ.pressure(np.arange(0.0, r.EDGE, 1.0 / 16.0) * A)) / P0
         assert largest == pytest.approx(0.5 * np.abs(step).max(), rel=0.25)
         assert mean < 0.3 * largest
-        assert r.error_on_rough_surface("hat", True)(smooth) < 0.3 * largest
+        assert r.error_on_rough_surface(smooth, "hat", True) < 0.3 * largest
         # sampled each fourth, the wave looks like a larger pressure: that is what is seen
-        assert r.error_on_rough_surface("hat", True)(view_of(wave=0.2)) > 0.15
+        assert r.error_on_rough_surface(view_of(wave=0.2), "hat", True) > 0.15

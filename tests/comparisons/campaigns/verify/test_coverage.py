@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from comparisons.campaigns.cases import Case, CaseAnswer, Row, holds, junit_of
+from comparisons.campaigns.cases import Case, Row, holds, junit_of
 from comparisons.campaigns.verify.coverage import (
     Pair,
     Verification,
@@ -43,7 +43,7 @@ def row(
     figure = Figure("contact", "contact_length", "half_plane", levels[-1], **more)
     figures = compared(replace(figure, **fields), 2.0, "source", kind, converged)
     case = Case(kind, "case <&>", "half_plane", lambda: figures)
-    return Row(case, CaseAnswer(figures, None, 0.0))
+    return Row(case, figures, None, 0.0)
 
 
 def pair(*numbers: float, **fields) -> Pair:
@@ -54,7 +54,7 @@ def pair(*numbers: float, **fields) -> Pair:
 def whole(rows: Iterable[Row], error: str | None = None) -> Verification:
     """The verification of some rows, the first of which raised `error`."""
     first, *others = rows
-    first = replace(first, answer=replace(first.answer, error=error))
+    first = replace(first, error=error)
     return verification((first, *others), 0.0, 200, 0)
 
 
@@ -150,7 +150,7 @@ def test_coverage_is_shown_by_table_model_quantity_and_kind():
 def test_coverage_is_rounded_down():
     assert coverage_line(whole([row()] * 1999 + [row(stated=0.0)])) == "coverage 99 %"
     assert coverage_line(whole(ENOUGH)) == "coverage 100 %"
-    unsolved = replace(row(), answer=CaseAnswer((), "no solution", 0.0))
+    unsolved = replace(row(), figures=(), error="no solution")
     assert coverage_line(whole([unsolved])) == "coverage 0 %"
 
 

@@ -7,7 +7,13 @@ import pytest
 
 import comparisons as crosscheck
 from comparisons.campaigns.decks.write import write_deck
-from comparisons.campaigns.verify.form import COLUMNS, export_form, form_cases, judged_form
+from comparisons.campaigns.verify.form import (
+    COLUMNS,
+    export_form,
+    form_cases,
+    is_covered,
+    judged_form,
+)
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.notebook import scene_of
@@ -90,9 +96,9 @@ def test_a_form_is_judged_as_figures_of_a_run_are(
 ):
     judged = judged_form(filled_in(folder, tmp_path / "form.csv", factor, uncertainty))
     assert judged.exit_status == status and judged.empty == 0
-    assert {row.covered for row in judged.rows} == {covered}
-    assert [row.error for row in judged.rows] == pytest.approx(
-        [factor - 1.0] * len(judged.rows), abs=1e-9
+    assert {is_covered(figure) for figure in judged.figures} == {covered}
+    assert [figure.value for figure in judged.figures] == pytest.approx(
+        [factor - 1.0] * len(judged.figures), abs=1e-9
     )
 
 

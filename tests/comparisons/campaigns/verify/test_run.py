@@ -1,11 +1,9 @@
 """`crosscheck verify` on a part of its cases: it holds, and it sees what does not."""
 
 import json
-import os
 import pickle
 import re
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -13,7 +11,7 @@ import pytest
 
 from analytic.exact.layers import layer_references
 from comparisons import cli
-from comparisons.campaigns.cases import Case, carried_out, rows_of
+from comparisons.campaigns.cases import carried_out
 from comparisons.campaigns.verify import run
 from comparisons.campaigns.verify.coverage import (
     FEWEST_ROUGH,
@@ -37,14 +35,9 @@ from comparisons.campaigns.verify.scenes import (
     scene_cases,
     spread,
 )
-from comparisons.common import tasks
 from comparisons.common.errors import ExitStatus
 from comparisons.figures import convergence
 
-# Evaluated, the number of the process as a finding.
-PROCESS = """(
-    lambda c: [c.bounded("process", __import__("os").getpid(), 1e9, "")]
-)(__import__("sys").modules["comparisons.campaigns.cases"])"""
 SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
 
 
@@ -115,23 +108,8 @@ class TestCases:
         row = carried_out(scene_cases([scene])[0])
         assert [pair.quantity for pair in pairs_of(row)] == list(scene.exact)
         assert row.holds and all(len(pair.figure.levels) == 3 for pair in pairs_of(row))
-        (pressure,) = (f.levels for f in row.answer.figures if f.quantity == PRESSURE)
+        (pressure,) = (f.levels for f in row.figures if f.quantity == PRESSURE)
         assert pressure[-1] < 0.02 and len(pressure) == 3
-
-
-def test_processes_find_what_one_finds(monkeypatch):
-    """In the same order, each case once."""
-    contacts = operator_contacts()[:4]
-    cases = scene_cases(half_plane_scenes(rounds=1)[:4]) + operator_cases(contacts, spread(4))
-    process = Case("", "process", "half_plane", partial(eval, PROCESS))
-    alone = [carried_out(case).answer.figures for case in cases]
-    for worth in ("WORTH_A_FORK", "WORTH_A_START"):
-        monkeypatch.setattr(tasks, worth, 0.0)
-    *beside, last = rows_of([*cases, process])
-    assert [row.case for row in beside] == cases
-    assert [row.answer.figures for row in beside] == alone
-    alone = len(os.sched_getaffinity(0)) == 1
-    assert (last.judged[0].value == os.getpid()) == alone
 
 
 class TestWhole:
@@ -174,7 +152,7 @@ class TestWhole:
         impossible = replace(scene, tables=scene.tables | {"resolution": {"pitch": 1.0}})
         scope = Scope(tuple(scene_cases((impossible, scene))), fewest=0, fewest_rough=0)
         found = verify(tmp_path, scope=scope)
-        assert found.rows[0].answer.error is not None and len(found.pairs) == len(scene.exact)
+        assert found.rows[0].error is not None and len(found.pairs) == len(scene.exact)
         assert found.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 

@@ -12,10 +12,10 @@ from analytic.stress.field import StressField
 from analytic.stress.maxima import stress_maxima
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.half_plane import field_on, stresses_at
-from comparisons.models.heat import friction_of, half_space_heat, half_spaces
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
+from comparisons.studies.heat.half_space import friction_of, half_space_heat, half_spaces
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ import numpy as np
 from analytic.heat.moving_source import line_source
 from analytic.material import ThermalMaterial
 from analytic.numerics import runs_of
-from comparisons.models.heat import FARTHEST, HeatedContact, heat_of_friction, reach_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.studies.heat.half_space import FARTHEST, HeatedContact, heat_of_friction, reach_of
 from fem.body.coating import Coating
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
@@ -36,9 +36,8 @@ LAYERS, GROWTH = 1.0, 0.28  # of `meshes.thermal_layer`, on the coarsest level
 def finite_element_heat(
     problem: Problem, level: Level, block: float = 1.0, without: Set[str] = frozenset()
 ) -> HeatedContact:
-    """As the half-spaces' `comparisons.models.heat.half_space_heat`, under the pressures of a
-    finite-element level; `block` scales the mesh of an unbounded body; `without` names features
-    (`what_it_contains`) that are left out."""
+    """As `half_space_heat`, under the pressures of a finite-element level; `block` scales the mesh
+    of an unbounded body; `without` names features (`what_it_contains`) that are left out."""
     return solved_heat(problem, level, block, without)[0]
 
 

@@ -10,9 +10,9 @@ from scenes import STEEL, problem
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from comparisons.common.progress import Stages, no_progress
-from comparisons.models.finite_element.heat import finite_element_heat
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.heat import half_space_heat, peclet_numbers, what_it_contains
+from comparisons.studies.heat.conduction import finite_element_heat
+from comparisons.studies.heat.half_space import half_space_heat, peclet_numbers, what_it_contains
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
 EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}

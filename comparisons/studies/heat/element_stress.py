@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from comparisons.models.finite_element.bodies import rough_support
-from comparisons.models.finite_element.heat import solved_heat
-from comparisons.models.heat import friction_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.models.thermal_stress import HeatedStress, surface_places
 from comparisons.models.window import Window
+from comparisons.studies.heat.conduction import solved_heat
+from comparisons.studies.heat.half_plane_stress import HeatedStress, surface_places
+from comparisons.studies.heat.half_space import friction_of
 from fem.body.elasticity import elastic_body
 from fem.heat.thermal_stress import thermal_stress
 from fem.stress.maximum import maximum

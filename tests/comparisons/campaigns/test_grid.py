@@ -1,0 +1,73 @@
+"""Grids of scenes: what is solved once, again, or not at all."""
+
+from concurrent.futures import BrokenExecutor, Executor, Future
+from contextlib import nullcontext
+from functools import partial
+
+import pytest
+
+from comparisons.campaigns.grid import DIED, SOLVED, Point, solved_in
+from comparisons.common.executors import ExecutorWorker
+from comparisons.common.tasks import Tasks, carried_out
+from comparisons.scenes.scene import Scene
+
+SCENE = Scene.read("smooth")
+
+
+def point_at(x: float) -> Point:
+    return Point({"x": x}, "peak_pressure", SCENE, None, f"key{x:g}")
+
+
+class Fragile(Executor):
+    """Solves at once what is submitted; at a deadly point it says what Dask would."""
+
+    def __init__(self, *deadly: float) -> None:
+        self.deadly = deadly
+
+    def submit(self, *task):
+        future = Future()
+        if task[-1].at["x"] in self.deadly:
+            future.set_exception(BrokenExecutor("killed"))
+        else:
+            future.set_result(carried_out(*task[1:]))
+        return future
+
+
+class Solved(list[float]):
+    """Where points were solved, in order; what solves them says where they are."""
+
+    def solve(self, point: Point) -> dict:
+        self.append(point.at["x"])
+        return {"status": SOLVED, "x": point.at["x"]}
+
+
+@pytest.fixture
+def solve_in(monkeypatch, tmp_path):
+    """solve_in(places, opens): the answers at the places, where they were solved, and the steps."""
+
+    def solve(places, opens=None):
+        solved, steps = Solved(), []
+        tasks = "comparisons.campaigns.grid.tasks_by"
+        monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(opens, 2, kept)))
+        points = [point_at(x) for x in places]
+        answers = solved_in(tmp_path, ("map.json",), points, solved.solve, None, steps.append)
+        return [answer for answer, _ in answers], solved, steps
+
+    return solve
+
+
+def test_a_point_that_takes_its_process_along_fails_and_no_other_does(solve_in):
+    answers, solved, _ = solve_in(range(8), partial(ExecutorWorker, Fragile(2, 7)))
+    for x in (2, 7):
+        assert answers[x] == {"status": "failed", "why": DIED}
+    assert [answer["x"] for answer in answers if answer["status"] == SOLVED] == [0, 1, 3, 4, 5, 6]
+    assert sorted(solved) == [0, 1, 3, 4, 5, 6]
+
+
+def test_what_is_kept_whole_is_not_solved_again(solve_in, tmp_path):
+    assert solve_in((0, 1, 2))[1] == [0, 1, 2]
+    path = tmp_path / "map_points" / "key1.npz"
+    path.write_bytes(path.read_bytes()[:-9])
+    answers, solved, steps = solve_in((0, 1, 1, 2, 3))
+    assert sorted(solved) == [1, 3] and [answer["x"] for answer in answers] == [0, 1, 1, 2, 3]
+    assert steps == [f"map: {done} of 4 points" for done in range(5)]
