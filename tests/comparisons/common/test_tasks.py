@@ -57,6 +57,15 @@ def home(here: Here) -> int:
     return os.getpid()
 
 
+def met(here: Here, folder: Path, name: str, other: str) -> int:
+    """Waits until the other process works, too."""
+    (folder / name).touch()
+    end = time.monotonic() + 60.0
+    while not (folder / other).exists() and time.monotonic() < end:
+        time.sleep(0.01)
+    return os.getpid()
+
+
 def noted(here: Here, path: Path, name: str) -> str:
     here.callback(name)
     with path.open("a") as file:
@@ -132,10 +141,10 @@ class TestOrder:
             one.result(name)
         assert path.read_text() == order
 
-    def test_processes_share_different_things(self, beside):
+    def test_processes_share_different_things(self, beside, tmp_path):
         """Four tasks in pairs that share: each process has one pair."""
-        for name in ("a1", "a2", "b1", "b2"):
-            beside.add(name, home, seconds=1.0, shares=name[0])
+        for name, other in (("a1", "b1"), ("a2", "b1"), ("b1", "a1"), ("b2", "a1")):
+            beside.add(name, met, tmp_path, name, other, seconds=1.0, shares=name[0])
         a1, a2, b1, b2 = (beside.result(name) for name in ("a1", "a2", "b1", "b2"))
         assert a1 == a2 != b1 == b2
 
