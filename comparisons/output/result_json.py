@@ -83,8 +83,10 @@ def content_of(run: Run) -> dict:
 def read_content(content: Mapping) -> Result:
     """What a content says. Raises LookupError, TypeError or ValueError where it is built
     otherwise."""
+    if not _of_kind(content, "figures", list):
+        raise ValueError("figures: has none")
     studies: dict[str, tuple[list, list, list]] = {}
-    for figure in Figures(map(_read_figure, _of_kind(content, "figures", list))):
+    for figure in Figures(map(_read_figure, content["figures"])):
         studies.setdefault(figure.study, ([], [], []))[0].append(figure)
     for place, (name, read) in enumerate(
         (("series", _read_series), ("statements", _read_statement)), start=1

@@ -143,7 +143,7 @@ class TestOrder:
 
     def test_processes_share_different_things(self, beside, tmp_path):
         """Four tasks in pairs that share: each process has one pair."""
-        for name, other in (("a1", "b1"), ("a2", "b1"), ("b1", "a1"), ("b2", "a1")):
+        for name, other in (("a1", "b1"), ("a2", "b2"), ("b1", "a1"), ("b2", "a2")):
             beside.add(name, met, tmp_path, name, other, seconds=1.0, shares=name[0])
         a1, a2, b1, b2 = (beside.result(name) for name in ("a1", "a2", "b1", "b2"))
         assert a1 == a2 != b1 == b2

@@ -56,7 +56,12 @@ def refused(capsys, *arguments: object) -> str:
     ("file", "value", "keys", "told"),
     [
         ("result.json", None, ("figures",), "is no result of a run (KeyError('figures'))"),
-        ("result.json", [], ("figures",), "make up no report"),
+        (
+            "result.json",
+            [],
+            ("figures",),
+            "is no result of a run (ValueError('figures: has none'))",
+        ),
         ("result.json", {}, ("series",), "is no result of a run"),
         ("result.json", 99, ("schema",), "schema: is 99, of a later crosscheck; allowed is 3"),
         ("result.json", 1, ("schema",), "is 1, of an earlier crosscheck; allowed is 3: run the"),
