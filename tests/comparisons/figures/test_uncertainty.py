@@ -88,7 +88,8 @@ def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
 def test_bounds_of_several_levels_add(smooth_outcome: Run):
     """Of two models by both residuals; of a difference of lengths by what is read of both."""
     one, other = (run.finest for run in smooth_outcome.runs.values())
-    assert iteration(one, other) == iteration(one) + iteration(other) > 0.0
+    assert iteration(one, other) == pytest.approx(iteration(one) + iteration(other))
+    assert iteration(one, other) > 0.0
     read = [length_resolution(level.grid.pitch, 1) for level in (one, other)]
     whole = pytest.approx(sum(read) / other.contact_length, rel=0.01)
     assert relative_resolution(one, other) == whole
