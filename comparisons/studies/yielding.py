@@ -233,6 +233,16 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
     )
 
 
+def may_flow(run: Run) -> str:
+    """That a body whose yield stress is not given may flow, as a clause; empty where it cannot or
+    is known."""
+    flow = run.data(NAME)
+    if flow.ratio is not None or run.problem.scene.body.youngs_modulus <= STIFF:
+        return ""
+    shear = with_unit(flow.worst.tau1, "Pa", 2)
+    return f"all this is of an elastic body, and one whose shear yield is below {shear} flows"
+
+
 def flow_sentence(run: Run) -> str:
     """The one thing to know of flow beside the verdict, without its full stop."""
     flow = run.data(NAME)
@@ -243,7 +253,7 @@ def flow_sentence(run: Run) -> str:
     where += "" if worst.from_field else ", by the peak pressure (no [stress])"
     if flow.ratio is None:
         shear = with_unit(worst.tau1, "Pa", 2)
-        return f"elastic; first flow at a shear yield below {shear}{where}"
+        return f"taken as elastic: it flows if its shear yield is below {shear}{where}"
     stress = with_unit(flow.yield_stress, "Pa", 3)
     third = "" if run.problem.scene.body.yield_stress else ", a third of the hardness"
     largest = f"the half-plane's largest shear is {significant(flow.ratio, 2)} times that of first "
