@@ -10,7 +10,9 @@ from typing import Literal
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text, label
-from comparisons.models.assumptions import laws
+from comparisons.models.assumptions import laws, without_law
+from comparisons.scenes.materials import kinds_like, measured_solids
+from comparisons.scenes.sections import ElasticSection
 from comparisons.studies import contact, coupling, yielding
 from comparisons.studies.model_error.account import INPUTS, INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
@@ -122,12 +124,13 @@ def _sentence_of(run: Run, kind: Kind) -> str:
 def _law_leaned_on(run: Run) -> str:
     """For the end of a sentence: the law of elasticity that the whole has, or that none changes the
     verdict; nothing where the whole deforms little."""
-    selection = run.data(MODEL_ERROR).selection
+    selection, scene = run.data(MODEL_ERROR).selection, run.problem.scene
     if "finite_strain" not in selection.whole:
         return ""
-    if LAW not in selection.estimates or any(law.is_scatter for law in selection.laws):
-        return f", with {laws(run.problem.scene)} elasticity"
-    return ", whatever the law of elasticity" if selection.laws else ""
+    if not without_law(scene):
+        return f", with {laws(scene)} elasticity"
+    solved = any(not law.is_scatter for law in selection.laws)
+    return ", whatever the law of elasticity" if solved else ""
 
 
 def _inputs(run: Run) -> str:
@@ -237,15 +240,24 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
 
 
 def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[str, ...]]:
+    """Name the solid; where that is done, what is not known of it."""
+    scene = run.problem.scene
     bodies = [name for law in run.data(MODEL_ERROR).selection.laws for name in law.bodies]
-    unnamed = [name for name in bodies if not getattr(getattr(run.problem.scene, name), "material_name", None)]
+    sections = {name: getattr(scene, name) for name in bodies}
+    unnamed = {name: each for name, each in sections.items() if each.solid is None}
     if unnamed:
-        given = tuple(f'[{name}]\nmaterial = "…"' for name in unnamed)
-        fields = " and ".join(f'{name}.material = "…"' for name in unnamed)
-        return f"{fields} names the solid (crosscheck materials lists them).", given
-    solid = " and ".join(dict.fromkeys(getattr(getattr(run.problem.scene, n), "material_name", "") for n in bodies))
-    known = f"third-order constants of {solid} are not published" if solid else "no law is known"
-    return f"{tolerance} holds; {known}.", (tolerance,) if tolerance else ()
+        given = tuple(f'[{name}]\nmaterial = "{_like(each)}"' for name, each in unnamed.items())
+        fields = " and ".join(f'{n}.material = "{_like(s)}"' for n, s in unnamed.items())
+        return f"{fields}, or what it is (crosscheck materials), for its moduli.", given
+    unmeasured = dict.fromkeys(each.solid for each in sections.values())
+    known = f"no third-order constants of {' or '.join(unmeasured)} are published"
+    return f"{tolerance} holds; {known}.", (tolerance,)
+
+
+def _like(section: ElasticSection) -> str:
+    """A measured solid that a body may be."""
+    kinds = kinds_like(section.youngs_modulus, section.poissons_ratio)
+    return next((solid.name for solid in measured_solids(*kinds) if kinds), "…")
 
 
 def _next_of_flow(run: Run) -> tuple[str, tuple[str, ...]]:

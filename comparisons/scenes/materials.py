@@ -1,11 +1,10 @@
 """Solids that a scene may name, read from materials.toml: elastic constants, the law of elasticity
 that was measured, thermal constants, typical strengths, each with its source.
 
-Also the pair of laws between which a solid of some class lies (`bounding_laws`), for a body whose
-own law is not known."""
+Also which measured solids a body may be like (`measured_solids`) whose own law is not known."""
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -18,7 +17,6 @@ from analytic.material.third_order import (
     PRESSURE_DERIVATIVES,
     murnaghan_constants,
     murnaghan_errors,
-    peak_change,
 )
 from comparisons.common.errors import nearest
 from comparisons.common.units import (
@@ -53,9 +51,10 @@ WIDER = {
     "glassy polymer": "polymer",
     "semicrystalline polymer": "polymer",
 }
-# In incompressible plane strain no law has a term of third order, and Mooney and Rivlin's, by which
-# rubbers are described, is the neo-Hookean one: these two differ in the next order.
-RUBBER, OF_RUBBER = "rubber", (Law("neo-hookean"), Law("hencky"))
+RUBBER = "rubber"
+# Moduli and ratios of one kind of solid scatter by so much: steels from 193 to 213 GPa, glasses
+# from 0.19 to 0.24.
+NEAR_MODULUS, NEAR_RATIO = 0.1, 0.03
 SAME = 1e-9  # relative: a value written beside a solid's name is that solid's
 
 
@@ -157,36 +156,49 @@ def nearest_name(name: str) -> str | None:
     return _names().get(nearest(name.casefold(), _names()))
 
 
-def bounding_solids(
-    klass: str | None, youngs_modulus: float, poissons_ratio: float
-) -> tuple[Solid, Solid]:
-    """The two solids of a class, or of the next wider one with two of known third-order constants,
-    whose constants, scaled to the body's shear modulus, lower and raise the peak pressure of a
-    smooth contact most. Raises ValueError for a class that is not one."""
-    _check_class(klass)
-    body, within = Material(youngs_modulus, poissons_ratio), klass
-    while len(measured := list(_of_class(within))) < 2:
-        within = WIDER.get(within, ANY)
-
-    def change(solid: Solid) -> float:
-        return peak_change(scaled_law(solid, body), body)
-
-    return min(measured, key=change), max(measured, key=change)
+def kinds_like(youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
+    """The classes of solids that have about these constants: NEAR_MODULUS, relative, and
+    NEAR_RATIO, absolute; several where they cannot be told apart, none for constants that no known
+    solid has."""
+    like = (
+        solid.kind
+        for solid in solids().values()
+        if solid.material is not None
+        and abs(solid.material.youngs_modulus / youngs_modulus - 1.0) <= NEAR_MODULUS
+        and abs(solid.material.poissons_ratio - poissons_ratio) <= NEAR_RATIO
+    )
+    return tuple(dict.fromkeys(like))
 
 
-def bounding_laws(
-    klass: str | None, youngs_modulus: float, poissons_ratio: float
-) -> tuple[Law, Law]:
-    """Two laws of elasticity between which that of a body lies of which its class alone is known
-    (`classes`; None: any solid), with its own `youngs_modulus` [Pa] and `poissons_ratio`: those of
-    `bounding_solids`, l, m, n and their standard errors scaled by the shear moduli. The first
-    lowers the peak pressure of a smooth contact most, the second raises it. Of rubber the
-    neo-Hookean and Hencky's. Raises ValueError for a class that is not one."""
-    if klass == RUBBER:
-        return OF_RUBBER
-    body = Material(youngs_modulus, poissons_ratio)
-    low, high = bounding_solids(klass, youngs_modulus, poissons_ratio)
-    return scaled_law(low, body), scaled_law(high, body)
+def measured_solids(*kinds: str) -> list[Solid]:
+    """Those of known third-order constants in any of the classes, or in the next wider ones where
+    these have fewer than two; all there are without a class. Raises ValueError for a class that is
+    not one."""
+    _check_classes(kinds)
+    within = kinds or (ANY,)
+    while len(measured := [solid for solid in solids().values() if _is_of(solid, within)]) < 2:
+        within = tuple(dict.fromkeys(WIDER.get(kind, ANY) for kind in within))
+    return measured
+
+
+def typical_range(name: str, solid: str | None, kinds: Iterable[str]) -> tuple[float, float] | None:
+    """From which to which value [SI] a strength of TYPICAL goes, of a solid where it is known, else
+    of the classes; None where nothing is known."""
+    of_solid = [solids()[solid]] if solid is not None else []
+    for those in (of_solid, [each for each in solids().values() if each.kind in set(kinds)]):
+        known = [each.typical[name] for each in those if name in each.typical]
+        if known:
+            ends = [value.span or (value.value, value.value) for value in known]
+            return min(low for low, _ in ends), max(high for _, high in ends)
+    return None
+
+
+def kinds_of(solid: str | None, youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
+    """The classes that a body may be of: that of the solid it is named after, else those of solids
+    with about its constants."""
+    if solid is not None:
+        return (solids()[solid].kind,)
+    return kinds_like(youngs_modulus, poissons_ratio)
 
 
 def scaled_law(solid: Solid, body: Material) -> Law:
@@ -205,16 +217,16 @@ def classes() -> list[str]:
     return sorted({*(solid.kind for solid in solids().values()), *WIDER.values(), ANY})
 
 
-def _check_class(klass: str | None) -> None:
-    if klass is not None and klass not in classes():
-        raise ValueError(f"the class must be one of {', '.join(classes())}, not {klass!r}")
+def _check_classes(kinds: tuple[str, ...]) -> None:
+    for kind in kinds:
+        if kind not in classes():
+            raise ValueError(f"the class must be one of {', '.join(classes())}, not {kind!r}")
 
 
-def _of_class(klass: str | None) -> Iterator[Solid]:
-    """Solids of known third-order constants in a class or one that it is wider than."""
-    for solid in solids().values():
-        if solid.has_constants and klass in (None, ANY, solid.kind, WIDER.get(solid.kind)):
-            yield solid
+def _is_of(solid: Solid, kinds: tuple[str, ...]) -> bool:
+    """Whether its constants are known, and it is of one of the classes, or of one that these are
+    wider than."""
+    return solid.has_constants and bool({ANY, solid.kind, WIDER.get(solid.kind)} & set(kinds))
 
 
 def _solid(entry: Mapping) -> Solid:

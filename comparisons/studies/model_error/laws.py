@@ -4,19 +4,16 @@ In: a scene whose whole model deforms finitely. Out: the laws with which the who
 more on its coarsest level, and what they say of every solid that may be meant.
 
 All laws have one limit of small strains. Their next terms have Murnaghan's constants l and m (n
-moves nothing in the plane), for lambda and mu of Lame:
-
-    neo-Hookean l = -lambda, m = -lambda - 2 mu; Hencky l = -lambda, m = -lambda - 3 mu;
-    St. Venant-Kirchhoff l = m = 0
-
-So a law is a point (l/mu, m/mu), and what it changes is linear in this, to first order in the
-strain. The whole's own law and two others are three points; the plane through their figures holds
-every solid. The two are solids themselves, that span the largest triangle with the whole's.
+moves nothing in the plane; `analytic.material.third_order` has those of every law). So a law is a
+point (l/mu, m/mu), and what it changes is linear in this, to first order in the strain. The whole's
+own law and two others are three points; the plane through their figures holds every solid. The two
+are solids themselves, that span the largest triangle with the whole's.
 
 Where the scene names no law, the error lies between those of the published solids of its kind.
 Where it names a solid whose constants were measured, each is moved by its standard error; two of
 them, independent of each other, are the 95 % of every other uncertainty."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
@@ -24,9 +21,16 @@ from itertools import combinations
 import numpy as np
 
 from analytic.material import Law, Material
+from analytic.material.third_order import peak_change, third_order
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+from comparisons.scenes.materials import (
+    RUBBER,
+    kinds_of,
+    measured_solids,
+    scaled_law,
+)
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
 from comparisons.studies.model_error.quantities_of_interest import (
@@ -41,111 +45,103 @@ COVERED = 2.0  # standard errors
 # Relative changes on the coarsest level move by less of themselves on finer ones: peaks and shears
 # of smooth contacts by 0.03, lengths, which are read between nodes, by 0.17.
 SETTLED = 0.2
-# Change of the peak of a smooth contact, over p0/E, by l/mu and m/mu: at Poisson's ratio 0.3 and
-# a/R = 0.05, for estimates.
-BY_L, BY_M = -0.057, -0.22
+SOFT = 1e9  # [Pa] below it, a body like no known solid is taken for rubber
 FLAT = 0.05  # a triangle's height over its length, below which the plane is taken along it alone
+
 
 Point = tuple[float, float]  # l/mu, m/mu
 
 
-def point_of(material: Material) -> Point:
-    """The law's constants of third order."""
-    lame = 2.0 * material.poissons_ratio / (1.0 - 2.0 * material.poissons_ratio)  # over mu
-    law = material.law
-    if law.name == "murnaghan":
-        ell, m, _ = law.murnaghan
-        return ell / material.shear_modulus, m / material.shear_modulus
-    return {
-        "neo-hookean": (-lame, -lame - 2.0),
-        "hencky": (-lame, -lame - 3.0),
-        "st-venant-kirchhoff": (0.0, 0.0),
-    }[law.name]
-
-
-def _by_point(ell: float, m: float) -> float:
-    return BY_L * ell + BY_M * m
+def point_of(law: Law, material: Material) -> Point:
+    ell, m, _ = third_order(law, material)
+    return ell / material.shear_modulus, m / material.shear_modulus
 
 
 @dataclass(frozen=True)
 class OpenLaw:
     """What is not known of the law of one body, or of both where they are of one solid."""
 
-    bodies: tuple[str, ...]  # of BODIES
     material: Material  # with the law that the whole has
-    solids: Mapping[str, Point]  # that may be meant, by name
-    probes: Mapping[str, Law]  # that the whole is solved with, by name
+    laws: tuple[Law, ...]  # of the solids that may be meant, with the body's own moduli
+    named_probes: tuple[tuple[str, Law], ...]  # those of them that the whole is solved with
     is_scatter: bool = False  # of measured constants: the probes are these moved, one by one
+    bodies: tuple[str, ...] = ()  # of BODIES
+
+    @property
+    def probes(self) -> dict[str, Law]:
+        return dict(self.named_probes)
 
     @property
     def words(self) -> str:
         """For the account of effects."""
-        if self.is_scatter:
-            return "its constants are measured; the whole is solved again at their standard errors"
         solved = " and ".join(self.probes)
-        return f"the scene names no solid; the whole is solved again as {solved}"
+        if self.is_scatter:
+            return f"its constants were measured; the whole is solved again with {solved}"
+        return f"the scene names no measured solid; the whole is solved again as {solved}"
 
     @property
     def size(self) -> float:
         """The largest change of the peak of a smooth contact, over p0/E."""
-        ell, m = point_of(self.material)
-        if self.is_scatter:
-            moves = (self._point(law) for law in self.probes.values())
-            return COVERED * float(np.hypot.reduce([_by_point(a - ell, b - m) for a, b in moves]))
-        return max(abs(_by_point(a - ell, b - m)) for a, b in self.solids.values())
+        before = peak_change(self.material.law, self.material)
+        changes = [peak_change(law, self.material) - before for law in self.laws]
+        return COVERED * math.hypot(*changes) if self.is_scatter else max(map(abs, changes))
 
     def range(self, changes: Mapping[str, float]) -> tuple[float, float]:
         """The least and the largest change that a solid makes, by those of the probes."""
-        origin = np.array(point_of(self.material))
-        moves = [np.array(self._point(law)) - origin for law in self.probes.values()]
+        origin = np.array(point_of(self.material.law, self.material))
+        moves = [point_of(law, self.material) - origin for law in self.probes.values()]
         slopes = np.linalg.lstsq(np.array(moves), np.array(list(changes.values())), rcond=FLAT)[0]
-        others = [(np.array(point) - origin) @ slopes for point in self.solids.values()]
+        others = [(point_of(law, self.material) - origin) @ slopes for law in self.laws]
         every = [*changes.values(), *map(float, others)]
         return min(every), max(every)
-
-    def _point(self, law: Law) -> Point:
-        return point_of(replace(self.material, law=law))
 
 
 def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
     """Those of a scene's elastic bodies; bodies of equal constants and laws vary together."""
-    found: dict[tuple, OpenLaw] = {}
+    found: dict[OpenLaw, list[str]] = {}
     for name in BODIES:
         section = getattr(scene, name)
-        if section.material is None or (open_law := _open_law(section)) is None:
-            continue
-        key = open_law.material, open_law.is_scatter, tuple(open_law.probes)
-        bodies = found[key].bodies if key in found else ()
-        found[key] = replace(open_law, bodies=(*bodies, name))
-    return tuple(found.values())
+        if section.material is not None and (law := _open_law(section)) is not None:
+            found.setdefault(law, []).append(name)
+    return tuple(replace(law, bodies=tuple(names)) for law, names in found.items())
 
 
 def _open_law(section: ElasticSection) -> OpenLaw | None:
-    """None where the law is known."""
-    if section.law is not None:
-        return None
+    """None where the law is known for certain."""
     material = section.material
-    solids = dict(DEVELOP.items())
-    points = {
-        n: point_of(replace(material, law=law(material.shear_modulus))) for n, law in solids.items()
-    }
-    origin = point_of(material)
+    if section.law is not None:
+        errors = material.law.standard_errors
+        return None if errors is None else _scattered(material, errors)
+    kinds = kinds_of(section.solid, section.youngs_modulus, section.poissons_ratio)
+    if RUBBER in kinds or (not kinds and material.youngs_modulus < SOFT):
+        laws = {"neo-Hookean rubber": Law(), "rubber by Hencky's law": Law("hencky")}
+    else:
+        measured = measured_solids(*kinds)
+        laws = {solid.name: scaled_law(solid, material) for solid in measured}
+    return OpenLaw(material, tuple(laws.values()), _probes(laws, material))
 
-    def area(pair: tuple[str, str]) -> float:
-        one, other = (np.subtract(points[name], origin) for name in pair)
+
+def _scattered(material: Material, errors: tuple[float, float, float]) -> OpenLaw:
+    """Each of l and m moved by its standard error."""
+    constants, moved = np.array(material.law.murnaghan), {}
+    for place, name in enumerate("lm"):
+        step = np.zeros(3)
+        step[place] = errors[place]
+        moved[f"{name} moved by its standard error"] = Law("murnaghan", tuple(constants + step))
+    return OpenLaw(material, tuple(moved.values()), tuple(moved.items()), is_scatter=True)
+
+
+def _probes(laws: Mapping[str, Law], material: Material) -> tuple[tuple[str, Law], ...]:
+    """The two that span the largest triangle with the body's own, or the only one."""
+    laws = {name: law for name, law in laws.items() if law != material.law}
+    origin = np.array(point_of(material.law, material))
+
+    def area(pair: tuple[str, ...]) -> float:
+        one, other = (point_of(laws[name], material) - origin for name in pair)
         return abs(float(one[0] * other[1] - one[1] * other[0]))
 
-    chosen = max(combinations(points, 2), key=area, default=tuple(points))
-    probes = {name: solids[name](material.shear_modulus) for name in chosen}
-    return OpenLaw((), material, points, probes)
-
-
-DEVELOP = {
-    "carbon steel": lambda mu: Law("murnaghan", (-5.6 * mu, -7.8 * mu, -8 * mu)),
-    "7075 aluminium": lambda mu: Law("murnaghan", (-9.4 * mu, -10.3 * mu, -12 * mu)),
-    "Armco iron": lambda mu: Law("murnaghan", (-4.2 * mu, -12.6 * mu, 13 * mu)),
-    "Pyrex": lambda mu: Law("murnaghan", (0.5 * mu, 3.3 * mu, 15 * mu)),
-}
+    chosen = max(combinations(laws, 2), key=area, default=tuple(laws))
+    return tuple((name, laws[name]) for name in chosen)
 
 
 def law_variants(
