@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Self, get_args
 
-from pydantic import PrivateAttr, ValidationError
+from pydantic import PrivateAttr, ValidationError, model_validator
 
 from comparisons.common.errors import InputError, SceneError, nearest
 from comparisons.common.units import describe
-from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, plain
+from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, file_fields, plain
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.profile import ProfileSection
@@ -32,7 +32,7 @@ from comparisons.scenes.sections import (
     ToleranceSection,
 )
 from comparisons.scenes.studies.answers import Answers
-from comparisons.scenes.studies.heat import HeatSection
+from comparisons.scenes.studies.heat import HeatSection, with_heat_of_solids
 from comparisons.scenes.studies.scatter import ScatterSection
 from comparisons.scenes.studies.statistics import StatisticsSection
 
@@ -185,6 +185,11 @@ class Scene(SceneBase):
     heat: HeatSection | None = None
     answers: Answers | None = None
 
+    @model_validator(mode="before")
+    @classmethod
+    def _follow_solids(cls, tables: object) -> object:
+        return with_heat_of_solids(tables) if isinstance(tables, Mapping) else tables
+
 
 def _shown(value: object) -> str:
     """A field's value in a line: of long lists the first entries."""
@@ -250,13 +255,13 @@ def _unknown(sections: dict[str, type[SceneSection]], location: tuple, value: ob
     if not section and isinstance(value, dict):
         return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
     fields = {
-        table: {field: f"{table}.{field}" for field in sections[table].model_fields}
+        table: {field: f"{table}.{field}" for field in file_fields(sections[table])}
         for table in titles
     }
     own = {"title": "title", **titles}
     if section:
         within = ".".join(section)
-        own = {field: f"{within}.{field}" for field in sections[section[0]].model_fields}
+        own = {field: f"{within}.{field}" for field in file_fields(sections[section[0]])}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
     near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)

@@ -1,6 +1,6 @@
 """The [heat] section: sliding speed, and how both bodies conduct the heat of friction."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated
 
 from analytic.material import ThermalMaterial
@@ -22,12 +22,37 @@ from comparisons.scenes.fields import (
     Truth,
     allowed,
 )
+from comparisons.scenes.materials import solid_named
 
 Conductivity = Annotated[float, Number(CONDUCTIVITY, above=0.0)]
 Density = Annotated[float, Number(DENSITY, above=0.0)]
 SpecificHeat = Annotated[float, Number(SPECIFIC_HEAT, above=0.0)]
 Expansion = Annotated[float, Number(EXPANSION, above=0.0, at_most=1e-3)]
 CONSTANTS = ("conductivity", "density", "specific_heat")
+
+
+def with_heat_of_solids(tables: Mapping) -> Mapping:
+    """A scene's tables with what [heat] leaves out of the constants of bodies that are named after
+    a solid; expansions where stresses are asked for."""
+    heat = tables.get("heat")
+    if not isinstance(heat, Mapping):
+        return tables
+    follows = {}
+    for body in ("body", "roller", "coating"):
+        section = tables.get(body)
+        name = section.get("material") if isinstance(section, Mapping) else None
+        solid = solid_named(name) if isinstance(name, str) else None
+        if solid is None:
+            continue
+        names = CONSTANTS
+        if heat.get("stresses") is True and body != "roller":
+            names = (*CONSTANTS, "expansion")
+        follows |= {
+            f"{body}_{constant}": solid.values[constant].value
+            for constant in names
+            if constant in solid.values
+        }
+    return {**tables, "heat": {**follows, **heat}}
 
 
 class HeatSection(SceneSection):
