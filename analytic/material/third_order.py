@@ -65,8 +65,8 @@ def murnaghan_errors(
     without one counts as exact."""
     factors, _ = _equations(constants, material)
     scales = [_pressure_scale(name, material) for name in constants]
-    each = [errors.get(name, 0.0) * scale for name, scale in zip(constants, scales, strict=True)]
-    return tuple(map(float, np.sqrt(np.linalg.inv(factors) ** 2 @ np.square(each))))
+    widths = [errors.get(name, 0.0) * scale for name, scale in zip(constants, scales, strict=True)]
+    return tuple(map(float, np.sqrt(np.linalg.inv(factors) ** 2 @ np.square(widths))))
 
 
 def _pressure_scale(name: str, material: Material) -> float:
@@ -173,18 +173,18 @@ def _derivatives(
     log = np.log(stretches)
     if law.name == "hencky":
         stress = 2.0 * shear * log + lame * log.sum(axis=0)
-        own = (2.0 * shear + lame - stress) / stretches**2
-        return *(stress / stretches), *own, lame / (first * second)
+        curvature = (2.0 * shear + lame - stress) / stretches**2
+        return *(stress / stretches), *curvature, lame / (first * second)
     if law.name == "neo-hookean":
         across = lame * log.sum(axis=0) - shear
-        own = shear + (lame - across) / stretches**2
-        return *(shear * stretches + across / stretches), *own, lame / (first * second)
+        curvature = shear + (lame - across) / stretches**2
+        return *(shear * stretches + across / stretches), *curvature, lame / (first * second)
     ell, m, _ = third_order(law, material)
     strain = 0.5 * (stretches**2 - 1.0)
     total, product = strain.sum(axis=0), strain.prod(axis=0)
     other = strain[::-1]
     slope = (lame + 2.0 * shear) * total + (ell + 2.0 * m) * total**2
     slope = slope - 2.0 * m * product - 2.0 * (shear + m * total) * other
-    own = lame + 2.0 * shear + 2.0 * (ell + 2.0 * m) * total - 4.0 * m * other
+    curvature = lame + 2.0 * shear + 2.0 * (ell + 2.0 * m) * total - 4.0 * m * other
     mixed = lame + 2.0 * ell * total
-    return *(stretches * slope), *(slope + stretches**2 * own), first * second * mixed
+    return *(stretches * slope), *(slope + stretches**2 * curvature), first * second * mixed

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 
@@ -117,9 +116,6 @@ class SolidName(FieldType):
 
     def allowed(self) -> str:
         return 'the name of a solid such as "carbon steel" (crosscheck materials lists them)'
-
-
-SolidField = Annotated[str, SolidName()]
 
 
 @cache

@@ -67,8 +67,8 @@ def test_conventions_stand_for_the_same_energy():
     "names", ["l m n", "A B C", "nu1 nu2 nu3", "c111 c112 c123", "c111 c144 c456", "c112 c155 nu3"]
 )
 def test_three_constants_give_back_murnaghans(names):
-    given = murnaghan_constants(values(*names.split()), STEEL)
-    assert given == pytest.approx((L, M, N), rel=1e-12)
+    constants = murnaghan_constants(values(*names.split()), STEEL)
+    assert constants == pytest.approx((L, M, N), rel=1e-12)
 
 
 def test_pressure_derivatives_are_those_of_the_energy():
@@ -99,8 +99,8 @@ def test_pressure_derivatives_are_those_of_the_energy():
     low, high = moduli(1.0 + 1e-3), moduli(1.0 - 1e-3)
     slopes = [(b - a) / (high[0] - low[0]) for a, b in zip(low[1:], high[1:], strict=True)]
     # the shear stress of a simple shear under pressure has the modulus G itself
-    found = {"bulk_by_pressure": slopes[0], "shear_by_pressure": slopes[1], "n": N}
-    assert murnaghan_constants(found, STEEL) == pytest.approx((L, M, N), rel=5e-3)
+    derivatives = {"bulk_by_pressure": slopes[0], "shear_by_pressure": slopes[1], "n": N}
+    assert murnaghan_constants(derivatives, STEEL) == pytest.approx((L, M, N), rel=5e-3)
 
 
 @pytest.mark.parametrize(

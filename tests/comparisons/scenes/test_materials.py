@@ -51,9 +51,6 @@ def test_every_solid_is_complete_and_has_its_sources(solid):
     # a law that was measured, or a word that none was found
     assert (solid.law is None) == bool(solid.missing)
     assert bool(solid.law_sources) == (solid.law is not None)
-    keys = {
-        key for value in (*solid.values.values(), *solid.typical.values()) for key in value.sources
-    }
     assert keys_of(solid) <= sources().keys()
     for name, value in solid.values.items():
         low, high = RANGES[name]
@@ -103,9 +100,9 @@ def test_third_order_constants_are_those_of_the_source(name, printed):
     law = solids()[name].law
     printed = dict(printed)
     errors = printed.pop("errors", None)
-    assert law.murnaghan == pytest.approx([1e9 * each for each in printed.values()], rel=1e-9)
+    assert law.murnaghan == pytest.approx([1e9 * value for value in printed.values()], rel=1e-9)
     if errors:
-        assert law.standard_errors == pytest.approx([1e9 * each for each in errors], rel=1e-9)
+        assert law.standard_errors == pytest.approx([1e9 * error for error in errors], rel=1e-9)
 
 
 def test_fused_silica_has_the_pressure_derivatives_and_c111_of_its_sources():
