@@ -18,6 +18,9 @@ MEASURED = PROJECT.parent / "shared/profiles"  # other people's: tests without t
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 RUBBER = {"youngs_modulus": 3e6, "poissons_ratio": 0.45}
+# The same of a known law of elasticity: the whole is solved with no other.
+NEO_HOOKEAN = {"law": "neo-hookean"}
+KNOWN_STEEL, KNOWN_RUBBER = STEEL | NEO_HOOKEAN, RUBBER | NEO_HOOKEAN
 SMOOTH = {
     "title": "Smooth",
     "roller": {"radius": 7.5706e-3, **STEEL},

@@ -242,8 +242,8 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
 def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[str, ...]]:
     """Name the solid; where that is done, what is not known of it."""
     scene = run.problem.scene
-    bodies = [name for law in run.data(MODEL_ERROR).selection.laws for name in law.bodies]
-    sections = {name: getattr(scene, name) for name in bodies}
+    ranges = (law for law in run.data(MODEL_ERROR).selection.laws if not law.is_scatter)
+    sections = {name: getattr(scene, name) for law in ranges for name in law.bodies}
     unnamed = {name: each for name, each in sections.items() if each.solid is None}
     if unnamed:
         given = tuple(f'[{name}]\nmaterial = "{_like(each)}"' for name, each in unnamed.items())

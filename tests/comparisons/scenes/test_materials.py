@@ -1,20 +1,20 @@
 """Every solid of materials.toml is complete and has its sources; numbers are those of the source;
-the pairs that bound a class."""
+solids that a body may be like."""
 
 import pytest
 
-from analytic.material import Law, Material
+from analytic.material import Material
 from analytic.material.third_order import peak_change
 from comparisons.scenes.materials import (
     ELASTIC,
     THERMAL,
-    bounding_laws,
-    bounding_solids,
-    classes,
+    kinds_like,
+    measured_solids,
     scaled_law,
     solid_named,
     solids,
     sources,
+    typical_range,
 )
 
 CLASSES = {"steel": 2, "iron": 2, "aluminium": 2, "copper": 2, "titanium": 1, "hard metal": 1}
@@ -133,41 +133,40 @@ def test_a_solid_is_known_by_its_other_names_in_any_case():
     assert solid_named("unobtainium") is None
 
 
-@pytest.mark.parametrize("kind", [*classes(), None])
-def test_bounding_laws_are_scaled_and_in_order(kind):
-    body = Material(210e9, 0.3)
-    low, high = bounding_laws(kind, 210e9, 0.3)
-    assert peak_change(low, body) < peak_change(high, body)
-    twice = bounding_laws(kind, 420e9, 0.3)
-    for law, stiffer in zip((low, high), twice, strict=True):
-        assert peak_change(stiffer, Material(420e9, 0.3)) == pytest.approx(peak_change(law, body))
+def test_a_class_has_its_own_measured_solids_or_those_of_wider_ones():
+    def names(*kinds: str) -> list[str]:
+        return [solid.name for solid in measured_solids(*kinds)]
 
-
-def test_a_class_is_bounded_by_its_own_solids_or_by_wider_ones():
-    def names(kind):
-        return [solid.name for solid in bounding_solids(kind, 210e9, 0.3)]
-
-    assert names("steel") == ["nickel steel", "austenitic stainless steel"]
     assert names("aluminium") == ["aluminium", "aluminium alloy"]
-    # no titanium alloy, one iron
-    assert names("titanium") == names("iron") == names("metal") == ["tungsten", "aluminium alloy"]
-    assert names("ceramic") == names(None) == ["fused silica", "aluminium alloy"]
-    assert names("semicrystalline polymer") == ["PMMA", "polystyrene"]
-    assert bounding_laws("rubber", 3e6, 0.49) == (Law("neo-hookean"), Law("hencky"))
-
-
-def test_every_solid_lies_within_the_bounds_of_its_class():
-    for solid in solids().values():
-        if solid.has_constants:
-            body = solid.material
-            bounds = bounding_laws(solid.kind, body.youngs_modulus, body.poissons_ratio)
-            low, high = (peak_change(law, body) for law in bounds)
-            assert low <= peak_change(scaled_law(solid, body), body) <= high
-
-
-def test_a_class_that_is_none_is_refused():
+    assert len(names("steel")) == 7 and "austenitic stainless steel" in names("steel")
+    assert names("titanium") == names("iron") == names("metal")  # no titanium alloy, one iron
+    assert set(names("steel", "iron")) == {*names("steel"), "iron"}
+    assert names("ceramic") == names() and "fused silica" in names()
+    assert names("semicrystalline polymer") == ["polystyrene", "PMMA"]
     with pytest.raises(ValueError, match="must be one of"):
-        bounding_laws("cheese", 1e9, 0.3)
+        measured_solids("cheese")
+
+
+def test_constants_scale_with_the_shear_modulus():
+    for solid in measured_solids():
+        body = Material(2.0 * solid.material.youngs_modulus, solid.material.poissons_ratio)
+        scaled = scaled_law(solid, body)
+        assert peak_change(scaled, body) == pytest.approx(peak_change(solid.law, solid.material))
+
+
+def test_a_body_is_like_solids_of_about_its_constants():
+    assert kinds_like(207e9, 0.3) == ("steel", "iron")
+    assert kinds_like(70e9, 0.33) == ("aluminium",)
+    assert kinds_like(71e9, 0.21) == ("glass",)
+    assert kinds_like(207e9, 0.1) == ()
+
+
+def test_typical_strengths_are_the_solids_or_those_of_its_class():
+    low, high = typical_range("yield_stress", "carbon steel", ("steel",))
+    assert (low, high) == solids()["carbon steel"].typical["yield_stress"].span
+    of_class = typical_range("yield_stress", "rail steel", ("steel",))
+    assert of_class[0] <= low and high <= of_class[1]
+    assert typical_range("yield_stress", None, ()) is None
 
 
 def test_thermal_and_elastic_fields_are_what_a_scene_takes():

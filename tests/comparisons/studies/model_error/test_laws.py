@@ -1,4 +1,4 @@
-"""What the law of elasticity may change: the plane through three laws, published solids, scatter."""
+"""What the law of elasticity may change: planes through three laws, published solids, scatter."""
 
 from dataclasses import replace
 
