@@ -44,6 +44,7 @@ from comparisons.studies.model_error.selection import EffectSelection, select_ef
 from comparisons.studies.model_error.solutions import SolvedVariants
 from comparisons.studies.model_error.variants import ModelVariant
 from comparisons.studies.study import Solved
+from comparisons.studies.yielding import flow_assessment
 
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
@@ -171,10 +172,14 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
     pressure = solved.runs["half_plane"].finest.solution.pressure
     mean = float(pressure @ pressure / pressure.sum())
     selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
-    if solved.plan.effects:
-        return selection
-    asked = selection.added | set(selection.impossible)
-    return selection.without(asked, "not asked for (budget.effects)")
+    asked = solved.problem.scene.budget.effects
+    if not solved.plan.effects:
+        left_out = selection.added | set(selection.impossible)
+        return selection.without(left_out, "not asked for (budget.effects)")
+    if asked != "all" and flow_assessment(solved.problem, solved.runs).beyond_doubt:
+        why = f"the body flows, an elastic one cannot hold ({ASKED})"
+        return selection.without(selection.added, why)
+    return selection
 
 
 def _most_levels(problem: Problem) -> int:

@@ -62,10 +62,9 @@ def test_they_bound_every_point_of_a_finished_map(name):
 def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
     """Peak pressures of full solutions at finite deformation, of one body and of two alike, as the
     solids that the estimate is taken from."""
-    body = STEEL
     tables = {
-        "roller": {"radius": 5e-3} | ({"rigid": True} if roller == "rigid" else body),
-        "body": body,
+        "roller": {"radius": 5e-3} | ({"rigid": True} if roller == "rigid" else STEEL),
+        "body": STEEL,
         "load": {"hertz_peak_pressure": 2e9},
     }
     if surface == "waves":
@@ -78,11 +77,10 @@ def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
     peaks = []
     for law in (Law(), *open_law.probes.values()):
         constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
-        fields = {"law": law.name, "murnaghan": constants}
-        named = {
-            f"{body}.{key}": value for body in open_law.bodies for key, value in fields.items()
-        }
-        posed = replace(plain, scene=plain.scene.unchecked(strain | named))
+        fields = dict(strain)
+        for body in open_law.bodies:
+            fields |= {f"{body}.law": law.name, f"{body}.murnaghan": constants}
+        posed = replace(plain, scene=plain.scene.unchecked(fields))
         plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
         level = finite_element_level(posed, plan, refinement, None, Stages())
         peaks.append(float(level.solution.pressure.max()))
