@@ -208,12 +208,12 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
     if not run.model_errors:
         given = "[tolerance]\npeak_pressure = 0.02"
         return "a tolerance, to judge by: tolerance = {peak_pressure = 0.02}.", (given,)
-    if kind == "fails":
-        return f"{_figures_of_whole(run)} in place of the half-plane's.", ()
-    if kind == "holds":
-        unknown = yielding.may_flow(run)
-        given = 'body.yield_stress = "…"'
-        return (f"{given}: {unknown}.", ()) if unknown else ("nothing.", ())
+    if kind != "inconclusive":
+        unknown = yielding.may_flow(run, at_any=kind == "fails")
+        if unknown:
+            return f'body.yield_stress = "…": {unknown}.', ()
+        whole = f"{_figures_of_whole(run)} in place of the half-plane's."
+        return ("nothing." if kind == "holds" else whole), ()
     worst = _worst(run)
     holds_at = _rounded_up(abs(worst.value) + worst.total)
     tolerance = f"--tolerance {holds_at:g}" if holds_at else ""

@@ -97,10 +97,11 @@ class Solid:
         return self.law is not None and self.law.murnaghan is not None
 
     def agrees(self, name: str, value: object) -> bool:
-        """Whether `value` [SI] of a field is the solid's own."""
+        """Whether `value` [SI] of a field is the solid's own, within two standard errors."""
         if name not in self.values or not isinstance(value, int | float):
             return False
-        return abs(value - self.values[name].value) <= SAME * abs(self.values[name].value)
+        known = self.values[name]
+        return abs(value - known.value) <= max(2.0 * (known.error or 0.0), SAME * abs(known.value))
 
 
 class SolidName(FieldType):

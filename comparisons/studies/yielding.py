@@ -234,20 +234,24 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
     )
 
 
-def may_flow(run: Run) -> str:
+def may_flow(run: Run, at_any: bool = False) -> str:
     """That a body whose yield stress is not given may flow, as a clause; empty where it cannot, or
-    where that is known."""
+    where that is known.
+
+    at_any  whether it would at any typical yield stress"""
     flow, body = run.data(NAME), run.problem.scene.body
     if flow.ratio is not None or body.youngs_modulus <= STIFF:
         return ""
     shear = with_unit(flow.worst.tau1, "Pa", 2)
     kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
     typical = typical_range("yield_stress", body.solid, kinds)
+    if typical is None and at_any:
+        return ""
     if typical is None:
         return (
             f"the figures are those of an elastic body; with a shear yield below {shear} it flows"
         )
-    if flow.worst.tau1 < 0.5 * typical[0]:
+    if flow.worst.tau1 < 0.5 * typical[1 if at_any else 0]:
         return ""
     low, high = (with_unit(0.5 * end, "Pa", 2) for end in typical)
     span = low if low == high else f"{low} to {high}"

@@ -22,6 +22,7 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.studies.model_error.laws import EFFECT as LAW
+from comparisons.studies.model_error.laws import trust
 from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.model_error.sideways import sideways_shift
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 NAME = "model_error"
 INTERACTION, JUMP, INPUTS = "interaction", "jump", "inputs"  # parts beside the effects
+TRUST = "law of elasticity"  # name of what is said of the strains that it bears
 LEFT = "pressure_l2_after_shift"
 QUANTITIES = COMPARED | {
     "pressure_shift": Quantity("shift of the peaks at x = 0", "m"),
@@ -94,6 +96,9 @@ def findings_of(budget: "ErrorBudget", problem: Problem, runs: Mapping[str, Mode
         Series("cost", cost, WHOLE, is_account=True),
     )
     said = {"not split": budget.unsplit, "left out": budget.left_out}
+    if "finite_strain" in budget.selection.whole and budget.wholes:
+        friction, whole = max(budget.wholes.items())
+        said[TRUST] = trust(problem, whole, friction)
     statements = tuple(Statement(name, text) for name, text in said.items() if text is not None)
     return Findings(tuple(figures), series, statements, budget)
 

@@ -21,8 +21,10 @@ from itertools import combinations
 import numpy as np
 
 from analytic.material import Law, Material
-from analytic.material.third_order import peak_change, third_order
+from analytic.material.third_order import is_elliptic, peak_change, third_order
+from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import QUANTITIES
+from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.scenes.materials import (
@@ -48,6 +50,7 @@ NOT_STATED = 0.1  # standard error of a constant whose source has none: as of th
 # of smooth contacts by 0.03, lengths, which are read between nodes, by 0.17.
 SETTLED = 0.2
 SOFT = 1e9  # [Pa] below it, a body like no known solid is taken for rubber
+OF_THE_PEAK = 0.3  # largest tau1 below a smooth contact, of its peak pressure
 FLAT = 0.05  # a triangle's height over its length, below which the plane is taken along it alone
 
 
@@ -210,3 +213,32 @@ class LawSpread:
     middle: float = 0.0  # of the published solids, against the law that the whole has
     half: float = 0.0  # of their range, about its middle
     scatter: float = 0.0  # of measured constants, for 95 %
+
+
+def trust(problem: Problem, whole: Level, friction: float) -> str | None:
+    """Where Murnaghan's series is strained beyond half of what it bears, in a sentence without its
+    full stop; None where it is not, or no body has it.
+
+    Its strains are taken for those of a linear body under the largest pressure and the largest
+    principal shear; it bears them where the acoustic tensor stays positive."""
+    peak, stress = int(np.argmax(whole.solution.pressure)), whole.stress(friction)
+    pressure = float(whole.solution.pressure[peak])
+    tau1 = OF_THE_PEAK * pressure if stress is None else stress.extremes["tau1"].value
+    for name in BODIES:
+        material = getattr(problem.scene, name).material
+        if material is None or material.law.murnaghan is None:
+            continue
+        nu = material.poissons_ratio
+        squeezed = pressure * (1.0 + nu) * (1.0 - 2.0 * nu) / material.youngs_modulus
+        sheared = 0.5 * tau1 / material.shear_modulus
+        times = np.linspace(0.0, 2.0, 201)[1:]
+        stretches = 1.0 - times * squeezed + np.outer([1.0, -1.0], times * sheared)
+        lost = np.flatnonzero(~is_elliptic(material.law, material, *stretches))
+        if lost.size:
+            x, share = with_unit(whole.grid.x[peak], "m", 3), percent(1.0 / float(times[lost[0]]))
+            return (
+                f"at x = {x} the {name} is strained to {share} of what its third-order constants "
+                "bear (beyond 100 % they describe no stable solid): terms of higher order, which "
+                "nobody has measured, count there"
+            )
+    return None

@@ -16,7 +16,7 @@ from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
-from comparisons.studies.model_error.account import INPUTS, INTERACTION, JUMP, LEFT
+from comparisons.studies.model_error.account import INPUTS, INTERACTION, JUMP, LEFT, TRUST
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -66,6 +66,8 @@ def lines(run: Run) -> list[tuple[str, str]]:
     """What is not modelled, and which largest values stand at another asperity."""
     missing = not_modelled_line(run)
     said = [("not modelled", missing)] if missing else []
+    if (strained := run.found[MODEL_ERROR].said(TRUST)) is not None:
+        said.append((TRUST, strained))
     for row in model_error_rows(run, judged=True):
         if row.moved:
             name = QUANTITIES[row.quantity].short
