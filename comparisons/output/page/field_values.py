@@ -13,7 +13,7 @@ import numpy as np
 
 from comparisons.common.numbers import plain
 from comparisons.figures.quantity import LABELS
-from comparisons.output.page.pictures.fields import COMPONENTS, Component
+from comparisons.output.page.pictures.stresses import COMPONENTS, Component
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:

@@ -14,14 +14,19 @@ from comparisons.output.headline import headline
 from comparisons.output.page.blocks import sections
 from comparisons.output.page.field_values import field_explorer
 from comparisons.output.page.html import inline, rendered
-from comparisons.output.page.pictures.convergence import convergence_picture
-from comparisons.output.page.pictures.cost import cost_picture
-from comparisons.output.page.pictures.fields import field_pictures, near_surface_pictures
+from comparisons.output.page.pictures.contact import (
+    close_up_picture,
+    pressure_picture,
+    surface_picture,
+)
 from comparisons.output.page.pictures.mesh import mesh_pictures
-from comparisons.output.page.pictures.pressures import close_up_picture, pressure_picture
 from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.pictures.sections import section_pictures
-from comparisons.output.page.pictures.surfaces import surface_picture
+from comparisons.output.page.pictures.refinement import convergence_picture, cost_picture
+from comparisons.output.page.pictures.stresses import (
+    field_pictures,
+    near_surface_pictures,
+    section_pictures,
+)
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 

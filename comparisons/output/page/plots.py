@@ -8,7 +8,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.numbers import listed
 from comparisons.drawing.style import collected_figures
 from comparisons.output.page.page import PICTURES
-from comparisons.output.page.pictures.fields import COMPONENTS
+from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:

@@ -14,9 +14,8 @@ from comparisons.common.progress import no_progress
 from comparisons.drawing.style import collected_figures, drawing
 from comparisons.output.page.field_values import field_explorer
 from comparisons.output.page.page import render
-from comparisons.output.page.pictures.fields import field_pictures
-from comparisons.output.page.pictures.pressures import pressure_picture
-from comparisons.output.page.pictures.sections import section_pictures
+from comparisons.output.page.pictures.contact import pressure_picture
+from comparisons.output.page.pictures.stresses import field_pictures, section_pictures
 from comparisons.output.page.plots import Plots
 from comparisons.output.page.saved import read_run
 from comparisons.runs.write import write_files

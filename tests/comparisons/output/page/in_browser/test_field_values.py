@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from comparisons.output.page.pictures.fields import COMPONENTS
+from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.study import Run
 
 WIDTH = 1280

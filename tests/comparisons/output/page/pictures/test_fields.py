@@ -9,7 +9,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 from comparisons.drawing.field import colour_bar, fill, layout, round_bands
 from comparisons.drawing.style import drawing
-from comparisons.output.page.pictures.fields import field_pictures
+from comparisons.output.page.pictures.stresses import field_pictures
 from comparisons.studies.study import Run
 
 
