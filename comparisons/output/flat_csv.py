@@ -35,7 +35,7 @@ from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import whole_file, write_whole
 from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
 from comparisons.studies import STUDIES, comparison, contact, meaning
 from comparisons.studies import problem as asked

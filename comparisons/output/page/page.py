@@ -1,4 +1,6 @@
-"""The report: one page that opens without a network and prints without loss."""
+"""The report: one page that opens without a network and prints without loss.
+
+A loop over blocks: those that every run has, and those by which each study shows what it finds."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import nullcontext
@@ -7,42 +9,60 @@ from importlib import import_module
 
 from comparisons.common.processes import uncollected
 from comparisons.common.tasks import Here, Tasks, tasks_of_copies
-from comparisons.drawing.blocks import Box, Heading, Pictures
+from comparisons.drawing.blocks import Block, Box, Bullets, Heading, Names, Note, Pictures
 from comparisons.drawing.style import Picture, drawing
+from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
+from comparisons.models.forecast import forecast
 from comparisons.output.headline import headline
-from comparisons.output.page.blocks import sections
-from comparisons.output.page.field_values import field_explorer
+from comparisons.output.page.field_values import Explorer, field_explorer
 from comparisons.output.page.html import inline, rendered
-from comparisons.output.page.pictures.contact import (
-    close_up_picture,
-    pressure_picture,
-    surface_picture,
-)
+from comparisons.output.page.pictures import contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
-from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.pictures.refinement import convergence_picture, cost_picture
-from comparisons.output.page.pictures.stresses import (
-    field_pictures,
-    near_surface_pictures,
-    section_pictures,
-)
+from comparisons.output.page.tables import verification
+from comparisons.output.page.tables.comparison import comparison_table, figure_table
+from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 
 # Each gives one picture, a list, or None where it does not apply; about the longest first.
 PICTURES: dict[str, Callable[[Run], object]] = {
-    "fields": field_pictures,
-    "near": near_surface_pictures,
+    "fields": stresses.field_pictures,
+    "near": stresses.near_surface_pictures,
     "mesh": mesh_pictures,
-    "pressure": pressure_picture,
-    "sections": section_pictures,
-    "convergence": convergence_picture,
-    "close_up": close_up_picture,
-    "problem": problem_picture,
-    "surface": surface_picture,
-    "cost": cost_picture,
+    "pressure": contact.pressure_picture,
+    "sections": stresses.section_pictures,
+    "convergence": refinement.convergence_picture,
+    "close_up": contact.close_up_picture,
+    "problem": problem.problem_picture,
+    "surface": contact.surface_picture,
+    "cost": refinement.cost_picture,
 } | {name: draw for study in STUDIES for name, draw in study.pictures.items()}
+# Sections that have their place, by id; others follow that of yield.
+ORDER = ("problem", "running-in", "comparison", "model-error", "answers", "contact", "inputs")
+ORDER += ("statistics", "heat", "yield", "", "stresses", "convergence", "mesh", "cost", "checks")
+ORDER += ("skipped", "record")
+ON_COMPARISON = """Difference: (half-plane − finite elements) / finite elements, or the relative L2
+norm of the difference, down to one digit beyond the uncertainty's first. Uncertainty: numerical, of
+the difference, both models together. Agree: the difference is within the tolerance. Inconclusive:
+it is smaller than the uncertainty, and the uncertainty exceeds the tolerance. Without a tolerance
+nothing is judged. Capped in both: the hardness limits both peaks, which makes them equal.
+Reference: the problem that the finite elements solve, which is the half-plane's own or contains the
+effects named. In grey: in units of the smooth (Hertz) contact under the same load."""
+FILES = "Every component at every point, for ParaView: the files stress.* in the models' folders."
+ON_ORDERS = """U = safety factor × error left by the fit + its scatter (Eça and Hoekstra 2014); a
+length is never known better than its edges are found."""
+ON_VALIDATION = """E: comparison error, the half-plane minus finite elements with every effect that
+matters, which stand in for an experiment. u_num: by iteration, discretisation and far boundary of
+both. u_input: what every other sample of the trace changes. u_D: of data; none were measured. All
+are bounds with the coverage above, not standard deviations."""
+ON_LEVELS = """Each level halves the element size of the one before. Discretisation: least squares
+over the levels. Iteration: from the contact residual.{far} All relative to the figure{norms}. The
+parts are added. Refinement ended because: {refinement}."""
+FAR = """ Far boundary: the change on the coarsest level when the block that stands for an unbounded
+body is halved."""
+ON_CHECKS = """How far the solution on the finest level is from the contact conditions, evaluated
+again with each model's operator; relative, zero when exact."""
 
 
 def render(outcome: Run, tasks: Tasks | None = None) -> str:
@@ -102,3 +122,74 @@ def draw(outcome: Run, tasks: Tasks | None = None) -> dict[str, object]:
 def _drawn(here: Here, name: str) -> object:
     with drawing(), uncollected():
         return PICTURES[name](here.shared)
+
+
+def sections(run: Run, explorer: Explorer | None) -> list[Block]:
+    """One block a section, which the studies' blocks are parts of."""
+    blocks = [*_before(run), *_stresses(run, explorer), *_after(run)]
+    for study in STUDIES:
+        if study.name in run.found:
+            blocks += study.blocks(run)
+    blocks.sort(key=lambda block: ORDER.index(block.section if block.section in ORDER else ""))
+    return [
+        Block(same[0].section, tuple(item for block in same for item in block.items), same[0].title)
+        for same in grouped(blocks, lambda block: block.section)
+    ]
+
+
+def _before(run: Run) -> Iterator[Block]:
+    picture = Pictures(("problem",)), Heading("Assumptions"), Bullets(run.plan.assumptions)
+    sheet = [item for name, rows in problem_sheet(run) for item in (Heading(name), Names(rows))]
+    columns = Box("columns", (Box("sheet", picture), Box("sheet", tuple(sheet))))
+    yield Block("problem", (columns,), "Problem")
+    if run.plan.compares:
+        yield Block("comparison", (comparison_table(run), Note(ON_COMPARISON)), "Comparison")
+    else:
+        yield Block("comparison", (figure_table(run),), "Figures")
+    beside = Pictures(("close_up", "surface"), abreast=True)
+    yield Block("contact", (Pictures(("pressure",)), beside), "Contact")
+
+
+def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
+    if run.window is None:
+        return
+    frictions = run.problem.scene.load.friction
+    fields = (
+        Pictures(("fields",), f"Friction {friction:g}", True, slice(k, None, len(frictions)))
+        for k, friction in enumerate(frictions)
+    )
+    near = Pictures(("near",), "Next to the surface", abreast=True)
+    down = Heading("Sections over depth"), Pictures(("sections",), abreast=True)
+    yield Block("stresses", (Note(FILES), *fields, near, explorer, *down), "Subsurface stresses")
+
+
+def _after(run: Run) -> Iterator[Block]:
+    items: list = []
+    if (judged := verification.judged_table(run)) is not None:
+        items += [judged, Note(ON_ORDERS), Pictures(("convergence",)), Heading("Words")]
+        items.append(Names(verification.WORDS))
+    if (validation := verification.validation_table(run)) is not None:
+        items += [validation, Note(ON_VALIDATION)]
+    norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
+    far, why = FAR if run.plan.domain_check else "", verification.refinement_text(run)
+    note = Note(ON_LEVELS.format(far=far, norms=norms, refinement=why))
+    levels = Heading("All figures"), *verification.convergence_tables(run), note
+    yield Block("convergence", (*items, *levels), "Convergence")
+    under = Box("stack", (Pictures(("mesh",), part=slice(1, None)),))
+    mesh = Box("columns", (Pictures(("mesh",), part=slice(0, 1)), under))
+    yield Block("mesh", (mesh,), "Mesh")
+    note = "By the laws of cost, before anything was solved and without effects, "
+    note += f"{forecast(run.problem, run.plan).text}."
+    cost = Box("columns", (Pictures(("cost",)), verification.cost_table(run)))
+    yield Block("cost", (cost, Note(note)), "Cost")
+    items = [verification.check_table(run), Note(ON_CHECKS)]
+    if (operator := verification.operator_table(run)) is not None:
+        items += [operator, Note(verification.operator_note(run))]
+    yield Block("checks", tuple(items), "Checks")
+    skipped = tuple((item.step, item.because) for item in run.plan.skipped)
+    yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")
+    yield Block(
+        "record",
+        (Names(verification.record_rows(run), tuple(verification.commands(run))),),
+        "Record",
+    )

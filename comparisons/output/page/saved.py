@@ -21,7 +21,7 @@ from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.output import schema_2
-from comparisons.output.recorded_run import read_result, read_table
+from comparisons.output.record import read_result, read_table
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies import STUDIES
 from comparisons.studies.study import MODEL_ERROR, Run, Solved

@@ -10,7 +10,7 @@ from comparisons.drawing import style
 from comparisons.drawing.curves import columns
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
-from comparisons.output.page.tables.convergence import DIFFERENCE, JudgedSequence, judged_sequences
+from comparisons.output.page.tables.verification import DIFFERENCE, JudgedSequence, judged_sequences
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:

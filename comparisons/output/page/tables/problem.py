@@ -3,13 +3,17 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
-from comparisons.output.page.tables.text import wording
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, CoatingSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
 
+LOADS = {  # by kind: in words, and the unit
+    "per_length": ("load per length", "N/m"),
+    "hertz_peak_pressure": ("Hertz peak pressure", "Pa"),
+    "approach": ("approach", "m"),
+}
 Rows = list[tuple[str, str]]
 
 
@@ -152,7 +156,7 @@ def yielding_text(body: BodySection) -> str:
 
 def _load(outcome: Run) -> Rows:
     scene, hertz = outcome.problem.scene, outcome.problem.hertz
-    label, unit = wording()["loads"][scene.load.kind]
+    label, unit = LOADS[scene.load.kind]
     rows = [(f"{label} (given)", given(scene.load.value, unit))]
     if scene.load.kind != "per_length":
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))

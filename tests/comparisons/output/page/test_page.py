@@ -44,7 +44,7 @@ def test_a_new_study_shows_itself(wavy_outcome, page_of, no_pictures, monkeypatc
     added = Block("contact", (Names([("slides", "0.1 a")]),))
     study = Study(contact.NAME, {}, contact.solve, blocks=lambda run: [own, added])
     monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
-    monkeypatch.setattr("comparisons.output.page.blocks.STUDIES", (study,))
+    monkeypatch.setattr("comparisons.output.page.page.STUDIES", (study,))
     page = page_of(render(wavy_outcome))
     place = page.sections.index("slip")
     assert page.sections[place - 1 : place + 2] == ["contact", "slip", "stresses"]

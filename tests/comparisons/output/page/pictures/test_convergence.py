@@ -7,7 +7,7 @@ import pytest
 from scenes import judging, posed
 
 from comparisons.output.page.pictures.refinement import convergence_picture
-from comparisons.output.page.tables.convergence import judged_sequences
+from comparisons.output.page.tables.verification import judged_sequences
 from comparisons.studies import contact
 from comparisons.studies.study import Run
 

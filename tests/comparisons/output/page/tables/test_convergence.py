@@ -6,7 +6,7 @@ import pytest
 
 from comparisons.common.numbers import percent
 from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.output.page.tables.convergence import WORDS, judged_table, validation_table
+from comparisons.output.page.tables.verification import WORDS, judged_table, validation_table
 from comparisons.studies.contact import uncertainties
 from comparisons.studies.study import Run
 
