@@ -6,7 +6,6 @@ elements; what studies' pictures are drawn from. The mesh comes from mesh.msh, f
 from their own files; nothing is solved or meshed."""
 
 import json
-from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
@@ -14,7 +13,6 @@ import numpy as np
 
 from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
-from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import WHOLE
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
@@ -67,8 +65,7 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
         content["problem"] = _problem(content["problem"], folder)
         data, found = content.pop("data", None), result.found
         if data is None:
-            content, data, more = schema_2.parts_of_schema_2(content)
-            found = _with_levels(found, more)
+            content, data, found = schema_2.parts_of_schema_2(content, found)
         solved = Solved(**content)
         found = {name: replace(each, data=data.get(name)) for name, each in found.items()}
         run = Run(solved, found, record, folder)
@@ -82,24 +79,6 @@ def _problem(parts: dict, folder: Path) -> Problem:
     scene = Scene.of(said["tables"], Origin(said["name"], folder, said["source"]))
     surface = parts.pop("surface", None) or said["surface"]
     return Problem(scene, surface, **parts)
-
-
-def _with_levels(
-    found: Mapping[str, Findings], more: Mapping[str, Findings]
-) -> dict[str, Findings]:
-    """The findings with levels and uncertainties of some figures from others of the same name."""
-    joined = dict(found)
-    for name, findings in more.items():
-        known = {figure.key: figure for figure in findings.figures}
-        figures = tuple(
-            replace(f, levels=known[f.key].levels, uncertainty=known[f.key].uncertainty)
-            if f.key in known
-            else f
-            for f in (joined[name].figures if name in joined else ())
-        )
-        if name in joined:
-            joined[name] = replace(joined[name], figures=figures)
-    return joined
 
 
 def _read(path: Path) -> dict:
