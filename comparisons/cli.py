@@ -104,8 +104,8 @@ def _open_streams() -> None:
 
 def _check_places(arguments: list[str]) -> None:
     for option, value in pairwise([*arguments, "-"]):
-        name, assigned, given = option.partition("=")
-        if name in PLACES and not (given if assigned else value).strip():
+        name, assigned, place = option.partition("=")
+        if name in PLACES and not (place if assigned else value).strip():
             raise InputError(f"{name}: is empty; allowed is a path")
 
 

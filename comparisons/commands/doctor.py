@@ -68,7 +68,7 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
             findings.append(finding)
             callback(Step(f"tried {finding.name}", number / len(programs)))
     works = all(finding.ok for finding in findings)
-    show_either(as_json, [asdict(each) for each in findings], lambda: findings_table(findings))
+    show_either(as_json, list(map(asdict, findings)), lambda: findings_table(findings))
     if not (works or as_json):
         print(REMEDY)
     return ExitStatus.DONE if works else ExitStatus.SOMETHING_MISSING
@@ -101,7 +101,7 @@ def findings_table(findings: Sequence[Finding]) -> "Table":
     from comparisons.output.terminal import plain_table
 
     table = plain_table("item", "works", "version, or what is wrong")
-    for found in findings:
-        works = Text("yes", style="green") if found.ok else Text("no", style="bold red")
-        table.add_row(found.name, works, Text(found.detail))
+    for finding in findings:
+        works = Text("yes", style="green") if finding.ok else Text("no", style="bold red")
+        table.add_row(finding.name, works, Text(finding.detail))
     return table

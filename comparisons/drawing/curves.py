@@ -48,10 +48,10 @@ def columns(
 
 def over(axes: "Sequence[Axes]", label: str, ends: Sequence[float] | None = None) -> None:
     """One axis for all panels, with numbers and label under the last."""
-    for each in axes:
+    for panel in axes:
         if ends is not None:
-            each.set_xlim(ends[0], ends[-1])
-        each.tick_params(labelbottom=each is axes[-1])
+            panel.set_xlim(ends[0], ends[-1])
+        panel.tick_params(labelbottom=panel is axes[-1])
     axes[-1].set_xlabel(label)
 
 

@@ -111,19 +111,13 @@ def fill(
 
 def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> np.ndarray:
     """The field on even pixels, linear between the window's points."""
+    from scipy.interpolate import RegularGridInterpolator
+
     box, (wide, tall) = axes.get_position(), axes.figure.get_size_inches()
     columns, rows = int(PIXELS * box.width * wide), int(PIXELS * box.height * tall)
     across = x[0] + (np.arange(columns) + 0.5) / columns * (x[-1] - x[0])
     down = z[0] + (np.arange(rows) + 0.5) / rows * (z[-1] - z[0])
-    return _between(x, across, _between(z, down, values).T).T
-
-
-def _between(places: np.ndarray, wanted: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Rows of values at ascending places, linear in between, at the wanted places."""
-    at = np.interp(wanted, places, np.arange(len(places)))
-    before = np.minimum(at.astype(int), len(places) - 2)
-    share = (at - before)[:, None]
-    return (1.0 - share) * values[before] + share * values[before + 1]
+    return RegularGridInterpolator((z, x), values)((down[:, None], across))
 
 
 @cache

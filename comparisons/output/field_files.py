@@ -128,16 +128,20 @@ def _beside(
     half_plane: Level,
     plane: np.ndarray,
     stresses: Mapping[float, StressState],
-    own: Mapping[str, np.ndarray],
+    on_mesh: Mapping[str, np.ndarray],
 ) -> dict[str, np.ndarray]:
-    """The half-plane's stresses at points (n, 2) and their difference; NaN above the mean line."""
-    found = stresses_at(problem, half_plane, tuple(stresses), *plane.T)
+    """The half-plane's stresses at points (n, 2), and these less what is `on_mesh`; NaN above the
+    mean line."""
+    at_points = stresses_at(problem, half_plane, tuple(stresses), *plane.T)
     nu = problem.scene.body.poissons_ratio
-    arrays = _named(found, lambda s: _components(s, nu))
+    arrays = _named(at_points, lambda s: _components(s, nu))
     return {
         before + name: values.astype(np.float32)
         for name, array in arrays.items()
-        for before, values in (("half_plane_", array), ("difference_", array - own[name]))
+        for before, values in (
+            ("half_plane_", array),
+            ("difference_", array - on_mesh[name]),
+        )
     }
 
 

@@ -193,14 +193,14 @@ def check_schema(path: Path, content: Mapping, known: int) -> None:
     schema = _part(path, content, "schema", int)
     if schema != known:
         age, remedy = ("a later", "") if schema > known else ("an earlier", ": run the scene again")
-        given = f"is {schema}, of {age} crosscheck"
-        raise InputError(f"{path}: schema: {given}; allowed is {known}{remedy}")
+        said = f"is {schema}, of {age} crosscheck"
+        raise InputError(f"{path}: schema: {said}; allowed is {known}{remedy}")
 
 
 def _part(path: Path, content: Mapping, name: str, kind: type, within: str = "") -> object:
     """A named part of a table, of the kind that a run writes."""
-    found = content.get(name)
-    if isinstance(found, kind) and not isinstance(found, bool):
-        return found
-    state = "is missing" if found is None else f"is {type(found).__name__}"
+    value = content.get(name)
+    if isinstance(value, kind) and not isinstance(value, bool):
+        return value
+    state = "is missing" if value is None else f"is {type(value).__name__}"
     raise InputError(f"{path}: {within}{name}: {state}; allowed is {_IN_WORDS[kind]}")

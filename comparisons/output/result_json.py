@@ -48,7 +48,7 @@ class Result:
 
     @cached_property
     def figures(self) -> Figures:
-        return Figures(figure for found in self.found.values() for figure in found.figures)
+        return Figures(figure for study in self.found.values() for figure in study.figures)
 
 
 def result_of(run: Run) -> Result:
@@ -61,7 +61,7 @@ def result_of(run: Run) -> Result:
 def content_of(run: Run) -> dict:
     """The content of a run's result.json."""
     result = result_of(run)
-    found = result.found.items()
+    findings = result.found.items()
     return {
         "schema": SCHEMA,
         "scene": result.scene,
@@ -71,11 +71,11 @@ def content_of(run: Run) -> dict:
         "next": list(result.next),
         "coverage": COVERAGE,
         "figures": [_figure(figure) for figure in result.figures],
-        "series": [_series(study, each) for study, known in found for each in known.series],
+        "series": [_series(study, item) for study, known in findings for item in known.series],
         "statements": [
-            _named(study, each) | {"text": each.text}
-            for study, known in found
-            for each in known.statements
+            _named(study, item) | {"text": item.text}
+            for study, known in findings
+            for item in known.statements
         ],
     }
 

@@ -47,14 +47,14 @@ Items = Iterator[Figure | Series | Statement]
 
 def result_of_schema_2(old: Mapping) -> Result:
     """Raises LookupError, TypeError or ValueError where it is built otherwise."""
-    found, kinds = {}, (Figure, Series, Statement)
+    findings, kinds = {}, (Figure, Series, Statement)
     for name, read in READERS.items():
         items = list(read(old))
         if items:
-            found[name] = Findings(*(tuple(i for i in items if isinstance(i, k)) for k in kinds))
+            findings[name] = Findings(*(tuple(i for i in items if isinstance(i, k)) for k in kinds))
     validity = old["validity"]
     verdict = validity["verdict"] if old["comparison"] else "not compared"
-    return Result(old["scene"], {}, verdict, validity["why"], (), found)
+    return Result(old["scene"], {}, verdict, validity["why"], (), findings)
 
 
 def _entries(old: Mapping) -> Iterator[tuple[str, int, dict, dict[str, float]]]:
@@ -91,13 +91,13 @@ def _contact(old: Mapping) -> Items:
     budget = (old["error_budget"] or {}).get("quantities", {})
     hardness, exact = old["scene"]["body"].get("hardness"), "approach" not in old["scene"]["load"]
     for model, n, entry, at in _entries(old):
-        own, known, stress = entry["contact"], entry["uncertainty"], entry["stress"] or {}
+        solution, known, stress = entry["contact"], entry["uncertainty"], entry["stress"] or {}
         stated = {name: _stated(parts) for name, parts in known.items()}
         worst = max(stated.values(), key=lambda u: u.total)
-        values = {name: own[name] for name in contact.QUANTITIES if own.get(name) is not None}
+        values = {n: solution[n] for n in contact.QUANTITIES if solution.get(n) is not None}
         values |= {name: stress[name] for name in STRESS if stress}
         places = {name: tuple(stress[f"{name}_at"]) for name in STRESS if stress}
-        places["peak_pressure"] = (own["peak_position"],)
+        places["peak_pressure"] = (solution["peak_position"],)
         if stress:
             values["tau1_max_depth"] = _depth(old, model, n, stress)
         for name, value in values.items():
@@ -124,17 +124,17 @@ def _contact(old: Mapping) -> Items:
 
 def _of_model(model: str, entry: Mapping, stated: Mapping[str, Uncertainty]) -> Items:
     """What is the same at every friction coefficient."""
-    own, cost = entry["contact"], entry["cost"]
-    length = sum(stop - start for start, stop in own["patches"])
-    edges = (stated["contact_length"].total * length,) * len(own["patches"])
-    ends = zip(*own["patches"], strict=True)
+    patches = entry["contact"]["patches"]
+    length = sum(stop - start for start, stop in patches)
+    edges = (stated["contact_length"].total * length,) * len(patches)
+    ends = zip(*patches, strict=True)
     columns = (Column(tuple(map(float, values)), "m", edges) for values in ends)
     yield Series("patches", dict(zip(("start", "stop"), columns, strict=True)), model)
-    levels = _columns(cost["levels"], dict.fromkeys(("pitch", "unknowns", "seconds"), ""))
+    levels = _columns(entry["cost"]["levels"], dict.fromkeys(("pitch", "unknowns", "seconds"), ""))
     yield Series("levels", levels, model, is_account=True)
     yield Statement(CONVERGED, "yes" if entry["checks"][CONVERGED] else "no", model)
-    if own.get("approach_why"):
-        yield Statement("no approach", own["approach_why"], model)
+    if why := entry["contact"].get("approach_why"):
+        yield Statement("no approach", why, model)
 
 
 def _depth(old: Mapping, model: str, n: int, stress: Mapping) -> float:
@@ -356,11 +356,11 @@ def _answers(old: Mapping) -> Items:
     for answer, content in old.get("answers", {}).items():
         for name, rows in content["comparison"].items():
             for row in rows:
-                own, total = row["own_uncertainty"], _number(row["uncertainty"])
-                stated = total if own is None else total - own
+                of_answer, total = row["own_uncertainty"], _number(row["uncertainty"])
+                stated = total if of_answer is None else total - of_answer
                 of_row = answers.AnswerRow(
                     *(name, row["friction"], row["answer"], row["reference"], row["difference"]),
-                    *(stated, 0.0, own, row["tolerance"]),
+                    *(stated, 0.0, of_answer, row["tolerance"]),
                 )
                 yield from of_row.figures(answer, content["reference"])
         yield from figures_of(answers.NAME, answer, {"load_balance": content["balance"]}, ITSELF)
@@ -436,10 +436,10 @@ def _scene(**old: object) -> dict[str, object]:
 
 
 def parts_of_schema_2(
-    old: Mapping, found: Mapping[str, Findings]
+    old: Mapping, findings: Mapping[str, Findings]
 ) -> tuple[dict, dict[str, object], dict[str, Findings]]:
-    """Of an old outcome: the parts of a Solved, the data of its studies, and what they have
-    `found`, with the levels of figures and their convergence, which only the outcome has."""
+    """Of an old outcome: the parts of a Solved, the data of its studies, and their
+    `findings`, with the levels of figures and their convergence, which only the outcome has."""
     solved = {name: old[name] for name in ("problem", "plan", "window", "runs")}
     posed = Solved(**solved)
     data = {
@@ -458,14 +458,11 @@ def parts_of_schema_2(
             key = (comparison.NAME, name, "half_plane", levels[-1], {"friction": pair.friction})
             figures.append(Figure(*key, "finite_element", uncertainty=stated, levels=levels))
     known = {figure.key: figure for figure in figures}
-    joined = dict(found)
-    for study in {contact.NAME, comparison.NAME} & set(found):
-        same = (known.get(figure.key, figure) for figure in found[study].figures)
-        joined[study] = replace(
-            found[study],
-            figures=tuple(
-                replace(figure, levels=other.levels, uncertainty=other.uncertainty)
-                for figure, other in zip(found[study].figures, same, strict=True)
-            ),
-        )
+    joined = dict(findings)
+    for study in {contact.NAME, comparison.NAME} & set(findings):
+        figures = []
+        for figure in findings[study].figures:
+            same = known.get(figure.key, figure)
+            figures.append(replace(figure, levels=same.levels, uncertainty=same.uncertainty))
+        joined[study] = replace(findings[study], figures=tuple(figures))
     return solved, data, joined

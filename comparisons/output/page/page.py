@@ -88,7 +88,7 @@ def _filled(items: Iterable, pictures: Mapping[str, object]) -> Iterator[object]
     """The items with pictures in the place of their names, without boxes that stay empty."""
     for item in items:
         if isinstance(item, Pictures):
-            drawn = [each for name in item.names for each in _listed(pictures[name])]
+            drawn = [one for name in item.names for one in _listed(pictures[name])]
             drawn = drawn if item.part is None else drawn[item.part]
             yield from [Heading(item.heading)] * bool(drawn and item.heading)
             yield from [Box("columns", tuple(drawn))] if drawn and item.abreast else drawn

@@ -63,12 +63,12 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
     content = _read(folder / FILE)
     try:
         content["problem"] = _problem(content["problem"], folder)
-        data, found = content.pop("data", None), result.found
+        data, findings = content.pop("data", None), result.found
         if data is None:
-            content, data, found = schema_2.parts_of_schema_2(content, found)
+            content, data, findings = schema_2.parts_of_schema_2(content, findings)
         solved = Solved(**content)
-        found = {name: replace(each, data=data.get(name)) for name, each in found.items()}
-        run = Run(solved, found, record, folder)
+        findings = {name: replace(f, data=data.get(name)) for name, f in findings.items()}
+        run = Run(solved, findings, record, folder)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
     return _with_mesh(run, folder / MESH) if with_mesh else run
@@ -111,7 +111,7 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
         check = None if model.far_boundary_check is None else _reduced(model.far_boundary_check)
         longer = tuple(map(_reduced, model.longer_increments))
         runs[name] = ModelRun(name, levels, check, longer)
-    data = {name: found.data for name, found in run.found.items() if found.data is not None}
+    data = {name: study.data for name, study in run.found.items() if study.data is not None}
     if MODEL_ERROR in data:
         shown = {friction: _reduced(level, True) for friction, level in wholes.items()}
         data[MODEL_ERROR] = replace(data[MODEL_ERROR], wholes=shown)

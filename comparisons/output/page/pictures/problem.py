@@ -174,9 +174,9 @@ def _body_in_words(scene: Scene) -> list[str]:
         size.append("unbounded in depth")
     if scene.body.width is not None:
         size.append(f"{given(scene.body.width, 'm')} wide")
-    found = [", ".join(size)]
+    words = [", ".join(size)]
     if scene.coating is not None:
-        found.append(f"coating {coating_text(scene.coating)}")
+        words.append(f"coating {coating_text(scene.coating)}")
     if scene.body.yield_stress is not None:
-        found.append(f"yields {yielding_text(scene.body)}")
-    return found
+        words.append(f"yields {yielding_text(scene.body)}")
+    return words

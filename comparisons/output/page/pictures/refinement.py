@@ -28,11 +28,11 @@ SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
 
 def convergence_picture(run: Run) -> style.Picture | None:
     """A panel for each judged figure; None where nothing is judged on several levels."""
-    known = [each for each in judged_sequences(run) if len(each.figure.levels) > 2]
-    panels = grouped(known, lambda each: each.name)
+    known = [s for s in judged_sequences(run) if len(s.figure.levels) > 2]
+    panels = grouped(known, lambda sequence: sequence.name)
     if not panels:
         return None
-    said = "; ".join(f"{each.name}, {NAMES[each.source]}: {each.known.behaviour}" for each in known)
+    said = "; ".join(f"{s.name}, {NAMES[s.source]}: {s.known.behaviour}" for s in known)
     return style.picture(
         lambda width: _drawn(panels, width),
         f"Error over element size of each judged figure. {said}.",
@@ -70,13 +70,13 @@ def _drawn(panels: list[list[JudgedSequence]], width: float) -> "Figure":
 def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     """All models' errors of one figure [%] over the pitch [µm]."""
     largest = 0.0, 0.0
-    for each in panel:
-        pitch, error = 1e6 * np.array(each.pitches), 100.0 * np.array(each.errors)
+    for sequence in panel:
+        pitch, error = 1e6 * np.array(sequence.pitches), 100.0 * np.array(sequence.errors)
         seen = np.where(error > 100.0 * LEAST, error, np.nan)
-        look, name = LOOKS[each.source], NAMES[each.source]
+        look, name = LOOKS[sequence.source], NAMES[sequence.source]
         axes.plot(pitch, seen, marker="o", markersize=3.5, label=name, **look)
         bar = {"marker": "_", "markersize": 13, "markeredgewidth": 2.0, "color": look["color"]}
-        stated = 100.0 * each.figure.uncertainty.parts["discretisation"]
+        stated = 100.0 * sequence.figure.uncertainty.parts["discretisation"]
         if np.isfinite(stated) and stated > 0.0:
             axes.plot(pitch[-1], stated, linestyle="none", **bar)
         if np.isfinite(seen).any():
@@ -92,7 +92,7 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     else:
         axes.set_yticks([])
         axes.annotate("no change but rounding", (0.5, 0.5), xycoords="axes fraction", ha="center")
-    ticks = sorted({1e6 * pitch for each in panel for pitch in each.pitches})
+    ticks = sorted({1e6 * pitch for sequence in panel for pitch in sequence.pitches})
     axes.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
     axes.minorticks_off()
     axes.set_xlim(0.8 * ticks[0], 1.25 * ticks[-1])

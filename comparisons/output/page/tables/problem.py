@@ -82,37 +82,37 @@ def in_mm(cutoff: float) -> str:
 
 def _standard(info: ProfileInfo) -> Rows:
     """The standard's parameters of the trace, pressed as it is or not."""
-    found = info.standard
-    if found is None:
+    standard = info.standard
+    if standard is None:
         return [("parameters", f"none: {info.standard_why}")]
-    short = "none" if found.short_cutoff is None else given(found.short_cutoff, "m")
-    width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
+    short = "none" if standard.short_cutoff is None else given(standard.short_cutoff, "m")
+    width = "no whole element" if standard.rsm is None else with_unit(standard.rsm, "m")
     return [
-        ("cut-offs λc, λs", f"{in_mm(found.cutoff)}, {short}"),
-        ("section lengths", sections_text(found)),
-        ("Ra, Rq", _pair_in_m(found.ra, found.rq)),
-        ("Rz, Rt", _pair_in_m(found.rz, found.rt)),
-        ("Rsk, Rku", f"{decimal(found.rsk, 2)}, {decimal(found.rku, 2)}"),
-        ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}"),
+        ("cut-offs λc, λs", f"{in_mm(standard.cutoff)}, {short}"),
+        ("section lengths", sections_text(standard)),
+        ("Ra, Rq", _pair_in_m(standard.ra, standard.rq)),
+        ("Rz, Rt", _pair_in_m(standard.rz, standard.rt)),
+        ("Rsk, Rku", f"{decimal(standard.rsk, 2)}, {decimal(standard.rku, 2)}"),
+        ("Rdq, RSm", f"{significant(standard.rdq, 3)}, {width}"),
         ("unlike as pressed", standard_text(info)),
     ]
 
 
-def sections_text(found: StandardRoughness) -> str:
+def sections_text(standard: StandardRoughness) -> str:
     """How many section lengths there are, and where they are fewer than the standard's."""
-    if found.sections == SECTIONS:
+    if standard.sections == SECTIONS:
         return str(SECTIONS)
-    few = f"{found.sections} where the standard asks for {SECTIONS}"
-    return f"{few}, so that Rz is Rt" if found.sections == 1 else few
+    few = f"{standard.sections} where the standard asks for {SECTIONS}"
+    return f"{few}, so that Rz is Rt" if standard.sections == 1 else few
 
 
 def standard_text(info: ProfileInfo) -> str:
     """Why the standard's parameters are not those of the surface as pressed, in one phrase."""
-    found = info.standard
-    ends = f"waves longer than {in_mm(found.cutoff)}"
-    if found.short_cutoff is not None:
-        ends += f" and shorter than {given(found.short_cutoff, 'm')}"
-    span = with_unit(found.sections * found.cutoff, "m")
+    standard = info.standard
+    ends = f"waves longer than {in_mm(standard.cutoff)}"
+    if standard.short_cutoff is not None:
+        ends += f" and shorter than {given(standard.short_cutoff, 'm')}"
+    span = with_unit(standard.sections * standard.cutoff, "m")
     return f"{ends} are filtered off, and the middle {span} of {with_unit(info.length, 'm')} count"
 
 

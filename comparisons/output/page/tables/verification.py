@@ -218,7 +218,7 @@ def check_table(outcome: Run) -> TextTable:
         rows.append((words, *(significant(value, 2) for value in values)))
     converged = [all(level.solution.converged for level in run.levels) for run in runs]
     below = f"all below {significant(KKT_TOLERANCE, 1)} on every level"
-    rows.append((below, *("yes" if each else "no" for each in converged)))
+    rows.append((below, *("yes" if met else "no" for met in converged)))
     return TextTable("", ("", *(LABELS[name] for name in outcome.runs)), tuple(rows))
 
 
@@ -293,15 +293,15 @@ def operator_table(outcome: Run) -> TextTable | None:
     if check is None:
         return None
     head = ["", "difference", "far"]
-    found, effect = check.nearest, check.half_plane
+    nearest, effect = check.nearest, check.half_plane
     if effect is not None:
         finite = " and ".join(f"the {name}" for name in check.finite)
         head.append(f"from the half-plane: what {finite} does")
     rows = [
         [f"column at x = {with_unit(c.x, 'm', 3)}", percent(c.difference), percent(c.beyond)]
-        for c in found.columns
+        for c in nearest.columns
     ]
-    for wave in found.waves:
+    for wave in nearest.waves:
         elements = plain(float(f"{wave.elements:.3g}"))
         row = f"waves of {with_unit(wave.length, 'm', 3)}, {elements} elements"
         rows.append([row, percent(wave.difference, signed=True), ""])
