@@ -42,27 +42,7 @@ PICTURES: dict[str, Callable[[Run], object]] = {
 ORDER = ("problem", "running-in", "comparison", "model-error", "answers", "contact", "inputs")
 ORDER += ("statistics", "heat", "yield", "", "stresses", "convergence", "mesh", "cost", "checks")
 ORDER += ("skipped", "record")
-ON_COMPARISON = """Difference: (half-plane − finite elements) / finite elements, or the relative L2
-norm of the difference, down to one digit beyond the uncertainty's first. Uncertainty: numerical, of
-the difference, both models together. Agree: the difference is within the tolerance. Inconclusive:
-it is smaller than the uncertainty, and the uncertainty exceeds the tolerance. Without a tolerance
-nothing is judged. Capped in both: the hardness limits both peaks, which makes them equal.
-Reference: the problem that the finite elements solve, which is the half-plane's own or contains the
-effects named. In grey: in units of the smooth (Hertz) contact under the same load."""
-FILES = "Every component at every point, for ParaView: the files stress.* in the models' folders."
-ON_ORDERS = """U = safety factor × error left by the fit + its scatter (Eça and Hoekstra 2014); a
-length is never known better than its edges are found."""
-ON_VALIDATION = """E: comparison error, the half-plane minus finite elements with every effect that
-matters, which stand in for an experiment. u_num: by iteration, discretisation and far boundary of
-both. u_input: what every other sample of the trace changes. u_D: of data; none were measured. All
-are bounds with the coverage above, not standard deviations."""
-ON_LEVELS = """Each level halves the element size of the one before. Discretisation: least squares
-over the levels. Iteration: from the contact residual.{far} All relative to the figure{norms}. The
-parts are added. Refinement ended because: {refinement}."""
-FAR = """ Far boundary: the change on the coarsest level when the block that stands for an unbounded
-body is halved."""
-ON_CHECKS = """How far the solution on the finest level is from the contact conditions, evaluated
-again with each model's operator; relative, zero when exact."""
+NOTES = verification.WORDING["how_to_read"]
 
 
 def render(outcome: Run, tasks: Tasks | None = None) -> str:
@@ -143,7 +123,7 @@ def _before(run: Run) -> Iterator[Block]:
     columns = Box("columns", (Box("sheet", picture), Box("sheet", tuple(sheet))))
     yield Block("problem", (columns,), "Problem")
     if run.plan.compares:
-        yield Block("comparison", (comparison_table(run), Note(ON_COMPARISON)), "Comparison")
+        yield Block("comparison", (comparison_table(run), Note(NOTES["comparison"])), "Comparison")
     else:
         yield Block("comparison", (figure_table(run),), "Figures")
     beside = Pictures(("close_up", "surface"), abreast=True)
@@ -160,19 +140,24 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
     )
     near = Pictures(("near",), "Next to the surface", abreast=True)
     down = Heading("Sections over depth"), Pictures(("sections",), abreast=True)
-    yield Block("stresses", (Note(FILES), *fields, near, explorer, *down), "Subsurface stresses")
+    yield Block(
+        "stresses", (Note(NOTES["fields"]), *fields, near, explorer, *down), "Subsurface stresses"
+    )
 
 
 def _after(run: Run) -> Iterator[Block]:
     items: list = []
     if (judged := verification.judged_table(run)) is not None:
-        items += [judged, Note(ON_ORDERS), Pictures(("convergence",)), Heading("Words")]
+        items += [judged, Note(NOTES["orders"]), Pictures(("convergence",)), Heading("Words")]
         items.append(Names(verification.WORDS))
     if (validation := verification.validation_table(run)) is not None:
-        items += [validation, Note(ON_VALIDATION)]
+        items += [validation, Note(NOTES["validation"])]
     norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
-    far, why = FAR if run.plan.domain_check else "", verification.refinement_text(run)
-    note = Note(ON_LEVELS.format(far=far, norms=norms, refinement=why))
+    far, why = (
+        NOTES["far_boundary"] if run.plan.domain_check else "",
+        verification.refinement_text(run),
+    )
+    note = Note(NOTES["levels"].format(far=far, norms=norms, refinement=why))
     levels = Heading("All figures"), *verification.convergence_tables(run), note
     yield Block("convergence", (*items, *levels), "Convergence")
     under = Box("stack", (Pictures(("mesh",), part=slice(1, None)),))
@@ -182,7 +167,7 @@ def _after(run: Run) -> Iterator[Block]:
     note += f"{forecast(run.problem, run.plan).text}."
     cost = Box("columns", (Pictures(("cost",)), verification.cost_table(run)))
     yield Block("cost", (cost, Note(note)), "Cost")
-    items = [verification.check_table(run), Note(ON_CHECKS)]
+    items = [verification.check_table(run), Note(NOTES["checks"])]
     if (operator := verification.operator_table(run)) is not None:
         items += [operator, Note(verification.operator_note(run))]
     yield Block("checks", tuple(items), "Checks")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.output.page.summary import SummaryRow, summary_page, summary_row
+from comparisons.output.page.redraw import SummaryRow, summary_page, summary_row
 from comparisons.studies.study import Run
 
 ENTER = 13
