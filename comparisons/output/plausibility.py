@@ -42,18 +42,18 @@ def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
     return [] if info is None or info.path is None else [*_of_trace(info)]
 
 
-def warnings_about_result(outcome: Run) -> list[str]:
+def warnings_about_result(run: Run) -> list[str]:
     """What only the solution shows."""
-    run = next(iter(outcome.runs.values()))
-    surface, solution = outcome.problem.surface, run.finest.solution
-    peak, modulus = float(solution.pressure.max()), outcome.problem.modulus
+    model = next(iter(run.runs.values()))
+    surface, solution = run.problem.surface, model.finest.solution
+    peak, modulus = float(solution.pressure.max()), run.problem.modulus
     warnings = []
     if peak > modulus:
         warnings.append(
             f"the peak pressure of {with_unit(peak, 'Pa')} exceeds the combined modulus of "
             f"{with_unit(modulus, 'Pa')}, which no material bears: check load and profile units"
         )
-    info, length = surface.info, run.finest.contact_length
+    info, length = surface.info, model.finest.contact_length
     if info is not None and length < FEWEST_SAMPLES * info.spacing:
         warnings.append(
             f"the whole contact, {with_unit(length, 'm')}, is shorter than {FEWEST_SAMPLES} "
@@ -61,7 +61,7 @@ def warnings_about_result(outcome: Run) -> list[str]:
             "the curve between them"
         )
     if surface.profile is not None:
-        per_wave = shortest_wavelength(surface.profile) / run.finest.grid.pitch
+        per_wave = shortest_wavelength(surface.profile) / model.finest.grid.pitch
         if per_wave < FEWEST_ELEMENTS:
             warnings.append(
                 f"the shortest wave has {significant(per_wave, 2)} pressure elements on the finest "

@@ -38,27 +38,26 @@ PICTURES: dict[str, Callable[[Run], object]] = {
     "surface": contact.surface_picture,
     "cost": refinement.cost_picture,
 } | {name: draw for study in STUDIES for name, draw in study.pictures.items()}
-# Sections that have their place, by id; others follow that of yield.
-ORDER = ("problem", "running-in", "comparison", "model-error", "answers", "contact", "inputs")
-ORDER += ("statistics", "heat", "yield", "", "stresses", "convergence", "mesh", "cost", "checks")
-ORDER += ("skipped", "record")
+# Sections that have their place, by id; those of other studies follow that of contact.
+ORDER = ("problem", "running-in", "comparison", "model-error", "answers", "contact", "", "yield")
+ORDER += ("stresses", "convergence", "mesh", "cost", "checks", "skipped", "record")
 NOTES = verification.WORDING["how_to_read"]
 
 
-def render(outcome: Run, tasks: Tasks | None = None) -> str:
+def render(run: Run, tasks: Tasks | None = None) -> str:
     """The page of a finished run, drawn by `report_tasks`; equal runs give equal text."""
     script, policy = inline("field_values.js")
-    explorer, pictures = field_explorer(outcome), draw(outcome, tasks)
-    blocks = sections(outcome, explorer)
+    explorer, pictures = field_explorer(run), draw(run, tasks)
+    blocks = sections(run, explorer)
     shown = [replace(block, items=tuple(_filled(block.items, pictures))) for block in blocks]
-    [first, *others] = (HYPHENATED[name] for name in outcome.runs)
+    [first, *others] = (HYPHENATED[name] for name in run.runs)
     return rendered(
         "page.html.j2",
         script=script,
         policy=policy,
         explorer=explorer,
-        title=outcome.problem.scene.title,
-        headline=headline(outcome),
+        title=run.problem.scene.title,
+        headline=headline(run),
         models="half-plane against finite elements" if others else f"{first} model only",
         sections=[block for block in shown if block.items],
     )
@@ -84,16 +83,16 @@ def _listed(drawn: object) -> list[Picture]:
     return drawn if isinstance(drawn, list) else [] if drawn is None else [drawn]
 
 
-def report_tasks(outcome: Run) -> Tasks:
+def report_tasks(run: Run) -> Tasks:
     """For the pictures and files of a run, side by side; `Here.shared` is the run."""
     for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
         import_module(name)  # once for all copies
-    return tasks_of_copies(outcome)
+    return tasks_of_copies(run)
 
 
-def draw(outcome: Run, tasks: Tasks | None = None) -> dict[str, object]:
+def draw(run: Run, tasks: Tasks | None = None) -> dict[str, object]:
     """What each of PICTURES gives."""
-    with report_tasks(outcome) if tasks is None else nullcontext(tasks) as tasks:
+    with report_tasks(run) if tasks is None else nullcontext(tasks) as tasks:
         for name in PICTURES:
             tasks.add(name, _drawn, name)
         return {name: tasks.result(name) for name in PICTURES}
@@ -140,9 +139,8 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
     )
     near = Pictures(("near",), "Next to the surface", abreast=True)
     down = Heading("Sections over depth"), Pictures(("sections",), abreast=True)
-    yield Block(
-        "stresses", (Note(NOTES["fields"]), *fields, near, explorer, *down), "Subsurface stresses"
-    )
+    items = Note(NOTES["fields"]), *fields, near, explorer, *down
+    yield Block("stresses", items, "Subsurface stresses")
 
 
 def _after(run: Run) -> Iterator[Block]:
@@ -153,10 +151,8 @@ def _after(run: Run) -> Iterator[Block]:
     if (validation := verification.validation_table(run)) is not None:
         items += [validation, Note(NOTES["validation"])]
     norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
-    far, why = (
-        NOTES["far_boundary"] if run.plan.domain_check else "",
-        verification.refinement_text(run),
-    )
+    far = NOTES["far_boundary"] if run.plan.domain_check else ""
+    why = verification.refinement_text(run)
     note = Note(NOTES["levels"].format(far=far, norms=norms, refinement=why))
     levels = Heading("All figures"), *verification.convergence_tables(run), note
     yield Block("convergence", (*items, *levels), "Convergence")

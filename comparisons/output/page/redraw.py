@@ -119,9 +119,9 @@ def draw_again(
 
 def _drawn(folder: Path, draws: bool) -> tuple[str | None, SummaryRow]:
     """The page of a run, if it `draws`, and its row; InputError where its files make none."""
-    outcome = read_run(folder, with_mesh=draws)
+    run = read_run(folder, with_mesh=draws)
     try:
-        return render(outcome) if draws else None, summary_row(outcome)
+        return render(run) if draws else None, summary_row(run)
     except DAMAGED as error:
         raise InputError(
             f"{folder}: its result.json, record.json and report.npz make up no report "
@@ -163,11 +163,11 @@ def reports_table(reports: Sequence[Report], summary: Path | None) -> "Renderabl
     return table if summary is None else Group(table, "", Text(f"summary  {summary}"))
 
 
-def summary_row(outcome: Run) -> SummaryRow:
+def summary_row(run: Run) -> SummaryRow:
     """The row of a finished run."""
-    said = headline(outcome)
-    cells = _groups(outcome) | _figures(outcome) | _model_errors(outcome) | _times(outcome)
-    title, report = outcome.problem.scene.title, outcome.directory / "report.html"
+    said = headline(run)
+    cells = _groups(run) | _figures(run) | _model_errors(run) | _times(run)
+    title, report = run.problem.scene.title, run.directory / "report.html"
     return SummaryRow(title, report, said.kind, said.sentence, cells)
 
 
@@ -210,9 +210,9 @@ def _model_errors(run: Run) -> dict[str, Cell]:
     return cells
 
 
-def _times(outcome: Run) -> dict[str, Cell]:
-    seconds = {name: sum(run.seconds.values()) for name, run in outcome.runs.items()}
-    budget = outcome.data(MODEL_ERROR)
+def _times(run: Run) -> dict[str, Cell]:
+    seconds = {name: sum(model.seconds.values()) for name, model in run.runs.items()}
+    budget = run.data(MODEL_ERROR)
     if budget is not None and budget.seconds:
         seconds["error_budget"] = budget.seconds
     return {f"seconds_{n}": Cell(with_unit(time, "s", 3), time) for n, time in seconds.items()}

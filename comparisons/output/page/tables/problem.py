@@ -3,6 +3,7 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
+from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, CoatingSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
@@ -17,18 +18,18 @@ LOADS = {  # by kind: in words, and the unit
 Rows = list[tuple[str, str]]
 
 
-def problem_sheet(outcome: Run) -> list[tuple[str, Rows]]:
+def problem_sheet(run: Run) -> list[tuple[str, Rows]]:
     """Headings, each with its rows of a name and a value."""
-    surface = outcome.problem.surface
-    info = surface.info
+    problem, surface = run.problem, run.problem.surface
     before = "" if surface.run_in is None else " before running-in"
-    return [
-        ("Geometry", _geometry(outcome.problem.scene, surface)),
-        *([] if info is None else [(f"Roughness{before} (ISO 21920-2)", _standard(info))]),
-        ("Materials", _materials(outcome)),
-        ("Load", _load(outcome)),
-        ("Dimensionless groups", _groups(outcome)),
-    ]
+    sheet = {
+        "Geometry": _geometry(problem.scene, surface),
+        f"Roughness{before} (ISO 21920-2)": _standard(surface.info),
+        "Materials": _materials(problem),
+        "Load": _load(problem),
+        "Dimensionless groups": _groups(run),
+    }
+    return [(heading, rows) for heading, rows in sheet.items() if rows]
 
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
@@ -80,8 +81,10 @@ def in_mm(cutoff: float) -> str:
     return f"{plain(1e3 * cutoff)} mm"
 
 
-def _standard(info: ProfileInfo) -> Rows:
-    """The standard's parameters of the trace, pressed as it is or not."""
+def _standard(info: ProfileInfo | None) -> Rows:
+    """The standard's parameters of the trace, pressed as it is or not; none of a smooth body."""
+    if info is None:
+        return []
     standard = info.standard
     if standard is None:
         return [("parameters", f"none: {info.standard_why}")]
@@ -120,8 +123,7 @@ def _pair_in_m(first: float, second: float) -> str:
     return f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"
 
 
-def _materials(outcome: Run) -> Rows:
-    problem = outcome.problem
+def _materials(problem: Problem) -> Rows:
     scene = problem.scene
     rows = [
         ("roller", "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)),
@@ -154,8 +156,8 @@ def yielding_text(body: BodySection) -> str:
     return f"at {given(body.yield_stress, 'Pa')}{harder}"
 
 
-def _load(outcome: Run) -> Rows:
-    scene, hertz = outcome.problem.scene, outcome.problem.hertz
+def _load(problem: Problem) -> Rows:
+    scene, hertz = problem.scene, problem.hertz
     label, unit = LOADS[scene.load.kind]
     rows = [(f"{label} (given)", given(scene.load.value, unit))]
     if scene.load.kind != "per_length":

@@ -209,47 +209,47 @@ def _parts(figure: Figure, model: ModelRun) -> tuple[str, ...]:
     return (order, *(percent(sizes[name]) for name in _known(model)), percent(figure.numerical))
 
 
-def check_table(outcome: Run) -> TextTable:
+def check_table(run: Run) -> TextTable:
     """The contact conditions on the finest level, evaluated once more after the solution."""
-    runs = outcome.runs.values()
+    models = run.runs.values()
     rows = []
     for name, words in WORDING["residuals"].items():
-        values = [getattr(run.finest.solution.residuals, name) for run in runs]
+        values = [getattr(model.finest.solution.residuals, name) for model in models]
         rows.append((words, *(significant(value, 2) for value in values)))
-    converged = [all(level.solution.converged for level in run.levels) for run in runs]
+    converged = [all(level.solution.converged for level in model.levels) for model in models]
     below = f"all below {significant(KKT_TOLERANCE, 1)} on every level"
     rows.append((below, *("yes" if met else "no" for met in converged)))
-    return TextTable("", ("", *(LABELS[name] for name in outcome.runs)), tuple(rows))
+    return TextTable("", ("", *(LABELS[name] for name in run.runs)), tuple(rows))
 
 
-def cost_table(outcome: Run) -> TextTable:
+def cost_table(run: Run) -> TextTable:
     """Iterations, unknowns and memory on the finest level, and the time of all levels."""
-    columns = {name: _cost(outcome, run) for name, run in outcome.runs.items()}
-    names = dict.fromkeys(name for cells in columns.values() for name in cells)
-    names = [*(name for name in names if name != ALL_LEVELS), ALL_LEVELS]
-    rows = tuple((name, *(cells.get(name, "") for cells in columns.values())) for name in names)
-    return TextTable("", ("on the finest level", *(LABELS[name] for name in columns)), rows)
+    columns = [_cost(run, model) for model in run.runs.values()]
+    names = dict.fromkeys(name for cells in columns for name in cells if name != ALL_LEVELS)
+    rows = ((name, *(cells.get(name, "") for cells in columns)) for name in (*names, ALL_LEVELS))
+    head = ("on the finest level", *(LABELS[name] for name in run.runs))
+    return TextTable("", head, tuple(rows))
 
 
-def _cost(outcome: Run, run: ModelRun) -> dict[str, str]:
-    level, counts = run.finest, run.finest.solution.iterations
+def _cost(run: Run, model: ModelRun) -> dict[str, str]:
+    level, counts = model.finest, model.finest.solution.iterations
     # the half-plane's planned levels come first, so that theirs is its own memory; further ones
     # share the process with the finite elements
-    last = len(outcome.problem.pitches) if run.name == "half_plane" else len(run.levels)
-    memory = run.levels[min(last, len(run.levels)) - 1].peak_memory
+    last = len(run.problem.pitches) if model.name == "half_plane" else len(model.levels)
+    memory = model.levels[min(last, len(model.levels)) - 1].peak_memory
     return {
         "time": with_unit(sum(level.seconds.values()), "s", 3),
         "unknowns": integer(level.unknowns),
         "pressure elements": integer(level.grid.count),
         **{f"contact solver: {k.replace('_', ' ')}": integer(n) for k, n in counts.items()},
         "peak memory of the process": with_unit(memory, "byte", 3),
-        ALL_LEVELS: with_unit(sum(run.seconds.values()), "s", 3),
+        ALL_LEVELS: with_unit(sum(model.seconds.values()), "s", 3),
     }
 
 
-def record_rows(outcome: Run) -> list[tuple[str, str]]:
+def record_rows(run: Run) -> list[tuple[str, str]]:
     """Date, host and revision, versions, machine and hashes of the run."""
-    record = outcome.record
+    record = run.record
     rows = [(name, value) for name, value in record.get("made", {}).items() if value]
     for part in ("versions", "machine"):
         rows.append((part, ", ".join(f"{n} {value}" for n, value in record[part].items() if value)))
@@ -257,28 +257,24 @@ def record_rows(outcome: Run) -> list[tuple[str, str]]:
         rows.append(("seed", str(record["seed"])))
     if record.get("profile"):
         rows.append(("SHA-256 of the profile", record["profile"]["sha256"]))
-    hashes = record.get("hashes") or {}
-    return rows + [(f"SHA-256 of {_hashed(name)}", value) for name, value in hashes.items()]
+    for name, value in (record.get("hashes") or {}).items():
+        for model, words in HYPHENATED.items():
+            name = name.replace(f"{model}_", f"the {words} model's ")
+        rows.append((f"SHA-256 of {name.replace('_', ' ')}", value))
+    return rows
 
 
-def _hashed(name: str) -> str:
-    """What a hash of the record is of: a model's pressures, or another array."""
-    for model, words in HYPHENATED.items():
-        name = name.replace(f"{model}_", f"the {words} model's ")
-    return name.replace("_", " ")
-
-
-def refinement_text(outcome: Run) -> str:
+def refinement_text(run: Run) -> str:
     """Why refinement ended, with quantities in words."""
-    text = outcome.solved.refinement
+    text = run.solved.refinement
     for name in sorted(QUANTITIES, key=len, reverse=True):
         text = re.sub(rf"\b{name}\b", label(name), text)
     return text
 
 
-def commands(outcome: Run) -> list[tuple[str, str]]:
+def commands(run: Run) -> list[tuple[str, str]]:
     """What to type to get this again."""
-    scene, plan = outcome.problem.scene, outcome.plan
+    scene, plan = run.problem.scene, run.plan
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
     return [
         ("repeats this run, in the folder of this page", "crosscheck rerun ."),
@@ -287,16 +283,13 @@ def commands(outcome: Run) -> list[tuple[str, str]]:
     ]
 
 
-def operator_table(outcome: Run) -> TextTable | None:
+def operator_table(run: Run) -> TextTable | None:
     """Columns and waves of the finest level; None where nothing was checked."""
-    check = _check(outcome)
+    check = _check(run)
     if check is None:
         return None
     head = ["", "difference", "far"]
     nearest, effect = check.nearest, check.half_plane
-    if effect is not None:
-        finite = " and ".join(f"the {name}" for name in check.finite)
-        head.append(f"from the half-plane: what {finite} does")
     rows = [
         [f"column at x = {with_unit(c.x, 'm', 3)}", percent(c.difference), percent(c.beyond)]
         for c in nearest.columns
@@ -306,6 +299,8 @@ def operator_table(outcome: Run) -> TextTable | None:
         row = f"waves of {with_unit(wave.length, 'm', 3)}, {elements} elements"
         rows.append([row, percent(wave.difference, signed=True), ""])
     if effect is not None:
+        finite = " and ".join(f"the {name}" for name in check.finite)
+        head.append(f"from the half-plane: what {finite} does")
         moved = [percent(c.difference) for c in effect.columns]
         moved += [percent(w.difference, signed=True) for w in effect.waves]
         rows = [[*row, cell] for row, cell in zip(rows, moved, strict=True)]
@@ -314,9 +309,9 @@ def operator_table(outcome: Run) -> TextTable | None:
     return TextTable(title, tuple(head), tuple(map(tuple, rows)))
 
 
-def operator_note(outcome: Run) -> str:
+def operator_note(run: Run) -> str:
     """What the table says, and how it is read; empty without one."""
-    check = _check(outcome)
+    check = _check(run)
     if check is None:
         return ""
     datum = "" if check.datum else ", a constant removed"
@@ -325,6 +320,6 @@ def operator_note(outcome: Run) -> str:
     return f"{verdict} {because}. {how.format(datum=datum)}"
 
 
-def _check(outcome: Run) -> ComplianceCheck | None:
-    run = outcome.runs.get("finite_element")
-    return None if run is None else run.finest.operator
+def _check(run: Run) -> ComplianceCheck | None:
+    model = run.runs.get("finite_element")
+    return None if model is None else model.finest.operator

@@ -36,7 +36,7 @@ def test_drawn_side_by_side_as_in_one_process(wavy_outcome, monkeypatch):
 
 
 def test_a_new_study_shows_itself(wavy_outcome, page_of, no_pictures, monkeypatch):
-    """A section of its own after what flows, a part of another one, and no box for a picture that
+    """A section of its own after the contact, a part of another one, and no box for a picture that
     there is none of; what stands in a text is no tag."""
     table = TextTable("Slip", ("", "a < b"), (("*all*", "1 %"),))
     boxed = Box("columns", (Pictures(("fields",), "Nothing to see"),))
