@@ -99,13 +99,15 @@ def _pictures(
     bands = round_bands([f for models in fields for f in models.values()], component.signed)
     scale = ColourScale(f"{component.symbol}/p₀", bands, component.colours, component.signed)
     differences = [sub(*models.values()) for models in fields if len(models) > 1]
-    pictures, names = [], " − ".join(LABELS[name] for name in fields[0])
+    pictures = []
     if differences:
         of_differences = round_bands(differences, signed=True)
-        difference = names, signed_scale(f"Δ{component.symbol}/p₀", of_differences)
+        other_scale = signed_scale(f"Δ{component.symbol}/p₀", of_differences)
     for number, (friction, models) in enumerate(zip(frictions, fields, strict=True)):
         panels = [_panel(run, name, friction, component, models[name]) for name in models]
-        drawn, axes = draw_fields(x, z, panels, scale, height, difference if differences else None)
+        names = " − ".join(LABELS[name] for name in models)
+        difference = (names, other_scale) if differences else None
+        drawn, axes = draw_fields(x, z, panels, scale, height, difference)
         pointed = {
             "component": COMPONENTS.index(component),
             "friction": number,

@@ -29,8 +29,8 @@ MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
 def outcome(wavy_outcome: Run) -> Run:
     """At friction 0.1 the whole model has other pressures and stresses than the scene's own finite
     elements, on a coarser level; at friction 0 it is these."""
-    own = wavy_outcome.runs["finite_element"]
-    level = own.levels[-2]
+    finite_element = wavy_outcome.runs["finite_element"]
+    level = finite_element.levels[-2]
     stress = level.stress(0.1)
     field = replace(stress.field, txz=1.25 * stress.field.txz)
     moved = HIGHER * np.roll(level.solution.pressure, MOVED)
@@ -43,7 +43,7 @@ def outcome(wavy_outcome: Run) -> Run:
         replace(e, value=0.5) if (e.quantity, e.friction) == ("pressure_l2", 0.1) else e
         for e in wavy_outcome.data("model_error").model_errors
     )
-    wholes = {0.0: own.finest, 0.1: whole}
+    wholes = {0.0: finite_element.finest, 0.1: whole}
     budget = replace(wavy_outcome.data("model_error"), model_errors=tuple(errors), wholes=wholes)
     return budgeted(wavy_outcome, budget)
 

@@ -16,11 +16,11 @@ NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
 def figures(text: str) -> dict[str, float]:
     """Place and values that a line of the page shows."""
     names = ("x", "z", "half-plane", "finite elements", "difference")
-    found = {}
+    numbers = {}
     for name in names:
         match = re.search(rf"{name}(?: =)? {NUMBER}", text.replace("\u00a0", " "))
-        found[name] = float(match[1].replace("−", "-"))
-    return found
+        numbers[name] = float(match[1].replace("−", "-"))
+    return numbers
 
 
 def field(outcome: Run, model: str, component: int, friction: float) -> np.ndarray:
@@ -125,7 +125,7 @@ def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_o
         deep = np.unique(numbers[:, 1])
         assert words == f"CSV, {len(rows) // len(deep)} × {len(deep)} points"
         assert deep[-1] == pytest.approx(drawn["z"][1], rel=1e-4)
-        given = drawn["component"], frictions[drawn["friction"]]
+        which = drawn["component"], frictions[drawn["friction"]]
         row, column = (
             np.argmin(np.abs(places[:, None] / a - at), axis=0)
             for places, at in zip(
@@ -133,7 +133,7 @@ def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_o
             )
         )
         one, other = (
-            field(wavy_outcome, model, *given)[row, column]
+            field(wavy_outcome, model, *which)[row, column]
             for model in ("half_plane", "finite_element")
         )
         assert numbers[:, 2] == pytest.approx(one, abs=1e-4)
