@@ -79,16 +79,14 @@ def run(
         _say_first_answer(asked, surface)
     with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
         try:
-            how = fields, opens, Known(surface)
-            outcome = run_scene(asked, directory, chosen, callback, *how)
+            outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
         except SceneError as error:
             raise SceneError("; ".join([str(error), *warnings])) from error
         if pdf and is_first():
             callback("printing the report")
             _print(directory)
     if junit is not None:
-        seconds = perf_counter() - began
-        write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), seconds))
+        write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), perf_counter() - began))
     content = content_of(outcome) if as_json else {}
     show_either(as_json, content, lambda: summary(outcome))
     _say_warnings([*warnings, *warnings_about_result(outcome)])

@@ -93,8 +93,8 @@ def field_of(run: Run, level: Level) -> FieldFile:
         if half_plane is not None:
             arrays |= _beside(run.problem, half_plane.beside(level), plane, stresses, arrays)
     units = {"points": "m"} | {name: _unit(name) for name in arrays}
-    said = scene.title, scene_text(run.problem)
-    return FieldFile(_in_space(plane), kind, cells, arrays, units, *said)
+    text = scene_text(run.problem)
+    return FieldFile(_in_space(plane), kind, cells, arrays, units, title=scene.title, scene=text)
 
 
 def _named(by_friction: Mapping, arrays: Callable[..., dict]) -> dict[str, np.ndarray]:

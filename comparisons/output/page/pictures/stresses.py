@@ -99,14 +99,15 @@ def _pictures(
     bands = round_bands([f for models in fields for f in models.values()], component.signed)
     scale = ColourScale(f"{component.symbol}/p₀", bands, component.colours, component.signed)
     differences = [sub(*models.values()) for models in fields if len(models) > 1]
+    of_differences = round_bands(differences, signed=True) if differences else None
     pictures = []
-    if differences:
-        of_differences = round_bands(differences, signed=True)
-        other_scale = signed_scale(f"Δ{component.symbol}/p₀", of_differences)
     for number, (friction, models) in enumerate(zip(frictions, fields, strict=True)):
         panels = [_panel(run, name, friction, component, models[name]) for name in models]
-        names = " − ".join(LABELS[name] for name in models)
-        difference = (names, other_scale) if differences else None
+        difference, notes = None, ""
+        if differences:
+            names = " − ".join(LABELS[name] for name in models)
+            difference = names, signed_scale(f"Δ{component.symbol}/p₀", of_differences)
+            notes = _difference_said(x, z, differences[number], of_differences[-1])
         drawn, axes = draw_fields(x, z, panels, scale, height, difference)
         pointed = {
             "component": COMPONENTS.index(component),
@@ -118,9 +119,6 @@ def _pictures(
         words = f"{component.words.capitalize()} {component.symbol} {place}"
         words += f", friction {plain(friction)}"
         striped = ", stripes what is negative" if component.signed or differences else ""
-        notes = (
-            _difference_said(x, z, differences[number], of_differences[-1]) if differences else ""
-        )
         if any(np.isnan(values).any() for values in models.values()):
             notes += " White: hollows below the mean line, from which z counts."
         if WHOLE in models:
