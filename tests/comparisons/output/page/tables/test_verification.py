@@ -1,4 +1,4 @@
-"""Tables of verification: how judged figures converged, no column without a name, words for names."""
+"""Tables of verification: how judged figures converged, no column unnamed, words for names."""
 
 from dataclasses import replace
 
