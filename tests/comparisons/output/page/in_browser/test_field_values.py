@@ -73,7 +73,7 @@ def test_the_places_to_point_at_are_where_the_fields_are_drawn(tab, wavy_file):
     # of every box a colour just inside its upper right corner, and one above it beside the title
     colours = page.value(
         """(async () => {
-          const found = [];
+          const boxes = [];
           for (const picture of document.querySelectorAll("[data-field]")) {
             const drawn = JSON.parse(picture.dataset.field);
             if (drawn.component !== 0) continue; // whose colours are never white
@@ -84,10 +84,10 @@ def test_the_places_to_point_at_are_where_the_fields_are_drawn(tab, wavy_file):
             context.drawImage(picture, 0, 0, 800, 800);
             const at = (x, y) => [...context.getImageData(800 * x, 800 * y, 1, 1).data];
             for (const [x, y, w, h] of drawn.boxes)
-              found.push([at(x + w - 0.004, y + 0.004), at(x + w - 0.004, y - 0.008),
+              boxes.push([at(x + w - 0.004, y + 0.004), at(x + w - 0.004, y - 0.008),
                 at(x + 0.004, y + h - 0.006), at(x - 0.008, y + h / 3)]);
           }
-          return found;
+          return boxes;
         })()"""
     )
     assert len(colours) == 4 * 3
