@@ -7,6 +7,7 @@ import re
 import shlex
 import tomllib
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 from analytic.contact.problem import KKT_TOLERANCE
@@ -22,7 +23,7 @@ from comparisons.common.numbers import (
 )
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import (
     HYPHENATED,
     LABELS,
@@ -75,17 +76,17 @@ class JudgedSequence:
 
 def judged_sequences(run: Run) -> list[JudgedSequence]:
     """In the order of quantities, then of friction coefficients and models."""
-    sequences = []
-    for quantity in (name for name in QUANTITIES if name in run.problem.scene.tolerances):
-        for friction in run.problem.scene.load.friction:
-            if name := row_name(run, quantity, friction):
-                known = run.figures.of(quantity=quantity, friction=friction)
-                of_models = [known.one(study=contact.NAME, source=model) for model in MODELS]
-                for figure in filter(None, (*of_models, known.one(study=comparison.NAME))):
-                    source = DIFFERENCE if figure.against else figure.source
-                    levels = run.runs[figure.against or figure.source].levels
-                    pitches = tuple(level.grid.pitch for level in levels)
-                    sequences.append(JudgedSequence(figure, name, source, pitches))
+    sequences, frictions = [], run.problem.scene.load.friction
+    judged = [name for name in QUANTITIES if name in run.problem.scene.tolerances]
+    for quantity, friction in product(judged, frictions):
+        name = row_name(run, quantity, friction)
+        known = run.figures.of(quantity=quantity, friction=friction) if name else Figures()
+        of_models = [known.one(study=contact.NAME, source=model) for model in MODELS]
+        for figure in filter(None, (*of_models, known.one(study=comparison.NAME))):
+            source = DIFFERENCE if figure.against else figure.source
+            levels = run.runs[figure.against or figure.source].levels
+            pitches = tuple(level.grid.pitch for level in levels)
+            sequences.append(JudgedSequence(figure, name, source, pitches))
     return sequences
 
 
