@@ -105,8 +105,8 @@ def _open_streams() -> None:
 
 def _check_places(arguments: list[str]) -> None:
     for option, value in pairwise([*arguments, "-"]):
-        name, assigned, given = option.partition("=")
-        if name in PLACES and not (given if assigned else value).strip():
+        name, assigned, place = option.partition("=")
+        if name in PLACES and not (place if assigned else value).strip():
             raise InputError(f"{name}: is empty; allowed is a path")
 
 
@@ -168,15 +168,16 @@ def _defect(error: Exception) -> ExitStatus:
         sys.stdout.flush()
     except OSError:
         drop(sys.stdout)
-    if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
-        return ExitStatus.OUT_OF_MEMORY
-    if "INFOG(1)=-13" in str(error):  # MUMPS, while it solves
-        return ExitStatus.OUT_OF_MEMORY
-    # where the system maps no more memory, libraries say that a part of them is not there
-    if isinstance(error, ImportError) and (address_space() or "failed to map" in str(error)):
-        return ExitStatus.OUT_OF_MEMORY
-    # without such a limit it is one on the number of processes
-    if address_space() and "can't start new thread" in str(error):
+    out_of_memory = (
+        isinstance(error, MemoryError),
+        getattr(error, "errno", None) == errno.ENOMEM,
+        "INFOG(1)=-13" in str(error),  # MUMPS, while it solves
+        # where the system maps no more memory, libraries say that a part of them is not there
+        isinstance(error, ImportError) and (address_space() or "failed to map" in str(error)),
+        # without such a limit it is one on the number of processes
+        address_space() and "can't start new thread" in str(error),
+    )
+    if any(out_of_memory):
         return ExitStatus.OUT_OF_MEMORY
     return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
 

@@ -94,14 +94,11 @@ class RunFigures(Printed, Figures):
                 value = with_unit(figure.value, meaning(figure).unit)
             else:
                 value = percent(figure.value, signed=True)
+            at = ", ".join(f"{name} {number:g}" for name, number in figure.at.items())
             stated = "" if figure.uncertainty is None else percent(figure.numerical)
-            cells = figure.study, figure.quantity, figure.source, *_of_place(figure), value, stated
+            cells = (figure.study, figure.quantity, figure.source, at, value, stated)
             table.add_row(*(cell.translate(PLAIN) for cell in cells), figure.verdict or "")
         return table
-
-
-def _of_place(figure: Figure) -> list[str]:
-    return [", ".join(f"{name} {value:g}" for name, value in figure.at.items())]
 
 
 @dataclass(frozen=True, repr=False)
@@ -127,9 +124,9 @@ class FinishedRun(Printed):
 
         study  that found it
         at     of several friction coefficients: friction=0.1"""
-        source, wanted = _model(source), {"study": study, "quantity": quantity}
-        known = self.outcome.figures.of(source=source, **wanted)
-        return next((f for f in known if at.items() <= f.at.items()), None)
+        wanted = {"study": study, "quantity": quantity, "source": _model(source)}
+        figures = self.outcome.figures.of(**wanted)
+        return next((figure for figure in figures if at.items() <= figure.at.items()), None)
 
     @property
     def verdict(self) -> str:
@@ -213,12 +210,12 @@ class FigureTable(Printed):
         numbers = ("mu", "half-plane", "finite elements", "model error")
         table = plain_table("run", "quantity", numbers=numbers)
         for row in self.rows:
-            values = (row["half_plane"], row["finite_element"])
-            cells = ["" if v is None else with_unit(v, row["unit"]) for v in values]
+            cells = [row["title"], SHORT[row["quantity"]], f"{row['friction']:g}"]
+            for value in (row["half_plane"], row["finite_element"]):
+                cells.append("" if value is None else with_unit(value, row["unit"]))
             error = row["model_error"]
             cells.append("" if error is None else percent(error, signed=True))
-            head = (row["title"], SHORT[row["quantity"]], f"{row['friction']:g}")
-            table.add_row(*(cell.translate(PLAIN) for cell in (*head, *cells)))
+            table.add_row(*(cell.translate(PLAIN) for cell in cells))
         return table
 
 

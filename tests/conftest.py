@@ -21,6 +21,8 @@ LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 
 # Tests start some hundred processes: what one has compiled, the next one need not.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+# Nor is what they print as wide as the terminal that pytest writes to.
+os.environ.pop("COLUMNS", None)
 # A shell hands an ignored SIGINT down to what it runs in the background; tests send interrupts.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -15,8 +15,7 @@ from comparisons.common.numbers import Scale, percent, plain, significant
 from comparisons.drawing.field import colour_bar, cross, fill, round_bands
 from comparisons.drawing.style import drawing, figure, stacked
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.output.page.pictures.pressures import draw_difference
-from comparisons.output.page.pictures.surfaces import draw_surfaces
+from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
 from comparisons.studies.contact import draw_pressures
 from comparisons.studies.model_error.show import moved_text
 from comparisons.studies.study import Run

@@ -17,8 +17,8 @@ def job(work: Callable[..., int]) -> Callable[..., Job]:
     `comparisons.cli.main` does it, so that every error and interrupt ends there."""
 
     @wraps(work)
-    def command(*given: object, **named: object) -> Job:
-        return partial(work, *given, **named)
+    def command(**arguments: object) -> Job:
+        return partial(work, **arguments)
 
     return command
 

@@ -22,17 +22,6 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 PATIENCE = 60.0  # s; the first trial that compiles a form takes twenty
-# Without a display; as root and on a single core, as in a container.
-ENVIRONMENT = {
-    "OMP_NUM_THREADS": "1",
-    "VTK_DEFAULT_OPENGL_WINDOW": "vtkEGLRenderWindow",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-} | {
-    f"{launcher}_ALLOW_RUN_AS_ROOT{suffix}": "1"
-    for launcher in ("OMPI", "PRTE")
-    for suffix in ("", "_CONFIRM")
-}
 STARTED_BY = {"MPI": ("mpirun", "-n", "2")}  # the interpreter that runs a trial
 MODELS = {"half-plane": "half-plane", "finite elements": "finite-element"}
 REMEDY = "./crosscheck installs everything anew once its folder .venv is removed."
@@ -48,11 +37,15 @@ class Finding:
 
 
 @cache
+def _known() -> dict:
+    return tomllib.loads(Path(__file__).with_name("doctor.toml").read_text(encoding="utf-8"))
+
+
 def trials() -> dict[str, str]:
     """Programs by item, a process each: they print its version if it works, and fail otherwise."""
-    programs = tomllib.loads(Path(__file__).with_name("doctor.toml").read_text(encoding="utf-8"))
-    contact = programs.pop("contact")
-    return programs | {name: f"MODEL = {model!r}\n{contact}" for name, model in MODELS.items()}
+    contact = _known()["contact"]
+    of_models = {name: f"MODEL = {model!r}\n{contact}" for name, model in MODELS.items()}
+    return _known()["items"] | of_models
 
 
 @job
@@ -68,7 +61,7 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
             findings.append(finding)
             callback(Step(f"tried {finding.name}", number / len(programs)))
     works = all(finding.ok for finding in findings)
-    show_either(as_json, [asdict(each) for each in findings], lambda: findings_table(findings))
+    show_either(as_json, list(map(asdict, findings)), lambda: findings_table(findings))
     if not (works or as_json):
         print(REMEDY)
     return ExitStatus.DONE if works else ExitStatus.SOMETHING_MISSING
@@ -80,7 +73,7 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, errors="replace", timeout=patience,
-            stdin=subprocess.DEVNULL, env=os.environ | ENVIRONMENT
+            stdin=subprocess.DEVNULL, env=os.environ | _known()["environment"]
         )  # fmt: skip
     except subprocess.TimeoutExpired:
         return Finding(name, False, f"does not answer within {patience:g} s")
@@ -101,7 +94,7 @@ def findings_table(findings: Sequence[Finding]) -> "Table":
     from comparisons.output.terminal import plain_table
 
     table = plain_table("item", "works", "version, or what is wrong")
-    for found in findings:
-        works = Text("yes", style="green") if found.ok else Text("no", style="bold red")
-        table.add_row(found.name, works, Text(found.detail))
+    for finding in findings:
+        works = Text("yes", style="green") if finding.ok else Text("no", style="bold red")
+        table.add_row(finding.name, works, Text(finding.detail))
     return table

@@ -107,4 +107,4 @@ def show_json(content: object) -> None:
     plain = not (sys.stdout.encoding or "").lower().startswith("utf")
     text = json.dumps(content, indent=2, ensure_ascii=plain, allow_nan=False)
     # json leaves as they are some control characters that a terminal obeys
-    print(re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text))
+    print(re.sub("[\x7f-\x9f]", lambda character: f"\\u{ord(character[0]):04x}", text))

@@ -58,51 +58,65 @@ def run(
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
     """Solve a scene with both models, compare them and judge."""
-    from comparisons.common.files import check_writable, holds_comparison
     from comparisons.common.processes import uncollected
 
     with uncollected():
         from comparisons.common.executors import cluster
-        from comparisons.output.junit import check_place, junit_xml, run_cases_of, write_junit
+        from comparisons.output.junit import junit_xml, run_cases_of, write_junit
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.output.result_json import content_of
         from comparisons.output.terminal import summary
         from comparisons.runs.run import Known
         from comparisons.runs.run import run as run_scene
-        from comparisons.scenes.scene import with_tolerance
         from comparisons.scenes.surface import surface_of
 
     began = perf_counter()
     chosen = models_named(models, "--models")
-    asked = from_first(lambda: _read(scene, answer or ()))
+    asked = from_first(lambda: _read(scene, answer or (), tolerance))
     surface = from_first(lambda: surface_of(asked))
-    if tolerance is not None:
-        asked = with_tolerance(asked, tolerance, "--tolerance")
     directory = out or RESULTS / asked.name
-    from_first(lambda: check_writable(directory))
-    from_first(lambda: check_place(junit))
-    if len(chosen) == 1 and is_first() and holds_comparison(directory):
-        tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
+    from_first(lambda: _check_places(directory, junit, chosen))
     warnings = warnings_about(asked, surface)
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
         _say_first_answer(asked, surface)
     with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
         try:
-            how = fields, opens, Known(surface)
-            outcome = run_scene(asked, directory, chosen, callback, *how)
+            outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
         except SceneError as error:
             raise SceneError("; ".join([str(error), *warnings])) from error
         if pdf and is_first():
             callback("printing the report")
             _print(directory)
     if junit is not None:
-        seconds = perf_counter() - began
-        write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), seconds))
+        write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), perf_counter() - began))
     content = content_of(outcome) if as_json else {}
     show_either(as_json, content, lambda: summary(outcome, details))
     _say_warnings([*warnings, *warnings_about_result(outcome)])
     return outcome.exit_status
+
+
+def _read(scene: str, answers: Sequence[str], tolerance: float | None) -> "Scene":
+    """The scene of a name or path, with answers from outside, NAME=FILE each, and a tolerance in
+    place of its own."""
+    from comparisons.scenes.scene import Scene, with_tolerance
+    from comparisons.scenes.studies.answers import answers_named
+
+    asked = Scene.read(scene)
+    if answers:
+        asked = asked.changed("answers", answers_named(answers, asked.given.get("answers")))
+    return asked if tolerance is None else with_tolerance(asked, tolerance, "--tolerance")
+
+
+def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) -> None:
+    """Raise InputError unless the files can be written; say what one model alone replaces."""
+    from comparisons.common.files import check_writable, holds_comparison
+    from comparisons.output.junit import check_place
+
+    check_writable(directory)
+    check_place(junit)
+    if len(models) == 1 and holds_comparison(directory):
+        tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
 
 
 def _say_warnings(warnings: list[str]) -> None:
@@ -112,17 +126,6 @@ def _say_warnings(warnings: list[str]) -> None:
 
     for warning in warnings:
         tell(f"plausibility warning: {warning.translate(PLAIN)}")
-
-
-def _read(scene: str, answers: Sequence[str]) -> "Scene":
-    """The scene of a name or path, with answers from outside, NAME=FILE each."""
-    from comparisons.scenes.scene import Scene
-    from comparisons.scenes.studies.answers import answers_named
-
-    asked = Scene.read(scene)
-    if answers:
-        asked = asked.changed("answers", answers_named(answers, asked.given.get("answers")))
-    return asked
 
 
 def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:

@@ -2,6 +2,7 @@
 
 In: texts, names of pictures. Out: dataclasses, which a template shows by their classes' names."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 
@@ -22,7 +23,7 @@ class TextTable:
 class Names:
     """Rows of a name and what it stands for; before them such of a name and a command."""
 
-    rows: "tuple[tuple[str, str], ...] | list[tuple[str, str]]"
+    rows: Sequence[tuple[str, str]]
     commands: tuple[tuple[str, str], ...] = ()
 
 

@@ -26,12 +26,32 @@ def panels(
     return drawn, style.stacked(drawn, rows, left, right)
 
 
+def columns(
+    drawn: "Figure",
+    rows: Sequence[Sequence[tuple[float, float]]],
+    left: float,
+    room: float,
+    between: float,
+) -> "list[list[Axes]]":
+    """Panels in columns side by side, all in inches.
+
+    rows            of each column: space above each panel and its height
+    left, room      left of the first column, and of all columns with the space beside each
+    between         that space"""
+    width, share = drawn.get_figwidth(), room / len(rows)
+    lefts = [left + side * share for side in range(len(rows))]
+    return [
+        style.stacked(drawn, panel_rows, start, width - start - share + between)
+        for start, panel_rows in zip(lefts, rows, strict=True)
+    ]
+
+
 def over(axes: "Sequence[Axes]", label: str, ends: Sequence[float] | None = None) -> None:
     """One axis for all panels, with numbers and label under the last."""
-    for each in axes:
+    for panel in axes:
         if ends is not None:
-            each.set_xlim(ends[0], ends[-1])
-        each.tick_params(labelbottom=each is axes[-1])
+            panel.set_xlim(ends[0], ends[-1])
+        panel.tick_params(labelbottom=panel is axes[-1])
     axes[-1].set_xlabel(label)
 
 

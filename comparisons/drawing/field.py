@@ -89,21 +89,14 @@ def fill(
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import BoundaryNorm
 
-    colour_map = matplotlib.colormaps[colours]
-    norm = BoundaryNorm(bands, colour_map.N, extend="both" if signed else "max")
-    scale, step = ScalarMappable(norm, colour_map), bands[1] - bands[0]
-    # a colour for each band, below and beyond them, and none where there is no value
-    middles = bands[0] + step * (np.arange(-1, len(bands)) + 0.5)
-    table = np.vstack([scale.to_rgba(middles, bytes=True), np.zeros(4, dtype=np.uint8)])
-    pixels = (_pixels(axes, x, z, values) - bands[0]) / step
-    band = np.clip(np.floor(pixels), -1.0, len(bands) - 1.0) + 1.0
-    band = np.where(np.isnan(band), len(middles), band).astype(np.uint8)
-    if signed:
-        table = np.vstack([table, table])
-        table[len(middles) + 1 :, :3] = (1.0 - SHADE) * table[: len(middles) + 1, :3]
-        negative = np.count_nonzero(bands < 0.0)
-        band[_stripes(band.shape) & (band < negative)] += len(middles) + 1
-    axes.imshow(table[band], interpolation="none", aspect="auto", extent=(x[0], x[-1], z[-1], z[0]))
+    ends = "both" if signed else "max"
+    norm = BoundaryNorm(bands, matplotlib.colormaps[colours].N, extend=ends)
+    scale, pixels = ScalarMappable(norm, colours), _pixels(axes, x, z, values)
+    image = scale.to_rgba(np.ma.masked_invalid(pixels), bytes=True)  # nothing where no value is
+    if signed:  # zero lies inside the middle band
+        struck = _stripes(pixels.shape) & (pixels < bands[bands < 0.0][-1])
+        image[struck, :3] = (1.0 - SHADE) * image[struck, :3]
+    axes.imshow(image, interpolation="none", aspect="auto", extent=(x[0], x[-1], z[-1], z[0]))
     axes.set(xlim=(x[0], x[-1]), ylim=(z[-1], z[0]), ylabel="z/a")
     axes.grid(False)
     return scale
@@ -111,19 +104,13 @@ def fill(
 
 def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> np.ndarray:
     """The field on even pixels, linear between the window's points."""
+    from scipy.interpolate import interp1d
+
     box, (wide, tall) = axes.get_position(), axes.figure.get_size_inches()
     columns, rows = int(PIXELS * box.width * wide), int(PIXELS * box.height * tall)
     across = x[0] + (np.arange(columns) + 0.5) / columns * (x[-1] - x[0])
     down = z[0] + (np.arange(rows) + 0.5) / rows * (z[-1] - z[0])
-    return _between(x, across, _between(z, down, values).T).T
-
-
-def _between(places: np.ndarray, wanted: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Rows of values at ascending places, linear in between, at the wanted places."""
-    at = np.interp(wanted, places, np.arange(len(places)))
-    before = np.minimum(at.astype(int), len(places) - 2)
-    share = (at - before)[:, None]
-    return (1.0 - share) * values[before] + share * values[before + 1]
+    return interp1d(x, interp1d(z, values, axis=0)(down))(across)
 
 
 @cache

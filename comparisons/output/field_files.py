@@ -59,7 +59,7 @@ def scene_text(problem: Problem) -> str:
     return json.dumps(problem.surface.as_dict(problem.scene), ensure_ascii=False, allow_nan=False)
 
 
-def field_of(outcome: Run, level: Level) -> FieldFile:
+def field_of(run: Run, level: Level) -> FieldFile:
     """Stresses at the points of a model's level, as STRESSES.
 
     On a mesh of finite elements also their `displacement`, a vector (n, 3) [m] in the axes of the
@@ -67,7 +67,7 @@ def field_of(outcome: Run, level: Level) -> FieldFile:
     COMPONENTS: the half-plane's stresses at the same points, and these less the finite elements'.
     Of several friction coefficients each array has its own in the name. Where the body yields there
     are also what flow leaves behind when the roller is gone."""
-    scene = outcome.problem.scene
+    scene = run.problem.scene
     nu = scene.body.poissons_ratio
     on_mesh = level.field_on_mesh
     if on_mesh is not None:
@@ -75,7 +75,7 @@ def field_of(outcome: Run, level: Level) -> FieldFile:
         cells, nu = on_mesh.triangles, on_mesh.poissons_ratio
         kind = "triangle6"
     else:
-        x, z = np.meshgrid(outcome.window.x, outcome.window.z)
+        x, z = np.meshgrid(run.window.x, run.window.z)
         plane = np.column_stack([x.ravel(), z.ravel()])
         stresses = {
             s.friction: StressState(s.field.sx.ravel(), s.field.sz.ravel(), s.field.txz.ravel())
@@ -89,12 +89,12 @@ def field_of(outcome: Run, level: Level) -> FieldFile:
     if on_mesh is not None:
         arrays |= _named(on_mesh.displacement, lambda u: {"displacement": _in_space(u)})
         arrays |= on_mesh.others
-        half_plane = outcome.runs.get("half_plane")
+        half_plane = run.runs.get("half_plane")
         if half_plane is not None:
-            arrays |= _beside(outcome.problem, half_plane.beside(level), plane, stresses, arrays)
+            arrays |= _beside(run.problem, half_plane.beside(level), plane, stresses, arrays)
     units = {"points": "m"} | {name: _unit(name) for name in arrays}
-    said = scene.title, scene_text(outcome.problem)
-    return FieldFile(_in_space(plane), kind, cells, arrays, units, *said)
+    text = scene_text(run.problem)
+    return FieldFile(_in_space(plane), kind, cells, arrays, units, title=scene.title, scene=text)
 
 
 def _named(by_friction: Mapping, arrays: Callable[..., dict]) -> dict[str, np.ndarray]:
@@ -128,16 +128,20 @@ def _beside(
     half_plane: Level,
     plane: np.ndarray,
     stresses: Mapping[float, StressState],
-    own: Mapping[str, np.ndarray],
+    on_mesh: Mapping[str, np.ndarray],
 ) -> dict[str, np.ndarray]:
-    """The half-plane's stresses at points (n, 2) and their difference; NaN above the mean line."""
-    found = stresses_at(problem, half_plane, tuple(stresses), *plane.T)
+    """The half-plane's stresses at points (n, 2), and these less what is `on_mesh`; NaN above the
+    mean line."""
+    at_points = stresses_at(problem, half_plane, tuple(stresses), *plane.T)
     nu = problem.scene.body.poissons_ratio
-    arrays = _named(found, lambda s: _components(s, nu))
+    arrays = _named(at_points, lambda s: _components(s, nu))
     return {
         before + name: values.astype(np.float32)
         for name, array in arrays.items()
-        for before, values in (("half_plane_", array), ("difference_", array - own[name]))
+        for before, values in (
+            ("half_plane_", array),
+            ("difference_", array - on_mesh[name]),
+        )
     }
 
 

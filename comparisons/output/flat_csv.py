@@ -27,7 +27,7 @@ What is unknown is empty in a CSV and null in a Parquet file."""
 import csv
 import io
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
 from pathlib import Path
 
@@ -35,7 +35,7 @@ from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import whole_file, write_whole
 from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
 from comparisons.studies import STUDIES, comparison, contact, meaning
 from comparisons.studies import problem as asked
@@ -70,7 +70,8 @@ def tidy_rows(folders: Iterable[Path], long: bool = False) -> list[Row]:
     """The rows of every run in or below the folders, each with all COLUMNS; `long`: LONG_COLUMNS.
     Raises InputError, one line, for a folder without runs and for a result that cannot be read."""
     rows = long_rows if long else rows_of
-    return [row for path in _results(folders) for row in _rows_in(path, rows)]
+    paths = _results(folders)
+    return [row for path in paths for row in rows(read_result(path), one_line(str(path.parent)))]
 
 
 def as_csv(rows: Iterable[Row], columns: Sequence[str] = COLUMNS) -> str:
@@ -128,7 +129,7 @@ def write_table(path: Path, rows: list[Row], columns: Sequence[str] = COLUMNS) -
 
 def _results(folders: Iterable[Path]) -> list[Path]:
     """Every result in or below the folders, once, in the order of their paths."""
-    found: dict[Path, Path] = {}
+    results: dict[Path, Path] = {}
     for folder in folders:
         if not folder.is_dir():
             raise InputError(f"{folder}: is no folder; allowed is one that runs have left")
@@ -137,21 +138,16 @@ def _results(folders: Iterable[Path]) -> list[Path]:
         if not below:
             raise InputError(f"{folder}: holds no run; allowed is a folder with {FILE} below it")
         for path in below:
-            found.setdefault(path.resolve(), path)
-    return list(found.values())
+            results.setdefault(path.resolve(), path)
+    return list(results.values())
 
 
 def rows_of(result: Result, run: str) -> list[Row]:
     """The wide rows of one run, each with all COLUMNS."""
     figures = result.figures
     groups = figures.of(study=asked.NAME, source=asked.SCENE)
-    common = {
-        "run": run,
-        "scene": result.scene["name"],
-        "title": result.scene["title"],
-        "validity": result.verdict,
-        **{figure.quantity: figure.value for figure in groups},
-    }
+    common = _run(result, run) | {"validity": result.verdict}
+    common |= {figure.quantity: figure.value for figure in groups}
     compared = figures.of(study=comparison.NAME)
     rows = _compared(figures, compared) if compared else _of_one_model(figures)
     every = [*rows, *_of_studies(figures), *_of_answers(figures)]
@@ -160,21 +156,19 @@ def rows_of(result: Result, run: str) -> list[Row]:
 
 def long_rows(result: Result, run: str) -> list[Row]:
     """A row a figure, of every study, each with all LONG_COLUMNS."""
-    common = {"run": run, "scene": result.scene["name"], "title": result.scene["title"]}
-    rows = []
+    common, rows = _run(result, run), []
     for figure in result.figures:
-        own = {
-            "study": figure.study,
-            "source": figure.source,
-            "against": figure.against,
-            "value": figure.value,
-            "not_modelled": figure.not_modelled,
-            "low": figure.bounds and figure.bounds[0],
-            "high": figure.bounds and figure.bounds[1],
-        }
-        row = common | _judged(figure) | own | ({"unit": ""} if figure.against else {})
+        low, high = figure.bounds or (None, None)
+        row = common | _judged(figure) | {"low": low, "high": high}
+        names = ("study", "source", "against", "value", "not_modelled")
+        row |= {name: getattr(figure, name) for name in names}
+        row |= {"unit": ""} if figure.against else {}
         rows.append({name: row[name] for name in LONG_COLUMNS})
     return rows
+
+
+def _run(result: Result, run: str) -> Row:
+    return {"run": run, "scene": result.scene["name"], "title": result.scene["title"]}
 
 
 def _judged(figure: Figure) -> Row:
@@ -193,27 +187,23 @@ def _known(size: float) -> float | None:
     return size if math.isfinite(size) else None
 
 
-def _rows_in(path: Path, rows: Callable[[Result, str], list[Row]]) -> list[Row]:
-    return rows(read_result(path), one_line(str(path.parent)))
-
-
-def _by_quantity(figures: Figures) -> list[Figure]:
+def _by_quantity(figures: Iterable[Figure]) -> list[Figure]:
     order = list(QUANTITIES)
     return sorted(figures, key=lambda figure: order.index(figure.quantity))
 
 
-def _compared(figures: Figures, compared: Figures) -> Iterable[Row]:
-    for each in _by_quantity(compared):
-        wanted = {"quantity": each.quantity, "at": each.at}
+def _compared(figures: Figures, compared: Figures) -> Iterator[Row]:
+    for difference in _by_quantity(compared):
+        wanted = {"quantity": difference.quantity, "at": difference.at}
         error = figures.one(study=MODEL_ERROR, **wanted)
         models = figures.of(study=contact.NAME, **wanted)
         # an effect that raises the finite elements' figure makes the half-plane's too low
-        sign = 1.0 if QUANTITIES[each.quantity].of_pair else -1.0
+        sign = 1.0 if QUANTITIES[difference.quantity].of_pair else -1.0
         parts = {part.name: part.value for part in error.parts}
         yield {
-            **_judged(each),
+            **_judged(difference),
             **{figure.source: figure.value for figure in models},
-            "difference": each.value,
+            "difference": difference.value,
             "model_error": error.value,
             "model_error_uncertainty": _known(error.numerical),
             "model_error_verdict": error.verdict,
@@ -223,15 +213,15 @@ def _compared(figures: Figures, compared: Figures) -> Iterable[Row]:
         }
 
 
-def _of_one_model(figures: Figures) -> Iterable[Row]:
-    """A run of a single model: its figures, and their own uncertainty."""
+def _of_one_model(figures: Figures) -> Iterator[Row]:
+    """A run of a single model: its figures, and their uncertainty."""
     known = figures.of(study=contact.NAME)
     for same in grouped(known, lambda figure: (figure.source, figure.friction)):
         for figure in _by_quantity(f for f in same if f.quantity in QUANTITIES):
             yield {**_judged(figure), figure.source: figure.value}
 
 
-def _of_studies(figures: Figures) -> Iterable[Row]:
+def _of_studies(figures: Figures) -> Iterator[Row]:
     """What studies have found by both models and put into the table."""
     tabled = {(study.name, name) for study in STUDIES for name in study.tabled}
     known = [f for f in figures if (f.study, f.quantity) in tabled and f.source in MODELS]
@@ -243,18 +233,18 @@ def _of_studies(figures: Figures) -> Iterable[Row]:
         yield {**_judged(base), **sizes, "difference": difference and difference.value}
 
 
-def _of_answers(figures: Figures) -> Iterable[Row]:
+def _of_answers(figures: Figures) -> Iterator[Row]:
     known = figures.of(study=answers.NAME)
     differences = [figure for figure in known if figure.against]
     for same in grouped(differences, lambda figure: figure.source):
-        for each in _by_quantity(same):
-            wanted = {"quantity": each.quantity, "at": each.at, "against": None}
-            own = known.one(source=each.source, **wanted)
-            model = own and figures.one(study=contact.NAME, source=each.against, **wanted)
+        for difference in _by_quantity(same):
+            wanted = {"quantity": difference.quantity, "at": difference.at, "against": None}
+            answer = known.one(source=difference.source, **wanted)
+            model = answer and figures.one(study=contact.NAME, source=difference.against, **wanted)
             yield {
-                **_judged(each),
-                "answer": each.source,
-                "answer_figure": own and own.value,
-                "difference": each.value,
-                each.against: model and model.value,
+                **_judged(difference),
+                "answer": difference.source,
+                "answer_figure": answer and answer.value,
+                "difference": difference.value,
+                difference.against: model and model.value,
             }

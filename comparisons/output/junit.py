@@ -57,13 +57,14 @@ def junit_xml(suite: str, testcases: Iterable[JunitCase], seconds: float) -> str
     root = ElementTree.Element("testsuites", name=f"crosscheck {suite}")
     element = ElementTree.SubElement(root, "testsuite", name=suite)
     counts = {"tests": 0, "failure": 0, "error": 0, "skipped": 0}
-    for each in testcases:
-        case = ElementTree.SubElement(element, "testcase", classname=each.classname, name=each.name)
+    for case in testcases:
+        names = {"classname": case.classname, "name": case.name}
+        child = ElementTree.SubElement(element, "testcase", names)
         counts["tests"] += 1
-        if each.result != "passed":
-            ElementTree.SubElement(case, each.result, message=each.message)
-            counts[each.result] += 1
-        ElementTree.SubElement(case, "system-out").text = each.text
+        if case.result != "passed":
+            ElementTree.SubElement(child, case.result, message=case.message)
+            counts[case.result] += 1
+        ElementTree.SubElement(child, "system-out").text = case.text
     names = {"failure": "failures", "error": "errors"}
     element.attrib.update({names.get(name, name): str(count) for name, count in counts.items()})
     element.set("time", f"{seconds:.3f}")

@@ -28,15 +28,15 @@ FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between 
 
 def warnings_about(scene: Scene, surface: SceneSurface) -> list[str]:
     """One sentence each, before anything is solved."""
-    found, radius = [], scene.roller.radius
+    warnings, radius = [], scene.roller.radius
     if radius > LARGEST_RADIUS:
-        found.append(f"roller.radius is {given(radius, 'm')}: a number without unit is in m")
+        warnings.append(f"roller.radius is {given(radius, 'm')}: a number without unit is in m")
     for section, material in (("body", scene.body.material), ("roller", scene.roller.material)):
         if material is not None and not SOFTEST <= material.youngs_modulus <= STIFFEST:
             modulus = f"{section}.youngs_modulus is {given(material.youngs_modulus, 'Pa')}"
-            found.append(f"{modulus}: a number without unit is in Pa")
-    found += _of_solids(scene)
-    return [*found, *_of_load(scene), *warnings_about_surface(surface.info)]
+            warnings.append(f"{modulus}: a number without unit is in Pa")
+    warnings += _of_solids(scene)
+    return [*warnings, *_of_load(scene), *warnings_about_surface(surface.info)]
 
 
 def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
@@ -44,33 +44,33 @@ def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
     return [] if info is None or info.path is None else [*_of_trace(info)]
 
 
-def warnings_about_result(outcome: Run) -> list[str]:
+def warnings_about_result(run: Run) -> list[str]:
     """What only the solution shows."""
-    run = next(iter(outcome.runs.values()))
-    surface, solution = outcome.problem.surface, run.finest.solution
-    peak, modulus = float(solution.pressure.max()), outcome.problem.modulus
-    found = []
+    model = next(iter(run.runs.values()))
+    surface, solution = run.problem.surface, model.finest.solution
+    peak, modulus = float(solution.pressure.max()), run.problem.modulus
+    warnings = []
     if peak > modulus:
-        found.append(
+        warnings.append(
             f"the peak pressure of {with_unit(peak, 'Pa')} exceeds the combined modulus of "
             f"{with_unit(modulus, 'Pa')}, which no material bears: check load and profile units"
         )
-    info, length = surface.info, run.finest.contact_length
+    info, length = surface.info, model.finest.contact_length
     if info is not None and length < FEWEST_SAMPLES * info.spacing:
-        found.append(
+        warnings.append(
             f"the whole contact, {with_unit(length, 'm')}, is shorter than {FEWEST_SAMPLES} "
             f"samples of the profile ({with_unit(info.spacing, 'm')} apart): what is pressed is "
             "the curve between them"
         )
     if surface.profile is not None:
-        per_wave = shortest_wavelength(surface.profile) / run.finest.grid.pitch
+        per_wave = shortest_wavelength(surface.profile) / model.finest.grid.pitch
         if per_wave < FEWEST_ELEMENTS:
-            found.append(
+            warnings.append(
                 f"the shortest wave has {significant(per_wave, 2)} pressure elements on the finest "
                 f"level: at fewer than {FEWEST_ELEMENTS} its pressures are not known (budget, "
                 "resolution)"
             )
-    return found
+    return warnings
 
 
 def _of_solids(scene: Scene) -> Iterator[str]:
@@ -123,10 +123,10 @@ def _of_trace(info: ProfileInfo) -> Iterator[str]:
                 f"profile: nothing was measured from {with_unit(start, 'm')} to "
                 f"{with_unit(stop, 'm')}: what is pressed there is a straight line"
             )
-    if (found := spikes(info.trace)) is not None:
-        one = found.count == 1
+    if (outliers := spikes(info.trace)) is not None:
+        one = outliers.count == 1
         yield (
-            f"profile: {'a spike stands' if one else f'{found.count} spikes stand'} out of the "
-            f"trace, {'' if one else 'the largest '}by {with_unit(found.height, 'm')} at x = "
-            f"{with_unit(found.place, 'm')}: dirt and lost contact are pressed like the surface"
+            f"profile: {'a spike stands' if one else f'{outliers.count} spikes stand'} out of the "
+            f"trace, {'' if one else 'the largest '}by {with_unit(outliers.height, 'm')} at x = "
+            f"{with_unit(outliers.place, 'm')}: dirt and lost contact are pressed like the surface"
         )

@@ -32,6 +32,7 @@ from comparisons.studies import meaning
 from comparisons.studies.study import Run
 
 SCHEMA = 3
+KINDS = {"scene": dict, "record": dict, "verdict": str, "why": str}
 RECORDED = ("made", "versions", "machine", "seed", "hashes")  # of record.json
 
 
@@ -48,7 +49,7 @@ class Result:
 
     @cached_property
     def figures(self) -> Figures:
-        return Figures(figure for found in self.found.values() for figure in found.figures)
+        return Figures(figure for study in self.found.values() for figure in study.figures)
 
 
 def result_of(run: Run) -> Result:
@@ -61,21 +62,18 @@ def result_of(run: Run) -> Result:
 def content_of(run: Run) -> dict:
     """The content of a run's result.json."""
     result = result_of(run)
-    found = result.found.items()
+    findings = result.found.items()
     return {
         "schema": SCHEMA,
-        "scene": result.scene,
-        "record": result.record,
-        "verdict": result.verdict,
-        "why": result.why,
+        **{name: getattr(result, name) for name in KINDS},
         "next": list(result.next),
         "coverage": COVERAGE,
         "figures": [_figure(figure) for figure in result.figures],
-        "series": [_series(study, each) for study, known in found for each in known.series],
+        "series": [_series(study, item) for study, known in findings for item in known.series],
         "statements": [
-            _named(study, each) | {"text": each.text}
-            for study, known in found
-            for each in known.statements
+            _named(study, item) | {"text": item.text}
+            for study, known in findings
+            for item in known.statements
         ],
     }
 
@@ -83,33 +81,29 @@ def content_of(run: Run) -> dict:
 def read_content(content: Mapping) -> Result:
     """What a content says. Raises LookupError, TypeError or ValueError where it is built
     otherwise."""
-    if not _of_kind(content, "figures", list):
+    kinds = KINDS | dict.fromkeys(("figures", "series", "statements"), list)
+    for name, kind in kinds.items():
+        if not isinstance(content[name], kind):
+            raise TypeError(f"{name}: is {content[name]!r}")
+    if not content["figures"]:
         raise ValueError("figures: has none")
+    figures = Figures(map(_read_figure, content["figures"]))
+    series = [(entry["study"], _read_series(entry)) for entry in content["series"]]
+    statements = [(entry["study"], _read_statement(entry)) for entry in content["statements"]]
+    items = [((figure.study, figure) for figure in figures), series, statements]
     studies: dict[str, tuple[list, list, list]] = {}
-    for figure in Figures(map(_read_figure, content["figures"])):
-        studies.setdefault(figure.study, ([], [], []))[0].append(figure)
-    for place, (name, read) in enumerate(
-        (("series", _read_series), ("statements", _read_statement)), start=1
-    ):
-        for entry in _of_kind(content, name, list):
-            studies.setdefault(entry["study"], ([], [], []))[place].append(read(entry))
+    for place, named in enumerate(items):
+        for study, item in named:
+            studies.setdefault(study, ([], [], []))[place].append(item)
     return Result(
-        scene=_of_kind(content, "scene", dict),
-        record=_of_kind(content, "record", dict),
-        verdict=_of_kind(content, "verdict", str),
-        why=_of_kind(content, "why", str),
+        **{name: content[name] for name in KINDS},
         next=tuple(content["next"]),
         found={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
     )
 
 
-def _of_kind(content: Mapping, name: str, kind: type) -> object:
-    if not isinstance(content[name], kind):
-        raise TypeError(f"{name}: is {content[name]!r}")
-    return content[name]
-
-
 def _figure(figure: Figure) -> dict:
+    stated = figure.uncertainty
     content = {
         "study": figure.study,
         "quantity": figure.quantity,
@@ -119,27 +113,19 @@ def _figure(figure: Figure) -> dict:
         "value": figure.value,
         "unit": "" if figure.against else meaning(figure).unit,
         "scale": figure.scale,
-        "uncertainty": _uncertainty(figure.uncertainty),
-        "convergence": figure.uncertainty and _convergence(figure.uncertainty.convergence),
-        "bounds": figure.bounds and list(figure.bounds),
+        "uncertainty": stated and {"total": stated.total, **stated.parts},
+        "convergence": stated and stated.convergence and asdict(stated.convergence),
+        "bounds": figure.bounds,
         "verdict": figure.verdict,
         "parts": {part.name: _part(part) for part in figure.parts},
         "not_modelled": dict(figure.unknown),
         "spread": figure.spread and asdict(figure.spread),
-        "place": figure.place and list(figure.place),
-        "levels": list(figure.levels),
-        "notes": list(figure.notes),
+        "place": figure.place,
+        "levels": figure.levels,
+        "notes": figure.notes,
     }
     needed = ("study", "quantity", "source", "at", "value", "unit", "scale")
-    return finite({n: v for n, v in content.items() if n in needed or v not in (None, {}, [])})
-
-
-def _uncertainty(stated: Uncertainty | None) -> dict | None:
-    return None if stated is None else {"total": stated.total, **stated.parts}
-
-
-def _convergence(known: Convergence | None) -> dict | None:
-    return None if known is None else asdict(known)
+    return finite({n: v for n, v in content.items() if n in needed or v not in (None, {}, ())})
 
 
 def _part(part: Part) -> dict:
@@ -154,9 +140,9 @@ def _named(study: str, item: Series | Statement) -> dict:
 
 def _series(study: str, series: Series) -> dict:
     columns = series.columns.items()
-    stated = {name: list(c.uncertainty) for name, c in columns if c.uncertainty is not None}
+    stated = {name: c.uncertainty for name, c in columns if c.uncertainty is not None}
     content = _named(study, series) | {
-        "columns": {name: list(column.values) for name, column in columns},
+        "columns": {name: column.values for name, column in columns},
         "units": {name: column.unit for name, column in columns},
     }
     content |= {"uncertainty": stated} if stated else {}
@@ -164,26 +150,17 @@ def _series(study: str, series: Series) -> dict:
 
 
 def _read_figure(entry: Mapping) -> Figure:
-    stated, spread = entry.get("uncertainty"), entry.get("spread")
-    if stated is not None:
-        known = entry.get("convergence")
-        parts = {name: _number(size) for name, size in stated.items() if name != "total"}
-        known = known and Convergence(**known | {"uncertainty": _number(known["uncertainty"])})
-        stated = Uncertainty(parts, known)
-    parts = [Part(name, **content) for name, content in entry.get("parts", {}).items()]
-    place, bounds = entry.get("place"), entry.get("bounds")
+    place, bounds, spread = (entry.get(name) for name in ("place", "bounds", "spread"))
+    parts = entry.get("parts", {}).items()
     return Figure(
-        study=entry["study"],
-        quantity=entry["quantity"],
-        source=entry["source"],
+        **{name: entry[name] for name in ("study", "quantity", "source", "scale")},
         value=_number(entry["value"]),
         at=dict(entry["at"]),
         against=entry.get("against"),
-        scale=entry["scale"],
-        uncertainty=stated,
+        uncertainty=_read_uncertainty(entry),
         unknown=dict(entry.get("not_modelled", {})),
         bounds=bounds and (bounds[0], bounds[1]),
-        parts=tuple(parts),
+        parts=tuple(Part(name, **content) for name, content in parts),
         spread=spread and SampleSpread(**spread | {"interval": tuple(spread["interval"])}),
         place=place and tuple(place),
         levels=tuple(map(_number, entry.get("levels", ()))),
@@ -191,27 +168,25 @@ def _read_figure(entry: Mapping) -> Figure:
     )
 
 
+def _read_uncertainty(entry: Mapping) -> Uncertainty | None:
+    stated, known = entry.get("uncertainty"), entry.get("convergence")
+    if stated is None:
+        return None
+    known = known and Convergence(**known | {"uncertainty": _number(known["uncertainty"])})
+    return Uncertainty({n: _number(size) for n, size in stated.items() if n != "total"}, known)
+
+
 def _read_series(entry: Mapping) -> Series:
-    stated, units = entry.get("uncertainty", {}), entry["units"]
-    columns = {
-        name: Column(
-            _of_one_kind(values),
-            units[name],
-            tuple(map(_number, stated[name])) if name in stated else None,
-        )
-        for name, values in entry["columns"].items()
-    }
+    stated, columns = entry.get("uncertainty", {}), {}
+    for name, values in entry["columns"].items():
+        known = [value for value in values if value is not None]
+        kinds = str if known and isinstance(known[0], str) else int | float
+        if not all(isinstance(value, kinds) for value in known):
+            raise TypeError(f"a column is {values!r}")
+        sizes = tuple(map(_number, stated[name])) if name in stated else None
+        columns[name] = Column(tuple(values), entry["units"][name], sizes)
     account = entry.get("is_account", False)
     return Series(entry["name"], columns, entry["source"], dict(entry["at"]), account)
-
-
-def _of_one_kind(values: list) -> tuple:
-    """Numbers or texts, None where there is none."""
-    known = [value for value in values if value is not None]
-    kinds = str if known and isinstance(known[0], str) else int | float
-    if not all(isinstance(value, kinds) for value in known):
-        raise TypeError(f"a column is {values!r}")
-    return tuple(values)
 
 
 def _read_statement(entry: Mapping) -> Statement:

@@ -4,7 +4,7 @@ In: a content of schema 2. Out: the same as a Result; the parts of an old report
 new one. Goes with the release after the one that writes schema 3."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import partial
 from math import inf
@@ -42,40 +42,19 @@ from comparisons.studies.study import CONVERGED, MODEL_ERROR, WHY_NOT, Solved
 SCHEMA = 2
 STRESS = ("tau1_max", "txz_max_abs", "von_mises_max")
 ITSELF = Uncertainty({"itself": 1.0})
+Items = Iterator[Figure | Series | Statement]
 
 
 def result_of_schema_2(old: Mapping) -> Result:
     """Raises LookupError, TypeError or ValueError where it is built otherwise."""
-    readers = {
-        contact.NAME: _contact,
-        comparison.NAME: _comparison,
-        coupling.NAME: _coupling,
-        MODEL_ERROR: _model_error,
-        problem.NAME: _problem,
-        running_in.NAME: _running_in,
-        checks.NAME: _checks,
-        scatter.NAME: _scatter,
-        flow.NAME: _yield,
-        zone.NAME: _zones,
-        bulge.NAME: _bulges,
-        statistics.NAME: _statistics,
-        answers.NAME: _answers,
-        heat.NAME: _heat,
-    }
-    found = {}
-    for name, read in readers.items():
+    findings, kinds = {}, (Figure, Series, Statement)
+    for name, read in READERS.items():
         items = list(read(old))
-        kinds = (Figure, Series, Statement)
-        findings = Findings(*(tuple(i for i in items if isinstance(i, kind)) for kind in kinds))
         if items:
-            found[name] = findings
+            findings[name] = Findings(*(tuple(i for i in items if isinstance(i, k)) for k in kinds))
     validity = old["validity"]
-    compares = bool(old["comparison"])
-    verdict = validity["verdict"] if compares else "not compared"
-    return Result(old["scene"], {}, verdict, validity["why"], (), found)
-
-
-Items = Iterator[Figure | Series | Statement]
+    verdict = validity["verdict"] if old["comparison"] else "not compared"
+    return Result(old["scene"], {}, verdict, validity["why"], (), findings)
 
 
 def _entries(old: Mapping) -> Iterator[tuple[str, int, dict, dict[str, float]]]:
@@ -93,18 +72,32 @@ def _stated(parts: Mapping[str, float | None]) -> Uncertainty:
     return numerical(*(_number(parts.get(name, 0.0)) for name in names))
 
 
+def _total(size: float | None, value: float | None = None) -> Uncertainty:
+    """A total uncertainty, over the size of a value where it is absolute."""
+    return Uncertainty({"numerical": _number(size) / (abs(value or 0.0) or 1.0)})
+
+
+def _within(tolerance: float | None) -> tuple[float, float] | None:
+    return None if tolerance is None else (-tolerance, tolerance)
+
+
+def _columns(rows: Sequence[Mapping], units: Mapping[str, str]) -> dict[str, Column]:
+    """Columns of rows that are alike, by the units of those that are wanted."""
+    return {name: Column(tuple(row[name] for row in rows), u) for name, u in units.items()}
+
+
 def _contact(old: Mapping) -> Items:
     a, p0 = old["hertz"]["half_width"], old["hertz"]["peak_pressure"]
     budget = (old["error_budget"] or {}).get("quantities", {})
     hardness, exact = old["scene"]["body"].get("hardness"), "approach" not in old["scene"]["load"]
     for model, n, entry, at in _entries(old):
-        own, known, stress = entry["contact"], entry["uncertainty"], entry["stress"] or {}
+        solution, known, stress = entry["contact"], entry["uncertainty"], entry["stress"] or {}
         stated = {name: _stated(parts) for name, parts in known.items()}
         worst = max(stated.values(), key=lambda u: u.total)
-        values = {name: own[name] for name in contact.QUANTITIES if own.get(name) is not None}
+        values = {n: solution[n] for n in contact.QUANTITIES if solution.get(n) is not None}
         values |= {name: stress[name] for name in STRESS if stress}
         places = {name: tuple(stress[f"{name}_at"]) for name in STRESS if stress}
-        places["peak_pressure"] = (own["peak_position"],)
+        places["peak_pressure"] = (solution["peak_position"],)
         if stress:
             values["tau1_max_depth"] = _depth(old, model, n, stress)
         for name, value in values.items():
@@ -131,20 +124,17 @@ def _contact(old: Mapping) -> Items:
 
 def _of_model(model: str, entry: Mapping, stated: Mapping[str, Uncertainty]) -> Items:
     """What is the same at every friction coefficient."""
-    own, cost = entry["contact"], entry["cost"]
-    length = sum(stop - start for start, stop in own["patches"])
-    edges = (stated["contact_length"].total * length,) * len(own["patches"])
-    ends = zip(*own["patches"], strict=True)
+    patches = entry["contact"]["patches"]
+    length = sum(stop - start for start, stop in patches)
+    edges = (stated["contact_length"].total * length,) * len(patches)
+    ends = zip(*patches, strict=True)
     columns = (Column(tuple(map(float, values)), "m", edges) for values in ends)
     yield Series("patches", dict(zip(("start", "stop"), columns, strict=True)), model)
-    levels = {
-        name: Column(tuple(level[name] for level in cost["levels"]))
-        for name in ("pitch", "unknowns", "seconds")
-    }
+    levels = _columns(entry["cost"]["levels"], dict.fromkeys(("pitch", "unknowns", "seconds"), ""))
     yield Series("levels", levels, model, is_account=True)
     yield Statement(CONVERGED, "yes" if entry["checks"][CONVERGED] else "no", model)
-    if own.get("approach_why"):
-        yield Statement("no approach", own["approach_why"], model)
+    if why := entry["contact"].get("approach_why"):
+        yield Statement("no approach", why, model)
 
 
 def _depth(old: Mapping, model: str, n: int, stress: Mapping) -> float:
@@ -167,24 +157,21 @@ def _convergence(entry: Mapping, model: str, value: float, scale: float) -> Conv
 def _comparison(old: Mapping) -> Items:
     for name, rows in old["comparison"].items():
         for row in rows:
-            tolerance, value = row["tolerance"], row["finite_element"]
             yield Figure(
                 *(comparison.NAME, name, "half_plane", row["difference"]),
                 at={"friction": row["friction"]},
                 against="finite_element",
-                scale=abs(value or 0.0) or 1.0,
-                uncertainty=Uncertainty({"numerical": _number(row["uncertainty"])}),
-                bounds=None if tolerance is None else (-tolerance, tolerance),
+                scale=abs(row["finite_element"] or 0.0) or 1.0,
+                uncertainty=_total(row["uncertainty"]),
+                bounds=_within(row["tolerance"]),
             )
 
 
 def _coupling(old: Mapping) -> Items:
     a = old["hertz"]["half_width"]
-    for _, _, entry, at in _entries(
-        {"models": {"half_plane": old["models"].get("half_plane", [])}}
-    ):
-        changes, known = entry["normal_tangential_coupling"], entry["uncertainty"]
-        if changes is None:
+    for model, _, entry, at in _entries(old):
+        changes, known = entry.get("normal_tangential_coupling"), entry["uncertainty"]
+        if model != "half_plane" or changes is None:
             continue
         stated = {name: _stated(parts) for name, parts in known.items()}
         worst = max(stated.values(), key=lambda u: u.total)
@@ -205,7 +192,7 @@ def _model_error(old: Mapping) -> Items:
     for name, rows in old["model_error"].items():
         inputs = {e["friction"]: e["input"] for e in budget["quantities"][name]}
         for row in rows:
-            at, tolerance = {"friction": row["friction"]}, row["tolerance"]
+            at = {"friction": row["friction"]}
             parts = [
                 Part(n, e["value"], _number(e["uncertainty"]), e["moves_maximum"])
                 for n, e in row["effects"].items()
@@ -215,9 +202,9 @@ def _model_error(old: Mapping) -> Items:
                 parts.append(Part(account.INPUTS, inputs[row["friction"]]))
             yield Figure(
                 *(MODEL_ERROR, name, "half_plane", row["value"], at, "whole"),
-                uncertainty=Uncertainty({"numerical": _number(row["uncertainty"])}),
+                uncertainty=_total(row["uncertainty"]),
                 unknown=row["not_modelled"],
-                bounds=None if tolerance is None else (-tolerance, tolerance),
+                bounds=_within(row["tolerance"]),
                 parts=tuple(parts),
                 place=row["maximum_moves"] and tuple(row["maximum_moves"]),
             )
@@ -234,13 +221,10 @@ def _model_error(old: Mapping) -> Items:
 
 def _budget(budget: Mapping) -> Items:
     effects = budget["effects"]
-    columns = {"effect": Column(tuple(effects))}
-    for name in ("status", "because"):
-        columns[name] = Column(tuple(each[name] for each in effects.values()))
-    for quantity in QUANTITIES:
-        sizes = ((each["estimate"] or {}).get(quantity) for each in effects.values())
-        columns[quantity] = Column(tuple(sizes))
-    yield Series("effects", columns, is_account=True)
+    unknown = dict.fromkeys(QUANTITIES)
+    rows = [{"effect": n} | unknown | (e["estimate"] or {}) | e for n, e in effects.items()]
+    columns = dict.fromkeys(("effect", "status", "because", *QUANTITIES), "")
+    yield Series("effects", _columns(rows, columns), is_account=True)
     cost = {"levels": Column((budget["levels"],)), "seconds": Column((budget["cost"]["seconds"],))}
     yield Series("cost", cost, "whole", is_account=True)
     for name, key in (("not split", "unsplit"), ("left out", "left_out")):
@@ -292,16 +276,16 @@ def _scatter(old: Mapping) -> Items:
 
 def _yield(old: Mapping) -> Items:
     known = old["yield"]
+    scene = {name: known[name] for name in flow.QUANTITIES if name in known}
     source = "half_plane" if "half_plane" in old["models"] else MODELS[1]
-    yield from figures_of(
-        flow.NAME, "scene", {name: known[name] for name in flow.QUANTITIES if name in known}
-    )
+    yield from figures_of(flow.NAME, "scene", scene)
     yield Statement("flow", known["flow"])
     if known["beyond_doubt"]:
         yield Statement(flow.BEYOND_DOUBT, known["beyond_doubt"], source)
     for n, entry in enumerate(known["by_friction"]):
         at = {"friction": entry["friction"]}
         stated = old["models"][source][n]["uncertainty"]
+        yield Statement("read", entry["from"], source, at)
         from_field = entry["from"] == flow.FIELD
         sure = _stated(stated["tau1_max" if from_field else "peak_pressure"])
         if not from_field and old["profile"] is not None:
@@ -322,31 +306,26 @@ def _zones(old: Mapping) -> Items:
             at = {"friction": entry["friction"]}
             for name in zone.QUANTITIES:
                 value, size = entry[name]["value"], entry[name]["uncertainty"]
-                stated = _number(size) / (abs(value or 0.0) or 1.0)
-                sure = Uncertainty({"numerical": stated})
-                yield from figures_of(zone.NAME, model, {name: value}, sure, at)
+                yield from figures_of(zone.NAME, model, {name: value}, _total(size, value), at)
             yield Statement(zone.STATE, entry["status"], model, at)
             rows = [row | {"state": row["status"]} for row in entry["asperities"]]
             units = {"x": "m", "length": "m", "level": "", "state": ""}
-            columns = {n: Column(tuple(row[n] for row in rows), u) for n, u in units.items()}
-            yield Series(zone.ASPERITIES, columns, model, at)
+            yield Series(zone.ASPERITIES, _columns(rows, units), model, at)
 
 
 def _bulges(old: Mapping) -> Items:
     known = old.get("bulge")
     if known is not None and known["why"] is not None:
         yield Statement(WHY_NOT, known["why"])
-    own = {"height": "uncertainty", "half_plane": "uncertainty", "end": "end_uncertainty"}
-    own |= {"energy": "energy_uncertainty"}
+    stated = {"height": "uncertainty", "half_plane": "uncertainty", "end": "end_uncertainty"}
+    stated |= {"energy": "energy_uncertainty"}
     for entry in (known or {}).get("by_friction", ()):
         at = {"friction": entry["friction"]}
         for name in bulge.QUANTITIES:
-            values = {bulge.MODEL: entry[name]}
-            if name == "energy_ahead":
-                values = entry[name]
+            values = entry[name] if name == "energy_ahead" else {bulge.MODEL: entry[name]}
+            size = entry[stated[name]] if name in stated else None
             for source, value in values.items():
-                size = _number(entry[own[name]]) if name in own else inf
-                sure = Uncertainty({"numerical": size / (abs(value or 0.0) or 1.0)})
+                sure = _total(size, value)
                 yield from figures_of(bulge.NAME, source, {name: value}, sure, at)
         size = (_number(entry["uncertainty"]),) * len(entry["rise"])
         curve = {
@@ -356,43 +335,32 @@ def _bulges(old: Mapping) -> Items:
         yield Series(bulge.CURVE, curve, bulge.MODEL, at)
         if patches := entry["patches"]:
             names = [n for n in patches[0] if n not in ("uncertainty", "end_uncertainty")]
+            columns = _columns(patches, dict.fromkeys(names, ""))
             sizes = tuple(_number(row["uncertainty"]) for row in patches)
-            columns = {
-                name: Column(
-                    tuple(r[name] for r in patches), "", sizes if name == "height" else None
-                )
-                for name in names
-            }
+            columns["height"] = replace(columns["height"], uncertainty=sizes)
             yield Series(bulge.PATCHES, columns, bulge.MODEL, at)
 
 
 def _statistics(old: Mapping) -> Items:
-    known = old.get("statistics")
-    if known is None:
-        return
-    for name, rows in {"summits": known["summits"], "loads": known["loads"]}.items():
-        flat = [
-            statistics.flat(
-                {k: v for k, v in row.items() if k not in ("grid", "scatter", "uncertainty")}
-            )
-            for row in rows
-        ]
-        yield Series(name, statistics.columns_of(flat, {}))
-    for model, patches in known["patches"].items():
-        yield Series(
-            "patches", statistics.columns_of(list(map(statistics.flat, patches)), {}), model
-        )
+    known = old.get("statistics") or {"summits": (), "loads": (), "patches": {}}
+    tables = {("summits", ""): known["summits"], ("loads", ""): known["loads"]}
+    tables |= {("patches", model): patches for model, patches in known["patches"].items()}
+    for (name, model), rows in tables.items():
+        left = ("grid", "scatter", "uncertainty") if not model else ()
+        flat = [statistics.flat({n: v for n, v in row.items() if n not in left}) for row in rows]
+        if flat:
+            yield Series(name, statistics.columns_of(flat, {}), model)
 
 
 def _answers(old: Mapping) -> Items:
     for answer, content in old.get("answers", {}).items():
         for name, rows in content["comparison"].items():
             for row in rows:
-                own, total = row["own_uncertainty"], _number(row["uncertainty"])
-                stated = total if own is None else total - own
+                of_answer, total = row["own_uncertainty"], _number(row["uncertainty"])
+                stated = total if of_answer is None else total - of_answer
                 of_row = answers.AnswerRow(
                     *(name, row["friction"], row["answer"], row["reference"], row["difference"]),
-                    *(stated, 0.0, own, row["tolerance"]),
+                    *(stated, 0.0, of_answer, row["tolerance"]),
                 )
                 yield from of_row.figures(answer, content["reference"])
         yield from figures_of(answers.NAME, answer, {"load_balance": content["balance"]}, ITSELF)
@@ -421,6 +389,24 @@ def _heat(old: Mapping) -> Items:
     yield from (Statement("the finite elements have", text) for text in known["contains"])
 
 
+READERS: dict[str, Callable[[Mapping], Items]] = {
+    contact.NAME: _contact,
+    comparison.NAME: _comparison,
+    coupling.NAME: _coupling,
+    MODEL_ERROR: _model_error,
+    problem.NAME: _problem,
+    running_in.NAME: _running_in,
+    checks.NAME: _checks,
+    scatter.NAME: _scatter,
+    flow.NAME: _yield,
+    zone.NAME: _zones,
+    bulge.NAME: _bulges,
+    statistics.NAME: _statistics,
+    answers.NAME: _answers,
+    heat.NAME: _heat,
+}
+
+
 def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
     """What makes the dataclasses of an old report.npz, some as `kinds` are; of those that are gone
     their fields."""
@@ -428,9 +414,8 @@ def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
         "ResolvedScene": _scene,
         "Plan": partial(Plan, increments_check=False),
         "Uncertainty": numerical,
+        "Convergence": Convergence,
         "Column": ComplianceColumn,
-        "PairHistory": SimpleNamespace,
-        "Comparison": SimpleNamespace,
         "InputScatter": lambda figures, **row: scatter.InputScatter(**row),
         "HeatStudy": lambda **row: heat.HeatStudy(*(row[f.name] for f in fields(heat.HeatStudy))),
         "AnswerRow": lambda **row: answers.AnswerRow(
@@ -450,10 +435,13 @@ def _scene(**old: object) -> dict[str, object]:
     return {name: old[name] for name in ("tables", "name", "source")} | {"surface": surface}
 
 
-def parts_of_schema_2(old: Mapping) -> tuple[dict, dict[str, object], Mapping[str, Findings]]:
-    """Of an old outcome: the parts of a Solved, the data of its studies, and the figures that only
-    its levels show."""
+def parts_of_schema_2(
+    old: Mapping, findings: Mapping[str, Findings]
+) -> tuple[dict, dict[str, object], dict[str, Findings]]:
+    """Of an old outcome: the parts of a Solved, the data of its studies, and their
+    `findings`, with the levels of figures and their convergence, which only the outcome has."""
     solved = {name: old[name] for name in ("problem", "plan", "window", "runs")}
+    posed = Solved(**solved)
     data = {
         coupling.NAME: Couplings(old["couplings"]),
         MODEL_ERROR: old["budget"],
@@ -461,22 +449,20 @@ def parts_of_schema_2(old: Mapping) -> tuple[dict, dict[str, object], Mapping[st
         statistics.NAME: old["statistics"],
         answers.NAME: ComparedAnswers(old["answers"]) if old["answers"] else None,
         heat.NAME: old["heat"],
+        flow.NAME: flow.flow_assessment(posed.problem, posed.runs),
     }
-    posed = Solved(**solved)
-    data[flow.NAME] = flow.flow_assessment(posed.problem, posed.runs)
-    figures = tuple(
-        replace(
-            Figure(comparison.NAME, name, "half_plane", pair.differences[-1][name]),
-            at={"friction": pair.friction},
-            against="finite_element",
-            uncertainty=stated,
-            levels=tuple(level[name] for level in pair.differences),
-        )
-        for pair in old["pairs"]
-        for name, stated in pair.uncertainties.items()
-    )
-    return (
-        solved,
-        data,
-        {comparison.NAME: Findings(figures), contact.NAME: contact.solve(posed, {}, None)},
-    )
+    figures = list(contact.solve(posed, {}, None).figures)
+    for pair in old["pairs"]:
+        for name, stated in pair.uncertainties.items():
+            levels = tuple(level[name] for level in pair.differences)
+            key = (comparison.NAME, name, "half_plane", levels[-1], {"friction": pair.friction})
+            figures.append(Figure(*key, "finite_element", uncertainty=stated, levels=levels))
+    known = {figure.key: figure for figure in figures}
+    joined = dict(findings)
+    for study in {contact.NAME, comparison.NAME} & set(findings):
+        figures = []
+        for figure in findings[study].figures:
+            same = known.get(figure.key, figure)
+            figures.append(replace(figure, levels=same.levels, uncertainty=same.uncertainty))
+        joined[study] = replace(findings[study], figures=tuple(figures))
+    return solved, data, joined

@@ -15,7 +15,7 @@ from comparisons.common.files import check_writable
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of, movement
-from comparisons.output.recorded_run import Record, read_record
+from comparisons.output.record import Record, read_record
 from comparisons.output.result_json import Result, result_of
 from comparisons.output.terminal import STYLES, plain_table
 from comparisons.runs.run import Known, run

@@ -51,8 +51,8 @@ class Run:
 @pytest.fixture
 def solver(monkeypatch, tmp_path):
     run = Run()
-    monkeypatch.setattr("comparisons.runs.run.run", lambda *given: run.run(*given))
-    table = types.SimpleNamespace(summary=lambda outcome: "peak pressure agree")
+    monkeypatch.setattr("comparisons.runs.run.run", lambda *arguments: run.run(*arguments))
+    table = types.SimpleNamespace(summary=lambda outcome, details: "peak pressure agree")
     monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
     monkeypatch.setattr("comparisons.output.result_json.content_of", lambda run: run.result)
     monkeypatch.setattr("comparisons.output.plausibility.warnings_about_result", lambda outcome: [])
@@ -129,6 +129,11 @@ def interrupted_import() -> ImportError:
             "crosscheck: internal error: ZeroDivisionError: two lines in test_cli.py, line ",
         ),
         (ValueError("no input"), 70, "crosscheck: internal error: ValueError: no input in "),
+        (
+            RuntimeError("reported by MUMPS in solve phase: INFOG(1)=-13"),
+            71,
+            "crosscheck: out of memory: ",
+        ),
     ],
     ids=lambda value: type(value).__name__,
 )
@@ -235,10 +240,10 @@ def test_help_loads_nothing_heavy(arguments):
     assert loaded.isdisjoint(HEAVY)
 
 
-@pytest.mark.parametrize(("given", "taken"), [(None, "1"), ("7", "7")])
-def test_one_thread_unless_the_user_says_otherwise(given, taken):
+@pytest.mark.parametrize(("wanted", "taken"), [(None, "1"), ("7", "7")])
+def test_one_thread_unless_the_user_says_otherwise(wanted, taken):
     environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    environment |= {"OMP_NUM_THREADS": given} if given else {}
+    environment |= {"OMP_NUM_THREADS": wanted} if wanted else {}
     code = "import os, sys; from comparisons.cli import main; sys.argv = ['crosscheck', 'scenes']; "
     done = python(f"{code} main(); print(os.environ['OMP_NUM_THREADS'])", env=environment)
     assert done.stdout.splitlines()[-1] == taken
@@ -321,11 +326,11 @@ def test_the_status_does_not_depend_on_who_reads_standard_error(redirections, ar
 def test_what_cannot_be_told_leaves_its_status(tmp_path):
     """Both streams full, and a plausibility warning in between."""
     (tmp_path / "large.toml").write_text(SMALL.replace("0.01", "8"))
-    given = ["run", str(tmp_path / "large.toml"), "--models", "half-plane", "--out"]
-    done = with_streams("2>/dev/full", [*given, str(tmp_path / "out")])
+    arguments = ["run", str(tmp_path / "large.toml"), "--models", "half-plane", "--out"]
+    done = with_streams("2>/dev/full", [*arguments, str(tmp_path / "out")])
     assert (done.returncode, done.stderr) == (ExitStatus.DONE, "")
     assert "peak pressure" in done.stdout
-    done = with_streams(">/dev/full 2>/dev/full", [*given, str(tmp_path / "out")])
+    done = with_streams(">/dev/full 2>/dev/full", [*arguments, str(tmp_path / "out")])
     assert done.returncode == ExitStatus.CANNOT_WRITE
 
 
@@ -351,22 +356,10 @@ def test_too_little_address_space_is_no_missing_library(tmp_path):
     ],
 )
 def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status, said):
-    def starved(*given):
-        raise RuntimeError("can't start new thread")
-
-    monkeypatch.setattr(solver, "run", starved)
+    solver.raises = RuntimeError("can't start new thread")
     monkeypatch.setattr("comparisons.cli.address_space", lambda: allowed)
     assert main(["run", "smooth"]) == status
     assert said in capsys.readouterr().err
-
-
-def test_what_a_factor_lacks_while_it_solves_is_memory(solver, capsys, monkeypatch):
-    def starved(*given):
-        raise RuntimeError("reported by MUMPS in solve phase: INFOG(1)=-13")
-
-    monkeypatch.setattr(solver, "run", starved)
-    assert main(["run", "smooth"]) == ExitStatus.OUT_OF_MEMORY
-    assert capsys.readouterr().err.startswith("crosscheck: out of memory: ")
 
 
 def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):

@@ -55,7 +55,7 @@ def toml(tables: dict) -> str:
 def without_cost(figures: dict) -> dict:
     """The figures without what the clock and the memory told."""
     record = {name: part for name, part in figures["record"].items() if name != "made"}
-    series = [each for each in figures["series"] if "is_account" not in each]
+    series = [series for series in figures["series"] if "is_account" not in series]
     return figures | {"record": record, "series": series}
 
 
@@ -71,12 +71,12 @@ def test_the_same_scene_from_python_and_from_the_command_line(
     monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
     Path("scene.toml").write_text(toml(tables))
     status = main(["run", "scene.toml", "--out", "out", "--json"])
-    told = without_cost(json.loads(capsys.readouterr().out))
-    found = crosscheck.run(tables)
-    assert without_cost(json.loads(json.dumps(found.result))) == told
-    assert status == found.outcome.exit_status
+    printed = without_cost(json.loads(capsys.readouterr().out))
+    finished = crosscheck.run(tables)
+    assert without_cost(json.loads(json.dumps(finished.result))) == printed
+    assert status == finished.outcome.exit_status
     again = crosscheck.read("out")
-    assert without_cost(again.result) == told
+    assert without_cost(again.result) == printed
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
 
 
@@ -132,32 +132,32 @@ def test_wrong_input_is_one_line_before_anything_is_solved(call, words, monkeypa
 
 
 @pytest.fixture(scope="module")
-def found(wavy_outcome) -> FinishedRun:
+def finished(wavy_outcome) -> FinishedRun:
     return FinishedRun(wavy_outcome)
 
 
-def test_a_run_prints_as_a_table(found):
-    text = repr(found)
+def test_a_run_prints_as_a_table(finished):
+    text = repr(finished)
     assert text.startswith("Wavy body\n") and "peak pressure" in text
-    assert found.verdict.upper() in text
+    assert finished.verdict.upper() in text
     assert "\x1b" not in text and max(map(len, text.splitlines())) <= 100
-    html = found._repr_html_()
+    html = finished._repr_html_()
     assert html.startswith("<pre") and "peak pressure" in html and "Wavy body" in html
 
 
-def test_curves_are_those_of_the_finest_level(found):
-    level = found.outcome.runs["half_plane"].finest
-    curves = found.contact()
+def test_curves_are_those_of_the_finest_level(finished):
+    level = finished.outcome.runs["half_plane"].finest
+    curves = finished.contact()
     assert np.array_equal(curves["x"], level.grid.x)
     assert np.array_equal(curves["pressure"], level.solution.pressure)
     assert set(curves) == {"x", "pressure", "gap", "deformed_height"}
     with pytest.raises(InputError, match="model: is fem"):
-        found.contact("fem")
+        finished.contact("fem")
 
 
-def test_several_runs_in_one_table(found, smooth_outcome):
-    both = crosscheck.compare(found, FinishedRun(smooth_outcome))
-    assert len(both.rows) == len(found.rows) + len(FinishedRun(smooth_outcome).rows)
+def test_several_runs_in_one_table(finished, smooth_outcome):
+    both = crosscheck.compare(finished, FinishedRun(smooth_outcome))
+    assert len(both.rows) == len(finished.rows) + len(FinishedRun(smooth_outcome).rows)
     text = repr(both)
     assert "Wavy body" in text and "Smooth roller" in text
 
@@ -186,23 +186,23 @@ def pyplot():
         (lambda plot: plot.model_error(), None),
     ],
 )
-def test_plots_return_the_axes_of_one_open_figure(found, pyplot, draw, words):
-    axes = draw(found.plot)
+def test_plots_return_the_axes_of_one_open_figure(finished, pyplot, draw, words):
+    axes = draw(finished.plot)
     (number,) = pyplot.get_fignums()
-    assert {each.figure for each in axes} == {pyplot.figure(number)}
+    assert {axis.figure for axis in axes} == {pyplot.figure(number)}
     assert words is None or axes[0].get_ylabel() == words
     axes[0].figure.canvas.draw()
 
 
-def test_fields_are_told_apart(found, pyplot):
+def test_fields_are_told_apart(finished, pyplot):
     titles = {
-        (name, mu): found.plot.field(name, mu)[0].get_title(loc="left")
+        (name, mu): finished.plot.field(name, mu)[0].get_title(loc="left")
         for name in ("tau1", "txz")
         for mu in (0.0, 0.1)
     }
     assert len(set(titles.values())) == 4
-    extreme = found.outcome.runs["half_plane"].finest.stress(0.1).extremes["txz"].value
-    largest = abs(extreme) / found.outcome.problem.hertz.peak_pressure
+    extreme = finished.outcome.runs["half_plane"].finest.stress(0.1).extremes["txz"].value
+    largest = abs(extreme) / finished.outcome.problem.hertz.peak_pressure
     assert f"{largest:.4f} p₀" in titles["txz", 0.1]
 
 
@@ -216,16 +216,16 @@ def test_fields_are_told_apart(found, pyplot):
         lambda plot: plot.view(array="sxx"),
     ],
 )
-def test_a_picture_that_is_not_there_is_one_line(found, pyplot, draw):
+def test_a_picture_that_is_not_there_is_one_line(finished, pyplot, draw):
     with pytest.raises(InputError, match="allowed is"):
-        draw(found.plot)
+        draw(finished.plot)
     assert pyplot.get_fignums() == []
 
 
-def test_a_view_holds_the_field_with_depth_downwards(found):
-    plotter = found.plot.view("half_plane", "tau1 (friction 0.1)")
+def test_a_view_holds_the_field_with_depth_downwards(finished):
+    plotter = finished.plot.view("half_plane", "tau1 (friction 0.1)")
     mesh = plotter.mesh
-    field = found.outcome.runs["half_plane"].finest.stress(0.1).field
+    field = finished.outcome.runs["half_plane"].finest.stress(0.1).field
     assert np.array_equal(mesh["tau1 (friction 0.1)"], field.tau1.ravel())
     assert plotter.camera.up == (0.0, -1.0, 0.0)
     sight = np.subtract(plotter.camera.focal_point, plotter.camera.position)
@@ -233,12 +233,12 @@ def test_a_view_holds_the_field_with_depth_downwards(found):
     plotter.close()
 
 
-def test_report_is_written_where_it_is_asked_for(found, tmp_path, monkeypatch):
+def test_report_is_written_where_it_is_asked_for(finished, tmp_path, monkeypatch):
     monkeypatch.setattr("comparisons.output.page.page.render", lambda run, *_: f"<p>{id(run)}</p>")
-    path = found.report(tmp_path / "mine.html")
-    assert path.read_text() == f"<p>{id(found.outcome)}</p>"
+    path = finished.report(tmp_path / "mine.html")
+    assert path.read_text() == f"<p>{id(finished.outcome)}</p>"
     with pytest.raises(InputError, match="is no place"):
-        found.report(tmp_path / "no" / "mine.html")
+        finished.report(tmp_path / "no" / "mine.html")
 
 
 def test_a_finished_map_prints_and_draws(pyplot):
@@ -264,9 +264,9 @@ def test_packages_say_that_they_are_typed(package):
     assert (PROJECT / package / "py.typed").read_bytes() == b""
 
 
-def test_figures_are_a_table_and_records(found):
-    figures = found.figures
-    assert tuple(figures) == tuple(found.outcome.figures)
+def test_figures_are_a_table_and_records(finished):
+    figures = finished.figures
+    assert tuple(figures) == tuple(finished.outcome.figures)
     text = repr(figures)
     assert "model_error" in text and "peak_pressure" in text and "0.1" in text
     frame = figures.of(study="contact")
@@ -278,9 +278,9 @@ def test_figures_are_a_table_and_records(found):
 
 
 @pytest.mark.parametrize("name", ["half-plane", "half_plane"])
-def test_a_model_has_one_name_written_in_two_ways(found, name):
-    assert found.figure("peak_pressure", name, friction=0.1).source == "half_plane"
-    assert found.contact(name)["x"] is not None and found.stress(name)["x"] is not None
+def test_a_model_has_one_name_written_in_two_ways(finished, name):
+    assert finished.figure("peak_pressure", name, friction=0.1).source == "half_plane"
+    assert finished.contact(name)["x"] is not None and finished.stress(name)["x"] is not None
     assert models_named(name, "models") == ("half_plane",)
 
 

@@ -22,7 +22,7 @@ from comparisons.output.flat_csv import as_csv, tidy_rows
 from comparisons.output.page.redraw import draw_again
 from comparisons.output.page.saved import read_run
 from comparisons.output.plausibility import warnings_about, warnings_about_result
-from comparisons.output.recorded_run import read_record
+from comparisons.output.record import read_record
 from comparisons.output.terminal import summary
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene

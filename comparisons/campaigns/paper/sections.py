@@ -23,8 +23,7 @@ from comparisons.campaigns.paper.pictures.scales import Scales, scales_of
 from comparisons.campaigns.paper.pictures.stresses import SHALLOW, axis_picture, contour_picture
 from comparisons.common.progress import ProgressCallback
 from comparisons.drawing.style import Picture, drawing
-from comparisons.output.page.pictures.fields import COMPONENTS
-from comparisons.output.page.pictures.sections import section_pictures
+from comparisons.output.page.pictures.stresses import COMPONENTS, section_pictures
 from comparisons.studies.study import Run
 
 LETTERS = {"txz": "bcd", "tau1": "efg"}

@@ -13,7 +13,7 @@ import numpy as np
 
 from comparisons.common.numbers import plain
 from comparisons.figures.quantity import LABELS
-from comparisons.output.page.pictures.fields import COMPONENTS, Component
+from comparisons.output.page.pictures.stresses import COMPONENTS, Component
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
@@ -34,16 +34,16 @@ class Explorer:
     fields: "Markup"  # JSON
 
 
-def field_explorer(outcome: Run) -> Explorer | None:
+def field_explorer(run: Run) -> Explorer | None:
     """None without fields."""
-    if outcome.window is None:
+    if run.window is None:
         return None
     from markupsafe import Markup
 
-    half_width, window = outcome.problem.hertz.half_width, outcome.window
+    half_width, window = run.problem.hertz.half_width, run.window
     rows, columns = _spread(len(window.z), MOST_ROWS), _spread(len(window.x), MOST_COLUMNS)
-    frictions = outcome.problem.scene.load.friction
-    last = list(outcome.levels(frictions[-1]).values())[-1]
+    frictions = run.problem.scene.load.friction
+    last = list(run.levels(frictions[-1]).values())[-1]
     largest = last.stress(frictions[-1]).extremes["tau1"]
     content = {
         "x": _places(window.x[columns] / half_width),
@@ -52,7 +52,7 @@ def field_explorer(outcome: Run) -> Explorer | None:
         "components": [
             {
                 "symbol": component.symbol,
-                "fields": [_field(outcome, component, mu, rows, columns) for mu in frictions],
+                "fields": [_field(run, component, mu, rows, columns) for mu in frictions],
             }
             for component in COMPONENTS
         ],
@@ -73,10 +73,10 @@ def _places(values: np.ndarray) -> list[float]:
 
 
 def _field(
-    outcome: Run, component: Component, friction: float, rows: np.ndarray, columns: np.ndarray
+    run: Run, component: Component, friction: float, rows: np.ndarray, columns: np.ndarray
 ) -> dict:
-    p0 = outcome.problem.hertz.peak_pressure
-    pair = outcome.pair(friction)
+    p0 = run.problem.hertz.peak_pressure
+    pair = run.pair(friction)
     first, *others = (
         component.of(level.stress(friction).field)[np.ix_(rows, columns)] / p0
         for level in pair.values()

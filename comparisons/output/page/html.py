@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 FOLDER = Path(__file__).parent / "templates"
 UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b)")
-SECTION = re.compile(r'<section id="([^"]+)">\s*<h2>([^<]*)</h2>')
 HEADING = re.compile(r"<h3>([^<]*)</h3>")
 STARRED = re.compile(r"\*(\w[^*]*\w)\*")
 BAR = re.compile(r"\|(?=τ)")
@@ -44,7 +43,6 @@ def _environment(folder: Path) -> "Environment":
     )
     made.filters |= {
         "tight": tight,
-        "contents": SECTION.findall,
         "anchored": anchored,
         "slug": slug,
         "kind": lambda item: type(item).__name__,

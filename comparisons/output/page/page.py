@@ -1,4 +1,6 @@
-"""The report: one page that opens without a network and prints without loss."""
+"""The report: one page that opens without a network and prints without loss.
+
+A loop over blocks: those that every run has, and those by which each study shows what it finds."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import nullcontext
@@ -7,53 +9,55 @@ from importlib import import_module
 
 from comparisons.common.processes import uncollected
 from comparisons.common.tasks import Here, Tasks, tasks_of_copies
-from comparisons.drawing.blocks import Box, Heading, Pictures
+from comparisons.drawing.blocks import Block, Box, Bullets, Heading, Names, Note, Pictures
 from comparisons.drawing.style import Picture, drawing
+from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
+from comparisons.models.forecast import forecast
 from comparisons.output.headline import headline
-from comparisons.output.page.blocks import sections
-from comparisons.output.page.field_values import field_explorer
+from comparisons.output.page.field_values import Explorer, field_explorer
 from comparisons.output.page.html import inline, rendered
-from comparisons.output.page.pictures.convergence import convergence_picture
-from comparisons.output.page.pictures.cost import cost_picture
-from comparisons.output.page.pictures.fields import field_pictures, near_surface_pictures
+from comparisons.output.page.pictures import contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
-from comparisons.output.page.pictures.pressures import close_up_picture, pressure_picture
-from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.pictures.sections import section_pictures
-from comparisons.output.page.pictures.surfaces import surface_picture
+from comparisons.output.page.tables import verification
+from comparisons.output.page.tables.comparison import comparison_table, figure_table
+from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 
 # Each gives one picture, a list, or None where it does not apply; about the longest first.
 PICTURES: dict[str, Callable[[Run], object]] = {
-    "fields": field_pictures,
-    "near": near_surface_pictures,
+    "fields": stresses.field_pictures,
+    "near": stresses.near_surface_pictures,
     "mesh": mesh_pictures,
-    "pressure": pressure_picture,
-    "sections": section_pictures,
-    "convergence": convergence_picture,
-    "close_up": close_up_picture,
-    "problem": problem_picture,
-    "surface": surface_picture,
-    "cost": cost_picture,
+    "pressure": contact.pressure_picture,
+    "sections": stresses.section_pictures,
+    "convergence": refinement.convergence_picture,
+    "close_up": contact.close_up_picture,
+    "problem": problem.problem_picture,
+    "surface": contact.surface_picture,
+    "cost": refinement.cost_picture,
 } | {name: draw for study in STUDIES for name, draw in study.pictures.items()}
+# Sections that have their place, by id; those of other studies follow that of contact.
+ORDER = ("problem", "running-in", "comparison", "model-error", "answers", "contact", "", "yield")
+ORDER += ("stresses", "convergence", "mesh", "cost", "checks", "skipped", "record")
+NOTES = verification.WORDING["how_to_read"]
 
 
-def render(outcome: Run, tasks: Tasks | None = None) -> str:
+def render(run: Run, tasks: Tasks | None = None) -> str:
     """The page of a finished run, drawn by `report_tasks`; equal runs give equal text."""
     script, policy = inline("field_values.js")
-    explorer, pictures = field_explorer(outcome), draw(outcome, tasks)
-    blocks = sections(outcome, explorer)
+    explorer, pictures = field_explorer(run), draw(run, tasks)
+    blocks = sections(run, explorer)
     shown = [replace(block, items=tuple(_filled(block.items, pictures))) for block in blocks]
-    [first, *others] = (HYPHENATED[name] for name in outcome.runs)
+    [first, *others] = (HYPHENATED[name] for name in run.runs)
     return rendered(
         "page.html.j2",
         script=script,
         policy=policy,
         explorer=explorer,
-        title=outcome.problem.scene.title,
-        headline=headline(outcome),
+        title=run.problem.scene.title,
+        headline=headline(run),
         models="half-plane against finite elements" if others else f"{first} model only",
         sections=[block for block in shown if block.items],
     )
@@ -63,7 +67,7 @@ def _filled(items: Iterable, pictures: Mapping[str, object]) -> Iterator[object]
     """The items with pictures in the place of their names, without boxes that stay empty."""
     for item in items:
         if isinstance(item, Pictures):
-            drawn = [each for name in item.names for each in _listed(pictures[name])]
+            drawn = [one for name in item.names for one in _listed(pictures[name])]
             drawn = drawn if item.part is None else drawn[item.part]
             yield from [Heading(item.heading)] * bool(drawn and item.heading)
             yield from [Box("columns", tuple(drawn))] if drawn and item.abreast else drawn
@@ -79,16 +83,16 @@ def _listed(drawn: object) -> list[Picture]:
     return drawn if isinstance(drawn, list) else [] if drawn is None else [drawn]
 
 
-def report_tasks(outcome: Run) -> Tasks:
+def report_tasks(run: Run) -> Tasks:
     """For the pictures and files of a run, side by side; `Here.shared` is the run."""
     for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
         import_module(name)  # once for all copies
-    return tasks_of_copies(outcome)
+    return tasks_of_copies(run)
 
 
-def draw(outcome: Run, tasks: Tasks | None = None) -> dict[str, object]:
+def draw(run: Run, tasks: Tasks | None = None) -> dict[str, object]:
     """What each of PICTURES gives."""
-    with report_tasks(outcome) if tasks is None else nullcontext(tasks) as tasks:
+    with report_tasks(run) if tasks is None else nullcontext(tasks) as tasks:
         for name in PICTURES:
             tasks.add(name, _drawn, name)
         return {name: tasks.result(name) for name in PICTURES}
@@ -97,3 +101,76 @@ def draw(outcome: Run, tasks: Tasks | None = None) -> dict[str, object]:
 def _drawn(here: Here, name: str) -> object:
     with drawing(), uncollected():
         return PICTURES[name](here.shared)
+
+
+def sections(run: Run, explorer: Explorer | None) -> list[Block]:
+    """One block a section, which the studies' blocks are parts of."""
+    blocks = [*_before(run), *_stresses(run, explorer), *_after(run)]
+    for study in STUDIES:
+        if study.name in run.found:
+            blocks += study.blocks(run)
+    blocks.sort(key=lambda block: ORDER.index(block.section if block.section in ORDER else ""))
+    return [
+        Block(same[0].section, tuple(item for block in same for item in block.items), same[0].title)
+        for same in grouped(blocks, lambda block: block.section)
+    ]
+
+
+def _before(run: Run) -> Iterator[Block]:
+    picture = Pictures(("problem",)), Heading("Assumptions"), Bullets(run.plan.assumptions)
+    sheet = [item for name, rows in problem_sheet(run) for item in (Heading(name), Names(rows))]
+    columns = Box("columns", (Box("sheet", picture), Box("sheet", tuple(sheet))))
+    yield Block("problem", (columns,), "Problem")
+    if run.plan.compares:
+        yield Block("comparison", (comparison_table(run), Note(NOTES["comparison"])), "Comparison")
+    else:
+        yield Block("comparison", (figure_table(run),), "Figures")
+    beside = Pictures(("close_up", "surface"), abreast=True)
+    yield Block("contact", (Pictures(("pressure",)), beside), "Contact")
+
+
+def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
+    if run.window is None:
+        return
+    frictions = run.problem.scene.load.friction
+    fields = (
+        Pictures(("fields",), f"Friction {friction:g}", True, slice(k, None, len(frictions)))
+        for k, friction in enumerate(frictions)
+    )
+    near = Pictures(("near",), "Next to the surface", abreast=True)
+    down = Heading("Sections over depth"), Pictures(("sections",), abreast=True)
+    items = Note(NOTES["fields"]), *fields, near, explorer, *down
+    yield Block("stresses", items, "Subsurface stresses")
+
+
+def _after(run: Run) -> Iterator[Block]:
+    items: list = []
+    if (judged := verification.judged_table(run)) is not None:
+        items += [judged, Note(NOTES["orders"]), Pictures(("convergence",)), Heading("Words")]
+        items.append(Names(verification.WORDS))
+    if (validation := verification.validation_table(run)) is not None:
+        items += [validation, Note(NOTES["validation"])]
+    norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
+    far = NOTES["far_boundary"] if run.plan.domain_check else ""
+    why = verification.refinement_text(run)
+    note = Note(NOTES["levels"].format(far=far, norms=norms, refinement=why))
+    levels = Heading("All figures"), *verification.convergence_tables(run), note
+    yield Block("convergence", (*items, *levels), "Convergence")
+    under = Box("stack", (Pictures(("mesh",), part=slice(1, None)),))
+    mesh = Box("columns", (Pictures(("mesh",), part=slice(0, 1)), under))
+    yield Block("mesh", (mesh,), "Mesh")
+    note = "By the laws of cost, before anything was solved and without effects, "
+    note += f"{forecast(run.problem, run.plan).text}."
+    cost = Box("columns", (Pictures(("cost",)), verification.cost_table(run)))
+    yield Block("cost", (cost, Note(note)), "Cost")
+    items = [verification.check_table(run), Note(NOTES["checks"])]
+    if (operator := verification.operator_table(run)) is not None:
+        items += [operator, Note(verification.operator_note(run))]
+    yield Block("checks", tuple(items), "Checks")
+    skipped = tuple((item.step, item.because) for item in run.plan.skipped)
+    yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")
+    yield Block(
+        "record",
+        (Names(verification.record_rows(run), tuple(verification.commands(run))),),
+        "Record",
+    )

@@ -27,10 +27,10 @@ def browser() -> str | None:
 
 def options(profile: str) -> list[str]:
     """What to start a browser with: no window, nothing of the user's, nothing from the network."""
-    given = ["--headless", "--disable-gpu", "--disable-extensions", "--no-first-run"]
-    given += ["--disable-background-networking", f"--user-data-dir={profile}"]
+    words = ["--headless", "--disable-gpu", "--disable-extensions", "--no-first-run"]
+    words += ["--disable-background-networking", f"--user-data-dir={profile}"]
     # as root a browser refuses to start with a sandbox; the pages are this program's own
-    return [*given, "--no-sandbox"] if os.geteuid() == 0 else given
+    return [*words, "--no-sandbox"] if os.geteuid() == 0 else words
 
 
 def print_report(folder: Path) -> Path:
@@ -45,8 +45,8 @@ def print_report(folder: Path) -> Path:
 
 def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
     """Print a page into `target`, which appears whole or not at all. Raises NoPdfError."""
-    found, by_hand = browser(), f"print {page} from any browser"
-    if found is None:
+    program, by_hand = browser(), f"print {page} from any browser"
+    if program is None:
         raise NoPdfError(
             f"{target}: not printed: neither Chromium nor Chrome is installed; "
             f"{REMEDY} gets one, or {by_hand}"
@@ -56,7 +56,7 @@ def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
         whole_file(target) as part,
     ):
         printing = "--no-pdf-header-footer", f"--print-to-pdf={part.resolve()}"
-        command = [found, *options(profile), *printing, page.resolve().as_uri()]
+        command = [program, *options(profile), *printing, page.resolve().as_uri()]
         silent = {"capture_output": True, "stdin": subprocess.DEVNULL}
         try:
             ended = subprocess.run(command, timeout=patience, **silent).returncode
@@ -66,4 +66,4 @@ def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
             part.unlink(missing_ok=True)
         content = part.read_bytes() if part.is_file() else b""
         if not (content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")):
-            raise NoPdfError(f"{target}: not printed: {found} {why}; {by_hand}")
+            raise NoPdfError(f"{target}: not printed: {program} {why}; {by_hand}")

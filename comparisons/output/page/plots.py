@@ -8,7 +8,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.numbers import listed
 from comparisons.drawing.style import collected_figures
 from comparisons.output.page.page import PICTURES
-from comparisons.output.page.pictures.fields import COMPONENTS
+from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class Plots:
 
         component  tau1 or txz
         friction   coefficient; the scene's first by default"""
-        names = [each.name for each in COMPONENTS]
+        names = [known.name for known in COMPONENTS]
         if component not in names:
             raise InputError(f"component: is {component}; allowed is {' or '.join(names)}")
         frictions = list(self.outcome.problem.scene.load.friction)
@@ -93,9 +93,9 @@ class Plots:
 
         with collected_figures() as drawn:
             PICTURES[name](self.outcome)
-        for number, each in enumerate(drawn):
+        for number, figure in enumerate(drawn):
             if number != place:
-                pyplot.close(each)
+                pyplot.close(figure)
         if not 0 <= place < len(drawn):
             raise InputError("the run has no such picture; allowed is one that its report has")
         return drawn[place].axes

@@ -1,25 +1,63 @@
-"""Reports of finished runs drawn again from their folders, and a page that sums them up."""
+"""Reports of finished runs drawn again from their folders, and a page that sums them up: a row each
+that leads to its report, sorted by any column."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from jinja2 import TemplateError
 
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import check_writable, write_whole
+from comparisons.common.numbers import given_percent, percent, significant, with_unit
 from comparisons.common.progress import ProgressCallback
+from comparisons.figures.figure import grouped
+from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
+from comparisons.output.headline import headline
+from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.page import render
 from comparisons.output.page.pdf import NoPdfError, print_report
 from comparisons.output.page.saved import read_run
-from comparisons.output.page.summary import SummaryRow, summary_page, summary_row
+from comparisons.studies import contact, problem
+from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
 # What drawing raises where a result file was edited.
 DAMAGED = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, TemplateError)
+FIGURES = ("peak_pressure", "contact_length", "tau1_max")
+# What a row may show, in the order of columns: name, head.
+COLUMNS = {
+    **{name: problem.QUANTITIES[name].label.rpartition(", ")[2] for name in problem.GROUPS},
+    **{name: label(name) for name in FIGURES},
+    **{f"model_error_{name}": f"model error: {label(name)}" for name in QUANTITIES},
+    **{f"seconds_{name}": f"time, {LABELS[name]}" for name in MODELS},
+    "seconds_error_budget": "time summed over cores, error budget",
+}
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Text, the number [SI] that it is sorted by, and what else there is to say."""
+
+    text: str
+    value: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class SummaryRow:
+    """A run."""
+
+    title: str
+    report: Path  # its page
+    kind: str  # the verdict in a word or two, with its sentence
+    sentence: str
+    cells: dict[str, Cell]  # of those of COLUMNS that the run has
 
 
 @dataclass(frozen=True)
@@ -81,9 +119,9 @@ def draw_again(
 
 def _drawn(folder: Path, draws: bool) -> tuple[str | None, SummaryRow]:
     """The page of a run, if it `draws`, and its row; InputError where its files make none."""
-    outcome = read_run(folder, with_mesh=draws)
+    run = read_run(folder, with_mesh=draws)
     try:
-        return render(outcome) if draws else None, summary_row(outcome)
+        return render(run) if draws else None, summary_row(run)
     except DAMAGED as error:
         raise InputError(
             f"{folder}: its result.json, record.json and report.npz make up no report "
@@ -123,3 +161,58 @@ def reports_table(reports: Sequence[Report], summary: Path | None) -> "Renderabl
             Text(one_line(report.row.title)), Text(report.row.kind), Text("\n".join(made))
         )
     return table if summary is None else Group(table, "", Text(f"summary  {summary}"))
+
+
+def summary_row(run: Run) -> SummaryRow:
+    """The row of a finished run."""
+    said = headline(run)
+    cells = _groups(run) | _figures(run) | _model_errors(run) | _times(run)
+    title, report = run.problem.scene.title, run.directory / "report.html"
+    return SummaryRow(title, report, said.kind, said.sentence, cells)
+
+
+def summary_page(rows: Sequence[SummaryRow], place: Path) -> str:
+    """The page, to be written into the folder `place`, from which its links lead."""
+    shown = {name for row in rows for name in row.cells}
+    columns = {name: head for name, head in COLUMNS.items() if name in shown}
+    kinds = [row.kind for row in rows]
+    counts = {kind: kinds.count(kind) for kind in sorted(set(kinds))}
+    reports = (os.path.relpath(row.report.resolve(), place.resolve()) for row in rows)
+    links = [quote(os.fsencode(report)) for report in reports]
+    script, policy = inline("summary.js")
+    table = {"rows": rows, "columns": columns, "counts": counts, "links": links}
+    return rendered("summary.html.j2", script=script, policy=policy, **table)
+
+
+def _groups(run: Run) -> dict[str, Cell]:
+    groups = run.figures.of(study=problem.NAME, source=problem.SCENE)
+    return {figure.quantity: Cell(significant(figure.value, 3), figure.value) for figure in groups}
+
+
+def _figures(run: Run) -> dict[str, Cell]:
+    """The finite elements', or the only model's, each the largest of any friction."""
+    known, cells = run.figures.of(study=contact.NAME, source=list(run.runs)[-1]), {}
+    for name in FIGURES:
+        values = [figure.value for figure in known.of(quantity=name)]
+        if values:
+            cells[name] = Cell(with_unit(max(values), QUANTITIES[name].unit), max(values))
+    return cells
+
+
+def _model_errors(run: Run) -> dict[str, Cell]:
+    """Of what is judged, at the friction coefficient where it is largest."""
+    cells: dict[str, Cell] = {}
+    for errors in grouped(run.model_errors, lambda error: error.quantity):
+        worst = max(errors, key=lambda error: abs(error.value) + error.numerical)
+        note = f"± {percent(worst.numerical)}, tolerance {given_percent(worst.tolerance)}"
+        text = error_text(worst.quantity, worst.value, worst.numerical)
+        cells[f"model_error_{worst.quantity}"] = Cell(text, abs(worst.value), note)
+    return cells
+
+
+def _times(run: Run) -> dict[str, Cell]:
+    seconds = {name: sum(model.seconds.values()) for name, model in run.runs.items()}
+    budget = run.data(MODEL_ERROR)
+    if budget is not None and budget.seconds:
+        seconds["error_budget"] = budget.seconds
+    return {f"seconds_{n}": Cell(with_unit(time, "s", 3), time) for n, time in seconds.items()}

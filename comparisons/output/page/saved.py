@@ -6,7 +6,6 @@ elements; what studies' pictures are drawn from. The mesh comes from mesh.msh, f
 from their own files; nothing is solved or meshed."""
 
 import json
-from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
@@ -14,14 +13,13 @@ import numpy as np
 
 from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
-from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import WHOLE
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.output import schema_2
-from comparisons.output.recorded_run import read_result, read_table
+from comparisons.output.record import read_result, read_table
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies import STUDIES
 from comparisons.studies.study import MODEL_ERROR, Run, Solved
@@ -65,13 +63,12 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
     content = _read(folder / FILE)
     try:
         content["problem"] = _problem(content["problem"], folder)
-        data, found = content.pop("data", None), result.found
+        data, findings = content.pop("data", None), result.found
         if data is None:
-            content, data, more = schema_2.parts_of_schema_2(content)
-            found = _with_levels(found, more)
+            content, data, findings = schema_2.parts_of_schema_2(content, findings)
         solved = Solved(**content)
-        found = {name: replace(each, data=data.get(name)) for name, each in found.items()}
-        run = Run(solved, found, record, folder)
+        findings = {name: replace(f, data=data.get(name)) for name, f in findings.items()}
+        run = Run(solved, findings, record, folder)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
     return _with_mesh(run, folder / MESH) if with_mesh else run
@@ -82,24 +79,6 @@ def _problem(parts: dict, folder: Path) -> Problem:
     scene = Scene.of(said["tables"], Origin(said["name"], folder, said["source"]))
     surface = parts.pop("surface", None) or said["surface"]
     return Problem(scene, surface, **parts)
-
-
-def _with_levels(
-    found: Mapping[str, Findings], more: Mapping[str, Findings]
-) -> dict[str, Findings]:
-    """The findings with levels and uncertainties of some figures from others of the same name."""
-    joined = dict(found)
-    for name, findings in more.items():
-        known = {figure.key: figure for figure in findings.figures}
-        figures = tuple(
-            replace(f, levels=known[f.key].levels, uncertainty=known[f.key].uncertainty)
-            if f.key in known
-            else f
-            for f in (joined[name].figures if name in joined else ())
-        )
-        if name in joined:
-            joined[name] = replace(joined[name], figures=figures)
-    return joined
 
 
 def _read(path: Path) -> dict:
@@ -132,7 +111,7 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
         check = None if model.far_boundary_check is None else _reduced(model.far_boundary_check)
         longer = tuple(map(_reduced, model.longer_increments))
         runs[name] = ModelRun(name, levels, check, longer)
-    data = {name: found.data for name, found in run.found.items() if found.data is not None}
+    data = {name: study.data for name, study in run.found.items() if study.data is not None}
     if MODEL_ERROR in data:
         shown = {friction: _reduced(level, True) for friction, level in wholes.items()}
         data[MODEL_ERROR] = replace(data[MODEL_ERROR], wholes=shown)

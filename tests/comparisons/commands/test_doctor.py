@@ -28,11 +28,11 @@ MODULES = {name: name for name in trials()} | {
 
 @pytest.mark.parametrize("name", trials())
 def test_what_is_installed_works_and_what_is_missing_is_named(name):
-    found = attempt(name, trials()[name])
-    assert found.ok and re.search(r"\d+\.\d+", found.detail), found
+    finding = attempt(name, trials()[name])
+    assert finding.ok and re.search(r"\d+\.\d+", finding.detail), finding
     blocked = f"import sys; sys.modules[{MODULES[name]!r}] = None\n{trials()[name]}"
-    found = attempt(name, blocked)
-    assert not found.ok and MODULES[name] in found.detail
+    finding = attempt(name, blocked)
+    assert not finding.ok and MODULES[name] in finding.detail
 
 
 @pytest.mark.parametrize(
@@ -63,8 +63,8 @@ def test_findings_in_order_as_a_table_and_as_json(known, shown, monkeypatch, cap
     monkeypatch.setattr(doctor, "trials", lambda: {"slow": "a", "fast": "b"})
     monkeypatch.setattr(doctor, "attempt", lambda name, program: Finding(name, True, program))
     assert main(["doctor", "--json"]) == 0
-    python, own, *others = json.loads(capsys.readouterr().out)
-    assert own == {"name": "crosscheck", "ok": True, "detail": f"{shown}, {PROJECT}"}
+    python, project, *others = json.loads(capsys.readouterr().out)
+    assert project == {"name": "crosscheck", "ok": True, "detail": f"{shown}, {PROJECT}"}
     assert python["name"] == "Python" and sys.executable in python["detail"]
     assert others == [{"name": n, "ok": True, "detail": p} for n, p in doctor.trials().items()]
     monkeypatch.setattr(doctor, "attempt", lambda name, program: Finding(name, False, "torn"))

@@ -67,10 +67,10 @@ def test_no_file_of_an_instrument_is_read_by_a_module_of_the_working_folder(tmp_
 
 
 @pytest.mark.parametrize(
-    ("given", "threads"), [("2,1", 2), ("", None), ("two", None), ("²", None), ("0", None)]
+    ("value", "threads"), [("2,1", 2), ("", None), ("two", None), ("²", None), ("0", None)]
 )
-def test_any_number_of_threads_is_recorded_or_none(monkeypatch, given, threads):
-    monkeypatch.setenv("OMP_NUM_THREADS", given)
+def test_any_number_of_threads_is_recorded_or_none(monkeypatch, value, threads):
+    monkeypatch.setenv("OMP_NUM_THREADS", value)
     assert machine()["threads"] == threads
 
 
@@ -102,11 +102,11 @@ def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
 def test_a_scene_need_not_be_named_in_utf_8(tmp_path):
     (tmp_path / os.fsdecode(b"sc\xe9ne.toml")).write_text(SMALL)
     scene, out = os.fsdecode(b"sc\xe9ne.toml"), os.fsdecode(b"r\xe9sultats")
-    given = ["-m", "comparisons.cli", "run", scene, "--models", "half-plane"]
-    done = command(*given, cwd=tmp_path)
+    words = ["-m", "comparisons.cli", "run", scene, "--models", "half-plane"]
+    done = command(*words, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert (tmp_path / "results/sc\ufffdne/report.html").exists()
-    assert command(*given, "--out", out, cwd=tmp_path).returncode == 0
+    assert command(*words, "--out", out, cwd=tmp_path).returncode == 0
     summary = os.fsdecode(b"\xe9.html")
     for arguments in (["rerun", out], ["table", out], ["report", out, "--summary", summary]):
         done = command("-m", "comparisons.cli", *arguments, cwd=tmp_path)

@@ -8,8 +8,7 @@ from comparisons.cli import main
 from comparisons.scenes.materials import solids
 
 
-def test_every_solid_is_listed(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "160")
+def test_every_solid_is_listed(capsys):
     assert main(["materials"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 1 + len(solids())

@@ -68,7 +68,7 @@ def folder(tmp_path) -> Path:
 
 def coloured(said: str) -> bool:
     """Whether a colour is set; bold and moves of the cursor are none."""
-    codes = [code for found in re.findall(r"\x1b\[([\d;]*)m", said) for code in found.split(";")]
+    codes = ";".join(re.findall(r"\x1b\[([\d;]*)m", said)).split(";")
     return any(code in ("38", "48") or re.fullmatch("[349][0-7]", code) for code in codes)
 
 
@@ -99,11 +99,11 @@ def test_a_pipe_gets_neither(folder, more):
 
 
 def test_parts_of_a_task_have_their_part_of_its_time():
-    told = []
-    callback = within(within(told.append, 0.5, 1.0), 0.0, 0.5)
+    stages = []
+    callback = within(within(stages.append, 0.5, 1.0), 0.0, 0.5)
     callback(Step("half of it", 0.5))
     callback("whatever")
-    assert [(str(stage), getattr(stage, "done", None)) for stage in told] == [
+    assert [(str(stage), getattr(stage, "done", None)) for stage in stages] == [
         ("half of it", 0.625),
         ("whatever", None),
     ]
@@ -184,7 +184,7 @@ def test_scenes_as_json(capsys):
     ],
 )
 def test_a_study_as_json_is_its_file(tmp_path, monkeypatch, capsys, name, module, function):
-    def done(*given: object) -> object:
+    def done(*arguments: object) -> object:
         (tmp_path / f"{name}.json").write_text('{"schema": 1}\n')
         return types.SimpleNamespace(exit_status=0)
 

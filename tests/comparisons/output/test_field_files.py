@@ -170,8 +170,8 @@ def test_mesh_and_fields_lie_in_one_plane(outcome, tmp_path):
     run = outcome.runs["finite_element"]
     write_mesh(tmp_path / "mesh.msh", outcome, run.finest.mesh)
     mesh = meshio.read(tmp_path / "mesh.msh", file_format="gmsh").points
-    for each in outcome.runs.values():
-        points = field_of(outcome, each.finest).points
+    for model in outcome.runs.values():
+        points = field_of(outcome, model.finest).points
         assert not points[:, 2].any() and not mesh[:, 2].any()
         assert mesh[:, 1].min() <= points[:, 1].min() and points[:, 1].max() <= mesh[:, 1].max()
 
@@ -197,9 +197,10 @@ def test_one_file_holds_both_models_and_their_difference(outcome):
 
 def test_the_half_plane_has_no_stress_above_the_mean_line(outcome):
     level = outcome.runs["half_plane"].finest
-    found = stresses_at(outcome.problem, level, (0.1,), np.zeros(3), np.array([-1e-9, 0.0, 1e-6]))
-    assert np.isnan(found[0.1].tau1).tolist() == [True, False, False]
-    assert found[0.1].sz[1] == pytest.approx(-level.solution.pressure.max(), rel=1e-3)
+    z = np.array([-1e-9, 0.0, 1e-6])
+    stresses = stresses_at(outcome.problem, level, (0.1,), np.zeros(3), z)
+    assert np.isnan(stresses[0.1].tau1).tolist() == [True, False, False]
+    assert stresses[0.1].sz[1] == pytest.approx(-level.solution.pressure.max(), rel=1e-3)
 
 
 def test_displacements_warp_the_mesh_in_its_plane(outcome, tmp_path):
@@ -251,8 +252,8 @@ def test_msh_in_gmsh_and_meshio(field, tmp_path):
     for name, values in field.arrays.items():
         kind, of_nodes, in_view, parts = views[name]
         assert (kind, parts) == ("NodeData", 3 if values.ndim > 1 else 1)
-        found = np.reshape(in_view, (-1, parts)).squeeze()[np.argsort(of_nodes)]
-        assert np.array_equal(found, values)
+        of_gmsh = np.reshape(in_view, (-1, parts)).squeeze()[np.argsort(of_nodes)]
+        assert np.array_equal(of_gmsh, values)
         assert np.array_equal(mesh.point_data[name], values)
     said = path.read_bytes().rpartition(b"$Comments\n")[2].decode()
     lines = dict(line.split(": ", 1) for line in said.splitlines()[:-1])

@@ -58,8 +58,8 @@ def test_figures_are_those_of_the_result(runs, wavy_outcome):
         assert (row["tolerance"], row["model_error_verdict"]) == (said.tolerance, error.verdict)
         assert row["model_error_uncertainty"] == error.numerical
         for model in ("half_plane", "finite_element"):
-            own = known.one(study="contact", source=model)
-            assert row[model] == (own and own.value)
+            figure = known.one(study="contact", source=model)
+            assert row[model] == (figure and figure.value)
         assert abs(row["interaction"]) == abs(error.part("interaction").value)
         assert row["jump"] == error.part("jump").value
         assert {name: row[name] for name in GROUPS} == dict.fromkeys(GROUPS) | groups
@@ -89,14 +89,14 @@ def test_effects_have_columns(runs, tmp_path):
 
 def test_a_single_model_has_its_figures_alone(runs, smooth_outcome):
     rows = tidy_rows([runs / "c"])
-    own = smooth_outcome.figures.of(study="contact", source="half_plane", friction=0.0)
-    found = {row["quantity"]: row for row in rows if row["friction"] == 0.0}
+    known = smooth_outcome.figures.of(study="contact", source="half_plane", friction=0.0)
+    by_quantity = {row["quantity"]: row for row in rows if row["friction"] == 0.0}
     for name in ("peak_pressure", "tau1_max_depth", "txz_max_abs"):
-        assert found[name]["half_plane"] == own.one(quantity=name).value
-        assert found[name]["uncertainty"] == own.one(quantity=name).numerical
+        assert by_quantity[name]["half_plane"] == known.one(quantity=name).value
+        assert by_quantity[name]["uncertainty"] == known.one(quantity=name).numerical
     assert {row["validity"] for row in rows} == {"not compared"}
     assert {row["finite_element"] for row in rows} == {None}
-    assert "pressure_l2" not in found
+    assert "pressure_l2" not in by_quantity
 
 
 def test_below_a_rough_boundary_the_depth_is_the_terminals(finish, wavy_outcome, tmp_path):

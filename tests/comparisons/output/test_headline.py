@@ -6,6 +6,7 @@ from dataclasses import replace
 from scenes import judging, posed, refound, unconverged
 
 from comparisons.output.headline import headline
+from comparisons.studies.model_error.laws import LawSpread, open_laws
 from comparisons.studies.model_error.model_error import Estimate, ModelError
 from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.study import Run
@@ -14,7 +15,7 @@ TOLERANCE = 0.02
 NONE = EffectSelection(frozenset(), frozenset(), {}, {}, {})
 
 
-def own(quantity: str, value: float, uncertainty: float, **effects: float) -> ModelError:
+def error_of(quantity: str, value: float, uncertainty: float, **effects: float) -> ModelError:
     shares = {name: Estimate(size, 1e-4) for name, size in effects.items()}
     return ModelError(quantity, 0.0, shares, 0.0, value, uncertainty)
 
@@ -30,7 +31,7 @@ def judged(outcome: Run, *errors: ModelError, selection: EffectSelection = NONE)
 
 
 def test_agreement_names_what_is_nearest_to_its_tolerance(smooth_outcome: Run):
-    errors = own("peak_pressure", 1e-3, 1e-4), own("tau1_max", -0.0123, 1e-3)
+    errors = error_of("peak_pressure", 1e-3, 1e-4), error_of("tau1_max", -0.0123, 1e-3)
     said = headline(judged(smooth_outcome, *errors))
     assert said.kind == "holds"
     assert "both judged errors are within their tolerances" in said.sentence
@@ -45,28 +46,28 @@ def test_it_says_no_more_than_the_uncertainty_supports(smooth_outcome: Run):
         (-0.0004, 0.0138, "is 0.0 % (tol"),
         (0.00123, 0.0001, "is +0.12 %"),
     ):
-        said = headline(judged(smooth_outcome, own("peak_pressure", value, uncertainty)))
+        said = headline(judged(smooth_outcome, error_of("peak_pressure", value, uncertainty)))
         assert said.kind == "holds" and words in said.sentence
         assert "the one judged error is within its tolerance" in said.sentence
 
 
 def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_outcome: Run):
     errors = (
-        own("peak_pressure", 0.5, 1e-3),
-        own("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1),
-        own("tau1_max", 0.0, 1e-3),
+        error_of("peak_pressure", 0.5, 1e-3),
+        error_of("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1),
+        error_of("tau1_max", 0.0, 1e-3),
     )
     said = headline(judged(smooth_outcome, *errors))
     assert said.kind == "fails"
     assert "contact length is −70 %" in said.sentence
     assert "dominated by finite thickness or width" in said.sentence
     assert "1 more of 3 judged errors is outside" in said.sentence
-    shared = own("contact_length", -0.7, 1e-3, finite_size=0.3, exact_circle=0.3)
+    shared = error_of("contact_length", -0.7, 1e-3, finite_size=0.3, exact_circle=0.3)
     assert "dominated" not in headline(judged(smooth_outcome, shared)).sentence
 
 
 def test_where_effects_interact_it_names_no_culprit(smooth_outcome: Run):
-    error = own("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1)
+    error = error_of("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1)
     said = headline(judged(smooth_outcome, replace(error, interaction=0.6))).sentence
     assert "the effects interact" in said and "dominated" not in said
     beside = headline(judged(smooth_outcome, replace(error, interaction=0.4))).sentence
@@ -74,25 +75,51 @@ def test_where_effects_interact_it_names_no_culprit(smooth_outcome: Run):
 
 
 def test_a_verdict_says_the_law_of_elasticity_that_it_leans_on(smooth_outcome: Run):
-    """Where the scene gives it; else its spread counts, and no law is leaned on."""
-    error = own("peak_pressure", 1e-3, 1e-4)
+    """Where the scene gives it; where a range was solved, that it holds whatever the law."""
+    error = error_of("peak_pressure", 1e-3, 1e-4)
     strained = replace(NONE, added=frozenset({"finite_strain"}))
-    given = headline(judged(smooth_outcome, error, selection=strained)).sentence
-    assert "uncertainty 0.010 %), with neo-Hookean elasticity." in given
-    estimates = {"law_of_elasticity": {"peak_pressure": 1e-3}}
-    spread = replace(strained, estimates=estimates, negligible=estimates)
-    assert "elasticity" not in headline(judged(smooth_outcome, error, selection=spread)).sentence
+    assert "elasticity" not in headline(judged(smooth_outcome, error, selection=strained)).sentence
+    spread = replace(strained, laws=open_laws(smooth_outcome.problem.scene))
+    sentence = headline(judged(smooth_outcome, error, selection=spread)).sentence
+    assert "uncertainty 0.010 %), whatever the law of elasticity." in sentence
+    scene = smooth_outcome.problem.scene.unchecked({"body.law": "hencky", "roller.law": "hencky"})
+    known = posed(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
+    sentence = headline(judged(known, error, selection=strained)).sentence
+    assert "uncertainty 0.010 %), with Hencky's elasticity." in sentence
+
+
+def test_a_range_by_the_law_is_said_with_its_ends_and_what_would_narrow_it(smooth_outcome: Run):
+    law = LawSpread(middle=0.01, half=0.015)
+    error = replace(error_of("peak_pressure", -0.01, 1e-4), law=law)
+    spread = replace(NONE, laws=open_laws(smooth_outcome.problem.scene))
+    said = headline(judged(smooth_outcome, error, selection=spread))
+    assert said.kind == "inconclusive"
+    assert "is −2.5 to +0.50 % by the law of elasticity (tolerance 2 %" in said.sentence
+    assert said.next.startswith('body.material = "carbon steel" and roller.material = "carbon')
+    assert said.paste == (
+        '[body]\nmaterial = "carbon steel"',
+        '[roller]\nmaterial = "carbon steel"',
+    )
+
+
+def test_next_names_the_figures_to_use_or_the_tolerance_that_holds(smooth_outcome: Run):
+    fails = headline(judged(smooth_outcome, error_of("contact_length", -0.7, 1e-3)))
+    assert fails.next.startswith("take the whole model's contact length 1.000 m")
+    at_it = headline(judged(smooth_outcome, error_of("contact_length", 0.0199, 3e-4)))
+    assert at_it.kind == "inconclusive" and at_it.paste == ("--tolerance 0.03",)
+    unsure = headline(judged(smooth_outcome, error_of("contact_length", 0.01, 0.015)))
+    assert unsure.kind == "inconclusive" and unsure.paste == ("[budget]\ntime = 600",)
 
 
 def test_a_norm_has_no_sign(smooth_outcome: Run):
     assert (
         "difference is 9.0 %"
-        in headline(judged(smooth_outcome, own("pressure_l2", 0.09, 1e-3))).sentence
+        in headline(judged(smooth_outcome, error_of("pressure_l2", 0.09, 1e-3))).sentence
     )
 
 
 def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: Run):
-    said = headline(judged(smooth_outcome, own("contact_length", 0.01, math.inf)))
+    said = headline(judged(smooth_outcome, error_of("contact_length", 0.01, math.inf)))
     assert said.kind == "inconclusive"
     assert "uncertainty that reaches across the tolerance" in said.sentence
     sizes = {"plastic_flow": {"contact_length": 0.1}, "exact_circle": {"contact_length": 0.001}}
@@ -103,16 +130,13 @@ def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: 
         {"plastic_flow": "the body has no yield stress"},
         sizes,
     )
-    said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), selection=missing))
-    assert said.kind == "inconclusive"
-    assert "but plastic flow, which is not modelled (the body has no yield" in said.sentence
-    assert "may change it by 10 % (estimate)" in said.sentence
-    assert "plastic = true, with body.yield_stress, computes it" in said.next
-    said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), selection=missing))
-    assert said.kind == "inconclusive"
-    assert "but plastic flow, which is not modelled (the body has no yield" in said.sentence
-    assert "may change it by 10 % (estimate)" in said.sentence
-    assert "plastic = true, with body.yield_stress, computes it" in said.next
+    for value in (1e-3, 0.05):
+        error = error_of("contact_length", value, 1e-4)
+        said = headline(judged(smooth_outcome, error, selection=missing))
+        assert said.kind == "inconclusive"
+        assert "but plastic flow, which is not modelled (the body has no yield" in said.sentence
+        assert "may change it by 10 % (estimate)" in said.sentence
+        assert "plastic = true, with body.yield_stress, computes it" in said.next
 
 
 def test_nothing_judged_is_no_verdict(smooth_outcome: Run):

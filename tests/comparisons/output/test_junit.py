@@ -48,8 +48,8 @@ def test_each_judged_figure_of_both_tables_has_one(wavy_outcome: Run):
 
 
 def test_what_differs_fails_and_what_is_inconclusive_is_skipped(smooth_outcome: Run):
-    found = judged(smooth_outcome, peak_pressure="differ", contact_length="inconclusive")
-    suite = suite_of(found)
+    run = judged(smooth_outcome, peak_pressure="differ", contact_length="inconclusive")
+    suite = suite_of(run)
     assert (suite.get("failures"), suite.get("errors"), suite.get("skipped")) == ("1", "0", "1")
     by_name = {case.get("name"): case for case in suite}
     differs, inconclusive = (
@@ -69,9 +69,9 @@ def test_nothing_that_did_not_converge_passes(smooth_outcome: Run):
 
 def test_the_command_leaves_it_where_it_is_told(tmp_path, capsys):
     """A run of one model judges nothing; an impossible place is refused before it begins."""
-    given = ["run", "smooth", "--models", "half-plane", "--out", str(tmp_path / "out")]
-    assert main([*given, "--junit", str(tmp_path)]) == ExitStatus.BAD_INPUT
+    arguments = ["run", "smooth", "--models", "half-plane", "--out", str(tmp_path / "out")]
+    assert main([*arguments, "--junit", str(tmp_path)]) == ExitStatus.BAD_INPUT
     assert "is a folder" in capsys.readouterr().err and list(tmp_path.iterdir()) == []
-    assert main([*given, "--junit", str(tmp_path / "ci" / "run.xml")]) == ExitStatus.DONE
+    assert main([*arguments, "--junit", str(tmp_path / "ci" / "run.xml")]) == ExitStatus.DONE
     [suite] = ElementTree.parse(tmp_path / "ci" / "run.xml").getroot()
     assert [case.get("name") for case in suite] == ["converged"]

@@ -43,7 +43,7 @@ def test_scenes_that_come_along_are_not_doubted(name):
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "words"),
     [
         ({"radius": 8}, "roller.radius is 8 m"),
         ({"modulus": 207}, "body.youngs_modulus is 207 Pa"),
@@ -55,8 +55,8 @@ def test_scenes_that_come_along_are_not_doubted(name):
         ({"x_unit": "mm"}, "the trace is 400"),
     ],
 )
-def test_a_mistaken_unit_is_doubted(folder, change, told):
-    assert told in doubts(folder, **change)
+def test_a_mistaken_unit_is_doubted(folder, change, words):
+    assert words in doubts(folder, **change)
     assert doubts(folder) == doubts(folder, z_unit="um") == ""
 
 
@@ -80,17 +80,17 @@ def run(folder: Path, unit: str, load: str) -> int:
 
 
 @pytest.mark.parametrize(
-    ("load", "told"),
+    ("load", "words"),
     [("0.5", "exceeds the combined modulus"), ("0.05", "is shorter than 4 samples")],
 )
-def test_a_run_says_its_doubts_beside_its_figures(folder, capsys, undrawn, load, told):
+def test_a_run_says_its_doubts_beside_its_figures(folder, capsys, undrawn, load, words):
     assert run(folder, "mm", f'"{load} N/um"') == 0
     out, err = capsys.readouterr()
     assert "peak pressure" in out and "plausibility warning" not in out
     lines = err.splitlines()
     assert all(line.startswith("crosscheck: plausibility warning: ") for line in lines)
     assert ["rms slope" in line for line in lines] == [True, False]
-    assert told in lines[1] and err.isascii()
+    assert words in lines[1] and err.isascii()
 
 
 def test_an_error_names_the_doubt_in_its_one_line(folder, capsys):

@@ -29,7 +29,7 @@ def printed(outcome: Run, width: int = 80, encoding: str = "utf-8", details: boo
 
 def rows(text: str) -> dict[tuple[str, str], str]:
     """Lines of the first table by the quantity's short name and its friction."""
-    found = {}
+    by_name = {}
     for line in text.partition("difference: ")[0].splitlines():
         name = next((s for s in sorted(SHORT.values(), key=len)[::-1] if line.startswith(s)), None)
         if name and "L2 " not in line[: len(name)]:
@@ -38,8 +38,8 @@ def rows(text: str) -> dict[tuple[str, str], str]:
             while frictions[-1].endswith(","):
                 frictions.append(rest.pop(0))
             for friction in frictions:
-                found[name, friction.strip(",")] = " ".join(rest)
-    return found
+                by_name[name, friction.strip(",")] = " ".join(rest)
+    return by_name
 
 
 def test_every_quantity_has_a_short_name():
@@ -61,8 +61,8 @@ def test_every_figure_stands_in_80_columns_without_colour(wavy_outcome: Run, fin
     for entry in compared:
         words = lines[SHORT[entry.quantity], f"{entry.friction:g}"].split()
         assert (words[-1] if entry.verdict else None) == entry.verdict
-        own = {"quantity": entry.quantity, "source": "half_plane", "friction": entry.friction}
-        half_plane = outcome.figures.one(study="contact", **own)
+        wanted = {"quantity": entry.quantity, "source": "half_plane", "friction": entry.friction}
+        half_plane = outcome.figures.one(study="contact", **wanted)
         if half_plane is not None:
             unit = words[1] if words[1] in UNITS else ""
             assert float(words[0]) * UNITS[unit] == pytest.approx(half_plane.value, rel=1e-3)

@@ -15,7 +15,7 @@ from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.output.page.tables.verification import operator_note, operator_table
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 

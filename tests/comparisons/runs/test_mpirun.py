@@ -7,7 +7,7 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 
 SCENE = """
 [roller]

@@ -14,7 +14,7 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene

@@ -18,7 +18,7 @@ from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.output.headline import verdict_of
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.output.result_json import content_of
 from comparisons.runs.run import run, solve
 from comparisons.scenes.scene import Scene

@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import pytest
 from scenes import PROJECT
 
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 
 STUDY = '''
 """How much of the contact sticks under half of the tangential load that makes it slide."""

@@ -8,7 +8,7 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from comparisons.drawing.field import round_bands
 from comparisons.models.problem import mean_height
-from comparisons.output.page.pictures.fields import COMPONENTS, Component
+from comparisons.output.page.pictures.stresses import COMPONENTS, Component
 from comparisons.studies.study import Run
 
 RANGE = 1.25  # a, to either side

@@ -10,7 +10,7 @@ from comparisons.common.numbers import decimal, plain, significant
 from comparisons.drawing.field import colour_bar, cross, fill
 from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, figure
 from comparisons.figures.quantity import LABELS
-from comparisons.output.page.pictures.fields import Component
+from comparisons.output.page.pictures.stresses import Component
 from comparisons.studies.study import Run
 
 SHALLOW, LOWEST = 0.1, -1.02  # of figure 5(b) [a], and of both [p0]

@@ -3,6 +3,7 @@
 Elements smaller than the picture can show are drawn as what they would look like: a dark patch.
 """
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,34 +25,28 @@ CONTACT = 1.3  # half-widths to either side
 PEAK_EDGES = 24  # edges at the surface to either side of the highest peak
 
 
-def mesh_pictures(outcome: Run) -> list[Picture]:
+def mesh_pictures(run: Run) -> list[Picture]:
     """Nothing without finite elements."""
-    run = outcome.runs.get("finite_element")
-    if run is None or run.finest.mesh is None:
+    model = run.runs.get("finite_element")
+    if model is None or model.finest.mesh is None:
         return []
-    level, hertz = run.finest, outcome.problem.hertz
-    mesh = level.mesh
+    level, mesh = model.finest, model.finest.mesh
     points, corners = real_points(mesh), mesh.triangles[:, :3]
     pairs, _ = unique_edges(corners)
     half, depth, edge = mesh.spec.half_width, mesh.spec.depth, mesh.spec.surface_size
+    reach, fine = min(CONTACT * run.problem.hertz.half_width, half), PEAK_EDGES * edge
     peak = peak_position(level)
-    reach = min(CONTACT * hertz.half_width, half)
-    fine = PEAK_EDGES * edge
     count = f"{integer(len(corners))} quadratic triangles, {integer(level.unknowns)} unknowns"
+    whole = f"Mesh of the whole block: {count}; as a file: finite_element/mesh.msh."
     under = f"Under the contact; edges at the surface are {with_unit(edge, 'm', 3)} long."
-    views = (
-        (
-            "the whole block",
-            (-half, half, depth),
-            f"Mesh of the whole block: {count}; as a file: finite_element/mesh.msh.",
+    views = {
+        "the whole block": (whole, -half, half, depth),
+        "the body under the contact": (under, -reach, reach, min(reach, depth)),
+        "the body under the highest pressure": (
+            *("Under the highest pressure.", peak - fine, peak + fine),
+            min(fine, depth),
         ),
-        ("the body under the contact", (-reach, reach, min(reach, depth)), under),
-        (
-            "the body under the highest pressure",
-            (peak - fine, peak + fine, min(fine, depth)),
-            "Under the highest pressure.",
-        ),
-    )
+    }
     return [
         picture(
             _drawn(points, pairs, view),
@@ -59,50 +54,34 @@ def mesh_pictures(outcome: Run) -> list[Picture]:
             caption,
             data=False,
         )
-        for words, view, caption in views
+        for words, (caption, *view) in views.items()
     ]
 
 
-def _drawn(points: np.ndarray, pairs: np.ndarray, view: tuple[float, float, float]) -> "Figure":
-    low, high, depth = view
-    unit = scale_of([low, high, depth], "m")
+def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Figure":
+    """Edges between points (n, 2) from a left to a right end and down to a depth [m]."""
+    unit = scale_of(view, "m")
+    low, high, depth = (end / unit.factor for end in view)
     width = COLUMN - 0.8
-    height = float(np.clip(width * depth / (high - low), 0.8, 4.2))
+    height = float(np.clip(width * view[2] / (view[1] - view[0]), 0.8, 4.2))
     drawn, [axes] = panels(COLUMN, [(0.14, height)], 0.68)
-    points, bounds = points / unit.factor, tuple(end / unit.factor for end in view)
-    top = points[:, 1].min()
-    cell = CELL * (bounds[1] - bounds[0]) / width
-    _edges(axes, points, pairs, bounds, cell)
-    near_top = min(0.0, max(top, -0.2 * bounds[2]))
-    axes.set(
-        xlim=bounds[:2],
-        ylim=(bounds[2], near_top - 0.03 * bounds[2]),
-        xlabel=f"x [{unit.name}]",
-        ylabel=f"z [{unit.name}]",
-    )
+    points = points / unit.factor
+    top = min(0.0, max(points[:, 1].min(), -0.2 * depth)) - 0.03 * depth
+    labels = {"xlabel": f"x [{unit.name}]", "ylabel": f"z [{unit.name}]"}
+    axes.set(xlim=(low, high), ylim=(depth, top), **labels)
     axes.grid(False)
-    return drawn
-
-
-def _edges(
-    axes: "Axes",
-    points: np.ndarray,
-    pairs: np.ndarray,
-    bounds: tuple[float, float, float],
-    cell: float,
-) -> None:
-    """Edges (n, 2) that reach into the view; those shorter than `cell` as dark cells."""
-    low, high, depth = bounds
     (x, other_x), (z, other_z) = points[pairs.T, 0], points[pairs.T, 1]
     inside = (np.maximum(x, other_x) >= low) & (np.minimum(x, other_x) <= high)
     pairs = pairs[inside & (np.minimum(z, other_z) <= depth)]
     ends = points[pairs]
+    cell = CELL * (high - low) / width
     visible = np.hypot(*(ends[:, 1] - ends[:, 0]).T) >= cell
     # one curve with breaks: a twentieth of the size of as many curves as edges
     broken = np.vstack([points, (np.nan, np.nan)])[_strokes(pairs[visible], len(points))]
     axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
-    short = ends[~visible]
-    _dark_cells(axes, 0.5 * (short[:, 0] + short[:, 1]), bounds, cell)
+    if not visible.all():
+        _dark_cells(axes, ends[~visible].mean(axis=1), (low, high, depth), cell)
+    return drawn
 
 
 def _strokes(edges: np.ndarray, pause: int) -> list[int]:
@@ -127,9 +106,8 @@ def _strokes(edges: np.ndarray, pause: int) -> list[int]:
 def _dark_cells(
     axes: "Axes", points: np.ndarray, bounds: tuple[float, float, float], cell: float
 ) -> None:
+    """Cells that hold points (n, 2), drawn dark."""
     low, high, depth = bounds
-    if not len(points):
-        return
     top = points[:, 1].min()
     shape = int(np.ceil((depth - top) / cell)), int(np.ceil((high - low) / cell))
     at = np.floor((points - (low, top)) / cell).astype(int)[:, ::-1]

@@ -7,6 +7,7 @@ import numpy as np
 from comparisons.common.numbers import given, listed, plain, scale_of, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.curves import load_text
+from comparisons.models.problem import Problem
 from comparisons.output.page.tables.problem import (
     coating_text,
     elastic_text,
@@ -29,21 +30,20 @@ POINTS = 800
 EDGE = {"edgecolor": style.OUTLINE["color"], "linewidth": style.OUTLINE["linewidth"]}
 
 
-def problem_picture(outcome: Run) -> style.Picture:
+def problem_picture(run: Run) -> style.Picture:
     """Roller, body, load and sliding; above to scale, below with the heights stretched."""
-    scene = outcome.problem.scene
+    scene = run.problem.scene
     drawn = style.figure(style.COLUMN, 5.9)
     to_scale, close_up = style.stacked(drawn, [(0.18, 2.92), (0.73, 1.57)], 0.7, 0.14)
-    _to_scale(to_scale, outcome)
-    stretch = _close_up(close_up, outcome)
+    _to_scale(to_scale, run.problem)
+    stretch = _close_up(close_up, run.problem)
     body = "the rough body" if scene.profile is not None else "the smooth body"
-    sliding = (
-        f", sliding with friction {listed(scene.load.friction)}" if any(scene.load.friction) else ""
-    )
+    frictions = listed(scene.load.friction)
+    sliding = f", sliding with friction {frictions}" if any(scene.load.friction) else ""
     return style.picture(
         drawn,
         f"A roller of radius {given(scene.roller.radius, 'm')} pressed on {body} by "
-        f"{load_text(outcome.problem)}{sliding}; {'; '.join(_body_in_words(scene))}.",
+        f"{load_text(run.problem)}{sliding}; {'; '.join(_body_in_words(scene))}.",
         "The problem. Above: to scale. Below: roller and body where they first touch, "
         f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
         "is the width 2a of the Hertz contact under the same load.",
@@ -51,20 +51,19 @@ def problem_picture(outcome: Run) -> style.Picture:
     )
 
 
-def _to_scale(axes: "Axes", outcome: Run) -> None:
+def _to_scale(axes: "Axes", problem: Problem) -> None:
     from matplotlib.patches import Circle
 
-    scene, hertz = outcome.problem.scene, outcome.problem.hertz
-    radius = scene.roller.radius
+    scene, radius = problem.scene, problem.scene.roller.radius
     view = VIEW * radius
     if scene.body.thickness is not None:
-        view = min(view, max(LAYERS_IN_VIEW * scene.body.thickness, 4.0 * hertz.half_width))
+        least = max(LAYERS_IN_VIEW * scene.body.thickness, 4.0 * problem.hertz.half_width)
+        view = min(view, least)
     unit = scale_of([view], "m")
     view /= unit.factor
     half = view if scene.body.width is None else min(view, 0.5 * scene.body.width / unit.factor)
     depth = np.inf if scene.body.thickness is None else scene.body.thickness / unit.factor
     below = min(depth, 0.42 * view)
-    height = 0.73 * view  # the picture's, above the body
     for look in (style.ROLLER, {"fill": False, **EDGE}):
         axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **look))
     across = np.linspace(-half, half, 200)
@@ -72,20 +71,29 @@ def _to_scale(axes: "Axes", outcome: Run) -> None:
     bottom = 0.02 * view * np.sin(24.0 * across / view) if torn else 0.0
     axes.fill_between(across, bottom - below, 0.0, **style.BODY)
     axes.plot([-half, half], [0.0, 0.0], **style.OUTLINE)
-    for side in (-half, half):
-        if scene.body.width is not None and half < view:
-            axes.plot([side, side], [-below, 0.0], **style.OUTLINE)
+    for side in (-half, half) if scene.body.width is not None and half < view else ():
+        axes.plot([side, side], [-below, 0.0], **style.OUTLINE)
     if not torn:
         _base(axes, half, below, scene.body.base == "frictionless")
     _arrow(axes, (0.0, 0.62 * view), (0.0, 0.06 * view))
+    lowest = _words(axes, problem, (view, half, below), roomy=torn and half == view)
+    labels = {"xlabel": f"x [{unit.name}]", "ylabel": f"height [{unit.name}]"}
+    axes.set(xlim=(-view, view), ylim=(lowest, 0.73 * view), aspect="equal", **labels)
+    axes.grid(False)
+
+
+def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], roomy: bool) -> float:
+    """Load, roller, body and traction in words; the lowest place that is to be seen.
+
+    sizes  half the view's width, half the body's, and its depth
+    roomy  words of the body stand in it, where it is large; else under it"""
+    scene, (view, half, below) = problem.scene, sizes
     note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
-    load = f"P = {load_text(outcome.problem)}"
+    load = f"P = {load_text(problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
-    roller = f"roller\nR = {given(radius, 'm')}\n{material}"
+    roller = f"roller\nR = {given(scene.roller.radius, 'm')}\n{material}"
     axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
-    # words stand in the body where it is large, else under it
-    roomy = torn and half == view
     rough = "rough body" if scene.profile is not None else "body"
     said = "\n".join([f"{rough}, {elastic_text(scene.body.material)}", *_body_in_words(scene)])
     tall = LINE * view * (1 + said.count("\n"))
@@ -97,14 +105,7 @@ def _to_scale(axes: "Axes", outcome: Run) -> None:
         _arrow(axes, (start * half, -0.32 * below), (end * half, -0.32 * below))
         above = -0.55 * below if roomy else words + 0.5 * (tall - LINE * view)
         axes.text(0.97 * view, above, traction, color=FORCE, ha="right", **note)
-    axes.set(
-        xlim=(-view, view),
-        ylim=(-1.14 * below if roomy else words - 0.5 * tall - 0.01 * view, height),
-        xlabel=f"x [{unit.name}]",
-        ylabel=f"height [{unit.name}]",
-        aspect="equal",
-    )
-    axes.grid(False)
+    return -1.14 * below if roomy else words - 0.5 * tall - 0.01 * view
 
 
 def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
@@ -120,9 +121,8 @@ def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
     style.hatch(axes, axes.fill(*corners, facecolor="none", **EDGE), EDGE["edgecolor"])
 
 
-def _close_up(axes: "Axes", outcome: Run) -> float:
+def _close_up(axes: "Axes", problem: Problem) -> float:
     """Surfaces at first touch; returns how much more heights are stretched than lengths."""
-    problem = outcome.problem
     scene, half_width = problem.scene, problem.hertz.half_width
     profile = problem.surface.profile
     relief = 0.0 if profile is None else np.ptp(profile.height)
@@ -174,9 +174,9 @@ def _body_in_words(scene: Scene) -> list[str]:
         size.append("unbounded in depth")
     if scene.body.width is not None:
         size.append(f"{given(scene.body.width, 'm')} wide")
-    found = [", ".join(size)]
+    words = [", ".join(size)]
     if scene.coating is not None:
-        found.append(f"coating {coating_text(scene.coating)}")
+        words.append(f"coating {coating_text(scene.coating)}")
     if scene.body.yield_stress is not None:
-        found.append(f"yields {yielding_text(scene.body)}")
-    return found
+        words.append(f"yields {yielding_text(scene.body)}")
+    return words

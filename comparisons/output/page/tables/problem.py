@@ -3,28 +3,33 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
-from comparisons.output.page.tables.text import wording
+from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, CoatingSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
 
+LOADS = {  # by kind: in words, and the unit
+    "per_length": ("load per length", "N/m"),
+    "hertz_peak_pressure": ("Hertz peak pressure", "Pa"),
+    "approach": ("approach", "m"),
+}
 Rows = list[tuple[str, str]]
 
 
-def problem_sheet(outcome: Run) -> list[tuple[str, Rows]]:
+def problem_sheet(run: Run) -> list[tuple[str, Rows]]:
     """Headings, each with its rows of a name and a value."""
-    surface = outcome.problem.surface
-    info = surface.info
+    problem, surface = run.problem, run.problem.surface
     before = "" if surface.run_in is None else " before running-in"
-    return [
-        ("Geometry", _geometry(outcome.problem.scene, surface)),
-        *([] if info is None else [(f"Roughness{before} (ISO 21920-2)", _standard(info))]),
-        ("Materials", _materials(outcome)),
-        ("Load", _load(outcome)),
-        ("Dimensionless groups", _groups(outcome)),
-    ]
+    sheet = {
+        "Geometry": _geometry(problem.scene, surface),
+        f"Roughness{before} (ISO 21920-2)": _standard(surface.info),
+        "Materials": _materials(problem),
+        "Load": _load(problem),
+        "Dimensionless groups": _groups(run),
+    }
+    return [(heading, rows) for heading, rows in sheet.items() if rows]
 
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
@@ -76,39 +81,41 @@ def in_mm(cutoff: float) -> str:
     return f"{plain(1e3 * cutoff)} mm"
 
 
-def _standard(info: ProfileInfo) -> Rows:
-    """The standard's parameters of the trace, pressed as it is or not."""
-    found = info.standard
-    if found is None:
+def _standard(info: ProfileInfo | None) -> Rows:
+    """The standard's parameters of the trace, pressed as it is or not; none of a smooth body."""
+    if info is None:
+        return []
+    standard = info.standard
+    if standard is None:
         return [("parameters", f"none: {info.standard_why}")]
-    short = "none" if found.short_cutoff is None else given(found.short_cutoff, "m")
-    width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
+    short = "none" if standard.short_cutoff is None else given(standard.short_cutoff, "m")
+    width = "no whole element" if standard.rsm is None else with_unit(standard.rsm, "m")
     return [
-        ("cut-offs λc, λs", f"{in_mm(found.cutoff)}, {short}"),
-        ("section lengths", sections_text(found)),
-        ("Ra, Rq", _pair_in_m(found.ra, found.rq)),
-        ("Rz, Rt", _pair_in_m(found.rz, found.rt)),
-        ("Rsk, Rku", f"{decimal(found.rsk, 2)}, {decimal(found.rku, 2)}"),
-        ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}"),
+        ("cut-offs λc, λs", f"{in_mm(standard.cutoff)}, {short}"),
+        ("section lengths", sections_text(standard)),
+        ("Ra, Rq", _pair_in_m(standard.ra, standard.rq)),
+        ("Rz, Rt", _pair_in_m(standard.rz, standard.rt)),
+        ("Rsk, Rku", f"{decimal(standard.rsk, 2)}, {decimal(standard.rku, 2)}"),
+        ("Rdq, RSm", f"{significant(standard.rdq, 3)}, {width}"),
         ("unlike as pressed", standard_text(info)),
     ]
 
 
-def sections_text(found: StandardRoughness) -> str:
+def sections_text(standard: StandardRoughness) -> str:
     """How many section lengths there are, and where they are fewer than the standard's."""
-    if found.sections == SECTIONS:
+    if standard.sections == SECTIONS:
         return str(SECTIONS)
-    few = f"{found.sections} where the standard asks for {SECTIONS}"
-    return f"{few}, so that Rz is Rt" if found.sections == 1 else few
+    few = f"{standard.sections} where the standard asks for {SECTIONS}"
+    return f"{few}, so that Rz is Rt" if standard.sections == 1 else few
 
 
 def standard_text(info: ProfileInfo) -> str:
     """Why the standard's parameters are not those of the surface as pressed, in one phrase."""
-    found = info.standard
-    ends = f"waves longer than {in_mm(found.cutoff)}"
-    if found.short_cutoff is not None:
-        ends += f" and shorter than {given(found.short_cutoff, 'm')}"
-    span = with_unit(found.sections * found.cutoff, "m")
+    standard = info.standard
+    ends = f"waves longer than {in_mm(standard.cutoff)}"
+    if standard.short_cutoff is not None:
+        ends += f" and shorter than {given(standard.short_cutoff, 'm')}"
+    span = with_unit(standard.sections * standard.cutoff, "m")
     return f"{ends} are filtered off, and the middle {span} of {with_unit(info.length, 'm')} count"
 
 
@@ -116,8 +123,7 @@ def _pair_in_m(first: float, second: float) -> str:
     return f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"
 
 
-def _materials(outcome: Run) -> Rows:
-    problem = outcome.problem
+def _materials(problem: Problem) -> Rows:
     scene = problem.scene
     rows = [
         ("roller", "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)),
@@ -150,9 +156,9 @@ def yielding_text(body: BodySection) -> str:
     return f"at {given(body.yield_stress, 'Pa')}{harder}"
 
 
-def _load(outcome: Run) -> Rows:
-    scene, hertz = outcome.problem.scene, outcome.problem.hertz
-    label, unit = wording()["loads"][scene.load.kind]
+def _load(problem: Problem) -> Rows:
+    scene, hertz = problem.scene, problem.hertz
+    label, unit = LOADS[scene.load.kind]
     rows = [(f"{label} (given)", given(scene.load.value, unit))]
     if scene.load.kind != "per_length":
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))

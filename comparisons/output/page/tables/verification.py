@@ -1,23 +1,142 @@
-"""Why the figures may be trusted: refinement, contact conditions, compliance, cost and record."""
+"""Why the figures may be trusted: convergence and ASME V&V 20's terms, contact conditions,
+compliance, cost and record.
+
+In: a run, its figures with their levels. Out: sequences for pictures, and rows of text."""
 
 import re
 import shlex
+import tomllib
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
 
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import one_line
-from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
+from comparisons.common.numbers import (
+    given_percent,
+    integer,
+    percent,
+    plain,
+    scale_of,
+    significant,
+    with_unit,
+)
 from comparisons.drawing.blocks import TextTable
-from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.quantity import (
+    HYPHENATED,
+    LABELS,
+    MODELS,
+    QUANTITIES,
+    error_text,
+    label,
+)
+from comparisons.figures.uncertainty import COVERAGE
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
-from comparisons.output.page.tables.convergence import row_name
-from comparisons.output.page.tables.text import wording
 from comparisons.studies import comparison, contact
-from comparisons.studies.contact import values_of
+from comparisons.studies.model_error.account import INPUTS
 from comparisons.studies.study import Run
 
 ALL_LEVELS = "all levels together: time"
+DIFFERENCE = "difference"  # of both models, in place of one
+NO_DATA = "no data"
+PARTS = {
+    "discretisation": "discretisation",
+    "iteration": "iteration",
+    "domain": "far boundary",
+    "increments": "increments",
+}
+WORDING = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
+_BOUNDS = {"lowest": LOWEST_ORDER, "regular": REGULAR, "irregular": IRREGULAR}
+_BOUNDS = {name: plain(value) for name, value in _BOUNDS.items()}
+WORDS = tuple((term, text.format(**_BOUNDS)) for term, text in WORDING["convergence"].items())
+
+
+@dataclass(frozen=True)
+class JudgedSequence:
+    """A judged figure over the levels, coarse to fine."""
+
+    figure: Figure
+    name: str  # quantity, with its friction coefficient where it depends on one
+    source: str  # model's name, or DIFFERENCE
+    pitches: tuple[float, ...]  # of the pressure elements [m]
+
+    @property
+    def known(self) -> Convergence:
+        return self.figure.uncertainty.convergence
+
+    @property
+    def errors(self) -> list[float]:
+        """Distance of each level from the extrapolated value, relative."""
+        scale = 1.0 if self.source == DIFFERENCE else self.figure.scale
+        return [abs(value - self.known.limit) / scale for value in self.figure.levels]
+
+
+def judged_sequences(run: Run) -> list[JudgedSequence]:
+    """In the order of quantities, then of friction coefficients and models."""
+    sequences, frictions = [], run.problem.scene.load.friction
+    judged = [name for name in QUANTITIES if name in run.problem.scene.tolerances]
+    for quantity, friction in product(judged, frictions):
+        name = row_name(run, quantity, friction)
+        known = run.figures.of(quantity=quantity, friction=friction) if name else Figures()
+        of_models = [known.one(study=contact.NAME, source=model) for model in MODELS]
+        for figure in filter(None, (*of_models, known.one(study=comparison.NAME))):
+            source = DIFFERENCE if figure.against else figure.source
+            levels = run.runs[figure.against or figure.source].levels
+            pitches = tuple(level.grid.pitch for level in levels)
+            sequences.append(JudgedSequence(figure, name, source, pitches))
+    return sequences
+
+
+def row_name(run: Run, name: str, friction: float) -> str:
+    """A quantity and its friction; what does not depend on that is empty but at the first."""
+    frictions = run.problem.scene.load.friction
+    if not QUANTITIES[name].needs_stress:
+        return label(name) if friction == frictions[0] else ""
+    return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
+
+
+def judged_table(run: Run) -> TextTable | None:
+    """Orders, extrapolated value and uncertainty of each judged figure; None where none is."""
+    head = ("", "finest level", "extrapolated", "formal order", "observed order", "behaviour")
+    head += ("safety factor", "discretisation", "coverage")
+    rows = tuple(map(_judged, judged_sequences(run)))
+    return TextTable("Judged figures under refinement", head, rows) if rows else None
+
+
+def _judged(sequence: JudgedSequence) -> tuple[str, ...]:
+    known, quantity = sequence.known, QUANTITIES[sequence.figure.quantity]
+    if sequence.source == DIFFERENCE:
+        shown = {"digits": 3, "signed": not quantity.of_pair}
+        values = [percent(value, **shown) for value in (known.value, known.limit)]
+    else:
+        scale = scale_of(sequence.figure.levels, quantity.unit)
+        values = [scale.text(value, 5) for value in (known.value, known.limit)]
+    return (
+        f"{sequence.name}, {LABELS.get(sequence.source, sequence.source)}",
+        *values,
+        plain(known.formal_order),
+        "none" if known.order is None else significant(known.order, 2),
+        known.behaviour,
+        "none" if known.safety_factor is None else plain(known.safety_factor),
+        percent(sequence.figure.uncertainty.parts["discretisation"]),
+        given_percent(COVERAGE),
+    )
+
+
+def validation_table(run: Run) -> TextTable | None:
+    """Each judged model error as ASME V&V 20 names its parts; None where none is judged."""
+    rows = []
+    for error in run.model_errors:
+        name, friction, inputs = error.quantity, error.friction, error.part(INPUTS)
+        named = row_name(run, name, friction) or f"{label(name)}, friction {plain(friction)}"
+        size, unsure = error_text(name, error.value, error.numerical), percent(error.numerical)
+        by_inputs = "no trace" if inputs is None else percent(inputs.value)
+        rows.append((named, size, unsure, by_inputs, NO_DATA))
+    head = ("", "E", "u_num", "u_input", "u_D")
+    return TextTable("In the terms of ASME V&V 20", head, tuple(rows)) if rows else None
 
 
 def convergence_tables(run: Run) -> list[TextTable]:
@@ -39,103 +158,99 @@ def _of_model(run: Run, model: ModelRun) -> TextTable:
         ("time", *(with_unit(sum(v.seconds.values()), "s", 3) for v in levels)),
     ]
     rows = [row + ("",) * (len(head) - len(row)) for row in rows]
-    for friction in run.problem.scene.load.friction:
-        checked = {} if check is None else values_of(check, run.problem, friction)
-        for figure in _rows(run, contact.NAME, model.name, friction):
-            known = [checked[figure.quantity]] if checked else []
-            values = [*figure.levels, *known]
-            scale = scale_of(values, QUANTITIES[figure.quantity].unit)
-            numbers = (scale.text(value, 5) for value in values)
-            name = row_name(run, figure.quantity, friction)
-            rows.append((name, *numbers, *_parts(figure, model)))
+    for name, figure in _rows(run, contact.NAME, model.name):
+        checked = {} if check is None else contact.values_of(check, run.problem, figure.friction)
+        values = [*figure.levels, *([checked[figure.quantity]] if checked else [])]
+        scale = scale_of(values, QUANTITIES[figure.quantity].unit)
+        rows.append((name, *(scale.text(value, 5) for value in values), *_parts(figure, model)))
     return TextTable(LABELS[model.name].capitalize(), head, tuple(rows))
 
 
 def _of_pair(run: Run) -> TextTable:
     model, rows = run.runs["finite_element"], []
-    for friction in run.problem.scene.load.friction:
-        for figure in _rows(run, comparison.NAME, "half_plane", friction):
-            shown = {"digits": 3, "signed": not QUANTITIES[figure.quantity].of_pair}
-            numbers = (percent(value, **shown) for value in figure.levels)
-            name = row_name(run, figure.quantity, friction)
-            rows.append((name, *numbers, *_parts(figure, model)))
+    for name, figure in _rows(run, comparison.NAME, "half_plane"):
+        shown = {"digits": 3, "signed": not QUANTITIES[figure.quantity].of_pair}
+        numbers = (percent(value, **shown) for value in figure.levels)
+        rows.append((name, *numbers, *_parts(figure, model)))
     return TextTable("Difference of both models", _head(model, with_check=False), tuple(rows))
 
 
-def _rows(run: Run, study: str, source: str, friction: float) -> list[Figure]:
-    """The figures of a study that have a row at a friction coefficient."""
-    known = run.figures.of(study=study, source=source, friction=friction)
-    return [
-        figure
-        for figure in known
-        if figure.levels and row_name(run, figure.quantity, friction) and run.shows(figure.quantity)
+def _rows(run: Run, study: str, source: str) -> list[tuple[str, Figure]]:
+    """The figures of a study that have a row, each with its name there."""
+    named = [
+        (row_name(run, figure.quantity, friction), figure)
+        for friction in run.problem.scene.load.friction
+        for figure in run.figures.of(study=study, source=source, friction=friction)
+        if figure.levels and run.shows(figure.quantity)
     ]
+    return [(name, figure) for name, figure in named if name]
 
 
-def _head(run: ModelRun, with_check: bool) -> tuple[str, ...]:
+def _head(model: ModelRun, with_check: bool) -> tuple[str, ...]:
     """`with_check`: the level of the far-boundary check is a column too."""
-    checked = run.far_boundary_check is not None
-    numbered = (f"level {k + 1}" for k in range(len(run.levels)))
-    check = ["level 1, block halved"] if checked and with_check else []
-    far = ["far boundary"] if checked else []
-    increments = ["increments"] if run.longer_increments else []
-    parts = "discretisation", "iteration", *far, *increments
-    return ("", *numbered, *check, "order", *parts, "total")
+    numbered = (f"level {k + 1}" for k in range(len(model.levels)))
+    has_check = with_check and model.far_boundary_check is not None
+    check = ["level 1, block halved"] if has_check else []
+    return ("", *numbered, *check, "order", *(PARTS[name] for name in _known(model)), "total")
 
 
-def _parts(figure: Figure, run: ModelRun) -> tuple[str, ...]:
-    """Observed order and parts of an uncertainty, those that the run has."""
+def _known(model: ModelRun) -> list[str]:
+    """Which of PARTS an uncertainty of the model has."""
+    without = [] if model.far_boundary_check is not None else ["domain"]
+    without += [] if model.longer_increments else ["increments"]
+    return [name for name in PARTS if name not in without]
+
+
+def _parts(figure: Figure, model: ModelRun) -> tuple[str, ...]:
+    """Observed order, parts of the uncertainty, and all of it."""
     known, sizes = figure.uncertainty.convergence, figure.uncertainty.parts
     order = significant(known.order, 2) if known.order is not None else ""
     if known.behaviour != "monotone":
         order = f"{order} {known.behaviour}".strip()
-    domain = [] if run.far_boundary_check is None else [sizes["domain"]]
-    increments = [sizes["increments"]] if run.longer_increments else []
-    parts = sizes["discretisation"], sizes["iteration"], *domain, *increments, figure.numerical
-    return (order, *map(percent, parts))
+    return (order, *(percent(sizes[name]) for name in _known(model)), percent(figure.numerical))
 
 
-def check_table(outcome: Run) -> TextTable:
+def check_table(run: Run) -> TextTable:
     """The contact conditions on the finest level, evaluated once more after the solution."""
-    runs = outcome.runs.values()
+    models = run.runs.values()
     rows = []
-    for name, words in wording()["residuals"].items():
-        values = [getattr(run.finest.solution.residuals, name) for run in runs]
+    for name, words in WORDING["residuals"].items():
+        values = [getattr(model.finest.solution.residuals, name) for model in models]
         rows.append((words, *(significant(value, 2) for value in values)))
-    converged = [all(level.solution.converged for level in run.levels) for run in runs]
+    converged = [all(level.solution.converged for level in model.levels) for model in models]
     below = f"all below {significant(KKT_TOLERANCE, 1)} on every level"
-    rows.append((below, *("yes" if each else "no" for each in converged)))
-    return TextTable("", ("", *(LABELS[name] for name in outcome.runs)), tuple(rows))
+    rows.append((below, *("yes" if met else "no" for met in converged)))
+    return TextTable("", ("", *(LABELS[name] for name in run.runs)), tuple(rows))
 
 
-def cost_table(outcome: Run) -> TextTable:
+def cost_table(run: Run) -> TextTable:
     """Iterations, unknowns and memory on the finest level, and the time of all levels."""
-    columns = {name: _cost(outcome, run) for name, run in outcome.runs.items()}
-    names = dict.fromkeys(name for cells in columns.values() for name in cells)
-    names = [*(name for name in names if name != ALL_LEVELS), ALL_LEVELS]
-    rows = tuple((name, *(cells.get(name, "") for cells in columns.values())) for name in names)
-    return TextTable("", ("on the finest level", *(LABELS[name] for name in columns)), rows)
+    columns = [_cost(run, model) for model in run.runs.values()]
+    names = dict.fromkeys(name for cells in columns for name in cells if name != ALL_LEVELS)
+    rows = ((name, *(cells.get(name, "") for cells in columns)) for name in (*names, ALL_LEVELS))
+    head = ("on the finest level", *(LABELS[name] for name in run.runs))
+    return TextTable("", head, tuple(rows))
 
 
-def _cost(outcome: Run, run: ModelRun) -> dict[str, str]:
-    level, counts = run.finest, run.finest.solution.iterations
+def _cost(run: Run, model: ModelRun) -> dict[str, str]:
+    level, counts = model.finest, model.finest.solution.iterations
     # the half-plane's planned levels come first, so that theirs is its own memory; further ones
     # share the process with the finite elements
-    last = len(outcome.problem.pitches) if run.name == "half_plane" else len(run.levels)
-    memory = run.levels[min(last, len(run.levels)) - 1].peak_memory
+    last = len(run.problem.pitches) if model.name == "half_plane" else len(model.levels)
+    memory = model.levels[min(last, len(model.levels)) - 1].peak_memory
     return {
         "time": with_unit(sum(level.seconds.values()), "s", 3),
         "unknowns": integer(level.unknowns),
         "pressure elements": integer(level.grid.count),
         **{f"contact solver: {k.replace('_', ' ')}": integer(n) for k, n in counts.items()},
         "peak memory of the process": with_unit(memory, "byte", 3),
-        ALL_LEVELS: with_unit(sum(run.seconds.values()), "s", 3),
+        ALL_LEVELS: with_unit(sum(model.seconds.values()), "s", 3),
     }
 
 
-def record_rows(outcome: Run) -> list[tuple[str, str]]:
+def record_rows(run: Run) -> list[tuple[str, str]]:
     """Date, host and revision, versions, machine and hashes of the run."""
-    record = outcome.record
+    record = run.record
     rows = [(name, value) for name, value in record.get("made", {}).items() if value]
     for part in ("versions", "machine"):
         rows.append((part, ", ".join(f"{n} {value}" for n, value in record[part].items() if value)))
@@ -143,28 +258,24 @@ def record_rows(outcome: Run) -> list[tuple[str, str]]:
         rows.append(("seed", str(record["seed"])))
     if record.get("profile"):
         rows.append(("SHA-256 of the profile", record["profile"]["sha256"]))
-    hashes = record.get("hashes") or {}
-    return rows + [(f"SHA-256 of {_hashed(name)}", value) for name, value in hashes.items()]
+    for name, value in (record.get("hashes") or {}).items():
+        for model, words in HYPHENATED.items():
+            name = name.replace(f"{model}_", f"the {words} model's ")
+        rows.append((f"SHA-256 of {name.replace('_', ' ')}", value))
+    return rows
 
 
-def _hashed(name: str) -> str:
-    """What a hash of the record is of: a model's pressures, or another array."""
-    for model, words in HYPHENATED.items():
-        name = name.replace(f"{model}_", f"the {words} model's ")
-    return name.replace("_", " ")
-
-
-def refinement_text(outcome: Run) -> str:
+def refinement_text(run: Run) -> str:
     """Why refinement ended, with quantities in words."""
-    text = outcome.solved.refinement
+    text = run.solved.refinement
     for name in sorted(QUANTITIES, key=len, reverse=True):
         text = re.sub(rf"\b{name}\b", label(name), text)
     return text
 
 
-def commands(outcome: Run) -> list[tuple[str, str]]:
+def commands(run: Run) -> list[tuple[str, str]]:
     """What to type to get this again."""
-    scene, plan = outcome.problem.scene, outcome.plan
+    scene, plan = run.problem.scene, run.plan
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
     return [
         ("repeats this run, in the folder of this page", "crosscheck rerun ."),
@@ -173,44 +284,43 @@ def commands(outcome: Run) -> list[tuple[str, str]]:
     ]
 
 
-def operator_table(outcome: Run) -> TextTable | None:
+def operator_table(run: Run) -> TextTable | None:
     """Columns and waves of the finest level; None where nothing was checked."""
-    check = _check(outcome)
+    check = _check(run)
     if check is None:
         return None
     head = ["", "difference", "far"]
-    found, effect = check.nearest, check.half_plane
-    if effect is not None:
-        finite = " and ".join(f"the {name}" for name in check.finite)
-        head.append(f"from the half-plane: what {finite} does")
+    nearest, effect = check.nearest, check.half_plane
     rows = [
         [f"column at x = {with_unit(c.x, 'm', 3)}", percent(c.difference), percent(c.beyond)]
-        for c in found.columns
+        for c in nearest.columns
     ]
-    for wave in found.waves:
+    for wave in nearest.waves:
         elements = plain(float(f"{wave.elements:.3g}"))
         row = f"waves of {with_unit(wave.length, 'm', 3)}, {elements} elements"
         rows.append([row, percent(wave.difference, signed=True), ""])
     if effect is not None:
+        finite = " and ".join(f"the {name}" for name in check.finite)
+        head.append(f"from the half-plane: what {finite} does")
         moved = [percent(c.difference) for c in effect.columns]
         moved += [percent(w.difference, signed=True) for w in effect.waves]
         rows = [[*row, cell] for row, cell in zip(rows, moved, strict=True)]
-    verdict = wording()["compliance"][check.verdict][0]
+    verdict = WORDING["compliance"][check.verdict][0]
     title = f"Finite elements' compliance before contact: {verdict}"
     return TextTable(title, tuple(head), tuple(map(tuple, rows)))
 
 
-def operator_note(outcome: Run) -> str:
+def operator_note(run: Run) -> str:
     """What the table says, and how it is read; empty without one."""
-    check = _check(outcome)
+    check = _check(run)
     if check is None:
         return ""
     datum = "" if check.datum else ", a constant removed"
     because = check.because[0].upper() + check.because[1:]
-    verdict, how = wording()["compliance"][check.verdict][1], wording()["how_to_read"]["compliance"]
+    verdict, how = WORDING["compliance"][check.verdict][1], WORDING["how_to_read"]["compliance"]
     return f"{verdict} {because}. {how.format(datum=datum)}"
 
 
-def _check(outcome: Run) -> ComplianceCheck | None:
-    run = outcome.runs.get("finite_element")
-    return None if run is None else run.finest.operator
+def _check(run: Run) -> ComplianceCheck | None:
+    model = run.runs.get("finite_element")
+    return None if model is None else model.finest.operator

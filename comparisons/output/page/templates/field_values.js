@@ -37,12 +37,12 @@ function look(fields) {
     if (!opened.has(key)) {
       const kept = fields.components[component].fields[friction];
       const [first, difference] = kept.data.map((text, k) => numbers(text, kept.scale[k]));
-      const found = { [kept.models[0]]: first };
+      const byName = { [kept.models[0]]: first };
       if (difference) {
-        found[kept.models[1]] = first.map((value, k) => value - difference[k]);
-        found.difference = difference;
+        byName[kept.models[1]] = first.map((value, k) => value - difference[k]);
+        byName.difference = difference;
       }
-      opened.set(key, found);
+      opened.set(key, byName);
     }
     return opened.get(key);
   }
@@ -76,7 +76,7 @@ function look(fields) {
   const [component, friction] = box.querySelectorAll("select");
   const [depth, place] = box.querySelectorAll("input");
   const chart = box.querySelector("svg");
-  const told = box.querySelector("[role=status]");
+  const status = box.querySelector("[role=status]");
   depth.max = fields.z.length - 1;
   place.max = fields.x.length - 1;
   depth.value = nearest(fields.z, fields.start.z);
@@ -172,7 +172,7 @@ function look(fields) {
     }
     depth.nextElementSibling.value = `z = ${written(fields.z[row], 3)} a`;
     place.nextElementSibling.value = `x = ${written(fields.x[Number(place.value)], 3)} a`;
-    told.textContent = said(
+    status.textContent = said(
       Number(component.value), Number(friction.value), row, Number(place.value));
   }
 

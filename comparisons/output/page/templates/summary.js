@@ -20,7 +20,7 @@ function sortBy(column) {
     const order = words ? one.key.localeCompare(other.key) : one.key - other.key;
     return down ? -order : order;
   });
-  body.append(...keyed.map((each) => each.row));
+  body.append(...keyed.map(({ row }) => row));
 }
 
 heads.forEach((head, column) => {

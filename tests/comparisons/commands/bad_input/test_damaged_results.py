@@ -53,7 +53,7 @@ def refused(capsys, *arguments: object) -> str:
 
 
 @pytest.mark.parametrize(
-    ("file", "value", "keys", "told"),
+    ("file", "value", "keys", "words"),
     [
         ("result.json", None, ("figures",), "is no result of a run (KeyError('figures'))"),
         (
@@ -69,22 +69,22 @@ def refused(capsys, *arguments: object) -> str:
         ("record.json", None, ("versions",), "make up no report (KeyError('versions'))"),
     ],
 )
-def test_report_of_damaged_files(damaged, capsys, file, value, keys, told):
+def test_report_of_damaged_files(damaged, capsys, file, value, keys, words):
     folder = damaged(file, value, *keys)
-    assert told in refused(capsys, "report", folder)
+    assert words in refused(capsys, "report", folder)
     assert (folder / "report.html").read_text() == "before"
 
 
 @pytest.mark.parametrize(
-    ("value", "keys", "told"),
+    ("value", "keys", "words"),
     [
         ("high", (*FIRST, "value"), "could not convert string to float: 'high'"),
         (3.0, ("verdict",), "verdict: is 3.0"),
         (float("inf"), (*FIRST, "value"), "Infinity is no number"),
     ],
 )
-def test_table_of_damaged_files(damaged, capsys, value, keys, told):
-    assert told in refused(capsys, "table", damaged("result.json", value, *keys))
+def test_table_of_damaged_files(damaged, capsys, value, keys, words):
+    assert words in refused(capsys, "table", damaged("result.json", value, *keys))
 
 
 def test_a_figure_that_is_no_number_is_not_within_its_uncertainty(damaged, capsys):
@@ -95,6 +95,6 @@ def test_a_figure_that_is_no_number_is_not_within_its_uncertainty(damaged, capsy
 def test_a_table_is_no_folder(finished, tmp_path, capsys):
     place = tmp_path / "rows.csv"
     place.mkdir()
-    told = refused(capsys, "table", finished, "--out", place)
-    assert "rows.csv: is a folder; allowed is a file" in told
+    words = refused(capsys, "table", finished, "--out", place)
+    assert "rows.csv: is a folder; allowed is a file" in words
     assert list(place.iterdir()) == []

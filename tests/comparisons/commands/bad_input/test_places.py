@@ -47,8 +47,8 @@ def test_heights_that_are_all_the_same_have_no_radius(folder, capsys):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="a shell closes the stream")
-@pytest.mark.parametrize(("closed", "told"), [(">&-", ""), ("<&-", "smooth-sliding")])
-def test_a_closed_stream_is_no_defect(closed, told):
+@pytest.mark.parametrize(("closed", "words"), [(">&-", ""), ("<&-", "smooth-sliding")])
+def test_a_closed_stream_is_no_defect(closed, words):
     done = subprocess.run(
         ["sh", "-c", f'"$0" -m comparisons.cli scenes {closed}', sys.executable],
         env={**os.environ, "PYTHONPATH": str(PROJECT)},
@@ -57,7 +57,7 @@ def test_a_closed_stream_is_no_defect(closed, told):
         check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
-    assert told in done.stdout
+    assert words in done.stdout
 
 
 def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path, trace):

@@ -12,7 +12,7 @@ from analytic.running_in import run_in
 from analytic.surface.roughness import roughness
 from comparisons.models.problem import problem_of
 from comparisons.models.running_in import run_in_surface
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.runs.run import Known
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of

@@ -36,15 +36,16 @@ def test_drawn_side_by_side_as_in_one_process(wavy_outcome, monkeypatch):
 
 
 def test_a_new_study_shows_itself(wavy_outcome, page_of, no_pictures, monkeypatch):
-    """A section of its own after what flows, a part of another one, and no box for a picture that
+    """A section of its own after the contact, a part of another one, and no box for a picture that
     there is none of; what stands in a text is no tag."""
     table = TextTable("Slip", ("", "a < b"), (("*all*", "1 %"),))
     boxed = Box("columns", (Pictures(("fields",), "Nothing to see"),))
-    own = Block("slip", (Heading("Where"), table, boxed, Note("All *stick* & some slip")), "Slip")
+    items = Heading("Where"), table, boxed, Note("All *stick* & some slip")
+    section = Block("slip", items, "Slip")
     added = Block("contact", (Names([("slides", "0.1 a")]),))
-    study = Study(contact.NAME, {}, contact.solve, blocks=lambda run: [own, added])
+    study = Study(contact.NAME, {}, contact.solve, blocks=lambda run: [section, added])
     monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
-    monkeypatch.setattr("comparisons.output.page.blocks.STUDIES", (study,))
+    monkeypatch.setattr("comparisons.output.page.page.STUDIES", (study,))
     page = page_of(render(wavy_outcome))
     place = page.sections.index("slip")
     assert page.sections[place - 1 : place + 2] == ["contact", "slip", "stresses"]

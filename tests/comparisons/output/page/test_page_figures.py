@@ -42,13 +42,13 @@ def test_every_number_of_the_comparison_is_on_the_page(wavy_page, wavy_outcome: 
     assert len(shown) == len(compared)
     for row in compared:
         wanted = {"study": "contact", "quantity": row.quantity, "friction": row.friction}
-        own = [wavy_outcome.figures.one(source=model, **wanted) for model in MODELS]
+        figures = [wavy_outcome.figures.one(source=model, **wanted) for model in MODELS]
         one, other, difference, uncertainty, tolerance, verdict = shown[
             label(row.quantity), row.friction
         ]
         for text, value, digits in (
-            (one, own[0] and own[0].value, 4),
-            (other, own[1] and own[1].value, 4),
+            (one, figures[0] and figures[0].value, 4),
+            (other, figures[1] and figures[1].value, 4),
             (uncertainty, row.numerical, 2),
             (tolerance, row.tolerance, 6),
         ):
@@ -99,10 +99,10 @@ def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Run
     both = frozenset({"rough_boundary", "finite_size"})
     assert set(references(contained=both).values()) == {"finite thickness or width, rough boundary"}
     sizes = {"finite_size": {"peak_pressure": 0.1}, "rough_boundary": {"pressure_l2": 0.1}}
-    found = references(contained=both, estimates=sizes)
-    assert found["peak_pressure"] == "finite thickness or width"
-    assert found["pressure_l2"] == "rough boundary"
-    assert found["contact_length"] == "the same problem"
+    by_quantity = references(contained=both, estimates=sizes)
+    assert by_quantity["peak_pressure"] == "finite thickness or width"
+    assert by_quantity["pressure_l2"] == "rough boundary"
+    assert by_quantity["contact_length"] == "the same problem"
 
 
 def capped(outcome: Run, one: float, other: float) -> Run:

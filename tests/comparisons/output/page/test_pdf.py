@@ -21,20 +21,20 @@ def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, caps
     monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
     scene, out = tmp_path / "scene.toml", tmp_path / "out"
     scene.write_text(SCENE, encoding="utf-8")
-    given = ["run", str(scene), "--models", "half-plane", "--out", str(out)]
+    arguments = ["run", str(scene), "--models", "half-plane", "--out", str(out)]
     browser = tmp_path / "bin" / "chromium"
     browser.parent.mkdir()
     monkeypatch.setenv("PATH", str(browser.parent), prepend=os.pathsep)
     browser.write_text(PRINTS, encoding="utf-8")
     browser.chmod(0o755)
-    assert main([*given, "--pdf"]) == 0
+    assert main([*arguments, "--pdf"]) == 0
     assert (out / "report.pdf").read_text() == "%PDF-1.4\nprinted\n%%EOF\n"
     # what is asked for no more would be that of another run
-    assert main(given) == 0
+    assert main(arguments) == 0
     assert not (out / "report.pdf").exists()
     capsys.readouterr()
     browser.write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")
-    assert main([*given, "--pdf"]) == 0
+    assert main([*arguments, "--pdf"]) == 0
     said = capsys.readouterr().err
     assert "ended with 1 and left no PDF" in said
     assert said.count("\n") == 1

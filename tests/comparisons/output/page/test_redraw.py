@@ -9,6 +9,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
+from scenes import DATA
 
 from comparisons.cli import main
 from comparisons.common.progress import no_progress
@@ -74,16 +75,40 @@ def test_what_is_kept_is_exact_and_small(written, wavy_outcome: Run):
     folder = written(wavy_outcome)
     again = read_run(folder)
     for name, run in wavy_outcome.runs.items():
-        found = again.runs[name].finest
-        np.testing.assert_array_equal(found.solution.pressure, run.finest.solution.pressure)
+        level = again.runs[name].finest
+        np.testing.assert_array_equal(level.solution.pressure, run.finest.solution.pressure)
         for friction in wavy_outcome.problem.scene.load.friction:
-            mine, own = found.stress(friction).field, run.finest.stress(friction).field
-            np.testing.assert_array_equal(mine.tau1, own.tau1)
-            np.testing.assert_array_equal(mine.txz, own.txz)
+            mine, solved = level.stress(friction).field, run.finest.stress(friction).field
+            np.testing.assert_array_equal(mine.tau1, solved.tau1)
+            np.testing.assert_array_equal(mine.txz, solved.txz)
     assert again.exit_status == wavy_outcome.exit_status
     points = wavy_outcome.window.x.size * wavy_outcome.window.z.size
     fields = 2 * 2 * len(wavy_outcome.problem.scene.load.friction) * points * 8  # bytes
     assert (folder / FILE).stat().st_size < fields + 250_000
+
+
+def test_a_folder_of_the_schema_before_is_drawn_again(tmp_path, page_of, capsys):
+    """A smooth contact under two friction coefficients, written before results were figures."""
+    folder = tmp_path / "old"
+    shutil.unpack_archive(DATA / "run_of_schema_2.zip", folder)
+    old = json.loads((folder / "result.json").read_text())
+    figures = read_run(folder).figures
+    for model, entries in old["models"].items():
+        for entry in entries:
+            known = figures.of(study="contact", source=model, friction=entry["friction"])
+            for quantity in ("peak_pressure", "contact_length", "approach"):
+                figure = known.one(quantity=quantity)
+                assert (figure and figure.value) == entry["contact"].get(quantity)
+    errors = {(f.quantity, f.friction): f for f in figures.of(study="model_error")}
+    for quantity, rows in old["model_error"].items():
+        for row in rows:
+            error = errors[quantity, row["friction"]]
+            assert (error.value, error.numerical) == (row["value"], row["uncertainty"])
+    assert main(["report", str(folder)]) == 0
+    page = page_of((folder / "report.html").read_text(encoding="utf-8"))
+    assert "Smooth, sliding" in page.headings and page.count("Principal shear stress") == 2
+    assert main(["table", str(folder)]) == 0
+    assert "Smooth, sliding" in capsys.readouterr().out
 
 
 def spoil(folder: Path, what: str) -> None:
@@ -134,8 +159,8 @@ def test_a_folder_that_holds_no_whole_run_is_wrong_input(copied, capsys, change,
 def test_one_wrong_folder_of_two_leaves_the_other_as_it_was(copied, tmp_path, capsys):
     (copied / "report.html").write_text("before")
     summary = tmp_path / "summary.html"
-    given = [str(copied), str(tmp_path / "none"), "--summary", str(summary)]
-    assert main(["report", *given]) == 2
+    arguments = [str(copied), str(tmp_path / "none"), "--summary", str(summary)]
+    assert main(["report", *arguments]) == 2
     assert "none: is no folder" in capsys.readouterr().err
     assert main(["report", str(copied), "--summary", str(tmp_path)]) == 2
     assert f"--summary: {tmp_path} is a folder; allowed is a file" in capsys.readouterr().err
@@ -154,8 +179,8 @@ def test_a_damaged_mesh_costs_a_batch_its_own_report_alone(
     mesh.write_bytes(mesh.read_bytes().replace(b"$Nodes", b"$Nod", 1))
     monkeypatch.chdir(tmp_path)
     assert main(["report", "run", "whole"]) == 2
-    told = capsys.readouterr().err
-    assert "run/finite_element/mesh.msh: cannot be read: " in told and told.count("\n") == 1
+    err = capsys.readouterr().err
+    assert "run/finite_element/mesh.msh: cannot be read: " in err and err.count("\n") == 1
     assert (copied / "report.html").read_text() == "before"
     assert (whole / "report.html").read_text() != "before"
     summary = (tmp_path / "results/summary.html").read_text()

@@ -14,9 +14,8 @@ from comparisons.common.progress import no_progress
 from comparisons.drawing.style import collected_figures, drawing
 from comparisons.output.page.field_values import field_explorer
 from comparisons.output.page.page import render
-from comparisons.output.page.pictures.fields import field_pictures
-from comparisons.output.page.pictures.pressures import pressure_picture
-from comparisons.output.page.pictures.sections import section_pictures
+from comparisons.output.page.pictures.contact import pressure_picture
+from comparisons.output.page.pictures.stresses import field_pictures, section_pictures
 from comparisons.output.page.plots import Plots
 from comparisons.output.page.saved import read_run
 from comparisons.runs.write import write_files
@@ -30,8 +29,8 @@ MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
 def outcome(wavy_outcome: Run) -> Run:
     """At friction 0.1 the whole model has other pressures and stresses than the scene's own finite
     elements, on a coarser level; at friction 0 it is these."""
-    own = wavy_outcome.runs["finite_element"]
-    level = own.levels[-2]
+    finite_element = wavy_outcome.runs["finite_element"]
+    level = finite_element.levels[-2]
     stress = level.stress(0.1)
     field = replace(stress.field, txz=1.25 * stress.field.txz)
     moved = HIGHER * np.roll(level.solution.pressure, MOVED)
@@ -44,7 +43,7 @@ def outcome(wavy_outcome: Run) -> Run:
         replace(e, value=0.5) if (e.quantity, e.friction) == ("pressure_l2", 0.1) else e
         for e in wavy_outcome.data("model_error").model_errors
     )
-    wholes = {0.0: own.finest, 0.1: whole}
+    wholes = {0.0: finite_element.finest, 0.1: whole}
     budget = replace(wavy_outcome.data("model_error"), model_errors=tuple(errors), wholes=wholes)
     return budgeted(wavy_outcome, budget)
 

@@ -8,7 +8,7 @@ from scenes import QUICK, resolved
 
 from comparisons.output.flat_csv import tidy_rows
 from comparisons.output.page.saved import read_run
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.runs.rerun import rerun
 from comparisons.runs.run import run
 from comparisons.studies.answers.answer import Answer

@@ -11,7 +11,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.output.flat_csv import rows_of
 from comparisons.output.junit import run_cases_of
 from comparisons.output.page.saved import read_run
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.runs.run import run
 from comparisons.studies.heat.figures import HEATED, WITHOUT
 from comparisons.studies.heat.show import heat_facts, heat_table, lines

@@ -15,7 +15,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels, problem_of
-from comparisons.output.recorded_run import read_result
+from comparisons.output.record import read_result
 from comparisons.runs.run import Known, run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of

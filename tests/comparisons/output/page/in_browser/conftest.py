@@ -49,10 +49,10 @@ class Browser:
         os.close(writes)
         self._count, self._rest, self.events = 0, b"", []
 
-    def ask(self, method: str, session: str | None = None, **given: object) -> dict:
+    def ask(self, method: str, session: str | None = None, **parameters: object) -> dict:
         """What the browser answers to one order."""
         self._count += 1
-        order = {"id": self._count, "method": method, "params": given}
+        order = {"id": self._count, "method": method, "params": parameters}
         order |= {"sessionId": session} if session else {}
         os.write(self._orders, json.dumps(order).encode() + b"\0")
         number = self._count
@@ -107,16 +107,16 @@ class Tab:
             mobile=False,
         )
 
-    def ask(self, method: str, **given: object) -> dict:
-        return self._browser.ask(method, self._session, **given)
+    def ask(self, method: str, **parameters: object) -> dict:
+        return self._browser.ask(method, self._session, **parameters)
 
     def value(self, expression: str) -> object:
         """Of JavaScript; waits for a promise."""
-        found = self.ask(
+        answer = self.ask(
             "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
         )
-        assert "exceptionDetails" not in found, found["exceptionDetails"]
-        return found["result"].get("value")
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        return answer["result"].get("value")
 
     def press(self, key: str, code: int, text: str = "") -> None:
         named = {"key": key, "code": key, "windowsVirtualKeyCode": code}
@@ -128,16 +128,17 @@ class Tab:
 
     def complaints(self) -> list[str]:
         """What the browser's console holds against the page."""
-        found = []
+        problems = []
         for event in self._browser.events:
-            given = event.get("params", {})
+            parameters = event.get("params", {})
             if event.get("method") == "Runtime.exceptionThrown":
-                found.append(str(given["exceptionDetails"]))
-            if event.get("method") == "Log.entryAdded" and given["entry"]["level"] != "verbose":
-                found.append(given["entry"]["text"])
+                problems.append(str(parameters["exceptionDetails"]))
+            entry = parameters.get("entry", {})
+            if event.get("method") == "Log.entryAdded" and entry["level"] != "verbose":
+                problems.append(entry["text"])
             if event.get("method") == "Runtime.consoleAPICalled":
-                found.append(str(given["args"]))
-        return found
+                problems.append(str(parameters["args"]))
+        return problems
 
     def close(self) -> None:
         self.ask("Page.close")
@@ -163,8 +164,8 @@ def tab(browser: Browser) -> Iterator[Callable[..., Tab]]:
         return opened[-1]
 
     yield open_one
-    for each in opened:
-        each.close()
+    for one in opened:
+        one.close()
 
 
 @pytest.fixture(scope="session")

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from comparisons.output.page.pictures.fields import COMPONENTS
+from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.study import Run
 
 WIDTH = 1280
@@ -16,11 +16,11 @@ NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
 def figures(text: str) -> dict[str, float]:
     """Place and values that a line of the page shows."""
     names = ("x", "z", "half-plane", "finite elements", "difference")
-    found = {}
+    numbers = {}
     for name in names:
         match = re.search(rf"{name}(?: =)? {NUMBER}", text.replace("\u00a0", " "))
-        found[name] = float(match[1].replace("−", "-"))
-    return found
+        numbers[name] = float(match[1].replace("−", "-"))
+    return numbers
 
 
 def field(outcome: Run, model: str, component: int, friction: float) -> np.ndarray:
@@ -73,7 +73,7 @@ def test_the_places_to_point_at_are_where_the_fields_are_drawn(tab, wavy_file):
     # of every box a colour just inside its upper right corner, and one above it beside the title
     colours = page.value(
         """(async () => {
-          const found = [];
+          const boxes = [];
           for (const picture of document.querySelectorAll("[data-field]")) {
             const drawn = JSON.parse(picture.dataset.field);
             if (drawn.component !== 0) continue; // whose colours are never white
@@ -84,10 +84,10 @@ def test_the_places_to_point_at_are_where_the_fields_are_drawn(tab, wavy_file):
             context.drawImage(picture, 0, 0, 800, 800);
             const at = (x, y) => [...context.getImageData(800 * x, 800 * y, 1, 1).data];
             for (const [x, y, w, h] of drawn.boxes)
-              found.push([at(x + w - 0.004, y + 0.004), at(x + w - 0.004, y - 0.008),
+              boxes.push([at(x + w - 0.004, y + 0.004), at(x + w - 0.004, y - 0.008),
                 at(x + 0.004, y + h - 0.006), at(x - 0.008, y + h / 3)]);
           }
-          return found;
+          return boxes;
         })()"""
     )
     assert len(colours) == 4 * 3
@@ -125,7 +125,7 @@ def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_o
         deep = np.unique(numbers[:, 1])
         assert words == f"CSV, {len(rows) // len(deep)} × {len(deep)} points"
         assert deep[-1] == pytest.approx(drawn["z"][1], rel=1e-4)
-        given = drawn["component"], frictions[drawn["friction"]]
+        which = drawn["component"], frictions[drawn["friction"]]
         row, column = (
             np.argmin(np.abs(places[:, None] / a - at), axis=0)
             for places, at in zip(
@@ -133,7 +133,7 @@ def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_o
             )
         )
         one, other = (
-            field(wavy_outcome, model, *given)[row, column]
+            field(wavy_outcome, model, *which)[row, column]
             for model in ("half_plane", "finite_element")
         )
         assert numbers[:, 2] == pytest.approx(one, abs=1e-4)

@@ -10,16 +10,16 @@ TAB = 9
 # Elements that hold text of their own, with the colours that it is seen in.
 COLOURS = """
 (() => {
-  const found = [];
+  const texts = [];
   const rgb = (text) => text.match(/[\\d.]+/g).map(Number);
   for (const element of document.body.querySelectorAll("*")) {
-    const own = [...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());
-    if (!own || element.closest("svg, script") || !element.getClientRects().length) continue;
+    const written = [...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());
+    if (!written || element.closest("svg, script") || !element.getClientRects().length) continue;
     let behind = element;
     while (behind && rgb(getComputedStyle(behind).backgroundColor)[3] === 0)
       behind = behind.parentElement;
     const style = getComputedStyle(element);
-    found.push({
+    texts.push({
       text: element.textContent.trim().slice(0, 40),
       size: parseFloat(style.fontSize),
       heavy: Number(style.fontWeight) >= 700,
@@ -27,7 +27,7 @@ COLOURS = """
       back: behind ? rgb(getComputedStyle(behind).backgroundColor) : [255, 255, 255],
     });
   }
-  return found;
+  return texts;
 })()
 """
 # What sticks out of the window, and cells whose text is wider than they are.

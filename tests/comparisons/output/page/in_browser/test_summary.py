@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.output.page.summary import SummaryRow, summary_page, summary_row
+from comparisons.output.page.redraw import SummaryRow, summary_page, summary_row
 from comparisons.studies.study import Run
 
 ENTER = 13
@@ -51,10 +51,10 @@ def test_a_run_has_the_figures_of_its_result(rows: list[SummaryRow], wavy_outcom
     peaks = figures.of(study="contact", source="finite_element", quantity="peak_pressure")
     assert cells["peak_pressure"].value == max(figure.value for figure in peaks)
     errors = figures.of(study="model_error", quantity="peak_pressure")
-    worst = max(errors, key=lambda own: abs(own.value) + own.numerical)
-    own = cells["model_error_peak_pressure"]
-    assert own.value == abs(worst.value)
-    assert own.note.startswith("± ") and own.note.endswith(" %, tolerance 2 %")
+    worst = max(errors, key=lambda error: abs(error.value) + error.numerical)
+    cell = cells["model_error_peak_pressure"]
+    assert cell.value == abs(worst.value)
+    assert cell.note.startswith("± ") and cell.note.endswith(" %, tolerance 2 %")
     assert cells["seconds_half_plane"].value == pytest.approx(
         sum(wavy_outcome.runs["half_plane"].seconds.values())
     )

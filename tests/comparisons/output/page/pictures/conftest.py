@@ -8,13 +8,19 @@ from matplotlib import pyplot
 from scenes import posed
 
 from comparisons.drawing.style import collected_figures
-from comparisons.output.page.pictures.cost import cost_picture
-from comparisons.output.page.pictures.fields import field_pictures, near_surface_pictures
+from comparisons.output.page.pictures.contact import (
+    close_up_picture,
+    pressure_picture,
+    surface_picture,
+)
 from comparisons.output.page.pictures.mesh import mesh_pictures
-from comparisons.output.page.pictures.pressures import close_up_picture, pressure_picture
 from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.pictures.sections import section_pictures
-from comparisons.output.page.pictures.surfaces import surface_picture
+from comparisons.output.page.pictures.refinement import cost_picture
+from comparisons.output.page.pictures.stresses import (
+    field_pictures,
+    near_surface_pictures,
+    section_pictures,
+)
 from comparisons.studies.study import Run
 
 DRAWN = (

@@ -11,8 +11,8 @@ from comparisons.studies.study import Run
 
 def line(axes, label: str) -> np.ndarray:
     """Points (n, 2) of the line of that label."""
-    [found] = [line for line in axes.lines if line.get_label() == label]
-    return found.get_xydata()
+    [wanted] = [line for line in axes.lines if line.get_label() == label]
+    return wanted.get_xydata()
 
 
 def test_every_axis_says_what_it_shows_and_in_which_unit(wavy: dict[str, list]):

@@ -15,7 +15,7 @@ from comparisons.drawing.style import (
     stacked,
     svg,
 )
-from comparisons.output.page.pictures.pressures import TICKS, close_up_picture, pressure_picture
+from comparisons.output.page.pictures.contact import TICKS, close_up_picture, pressure_picture
 from comparisons.output.page.pictures.problem import problem_picture
 from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.scenes.sections import CoatingSection

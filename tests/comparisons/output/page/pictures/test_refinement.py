@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scenes import judging, posed
 
-from comparisons.output.page.pictures.convergence import convergence_picture
-from comparisons.output.page.tables.convergence import judged_sequences
+from comparisons.output.page.pictures.refinement import convergence_picture
+from comparisons.output.page.tables.verification import judged_sequences
 from comparisons.studies import contact
 from comparisons.studies.study import Run
 
@@ -18,8 +18,7 @@ def shown(axes) -> str:
 
 def moving(outcome: Run) -> list:
     """Judged sequences but those that the hardness holds on every level."""
-    found = judged_sequences(outcome)
-    moved = [e for e in found if e.known.behaviour != "settled"]
+    moved = [e for e in judged_sequences(outcome) if e.known.behaviour != "settled"]
     assert len(moved) >= 2
     return moved
 
@@ -33,16 +32,16 @@ def panels(wavy_outcome: Run, drawn_by) -> list:
 def test_every_judged_figure_has_a_panel_with_both_models(wavy_outcome: Run, panels):
     sequences = judged_sequences(wavy_outcome)
     names = [shown(axes) for axes in panels]
-    assert names == list(dict.fromkeys(each.name for each in sequences))
+    assert names == list(dict.fromkeys(sequence.name for sequence in sequences))
     assert len(sequences) == 3 * len(names) >= 6  # both models and their difference
-    for each in moving(wavy_outcome):
-        axes = panels[names.index(each.name)]
+    for sequence in moving(wavy_outcome):
+        axes = panels[names.index(sequence.name)]
         assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
-        limit = each.known.limit
-        own = 1.0 if each.source == "difference" else abs(each.figure.levels[-1])
-        wanted = [100.0 * abs(value - limit) / own for value in each.figure.levels]
+        limit = sequence.known.limit
+        scale = 1.0 if sequence.source == "difference" else abs(sequence.figure.levels[-1])
+        wanted = [100.0 * abs(value - limit) / scale for value in sequence.figure.levels]
         drawn = [line.get_ydata() for line in axes.lines if len(line.get_ydata()) == len(wanted)]
-        assert any(np.allclose(y, wanted, rtol=1e-9) for y in drawn), each.name
+        assert any(np.allclose(y, wanted, rtol=1e-9) for y in drawn), sequence.name
 
 
 def test_the_dotted_slope_is_that_of_the_formal_order(wavy_outcome: Run, panels):
@@ -60,9 +59,9 @@ def test_the_dotted_slope_is_that_of_the_formal_order(wavy_outcome: Run, panels)
 def test_the_bar_is_the_stated_uncertainty(wavy_outcome: Run, panels):
     for axes in panels:
         stated = [
-            100.0 * each.figure.uncertainty.parts["discretisation"]
-            for each in moving(wavy_outcome)
-            if each.name == shown(axes)
+            100.0 * sequence.figure.uncertainty.parts["discretisation"]
+            for sequence in moving(wavy_outcome)
+            if sequence.name == shown(axes)
         ]
         bars = [float(line.get_ydata()[0]) for line in axes.lines if line.get_marker() == "_"]
         assert bars == pytest.approx(stated)
@@ -80,8 +79,8 @@ def test_levels_that_are_equal_are_said_to_be(smooth_outcome: Run, drawn_by):
         name: replace(run, levels=(run.finest,) * 3) for name, run in smooth_outcome.runs.items()
     }
     solved = replace(smooth_outcome.solved, runs=runs)
-    own = {"contact": contact.solve(solved, {}, None)}  # of each model alone
-    found = replace(smooth_outcome, solved=solved, found=own)
-    [figure, _], picture = drawn_by(convergence_picture, found)
+    alone = {"contact": contact.solve(solved, {}, None)}  # of each model
+    settled = replace(smooth_outcome, solved=solved, found=alone)
+    [figure, _], picture = drawn_by(convergence_picture, settled)
     words = [text.get_text() for axes in figure.axes for text in axes.texts]
     assert "no change but rounding" in words and "settled" in picture.alternative

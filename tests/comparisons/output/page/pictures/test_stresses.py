@@ -9,7 +9,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 from comparisons.drawing.field import colour_bar, fill, layout, round_bands
 from comparisons.drawing.style import drawing
-from comparisons.output.page.pictures.fields import field_pictures
+from comparisons.output.page.pictures.stresses import field_pictures
 from comparisons.studies.study import Run
 
 
@@ -39,11 +39,11 @@ def test_the_caption_says_where_the_differences_colours_end(wavy_outcome: Run, d
     assert f"colours end at ±{end:#.2g} p₀" in text
 
     run = wavy_outcome.runs["half_plane"]
-    found = run.finest.stress(0.0)
-    sx = found.field.sx.copy()
+    stress = run.finest.stress(0.0)
+    sx = stress.field.sx.copy()
     sx[3, 17] += 40.0 * p0  # one place far beyond what the scale must cover
-    field = replace(found.field, sx=sx)
-    finest = replace(run.finest, stresses=(replace(found, field=field), *run.finest.stresses[1:]))
+    field = replace(stress.field, sx=sx)
+    finest = replace(run.finest, stresses=(replace(stress, field=field), *run.finest.stresses[1:]))
     runs = {**wavy_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], finest))}
     spiked, end = caption(posed(wavy_outcome, runs=runs))
     assert end < 1.0

@@ -1,0 +1,257 @@
+"""Pressures and surfaces of a contact, in the manner of Bailey and Sayles (1991), figure 1.
+
+From the top, over the same x: pressures of all models over the Hertz curve, the half-plane's
+difference from the whole model, the deformed surfaces; once over the whole contact, once around the
+highest peak or the edge, where the nodes of the piecewise-linear pressures can be seen. Besides,
+both bodies' surfaces before and under load on one datum, and the gap between them.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
+from comparisons.drawing import style
+from comparisons.drawing.curves import FOOT, LEFT, over, panels
+from comparisons.figures.quantity import LABELS
+from comparisons.models.level import Level, deformed_height
+from comparisons.models.problem import mean_height
+from comparisons.studies.contact import closed, draw_pressures, peak_position
+from comparisons.studies.model_error.show import moved_text
+from comparisons.studies.study import MODEL_ERROR, Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+TOP, BETWEEN = 0.24, 0.16  # inches above the panels
+FARTHEST_CAP = 2.0  # peak pressures: a hardness beyond would only flatten the curves
+CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
+CLOSE_REACH = 0.1  # half-widths to either side, at most
+TICKS, STEPS = 7, (1, 2, 2.5, 5, 10)  # of x/a: how many at most, and how far apart, by tens
+CLEAR = 0.04  # share of that axis at either end without one
+MOST_POINTS = 600  # of a filled outline
+POINTS_PER_INCH = 90  # of an outline across a panel
+
+
+def shown_levels(run: Run) -> dict[str, Level]:
+    """Every model's finest level, at the friction coefficient that decides; the last one is the
+    whole model's, the finite elements', or that of the only model."""
+    return run.levels(run.deciding_friction)
+
+
+def pressure_picture(run: Run) -> style.Picture:
+    """Pressures and surfaces over the whole contact."""
+    levels, hertz = shown_levels(run), run.problem.hertz
+    [*_, last] = levels.values()
+    difference = " − ".join(LABELS[name] for name in run.pair(run.deciding_friction))
+    middle = f", their difference ({difference})," if len(run.runs) > 1 else ""
+    beyond = 1.05 * hertz.half_width
+    across = min(last.grid.x[0], -beyond), max(last.grid.x[-1], beyond)
+    peaks = ", ".join(
+        f"{LABELS[name]} "
+        f"{significant(level.solution.pressure.max() / hertz.peak_pressure)} p₀ at x = "
+        f"{with_unit(peak_position(level), 'm')}"
+        for name, level in levels.items()
+    )
+    return style.picture(
+        lambda width: _drawn(run, across, width, 5.2),
+        f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
+        f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
+        f"Largest pressure: {peaks}. {_norm(run)}"
+        "Heights are stretched and known but for a constant; in contact both surfaces coincide.",
+    )
+
+
+def close_up_picture(run: Run) -> style.Picture:
+    """The same around the highest pressure; of a smooth body, around the contact's edge."""
+    levels = shown_levels(run)
+    name, level = list(levels.items())[-1]
+    pitch = level.grid.pitch
+    if run.problem.scene.profile is None:
+        centre, reach, place = level.patches[-1, 1], CLOSE_HATS * pitch, "the right-hand edge"
+    else:
+        centre, place = peak_position(level), "the highest peak"
+        holding = (level.patches[:, 0] <= centre) & (level.patches[:, 1] >= centre)
+        most = max(CLOSE_REACH * run.problem.hertz.half_width, CLOSE_HATS * pitch)
+        reach = np.clip(0.75 * np.ptp(level.patches[holding]), CLOSE_HATS * pitch, most)
+        first = next(iter(levels.values()))
+        reach += min(abs(peak_position(first) - centre), most)  # the same peak, beside it
+    at = f"x = {with_unit(float(centre), 'm')}"
+    drawn = _drawn(run, (centre - reach, centre + reach), style.COLUMN, 5.6, nodes=True)
+    return style.picture(
+        drawn,
+        f"Pressures of the models around {place}, {at}.",
+        f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
+        f"{with_unit(pitch, 'm', 3)} apart ({LABELS[name]}).",
+    )
+
+
+def _norm(run: Run) -> str:
+    """How far the half-plane's pressures are from the finite elements', and the whole model's."""
+    friction, levels = run.deciding_friction, shown_levels(run)
+    norms = run.figures.of(quantity="pressure_l2", friction=friction)
+    difference, error = norms.one(study="comparison"), norms.one(study=MODEL_ERROR)
+    if error is None:
+        return ""
+    said = " and ".join(
+        f"{percent(norm.value, uncertainty=norm.numerical)} from the {LABELS[name]}"
+        for norm, name in zip((difference, error), list(levels)[1:], strict=False)
+    )
+    left = "".join(f" ({text} on average)" for text in moved_text(run, friction))
+    at = f" at friction {plain(friction)}" if len(run.problem.scene.load.friction) > 1 else ""
+    return f"The half-plane's pressures differ by {said}{left}{at} (relative L2 norms). "
+
+
+def _drawn(
+    run: Run, across: tuple[float, float], width: float, height: float, nodes: bool = False
+) -> "Figure":
+    """Pressures, their difference where there are two models, and surfaces."""
+    comparing = len(run.runs) > 1
+    shares = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
+    room = height - FOOT - TOP - BETWEEN * (len(shares) - 1)
+    above = (TOP, *[BETWEEN] * (len(shares) - 1))
+    rows = [(space, share * room) for space, share in zip(above, shares, strict=True)]
+    drawn = style.figure(width, height)
+    axes = style.stacked(drawn, rows, LEFT)
+    unit = scale_of(np.abs(across), "m")
+    draw_pressures(axes[0], run, across, unit, nodes)
+    _cap_and_legend(axes[0], run)
+    if comparing:
+        draw_difference(axes[1], run, across, unit)
+    draw_surfaces(axes[-1], run, across, unit)
+    over(axes, f"x [{unit.name}]", [end / unit.factor for end in across])
+    _second_axis(axes[0], run.problem.hertz.half_width / unit.factor)
+    return drawn
+
+
+def _second_axis(axes: "Axes", half_width: float) -> None:
+    """x/a along the top."""
+    from matplotlib.ticker import MaxNLocator
+
+    top = axes.secondary_xaxis(
+        "top", functions=(lambda x: x / half_width, lambda s: s * half_width)
+    )
+    top.tick_params(pad=1.5)
+    # at the ends a number would be cut, or stand on the axis' name
+    low, high = (x / half_width for x in axes.get_xlim())
+    ticks = MaxNLocator(TICKS, steps=STEPS).tick_values(low, high)
+    end = CLEAR * (high - low)
+    top.set_ticks(ticks[(ticks >= low + end) & (ticks <= high - end)])
+    axes.annotate("x/a", (0.0, 1.0), (-22, 4), "axes fraction", "offset points", ha="right")
+
+
+def _cap_and_legend(axes: "Axes", run: Run) -> None:
+    """The hardness, if it is near; the lines' names above the curves, in two rows if narrow."""
+    hardness, p0 = run.problem.scene.body.hardness, run.problem.hertz.peak_pressure
+    levels = shown_levels(run)
+    peak = max(level.solution.pressure.max() for level in levels.values())
+    if hardness is not None and hardness < FARTHEST_CAP * peak:
+        look = {"color": "#777777", "linestyle": "-.", "linewidth": 0.9}
+        axes.axhline(hardness / p0, label="hardness", **look)
+    names = len(axes.get_legend_handles_labels()[1])
+    if axes.figure.get_figwidth() < 0.75 * style.WIDE:
+        rows = 1 + (len(levels) > len(run.runs))
+        side, corner, room = "upper left", (0.0, 0.91), 1.22 + 0.12 * rows
+        columns = -(-names // rows)
+    else:
+        side, corner, room, columns = "upper right", (1.0, 1.02), 1.17, names
+    axes.set_ylim(0.0, room * axes.dataLim.y1)
+    gaps = {"borderaxespad": 0.1, "columnspacing": 1.0, "handlelength": 2.0, "handletextpad": 0.5}
+    axes.legend(loc=side, bbox_to_anchor=corner, ncols=columns, **gaps)
+
+
+def draw_difference(axes: "Axes", run: Run, across: tuple[float, float], unit: Scale) -> None:
+    """Pressures of the half-plane less those of the whole model, or of the finite elements where
+    there is no other, on the same pressure elements; over `across` [m], x in `unit`."""
+    one, other = run.pair(run.deciding_friction).values()
+    x, reference = closed(other)
+    difference = np.interp(x, *closed(one)) - reference
+    difference /= run.problem.hertz.peak_pressure
+    shown = style.near(x, across, other.grid.pitch)
+    axes.plot(x[shown] / unit.factor, difference[shown], **style.DIFFERENCE)
+    style.symmetric(axes, difference[shown])
+    axes.set_ylabel("Δp/p₀")
+
+
+def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Scale) -> None:
+    """Every model's surfaces under load over `across` [m], x in `unit`; filled as the last's."""
+    drawn: dict[str, tuple[np.ndarray, ...]] = {}
+    for name, level in reversed(shown_levels(run).items()):
+        shown = style.near(level.grid.x, across, level.grid.pitch)
+        x, body = level.grid.x[shown], deformed_height(run.problem, level)[shown]
+        if drawn:
+            # displacements are known but for a constant: laid on each other at their mean
+            place, height, _ = next(iter(drawn.values()))
+            body = body + np.mean(np.interp(x, place, height) - body)
+        drawn[name] = x, body, body + level.solution.gap[shown]
+    x, body, roller = next(iter(drawn.values()))
+    low, high = body.min(), roller.max()
+    middle, high = 0.5 * (low + high), high + 0.25 * (high - low or 1.0)
+    low -= 0.35 * (high - low)
+    up = scale_of([high - low], "m")
+
+    def scaled(height: np.ndarray) -> np.ndarray:
+        return height / up.factor - middle / up.factor
+
+    few = slice(None, None, 1 + len(x) // int(POINTS_PER_INCH * axes.figure.get_figwidth()))
+    x = x[few] / unit.factor
+    style.fill_bodies(axes, x, scaled(body[few]), scaled(roller[few]), scaled(low), scaled(high))
+    for name, (place, *heights) in reversed(drawn.items()):
+        look = style.LINES[name] if len(drawn) > 1 else style.OUTLINE
+        for height in reversed(heights):
+            line = {**look, "linewidth": 0.7 * look["linewidth"]}
+            axes.plot(place / unit.factor, scaled(height), **line)
+    # names where something is drawn: a light load may touch a rough body beside the middle only
+    first, last = np.clip(x[[0, -1]], *(end / unit.factor for end in across))
+    names = {"transform": axes.get_xaxis_transform(), "clip_on": True}
+    axes.text(0.5 * (first + last), 0.95, "roller", ha="center", va="top", **names)
+    axes.text(first + 0.01 * (last - first), 0.05, "body", va="bottom", **names)
+    axes.set_ylabel(f"height [{up.name}]")
+
+
+def surface_picture(run: Run) -> style.Picture:
+    """Surfaces of the last model before and under load; below, the gaps of all. Heights are means
+    over pressure elements; the body's displacement vanishes at the mean of both ends."""
+    problem, levels = run.problem, shown_levels(run)
+    name, level = list(levels.items())[-1]
+    x, body = level.grid.x, deformed_height(problem, level)
+    roller, body_before = body + level.solution.gap, mean_height(problem, level.grid)
+    parabola = x**2 / (2.0 * problem.scene.roller.radius)
+    roller_before = parabola + np.max(body_before - parabola)  # at first touch
+    drawn, (above, below) = panels(style.COLUMN, [(0.22, 3.08), (0.28, 1.51)], 0.7, 0.14, foot=0.51)
+    along, up = scale_of(x, "m"), scale_of([np.ptp(roller), np.ptp(body)], "m")
+    low = min(body.min(), body_before.min())
+    high = max(roller.max(), roller_before.max())
+    low -= 0.2 * (high - low)
+    few = slice(None, None, 1 + len(x) // MOST_POINTS)
+    place, heights = x / along.factor, (body / up.factor, roller / up.factor)
+    outlines = place[few], *(height[few] for height in heights)
+    style.fill_bodies(above, *outlines, low / up.factor, high / up.factor)
+    labels = (None, None), ("before loading, at first touch", "under load")
+    for under, before, words in zip(heights, (body_before, roller_before), labels, strict=True):
+        thin = {**style.REFERENCE, "linewidth": 0.8}
+        above.plot(place, before / up.factor, label=words[0], **thin)
+        above.plot(place, under, label=words[1], **style.OUTLINE)
+    above.set_ylabel(f"height [{up.name}]")
+    above.text(0.02, 0.04, "body", transform=above.transAxes)
+    above.text(0.5, 0.95, "roller", transform=above.transAxes, ha="center", va="top")
+    above.legend(loc="lower right", borderaxespad=0.2)
+    gaps = {model: np.maximum(shown.solution.gap, 0.0) for model, shown in levels.items()}
+    unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
+    for model, gap in gaps.items():
+        places = levels[model].grid.x / along.factor
+        below.plot(places, gap / unit.factor, label=LABELS[model], **style.LINES[model])
+    over((above, below), f"x [{along.name}]", place)
+    below.set_ylabel(f"gap [{unit.name}]")
+    below.set_ylim(bottom=0.0)
+    below.legend(loc="upper center")
+    approach = with_unit(float(np.max(body_before - body)), "m", 3)
+    return style.picture(
+        drawn,
+        "Surfaces of roller and body before and under load, and the gap between them; the "
+        f"body's surface gives way by {approach}.",
+        f"Surfaces before and under load ({LABELS[name]}), heights stretched, and the gap "
+        f"that is left. The body's surface sinks by up to {approach} against the ends of the "
+        "stretch that is drawn; the roller is set on it.",
+    )

@@ -1,0 +1,138 @@
+"""How the solution was refined and what it took: errors of the judged figures over the size of the
+elements, each beside its formal order, and seconds by stage of every model."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import plain, with_unit
+from comparisons.drawing import style
+from comparisons.drawing.curves import columns
+from comparisons.figures.figure import grouped
+from comparisons.figures.quantity import LABELS
+from comparisons.output.page.tables.verification import DIFFERENCE, JudgedSequence, judged_sequences
+from comparisons.studies.study import Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+ABREAST = 4  # panels across a wide page
+HEAD, TITLE, TALL, FOOT = 0.34, 0.36, 1.7, 0.5  # inches: legend, a panel's title, panel, its axis
+LEFT, BETWEEN, LINE = 0.62, 0.5, 0.17  # inches
+LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
+LOOKS = style.LINES | {DIFFERENCE: style.DIFFERENCE}
+NAMES = LABELS | {DIFFERENCE: "difference of both models"}
+SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
+
+
+def convergence_picture(run: Run) -> style.Picture | None:
+    """A panel for each judged figure; None where nothing is judged on several levels."""
+    known = [s for s in judged_sequences(run) if len(s.figure.levels) > 2]
+    panels = grouped(known, lambda sequence: sequence.name)
+    if not panels:
+        return None
+    said = "; ".join(f"{s.name}, {NAMES[s.source]}: {s.known.behaviour}" for s in known)
+    return style.picture(
+        lambda width: _drawn(panels, width),
+        f"Error over element size of each judged figure. {said}.",
+        "Distance from the extrapolated value over the size of the pressure elements, both "
+        "logarithmic; dotted, the slope of the formal order. A bar: the stated uncertainty of "
+        "discretisation on the finest level. Where three levels show an order, their distances "
+        "lie on its line by construction.",
+    )
+
+
+def _drawn(panels: list[list[JudgedSequence]], width: float) -> "Figure":
+    abreast = max(1, round(ABREAST * width / style.WIDE))
+    head = HEAD if abreast == ABREAST else HEAD + 2.0 * LINE  # where names take three lines
+    heights = [(TITLE + (FOOT if row else head), TALL) for row in range(-(-len(panels) // abreast))]
+    drawn = style.figure(width, sum(map(sum, heights)) + FOOT)
+    rows = [heights[: -(-(len(panels) - side) // abreast)] for side in range(abreast)]
+    sides = columns(drawn, rows, LEFT, width - LEFT, BETWEEN)
+    for number, panel in enumerate(panels):
+        axes = sides[number % abreast][number // abreast]
+        _draw(axes, panel)
+        if number % abreast == 0:
+            axes.set_ylabel("error, %")
+        if number + abreast >= len(panels):
+            axes.set_xlabel("pressure elements, µm")
+    entries = {}
+    for axes in drawn.axes:
+        handles, labels = axes.get_legend_handles_labels()
+        entries = dict(zip(labels, handles, strict=True)) | entries
+    beside = len(entries) if abreast == ABREAST else abreast
+    room = {"ncols": beside, "columnspacing": 1.6, "borderaxespad": 0.2}
+    drawn.legend(entries.values(), entries, loc="upper left", **room)
+    return drawn
+
+
+def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
+    """All models' errors of one figure [%] over the pitch [µm]."""
+    largest = 0.0, 0.0
+    for sequence in panel:
+        pitch, error = 1e6 * np.array(sequence.pitches), 100.0 * np.array(sequence.errors)
+        seen = np.where(error > 100.0 * LEAST, error, np.nan)
+        look, name = LOOKS[sequence.source], NAMES[sequence.source]
+        axes.plot(pitch, seen, marker="o", markersize=3.5, label=name, **look)
+        bar = {"marker": "_", "markersize": 13, "markeredgewidth": 2.0, "color": look["color"]}
+        stated = 100.0 * sequence.figure.uncertainty.parts["discretisation"]
+        if np.isfinite(stated) and stated > 0.0:
+            axes.plot(pitch[-1], stated, linestyle="none", **bar)
+        if np.isfinite(seen).any():
+            largest = max(largest, (float(np.nanmax(seen)), float(pitch[np.nanargmax(seen)])))
+    order = panel[0].known.formal_order
+    pitch = 1e6 * np.array([max(panel[0].pitches), min(panel[0].pitches)])
+    if largest[0] > 0.0:
+        slope = largest[0] * (pitch / largest[1]) ** order
+        axes.plot(pitch, slope, label=f"slope of order {plain(order)}", **style.REFERENCE)
+    axes.set_xscale("log")
+    if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in axes.lines):
+        axes.set_yscale("log")
+    else:
+        axes.set_yticks([])
+        axes.annotate("no change but rounding", (0.5, 0.5), xycoords="axes fraction", ha="center")
+    ticks = sorted({1e6 * pitch for sequence in panel for pitch in sequence.pitches})
+    axes.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.set_xlim(0.8 * ticks[0], 1.25 * ticks[-1])
+    axes.set_title(panel[0].name.replace(", friction", ",\nfriction"), fontsize=8.5)
+
+
+def cost_picture(run: Run) -> style.Picture:
+    """One bar a stage and model, all levels together, on a scale on which milliseconds and minutes
+    are both seen; on top the sums, filled."""
+    seconds = {
+        name: {"in all": sum(m.seconds.values())} | m.seconds for name, m in run.runs.items()
+    }
+    rows = [(name, stage, time) for name, times in seconds.items() for stage, time in times.items()]
+    drawn = style.figure(style.COLUMN, 0.24 * len(rows) + 0.7)
+    [axes] = style.stacked(drawn, [(0.12, 0.24 * len(rows) + 0.08)], 1.62, 0.67)
+    place = -np.arange(len(rows), dtype=float)
+    shown = np.maximum([time for _, _, time in rows], SHORTEST)
+    first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)
+    last = 10.0 ** np.ceil(np.log10(shown.max()))
+    colours = [style.LINES[name]["color"] for name, _, _ in rows]
+    filled = [
+        colour if stage == "in all" else "white"
+        for (_, stage, _), colour in zip(rows, colours, strict=True)
+    ]
+    look = {"color": filled, "edgecolor": colours, "linewidth": 0.9}
+    bars = axes.barh(place, shown - first, left=first, height=0.72, **look)
+    for y, width, (_, _, time) in zip(place, shown, rows, strict=True):
+        beside = {"xytext": (4, 0), "textcoords": "offset points", "va": "center"}
+        axes.annotate(with_unit(time, "s", 3), (width, y), **beside)
+    hatched = [bar for bar, row in zip(bars, rows, strict=True) if row[0] == "finite_element"]
+    style.hatch(axes, hatched, style.LINES["finite_element"]["color"])
+    axes.set_xscale("log")
+    axes.set_xlim(first, last)
+    ticks = 10.0 ** np.arange(np.log10(first).round(), np.log10(last).round() + 1.0)
+    axes.set_xticks(ticks, [with_unit(tick, "s", 1) for tick in ticks])
+    axes.minorticks_off()
+    labels = [stage if stage != "in all" else f"{LABELS[name]}, in all" for name, stage, _ in rows]
+    style.horizontal_bars(axes, place, labels)
+    axes.set_xlabel("time, logarithmic")
+    sums = (f"{LABELS[name]} {with_unit(t['in all'], 's', 3)}" for name, t in seconds.items())
+    said = f"In all: {'; '.join(sums)}."
+    caption = f"Run time by stage, all levels together; the scale is logarithmic. {said}"
+    return style.picture(drawn, f"Run time by stage. {said}", caption, data=False)

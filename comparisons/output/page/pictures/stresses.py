@@ -1,0 +1,248 @@
+"""Subsurface stresses of the half-plane and of the whole model, or of the finite elements where
+there is no other: fields on one colour scale, their difference on its own, and sections over depth,
+after Bailey and Sayles (1991), figure 11."""
+
+import json
+from dataclasses import dataclass
+from operator import sub
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from analytic.exact.hertz import hertz_stress
+from analytic.stress_state import StressState
+from comparisons.common.numbers import decimal, plain, significant
+from comparisons.drawing import style
+from comparisons.drawing.curves import columns
+from comparisons.drawing.field import (
+    COVERED,
+    ColourScale,
+    FieldPanel,
+    draw_fields,
+    height_to_scale,
+    round_bands,
+    signed_scale,
+)
+from comparisons.figures.quantity import LABELS, WHOLE
+from comparisons.studies.contact import peak_position
+from comparisons.studies.quiescent_zone import NAME as ZONE
+from comparisons.studies.quiescent_zone import zones_of
+from comparisons.studies.study import Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+NEAR = 0.1  # half-widths: depth of what is enlarged next to the surface
+STRETCHED = 1.25  # inches: height of fields next to the surface
+FEWEST_ROWS = 4
+TOP, TITLE, TALL, FOOT = 0.24, 0.3, 1.85, 0.46  # inches, of sections
+LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
+
+
+@dataclass(frozen=True)
+class Component:
+    """A drawn stress: name in result files, sign and words in the page, colours of its bands."""
+
+    name: str
+    symbol: str
+    words: str
+    colours: str
+    signed: bool
+
+    def of(self, field: StressState) -> np.ndarray:
+        return getattr(field, self.name)
+
+
+COMPONENTS = (
+    Component("tau1", "τ₁", "principal shear stress", "viridis", signed=False),
+    Component("txz", "τxz", "orthogonal shear stress", "RdBu_r", signed=True),
+)
+
+
+def field_pictures(run: Run) -> list[style.Picture]:
+    """Of each component one for every friction coefficient; nothing without fields."""
+    if run.window is None:
+        return []
+    height = height_to_scale(run.window.x, run.window.z)
+    return [
+        picture
+        for component in COMPONENTS
+        for picture in _pictures(run, component, "under the contact", len(run.window.z), height)
+    ]
+
+
+def near_surface_pictures(run: Run) -> list[style.Picture]:
+    """The principal shear next to a rough surface, depths stretched; one a friction coefficient."""
+    if run.window is None or run.problem.scene.profile is None:
+        return []
+    depths = run.window.z
+    rows = int(np.count_nonzero(depths <= NEAR * run.problem.hertz.half_width))
+    if rows < FEWEST_ROWS or rows == len(depths):
+        return []
+    return _pictures(run, COMPONENTS[0], "next to the surface", rows, STRETCHED)
+
+
+def _pictures(
+    run: Run, component: Component, place: str, rows: int, height: float
+) -> list[style.Picture]:
+    """One a friction coefficient, of the window's first `rows` depths, `height` inches tall; all on
+    the same colour scales."""
+    hertz, window, frictions = run.problem.hertz, run.window, run.problem.scene.load.friction
+    x, z = window.x / hertz.half_width, window.z[:rows] / hertz.half_width
+    fields = [
+        {
+            name: component.of(level.stress(friction).field)[:rows] / hertz.peak_pressure
+            for name, level in run.pair(friction).items()
+        }
+        for friction in frictions
+    ]
+    bands = round_bands([f for models in fields for f in models.values()], component.signed)
+    scale = ColourScale(f"{component.symbol}/p₀", bands, component.colours, component.signed)
+    differences = [sub(*models.values()) for models in fields if len(models) > 1]
+    of_differences = round_bands(differences, signed=True) if differences else None
+    pictures = []
+    for number, (friction, models) in enumerate(zip(frictions, fields, strict=True)):
+        panels = [_panel(run, name, friction, component, models[name]) for name in models]
+        difference, notes = None, ""
+        if differences:
+            names = " − ".join(LABELS[name] for name in models)
+            difference = names, signed_scale(f"Δ{component.symbol}/p₀", of_differences)
+            notes = _difference_said(x, z, differences[number], of_differences[-1])
+        drawn, axes = draw_fields(x, z, panels, scale, height, difference)
+        pointed = {
+            "component": COMPONENTS.index(component),
+            "friction": number,
+            "boxes": [_box(panel) for panel in axes],
+            "x": [round(float(end), 6) for end in x[[0, -1]]],
+            "z": [round(float(end), 6) for end in z[[0, -1]]],
+        }
+        words = f"{component.words.capitalize()} {component.symbol} {place}"
+        words += f", friction {plain(friction)}"
+        striped = ", stripes what is negative" if component.signed or differences else ""
+        if any(np.isnan(values).any() for values in models.values()):
+            notes += " White: hollows below the mean line, from which z counts."
+        if WHOLE in models:
+            notes += " Of the whole model each point stands where it was before loading."
+        alternative = f"{words}. {'; '.join(panel.title for panel in panels)}.{notes}"
+        caption = f"{words}; + marks the largest value{striped}.{notes}"
+        look = {"data": False, "field": json.dumps(pointed)}
+        pictures.append(style.picture(drawn, alternative, caption, **look))
+    return pictures
+
+
+def _panel(
+    run: Run, name: str, friction: float, component: Component, values: np.ndarray
+) -> FieldPanel:
+    """A model's field under its largest value, which is marked where it is inside."""
+    hertz, level = run.problem.hertz, run.pair(friction)[name]
+    extreme = level.stress(friction).extremes[component.name]
+    mark = extreme.x / hertz.half_width, extreme.z / hertz.half_width
+    title = (
+        f"{LABELS[name]}: {f'largest |{component.symbol}|' if component.signed else 'largest'} "
+        f"{significant(abs(extreme.value) / hertz.peak_pressure)} p₀ at "
+        f"x = {decimal(mark[0])} a, z = {significant(mark[1], 3)} a"
+    )
+    inside = extreme.z <= run.window.z[len(values) - 1]
+    return FieldPanel(title, values, mark if inside else None)
+
+
+def _box(axes: "Axes") -> list[float]:
+    """Left, top, width and height of a field as shares of the picture, from its upper left."""
+    place = axes.get_position()
+    return [round(v, 4) for v in (place.x0, 1.0 - place.y1, place.width, place.height)]
+
+
+def _difference_said(x: np.ndarray, z: np.ndarray, difference: np.ndarray, end: float) -> str:
+    """Where the colours of the difference end, why there, and its largest value."""
+    row, column = np.unravel_index(np.nanargmax(np.abs(difference)), difference.shape)
+    largest = difference[row, column]
+    covers = f", which covers {COVERED:g} % of the points or more, to show what is small"
+    reason = covers if abs(largest) > end else ""
+    return (
+        f" The difference's colours end at ±{significant(end, 2)} p₀{reason}; the largest "
+        f"difference at a point of the grid, {significant(largest, 2)} p₀, stands at "
+        f"x = {decimal(x[column])} a, z = {significant(z[row], 2)} a."
+    )
+
+
+def section_pictures(run: Run) -> list[style.Picture]:
+    """The principal shear over depth, through the highest pressure of the last model and through
+    the edge of the smooth contact; none without field. The verticals are the columns of the common
+    window that lie nearest."""
+    if run.window is None:
+        return []
+    [*_, last] = run.levels(run.deciding_friction).values()
+    wanted = {
+        "the highest pressure": peak_position(last),
+        "the edge of the smooth contact, x = +a": run.problem.hertz.half_width,
+    }
+    x = run.window.x
+    spacing = x[1] - x[0]
+    return [
+        _section_picture(run, int(np.argmin(np.abs(x - place))), words)
+        for words, place in wanted.items()
+        if x[0] - spacing <= place <= x[-1] + spacing
+    ]
+
+
+def _section_picture(run: Run, column: int, words: str) -> style.Picture:
+    frictions, hertz = run.problem.scene.load.friction, run.problem.hertz
+    drawn = style.figure(style.COLUMN, TOP + FOOT + (TITLE + TALL) * len(frictions))
+    depths = [run.window.z[-1] / hertz.half_width]
+    if run.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
+        depths.append(NEAR)
+    rows = [(TITLE + TOP * (place == 0), TALL) for place in range(len(frictions))]
+    sides = columns(drawn, [rows] * len(depths), LEFT, ROOM, BETWEEN)
+    for friction, panels in zip(frictions, zip(*sides, strict=True), strict=True):
+        for panel, depth in zip(panels, depths, strict=True):
+            _section(panel, run, column, friction, depth)
+            panel.tick_params(labelbottom=friction == frictions[-1], labelleft=panel is panels[0])
+        for panel in panels:
+            panel.set_ylim(0.0, max(p.dataLim.y1 for p in panels) * 1.08)
+        panels[0].set_ylabel("τ₁/p₀")
+        panels[0].set_title(f"friction {plain(friction)}")
+    for panels in sides:
+        panels[-1].set_xlabel("z/a")
+    entries = (axes.get_legend_handles_labels() for axes in drawn.axes)
+    lines, place = max(entries, key=lambda known: len(known[1])), (0.985, 1.0)
+    room = {"ncols": len(lines[0]), "borderaxespad": 0.1, "columnspacing": 1.2}
+    drawn.legend(*lines, loc="upper right", bbox_to_anchor=place, **room)
+    at = decimal(run.window.x[column] / hertz.half_width)
+    largest = "; ".join(
+        f"friction {plain(mu)}: "
+        + ", ".join(
+            f"{LABELS[name]} {significant(np.nanmax(_tau1(run, name, mu, column)), 3)} p₀"
+            for name in run.levels(mu)
+        )
+        for mu in frictions
+    )
+    near = f" The right half enlarges the first {NEAR} a." if len(depths) > 1 else ""
+    return style.picture(
+        drawn,
+        f"Principal shear over depth through {words}. Largest: {largest}.",
+        f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "
+        f"section of the smooth contact at the same place.{near} Largest: {largest}.",
+    )
+
+
+def _tau1(run: Run, name: str, friction: float, column: int) -> np.ndarray:
+    field = run.levels(friction)[name].stress(friction).field
+    return field.tau1[:, column] / run.problem.hertz.peak_pressure
+
+
+def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float) -> None:
+    hertz = run.problem.hertz
+    x, z = run.window.x[column], run.window.z
+    shown = z <= 1.000001 * depth * hertz.half_width
+    for name in run.levels(friction):
+        values = _tau1(run, name, friction, column)[shown]
+        axes.plot(z[shown] / hertz.half_width, values, label=LABELS[name], **style.LINES[name])
+    exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure
+    axes.plot(z[shown] / hertz.half_width, exact, label="Hertz, exact", **style.REFERENCE)
+    first = next(iter(run.runs))
+    for zone in zones_of(run.found.get(ZONE)):
+        if (zone.model, zone.friction) == (first, friction) and "start" in zone.figures:
+            ends = (zone.figures[name].value / hertz.half_width for name in ("start", "stop"))
+            axes.axvspan(*ends, color="#009E73", alpha=0.14, linewidth=0.0, label="quiescent zone")
+    axes.set_xlim(0.0, depth)
+    axes.locator_params(axis="x", nbins=6)
