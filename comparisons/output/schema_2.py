@@ -33,7 +33,7 @@ from comparisons.studies import yielding as flow
 from comparisons.studies.answers import answer as answers
 from comparisons.studies.answers.study import ComparedAnswers
 from comparisons.studies.coupling import Couplings
-from comparisons.studies.heat import figures as heat
+from comparisons.studies.heat import study as heat
 from comparisons.studies.model_error import account
 from comparisons.studies.scatter import figures as scatter
 from comparisons.studies.statistics import figures as statistics

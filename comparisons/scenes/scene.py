@@ -2,17 +2,21 @@
 
 What a file leaves out and what follows from the rest stands in the sections as well. Where the
 surface is needed (the trace, the place of the roller on it) see `comparisons.scenes.surface`.
+A study has its section in a module of `comparisons.scenes.studies`, of the section's name.
 What is wrong is one line: "file: section.field: problem; allowed is …"."""
 
 import copy
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 from typing import Annotated, Self, get_args
 
-from pydantic import PrivateAttr, ValidationError
+from pydantic import PrivateAttr, ValidationError, create_model
 
+import comparisons.scenes.studies as of_studies
 from comparisons.common.errors import InputError, SceneError, nearest
 from comparisons.common.units import describe
 from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, plain
@@ -31,10 +35,6 @@ from comparisons.scenes.sections import (
     StressSection,
     ToleranceSection,
 )
-from comparisons.scenes.studies.answers import Answers
-from comparisons.scenes.studies.heat import HeatSection
-from comparisons.scenes.studies.scatter import ScatterSection
-from comparisons.scenes.studies.statistics import StatisticsSection
 
 
 @dataclass(frozen=True)
@@ -177,13 +177,17 @@ class SceneBase(SceneSection):
             yield "load.friction", f"{slides}, which nothing would hold; {held}"
 
 
-class Scene(SceneBase):
-    """With the sections of the studies."""
+def _sections_of_studies() -> dict[str, tuple[object, None]]:
+    """By the name of each module of `comparisons.scenes.studies` what it calls SECTION, or none."""
+    names = sorted(module.name for module in iter_modules(of_studies.__path__))
+    modules = {name: import_module(f"{of_studies.__name__}.{name}") for name in names}
+    return {name: (module.SECTION | None, None) for name, module in modules.items()}
 
-    scatter: ScatterSection | None = None
-    statistics: StatisticsSection | None = None
-    heat: HeatSection | None = None
-    answers: Answers | None = None
+
+# Every scene that is read: with the sections of the studies.
+Scene = create_model(
+    "Scene", __base__=SceneBase, __module__=SceneBase.__module__, **_sections_of_studies()
+)
 
 
 def _shown(value: object) -> str:

@@ -16,7 +16,7 @@ from comparisons.studies import (
     yielding,
 )
 from comparisons.studies.answers.study import STUDY as ANSWERS
-from comparisons.studies.heat.study import STUDY as HEAT
+from comparisons.studies.heat import STUDY as HEAT
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies.scatter.study import STUDY as SCATTER
 from comparisons.studies.statistics.study import STUDY as STATISTICS

@@ -95,7 +95,7 @@ def checked_names(answers: dict) -> dict:
     return answers
 
 
-Answers = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
+SECTION = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
 
 
 def answers_named(options: Sequence[str], known: object) -> dict:

@@ -120,3 +120,6 @@ class HeatSection(SceneSection):
         ):
             if there:
                 yield "heat.stresses", f"is true {what}"
+
+
+SECTION = HeatSection

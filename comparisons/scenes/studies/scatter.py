@@ -165,3 +165,6 @@ class ScatterSection(SceneSection):
                 deviations = f" (normal, cut off at {CUT_OFF:g} deviations)"
                 how = "" if getattr(self, name).range else deviations
                 yield f"scatter.{name}", f"reaches {end:g}{how}; allowed is {field.allowed()}"
+
+
+SECTION = ScatterSection

@@ -18,7 +18,8 @@ from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.studies.heat.figures import (
+from comparisons.studies.heat.half_space import reach_of
+from comparisons.studies.heat.study import (
     COMPARED,
     HEATED,
     NAME,
@@ -26,7 +27,6 @@ from comparisons.studies.heat.figures import (
     QUANTITIES,
     WITHOUT,
 )
-from comparisons.studies.heat.half_space import reach_of
 from comparisons.studies.study import Run
 
 HEIGHT = 1.9  # inches, of a field

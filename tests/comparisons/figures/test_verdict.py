@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, is_within, judge
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.figures.verdict import is_within, judge
 from comparisons.output.headline import validity
 
 LITTLE = 1e-15  # more than rounding of numbers below 1 loses

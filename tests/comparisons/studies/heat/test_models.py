@@ -11,7 +11,7 @@ from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from comparisons.common.progress import Stages, no_progress
 from comparisons.models.half_plane import half_plane_level
-from comparisons.studies.heat.conduction import finite_element_heat
+from comparisons.studies.heat.finite_elements import finite_element_heat
 from comparisons.studies.heat.half_space import half_space_heat, peclet_numbers, what_it_contains
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}

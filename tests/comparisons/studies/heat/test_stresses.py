@@ -11,8 +11,7 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
-from comparisons.studies.heat.conduction import solved_heat
-from comparisons.studies.heat.element_stress import finite_element_stress
+from comparisons.studies.heat.finite_elements import finite_element_stress, solved_heat
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
 EQUAL = {f"{b}_{name}": v for b in ("body", "roller") for name, v in CONSTANTS.items()}

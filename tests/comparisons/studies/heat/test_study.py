@@ -13,8 +13,8 @@ from comparisons.output.junit import run_cases_of
 from comparisons.output.page.saved import read_run
 from comparisons.output.recorded_run import read_result
 from comparisons.runs.run import run
-from comparisons.studies.heat.figures import HEATED, WITHOUT
 from comparisons.studies.heat.show import heat_facts, heat_table, lines
+from comparisons.studies.heat.study import HEATED, WITHOUT
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
 EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}
