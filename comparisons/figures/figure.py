@@ -12,6 +12,8 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
+import numpy as np
+
 from comparisons.figures.quantity import WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 
@@ -196,6 +198,16 @@ class Column:
     values: tuple
     unit: str = ""
     uncertainty: tuple[float, ...] | None = None
+
+    @property
+    def numbers(self) -> np.ndarray:
+        """The values (n,) of numbers, nan where there is none."""
+        return np.array(self.values, dtype=float)
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """The uncertainties (n,), nan where they are not stated."""
+        return np.array(self.uncertainty or (np.nan,) * len(self.values), dtype=float)
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ from comparisons.studies.coupling import Couplings
 from comparisons.studies.heat import study as heat
 from comparisons.studies.model_error import account
 from comparisons.studies.scatter import figures as scatter
-from comparisons.studies.statistics import figures as statistics
+from comparisons.studies.statistics import study as statistics
 from comparisons.studies.study import CONVERGED, MODEL_ERROR, WHY_NOT, Solved
 
 SCHEMA = 2
@@ -370,18 +370,23 @@ def _statistics(old: Mapping) -> Items:
     known = old.get("statistics")
     if known is None:
         return
-    for name, rows in {"summits": known["summits"], "loads": known["loads"]}.items():
-        flat = [
-            statistics.flat(
-                {k: v for k, v in row.items() if k not in ("grid", "scatter", "uncertainty")}
-            )
-            for row in rows
+    loads = known["loads"]
+    sizes = {
+        f"figures.{source}.{name}": [
+            abs(row[share][name] * row["figures"][source][name]) for row in loads
         ]
-        yield Series(name, statistics.columns_of(flat, {}))
+        for source, share in (("random", "scatter"), ("trace", "grid"))
+        for name in statistics.FIGURES
+    }
+    sizes["difference"] = [row["uncertainty"] for row in loads]
+    unsure = {"grid", "scatter", "uncertainty"}
+    rows = [statistics.flat({k: v for k, v in row.items() if k not in unsure}) for row in loads]
+    yield statistics.series_of("summits", list(map(statistics.flat, known["summits"])))
+    yield statistics.series_of("loads", rows, sizes)
     for model, patches in known["patches"].items():
-        yield Series(
-            "patches", statistics.columns_of(list(map(statistics.flat, patches)), {}), model
-        )
+        rows = list(map(statistics.flat, patches))
+        yield statistics.series_of("patches", rows, source=model)
+    yield Series("traces", {"traces": Column((known["traces"],))})
 
 
 def _answers(old: Mapping) -> Items:
@@ -458,7 +463,6 @@ def parts_of_schema_2(old: Mapping) -> tuple[dict, dict[str, object], Mapping[st
         coupling.NAME: Couplings(old["couplings"]),
         MODEL_ERROR: old["budget"],
         scatter.NAME: old["scatter"],
-        statistics.NAME: old["statistics"],
         answers.NAME: ComparedAnswers(old["answers"]) if old["answers"] else None,
         heat.NAME: old["heat"],
     }

@@ -37,7 +37,7 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies import contact
-from comparisons.studies.statistics.patches import STRAIN, patch_loads
+from comparisons.studies.statistics.study import STRAIN, patch_loads
 from comparisons.studies.study import WHY_NOT, Run, Solved, Study
 
 NAME, MODEL = "bulge", "finite_element"
