@@ -19,6 +19,7 @@ from comparisons.figures.figure import (
     SampleSpread,
     Series,
     Statement,
+    columns_of,
     figures_of,
 )
 from comparisons.figures.quantity import MODELS, QUANTITIES
@@ -35,7 +36,7 @@ from comparisons.studies.answers.study import ComparedAnswers
 from comparisons.studies.coupling import Couplings
 from comparisons.studies.heat import study as heat
 from comparisons.studies.model_error import account
-from comparisons.studies.scatter import figures as scatter
+from comparisons.studies.scatter import study as scatter
 from comparisons.studies.statistics import study as statistics
 from comparisons.studies.study import CONVERGED, MODEL_ERROR, WHY_NOT, Solved
 
@@ -283,6 +284,11 @@ def _checks(old: Mapping) -> Items:
 
 def _scatter(old: Mapping) -> Items:
     counts = old["scatter_samples"]
+    if counts is not None:
+        numbers = {name: counts[name] for name in ("samples", "solutions", "failed", "pitch")}
+        yield Series(scatter.SAMPLES, columns_of([numbers], {"pitch": "m"}))
+    if counts is not None and counts["why"] is not None:
+        yield Statement("first failure", counts["why"])
     for name, rows in (old["scatter"] or {}).items():
         for row in rows:
             spread = row["mean"], row["standard_deviation"], tuple(row["interval"]), row["shares"]
@@ -436,7 +442,7 @@ def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
         "Column": ComplianceColumn,
         "PairHistory": SimpleNamespace,
         "Comparison": SimpleNamespace,
-        "InputScatter": lambda figures, **row: scatter.InputScatter(**row),
+        "InputScatter": lambda pitch, x, band, **_: scatter.PressureBand(pitch, x, band),
         "HeatStudy": lambda **row: heat.HeatStudy(*(row[f.name] for f in fields(heat.HeatStudy))),
         "AnswerRow": lambda **row: answers.AnswerRow(
             **{n: v for n, v in row.items() if n not in ("uncertainty", "verdict")},

@@ -18,7 +18,7 @@ from comparisons.studies import (
 from comparisons.studies.answers.study import STUDY as ANSWERS
 from comparisons.studies.heat import STUDY as HEAT
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
-from comparisons.studies.scatter.study import STUDY as SCATTER
+from comparisons.studies.scatter import STUDY as SCATTER
 from comparisons.studies.statistics import STUDY as STATISTICS
 from comparisons.studies.study import Study
 

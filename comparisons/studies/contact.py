@@ -27,8 +27,7 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
-from comparisons.studies.scatter.figures import NAME as SCATTER
-from comparisons.studies.study import Run, Solved, Study
+from comparisons.studies.study import SCATTER, Run, Solved, Study
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 WHY_NOT, CONVERGED = "not done", "converged"
 REPEATED = "contact_ratio"  # says again what the contact length says
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
+SCATTER = "scatter"  # the study of uncertain inputs
 
 
 @dataclass(frozen=True)

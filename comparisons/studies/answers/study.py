@@ -11,8 +11,7 @@ from comparisons.figures.figure import Figures, Findings
 from comparisons.studies.answers import show
 from comparisons.studies.answers.answer import NAME, QUANTITIES, Answer, ComparedAnswer
 from comparisons.studies.answers.compare import compare_answers
-from comparisons.studies.scatter.figures import NAME as SCATTER
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.study import SCATTER, Solved, Study
 
 
 @dataclass(frozen=True)

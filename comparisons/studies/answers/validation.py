@@ -12,7 +12,7 @@ from comparisons.figures.figure import Figures
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.contact import uncertainties, values_of
-from comparisons.studies.scatter.figures import by_inputs
+from comparisons.studies.scatter.study import by_inputs
 
 
 def validation_rows(

@@ -4,7 +4,7 @@ from comparisons.common.numbers import listed, percent, with_unit
 from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, error_text, label
-from comparisons.studies.scatter.figures import NAME, by_inputs
+from comparisons.studies.scatter.study import NAME, SAMPLES, by_inputs
 from comparisons.studies.study import MODEL_ERROR, Run
 
 LISTED = 2  # inputs of a figure in the table
@@ -18,9 +18,11 @@ the same 95 % are a band."""
 
 
 def blocks(run: Run) -> list[Block]:
-    spread = run.data(NAME)
-    failures = f" {spread.failed} had no solution, the first because: {spread.why}."
-    note = NOTE.format(solutions=spread.solutions, failures=failures if spread.failed else "")
+    findings = run.found[NAME]
+    [counts] = findings.table(SAMPLES).rows()
+    why = findings.said("first failure")
+    failures = f" {counts['failed']} had no solution, the first because: {why}."
+    note = NOTE.format(solutions=counts["solutions"], failures=failures if why else "")
     return [Block("inputs", (scatter_table(run), Note(note)), "Uncertain inputs")]
 
 

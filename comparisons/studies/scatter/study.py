@@ -1,47 +1,117 @@
-"""What a scene's uncertain inputs do to the half-plane's figures."""
+"""What a scene's uncertain inputs do to the half-plane's figures: their spread over samples.
+
+A sample is a point of the unit cube, which stands for a scene with other inputs. It is solved by
+the half-plane on its coarsest pressure elements, whose error is in every sample alike; figures are
+scaled to the finest. Shares of the variance are those of `comparisons.studies.scatter.shares`.
+
+In: a scene with [scatter], and the solved half-plane. Out: figures with their spread; how many
+samples there were; the band that pressures lie in."""
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import ndtr, ndtri
 
+from analytic.contact.problem import ContactError
+from analytic.surface.stylus import opened, with_noise
+from comparisons.common.errors import InputError, one_line
+from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import LATER, Here, Tasks
-from comparisons.figures.figure import Findings, SampleSpread
-from comparisons.figures.quantity import QUANTITIES
-from comparisons.models.half_plane import expected_of
-from comparisons.models.level import Level
-from comparisons.models.problem import Problem
+from comparisons.figures.figure import Figure, Findings, SampleSpread, Series, Statement, columns_of
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.half_plane import expected_of, half_plane_level
+from comparisons.models.problem import Problem, problem_of
+from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
+from comparisons.scenes.studies.scatter import CUT_OFF, FIELDS, Spread
 from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.contact import values_of
-from comparisons.studies.scatter import show
-from comparisons.studies.scatter.figures import NAME, InputScatter, scattered
-from comparisons.studies.scatter.samples import solve_samples, solved, values_at
 from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.study import SCATTER as NAME
+from comparisons.studies.study import Solved
 
 TOGETHER = 16  # samples of a task: what an interrupted run may lose
+DESIGN, SHARES = "Sobol, scrambled", "Saltelli et al. 2010"
+SAMPLES = "samples"  # series of their numbers
+
+
+@dataclass(frozen=True)
+class PressureBand:
+    """The pressures of the samples, for pictures."""
+
+    pitch: float  # [m] of the pressure elements
+    x: np.ndarray = field(repr=False)  # (k,) [m]
+    band: np.ndarray = field(repr=False)  # (2, k) [Pa], 2.5th and 97.5th percentile at each x
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Make the samples known, before anything is solved."""
     if solved.runs:
         return
-    scene, surface = solved.problem.scene, solved.problem.surface
-    points = _points(solved.problem)
-    x = solved.problem.grid(solved.problem.pitches[0]).x
-    cost = expected_of(len(x)).seconds * TOGETHER
-    for start in _starts(points):
-        batch = points.reshape(-1, len(scene.scatter.inputs))[start : start + TOGETHER]
-        by = _by(solved, tasks)
-        by.add(_key(start), _batch, scene, surface, batch, x, seconds=cost, urgency=LATER)
+    problem = solved.problem
+    x = problem.grid(problem.pitches[0]).x
+    cost, by = expected_of(len(x)).seconds * TOGETHER, _tasks(solved, tasks)
+    for key, points in _batches(_points(problem)).items():
+        sampled_scene = problem.scene, problem.surface, points, x
+        by.add(key, _solve_batch, *sampled_scene, seconds=cost, urgency=LATER)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    points, by = _points(solved.problem), _by(solved, tasks)
-    batches = [by.result(_key(start)) for start in _starts(points)]
-    return _gathered(solved.problem, solved.runs["half_plane"].finest, points, batches)
+    problem, wanted = solved.problem, solved.problem.scene.scatter
+    points, by = _points(problem), _tasks(solved, tasks)
+    batches = [by.result(key) for key in _batches(points)]
+    answers = [answer for batch in batches for answer in batch["figures"]]
+    failures = [answer for answer in answers if isinstance(answer, str)]
+    columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
+    scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
+    figures, finest = [], solved.runs["half_plane"].finest
+    for number, (friction, coarse) in enumerate(_nominal(problem)[0].items()):
+        for quantity, value in values_of(finest, problem, friction).items():
+            values = [np.nan if isinstance(a, str) else a[number][quantity] for a in answers]
+            values = np.array(values).reshape(len(points), -1)
+            if coarse[quantity]:
+                values *= value / coarse[quantity]
+            drawn = values[np.isfinite(values)]
+            if drawn.size:
+                parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
+                spread = _spread(drawn, parts)
+                samples = len(answers) - len(failures)
+                figures.append(scattered(quantity, friction, float(value), spread, samples))
+    counts = {"samples": wanted.samples, "solutions": len(answers), "failed": len(failures)}
+    counts["pitch"] = problem.pitches[0]
+    said = [Statement("design", DESIGN), Statement("shares", SHARES)]
+    said += [Statement("first failure", text) for text in failures[:1]]
+    series = Series(SAMPLES, columns_of([counts], {"pitch": "m"}))
+    return Findings(tuple(figures), (series,), tuple(said), _band(problem, batches))
+
+
+def scattered(
+    quantity: str, friction: float, nominal: float, spread: SampleSpread, samples: int
+) -> Figure:
+    """A figure of the half-plane [SI] with every input as the scene has it, on the finest pressure
+    elements, and its spread over so many samples. Their mean is as sure as their deviation over the
+    root of their number."""
+    scale = abs(nominal) or 1.0
+    error = spread.deviation / max(1, samples) ** 0.5
+    return Figure(
+        study=NAME,
+        quantity=quantity,
+        source="half_plane",
+        value=nominal,
+        at={"friction": friction},
+        scale=scale,
+        uncertainty=Uncertainty({"sampling": error / scale}),
+        spread=spread,
+    )
+
+
+def by_inputs(figure: Figure) -> float:
+    """Half the interval of a figure's spread, relative."""
+    low, high = figure.spread.interval
+    return 0.5 * (high - low) / figure.scale
 
 
 def _points(problem: Problem) -> np.ndarray:
@@ -49,58 +119,32 @@ def _points(problem: Problem) -> np.ndarray:
     return designs(wanted.samples, len(wanted.inputs), wanted.seed)
 
 
-def _starts(points: np.ndarray) -> range:
-    """Of the batches of samples."""
-    return range(0, points[..., 0].size, TOGETHER)
+def _batches(points: np.ndarray) -> dict[str, np.ndarray]:
+    """The points of all designs (n, d), so many together, by the name of their task."""
+    every = points.reshape(-1, points.shape[-1])
+    starts = range(0, len(every), TOGETHER)
+    return {f"{NAME}-{start}": every[start : start + TOGETHER] for start in starts}
 
 
-def _key(start: int) -> str:
-    return f"{NAME}-{start}"
-
-
-def _by(solved: Solved, tasks: Tasks) -> Tasks:
-    """Tasks that solve samples: those of the run, or by workers from outside."""
+def _tasks(solved: Solved, tasks: Tasks) -> Tasks:
+    """Those that solve samples: the run's, or by workers from outside."""
     if solved.opens is None:
         return tasks
     return tasks.held(NAME, NAME, lambda: Tasks(solved.opens, math.inf, tasks.kept))
 
 
-def _batch(
-    here: Here, scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
-) -> dict[str, object]:
-    here.callback("half-plane: uncertain inputs")
-    return solve_samples(scene, surface, points, places)
+def _spread(drawn: np.ndarray, parts: dict | None) -> SampleSpread:
+    deviation = drawn.std(ddof=1) if drawn.size > 1 else 0.0
+    ends = tuple(map(float, _interval(drawn)))
+    return SampleSpread(float(drawn.mean()), float(deviation), ends, parts)
 
 
-def _gathered(problem: Problem, finest: Level, points: np.ndarray, batches: list[dict]) -> Findings:
-    """Figures, shares and band from the batches in their order."""
-    wanted, (nominal, _) = problem.scene.scatter, solved(problem)
+def _band(problem: Problem, batches: list[dict]) -> PressureBand:
     x = problem.grid(problem.pitches[0]).x
-    found = [each for batch in batches for each in batch["figures"]]
-    why = [each for each in found if isinstance(each, str)]
-    figures = []
-    columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
-    scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
-    for number, (friction, coarse) in enumerate(nominal.items()):
-        for quantity, value in values_of(finest, problem, friction).items():
-            values = [np.nan if isinstance(f, str) else f[number][quantity] for f in found]
-            values = np.array(values).reshape(len(points), -1)
-            if coarse[quantity]:
-                values *= value / coarse[quantity]
-            drawn = values[np.isfinite(values)]
-            if not drawn.size:
-                continue
-            spread = drawn.std(ddof=1) if drawn.size > 1 else 0.0
-            parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
-            ends = tuple(map(float, _interval(drawn)))
-            over_samples = SampleSpread(float(drawn.mean()), float(spread), ends, parts)
-            samples = len(found) - len(why)
-            figures.append(scattered(quantity, friction, float(value), over_samples, samples))
     pressures = np.concatenate([batch["pressures"] for batch in batches])
     pressures = pressures[np.isfinite(pressures[:, 0])]
     band = _interval(pressures) if len(pressures) else np.full((2, len(x)), np.nan)
-    counts = wanted.samples, len(found), len(why), why[0] if why else None
-    return InputScatter(*counts, problem.pitches[0], x, band).findings(tuple(figures))
+    return PressureBand(problem.pitches[0], x, band)
 
 
 def _interval(values: np.ndarray) -> np.ndarray:
@@ -117,17 +161,73 @@ def _by_input(found: Shares | None, inputs: tuple[str, ...]) -> dict | None:
     }
 
 
-def _applies(solved: Solved) -> bool:
-    return solved.problem.scene.scatter is not None and "half_plane" in solved.plan.models
+def values_at(spread: Spread, own: float, share: ArrayLike) -> np.ndarray:
+    """The input's values at which its distribution reaches `share`, from 0 to 1; the scene's `own`
+    value is the mean of what is normal."""
+    if spread.range:
+        low, high = spread.range
+        return low + share * (high - low)
+    left_out = ndtr(-CUT_OFF)
+    return own + spread.size(own) * ndtri(left_out + share * (1.0 - 2.0 * left_out))
 
 
-STUDY = Study(
-    name=NAME,
-    quantities=QUANTITIES,
-    solve=solve,
-    applies=_applies,
-    begin=begin,
-    data=InputScatter,
-    blocks=show.blocks,
-    lines=show.lines,
-)
+def sampled(scene: Scene, surface: SceneSurface, point: np.ndarray) -> tuple[Scene, SceneSurface]:
+    """Scene and surface with their uncertain inputs at a point (d,) of the unit cube, in their
+    order. Of the noise the point chooses the seed. Noise comes before the tip, which rounds what
+    it makes too sharp, as a stylus would have."""
+    spreads = scene.scatter.inputs
+    at = dict(zip(spreads, point, strict=True))
+
+    def value(name: str, own: float) -> float:
+        return float(values_at(spreads[name], own, at[name])) if name in at else own
+
+    fields = {
+        f"{section}.{field}": value(name, getattr(getattr(scene, section), field))
+        for name, (section, field) in FIELDS.items()
+        if name in at and name != "friction"
+    }
+    fields["load.friction"] = tuple(value("friction", mu) for mu in scene.load.friction)
+    fields[f"load.{scene.load.kind}"] = value("load", scene.load.value)
+    scene = scene.unchecked(fields)
+    moved, profile = value("position", surface.position) - surface.position, surface.profile
+    if profile is None:
+        return scene, surface
+    if "noise" in at:
+        rng = np.random.default_rng(int(at["noise"] * 2.0**32))
+        size, correlation_length = spreads["noise"].deviation, scene.scatter.correlation_length
+        profile = with_noise(profile, size, correlation_length or 0.0, rng)
+    if "tip_radius" in at:
+        profile = opened(profile, value("tip_radius", 0.0))
+    position = surface.position + moved
+    return scene, replace(surface, profile=profile.shifted(moved), position=position)
+
+
+def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarray]:
+    """Figures of the half-plane on the coarsest level, by friction coefficient and quantity, and
+    the pressure (n,) [Pa] at its nodes."""
+    scene = problem.scene
+    window = None if scene.stress is None else window_of(problem)
+    stages = Stages(no_progress)
+    level = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
+    figures = {friction: values_of(level, problem, friction) for friction in scene.load.friction}
+    return figures, level.solution.pressure
+
+
+def _solve_batch(
+    here: Here, scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
+) -> dict[str, object]:
+    """What the half-plane finds at points (n, d): `figures`, at each a dictionary by quantity for
+    every friction coefficient, or why there is none; and its `pressures` (n, k) [Pa] at places
+    (k,) [m], nan without a solution."""
+    here.callback("half-plane: uncertain inputs")
+    answers, pressures = [], np.full((len(points), len(places)), np.nan)
+    for number, point in enumerate(points):
+        try:
+            problem = problem_of(*sampled(scene, surface, point))
+            by_friction, pressure = _nominal(problem)
+            x = problem.grid(problem.pitches[0]).x
+            pressures[number] = np.interp(places, x, pressure, 0.0, 0.0)
+            answers.append(tuple(by_friction.values()))
+        except (InputError, ContactError, ArithmeticError, ValueError) as error:
+            answers.append(one_line(str(error)))
+    return {"figures": tuple(answers), "pressures": pressures}
