@@ -31,8 +31,7 @@ from comparisons.scenes.surface import SceneSurface
 from comparisons.studies import bulge, checks, comparison, contact, coupling, problem, running_in
 from comparisons.studies import quiescent_zone as zone
 from comparisons.studies import yielding as flow
-from comparisons.studies.answers import answer as answers
-from comparisons.studies.answers.study import ComparedAnswers
+from comparisons.studies.answers import study as answers
 from comparisons.studies.coupling import Couplings
 from comparisons.studies.heat import study as heat
 from comparisons.studies.model_error import account
@@ -400,14 +399,20 @@ def _answers(old: Mapping) -> Items:
         for name, rows in content["comparison"].items():
             for row in rows:
                 own, total = row["own_uncertainty"], _number(row["uncertainty"])
-                stated = total if own is None else total - own
+                parts = {"model": total} if own is None else {"model": total - own, "own": own}
                 of_row = answers.AnswerRow(
                     *(name, row["friction"], row["answer"], row["reference"], row["difference"]),
-                    *(stated, 0.0, own, row["tolerance"]),
+                    *(Uncertainty(parts), row["tolerance"]),
                 )
                 yield from of_row.figures(answer, content["reference"])
         yield from figures_of(answers.NAME, answer, {"load_balance": content["balance"]}, ITSELF)
         yield from figures_of(answers.NAME, answer, {"spacing": content["spacing"]})
+        by_model = [{"model": model} | row for model, row in content["conditions"].items()]
+        measured = [
+            {"quantity": name} | row for name, rows in content["validation"].items() for row in rows
+        ]
+        tables = {answers.CONDITIONS: by_model, answers.HINTS: content["hints"]}
+        yield from answers.tables_of(answer, tables | {answers.VALIDATION: measured})
 
 
 def _heat(old: Mapping) -> Items:
@@ -444,11 +449,6 @@ def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
         "Comparison": SimpleNamespace,
         "InputScatter": lambda pitch, x, band, **_: scatter.PressureBand(pitch, x, band),
         "HeatStudy": lambda **row: heat.HeatStudy(*(row[f.name] for f in fields(heat.HeatStudy))),
-        "AnswerRow": lambda **row: answers.AnswerRow(
-            **{n: v for n, v in row.items() if n not in ("uncertainty", "verdict")},
-            model=_number(row["uncertainty"]),
-            reading=0.0,
-        ),
     }
     return defaultdict(lambda: SimpleNamespace, {**kinds, **changed})
 
@@ -469,9 +469,13 @@ def parts_of_schema_2(old: Mapping) -> tuple[dict, dict[str, object], Mapping[st
         coupling.NAME: Couplings(old["couplings"]),
         MODEL_ERROR: old["budget"],
         scatter.NAME: old["scatter"],
-        answers.NAME: ComparedAnswers(old["answers"]) if old["answers"] else None,
+        answers.NAME: answers.OutsideAnswers(
+            {each.name: each.answers for each in old["answers"] or ()}
+        ),
         heat.NAME: old["heat"],
     }
+    known = {each.name: each.answers for each in old["answers"] or ()}
+    data[answers.NAME] = answers.OutsideAnswers(known)
     posed = Solved(**solved)
     data[flow.NAME] = flow.flow_assessment(posed.problem, posed.runs)
     figures = tuple(

@@ -15,7 +15,7 @@ from comparisons.studies import (
     running_in,
     yielding,
 )
-from comparisons.studies.answers.study import STUDY as ANSWERS
+from comparisons.studies.answers import STUDY as ANSWERS
 from comparisons.studies.heat import STUDY as HEAT
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies.scatter import STUDY as SCATTER

@@ -18,7 +18,7 @@ from analytic.profile import surface
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
-from comparisons.studies.answers.answer import Answer, Hint
+from comparisons.studies.answers.answer import Answer
 from comparisons.studies.comparison import relative_l2
 
 DISTINCT = 0.02  # relative L2 norm of a difference that asks for an explanation
@@ -38,6 +38,17 @@ PROBLEMS = (  # with another load, or another radius
     ("radius", 2.0, "the roller's diameter for its radius (or half of E*)"),
     ("radius", 0.5, "half of the roller's radius (or twice E*)"),
 )
+
+
+@dataclass(frozen=True)
+class Hint:
+    """What explains a difference in the pressures: its kind, by how much [SI], in words, and the
+    relative L2 norm of the difference that it leaves."""
+
+    kind: str
+    value: float
+    text: str
+    left: float
 
 
 @dataclass(frozen=True)

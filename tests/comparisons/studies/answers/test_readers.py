@@ -17,7 +17,7 @@ from comparisons.common.errors import InputError
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.answers import answers_named
-from comparisons.studies.answers.readers.files import read_answers
+from comparisons.studies.answers.read import read_answers
 from meshes.block import structured
 
 NO_CCX = "no CalculiX: apt-get install calculix-ccx"

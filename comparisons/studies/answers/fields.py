@@ -17,12 +17,12 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import OutsideStress
-from comparisons.studies.answers.readers.curves import checked
-from comparisons.studies.answers.readers.meshes import read_mesh
+from comparisons.studies.answers.meshes import read_mesh
 
 if TYPE_CHECKING:
     from pyvista import PolyData, UnstructuredGrid
 
+FEWEST = 5  # points that show a pressure
 PLANES = 3  # of nodes of one layer of elements
 SAME = 1e-6  # of the mesh's extent: nodes of one plane
 FACING = 0.5  # cosine between the normal of a top edge and the way up
@@ -76,6 +76,20 @@ def read_fields(
     if window is None:
         return x, pressure, None
     return x, pressure, _stresses(body, nodes, friction, problem, window)
+
+
+def checked(x: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Both in ascending order. Raises ValueError for what is no pressure along a surface."""
+    order = np.argsort(x, kind="stable")
+    x, pressure = x[order], pressure[order]
+    if len(x) < FEWEST:
+        raise ValueError(f"has {len(x)} points; allowed are {FEWEST} or more along the contact")
+    if not np.all(np.diff(x) > 0.0):
+        twice = x[:-1][np.diff(x) <= 0.0][0]
+        raise ValueError(f"has x = {twice:g} m twice; allowed is one pressure at each place")
+    if not np.any(pressure):
+        raise ValueError("has no pressure but 0; allowed is that of a contact")
+    return x, pressure
 
 
 def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float) -> PlaneMesh:
