@@ -332,9 +332,7 @@ def _zones(old: Mapping) -> Items:
                 yield from figures_of(zone.NAME, model, {name: value}, sure, at)
             yield Statement(zone.STATE, entry["status"], model, at)
             rows = [row | {"state": row["status"]} for row in entry["asperities"]]
-            units = {"x": "m", "length": "m", "level": "", "state": ""}
-            columns = {n: Column(tuple(row[n] for row in rows), u) for n, u in units.items()}
-            yield Series(zone.ASPERITIES, columns, model, at)
+            yield zone.asperity_series(rows, model, at)
 
 
 def _bulges(old: Mapping) -> Items:
