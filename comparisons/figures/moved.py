@@ -73,13 +73,13 @@ def movement(before: Mapping[str, Item], after: Mapping[str, Item]) -> Movement:
     return Movement(tuple(rows), same, rounding, len(set(after) - set(before)))
 
 
-def items_of(found: Mapping[str, Findings], other: Mapping[str, object]) -> dict[str, Item]:
+def items_of(findings: Mapping[str, Findings], other: Mapping[str, object]) -> dict[str, Item]:
     """All that is compared of a run's findings, and `other` numbers and texts, which are exact."""
     items = {}
-    for study, findings in found.items():
-        for figure in findings.figures:
+    for study, of_study in findings.items():
+        for figure in of_study.figures:
             items |= dict(_of_figure(figure))
-        for series in findings.series:
+        for series in of_study.series:
             if not series.is_account:
                 items |= dict(_of_series(study, series))
     plain = {name: Item(value, 0.0, _size(value)) for name, value in other.items()}
@@ -105,8 +105,8 @@ def _of_figure(figure: Figure) -> Iterator[tuple[str, Item]]:
     if sizes:
         yield f"{name}, uncertainty", Item(allowed, allowed)
     for part in figure.parts:
-        own = allowed if part.uncertainty is None else part.uncertainty
-        yield f"{name}, {part.name}", Item(part.value, own if math.isfinite(own) else allowed)
+        size = allowed if part.uncertainty is None else part.uncertainty
+        yield f"{name}, {part.name}", Item(part.value, size if math.isfinite(size) else allowed)
     if figure.spread is not None:
         ends = dict(zip(("low", "high"), figure.spread.interval, strict=True))
         sizes = {"mean": figure.spread.mean, "deviation": figure.spread.deviation} | ends

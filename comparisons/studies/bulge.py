@@ -162,7 +162,7 @@ def _found(
     problem, run, at = solved.problem, solved.runs[MODEL], {"friction": friction}
     a, radius, level = problem.hertz.half_width, problem.scene.roller.radius, run.finest
     s, h = a * DISTANCES, a**2 / radius
-    centres = [_centre(each) for each in run.levels]
+    centres = [_centre(level) for level in run.levels]
     whole, curve, tilt = _excess(problem, run, friction, s, centres, NEAR * a)
     sizes = whole.uncertainties
     known = {
@@ -177,11 +177,12 @@ def _found(
         "contact": (0.5 * level.contact_length, of_length),
     }
     if STRAIN in level.field_on_mesh.others:
-        strains = [float(each.field_on_mesh.others[STRAIN].max()) for each in run.levels]
+        fields = (level.field_on_mesh for level in run.levels)
+        strains = [float(field.others[STRAIN].max()) for field in fields]
         known["plastic_strain"] = _settled(strains, level)
     if len(level.field_on_mesh.displacement) > 1:  # of one coefficient v is not known by itself
         places = zip(run.levels, centres, strict=True)
-        works = [_work(each, friction, centre, whole.at) for each, centre in places]
+        works = [_work(level, friction, centre, whole.at) for level, centre in places]
         known["work"] = _settled(works, level)
     figures = [
         figure
@@ -287,15 +288,15 @@ def _excess(
     curves, excesses = zip(*map(of_level, run.levels, centres), strict=True)
     curve, excess = curves[-1], excesses[-1]
     if tilt is None:
-        own = problem.scene.body.thickness is not None or problem.scene.body.width is not None
-        tilt = 0.0 if own else far_boundary(excess[-1] / s[-1])
+        is_bounded = {problem.scene.body.thickness, problem.scene.body.width} != {None}
+        tilt = 0.0 if is_bounded else far_boundary(excess[-1] / s[-1])
     top = int(np.argmax(excess[s <= near]))
-    ends = [_end(s, each, top) for each in excesses]
+    ends = [_end(s, values, top) for values in excesses]
     settled = np.inf if None in ends else float(grid_convergence(ends, ORDER).uncertainty)
-    uncertainty = grid_convergence([each[top] for each in excesses], ORDER).uncertainty
+    uncertainty = grid_convergence([values[top] for values in excesses], ORDER).uncertainty
     uncertainty += iteration(run.finest) * abs(curve[top]) + tilt * s[top]
     longer = [of_level(level, centres[0])[1] for level in run.longer_increments]
-    uncertainty += of_increments([each[top] for each in (*longer, excesses[0])])
+    uncertainty += of_increments([values[top] for values in (*longer, excesses[0])])
     excess_of = Excess(
         height=float(excess[top]),
         uncertainty=float(uncertainty),
@@ -355,15 +356,15 @@ class Bulge:
 
 def bulges_of(findings: Findings | None) -> list[Bulge]:
     """By friction coefficient; none where it was not measured."""
-    found = []
+    bulges = []
     for curve in findings.series if findings else ():
         if curve.name == CURVE:
-            own = [f for f in findings.figures if f.at == curve.at]
-            shares = tuple(f.value for f in own if f.quantity == "energy_ahead")
-            figures = {f.quantity: f for f in own if f.source == MODEL}
+            known = [f for f in findings.figures if f.at == curve.at]
+            shares = tuple(f.value for f in known if f.quantity == "energy_ahead")
+            figures = {f.quantity: f for f in known if f.source == MODEL}
             patches = findings.table(PATCHES, **curve.at)
-            found.append(Bulge(curve.at["friction"], figures, shares, curve, patches))
-    return found
+            bulges.append(Bulge(curve.at["friction"], figures, shares, curve, patches))
+    return bulges
 
 
 def blocks(run: Run) -> list[Block]:
@@ -421,8 +422,8 @@ def bulge_picture(run: Run) -> style.Picture | None:
     axes.set(xlim=(0.0, FARTHEST), xlabel="s/a", ylabel="ahead − behind, over h")
     axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.1)
     largest = "; ".join(
-        f"friction {plain(each.friction)}: {significant(each.value('over_penetration'), 3)} h"
-        for each in bulges
+        f"friction {plain(bulge.friction)}: {significant(bulge.value('over_penetration'), 3)} h"
+        for bulge in bulges
     )
     words = "Surface ahead of the sliding contact less that as far behind it, raised by the "
     words += f"traction alone, over the distance from the load's centre. Bulge: {largest}."

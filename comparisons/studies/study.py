@@ -80,7 +80,7 @@ class Run:
     @cached_property
     def figures(self) -> Figures:
         """Every number that is a result."""
-        return Figures(figure for found in self.found.values() for figure in found.figures)
+        return Figures(f for findings in self.found.values() for f in findings.figures)
 
     @cached_property
     def judged(self) -> Figures:
@@ -98,7 +98,7 @@ class Run:
     @property
     def converged(self) -> bool:
         """Whether every solution met its contact conditions, and running-in did."""
-        said = (words for found in self.found.values() for words in found.statements)
+        said = (words for findings in self.found.values() for words in findings.statements)
         return all(words.text == "yes" for words in said if words.name == CONVERGED)
 
     def levels(self, friction: float) -> dict[str, Level]:

@@ -9,16 +9,15 @@ import numpy as np
 
 from comparisons.common.numbers import (
     Scale,
-    given_percent,
     listed,
     percent,
     plain,
-    scale_of,
     significant,
     with_unit,
 )
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Heading, Names, Note, Pictures, TextTable
+from comparisons.drawing.cells import compared_cells
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import (
     ColourScale,
@@ -29,7 +28,7 @@ from comparisons.drawing.field import (
     signed_scale,
 )
 from comparisons.figures.figure import Figure, Figures, Series, grouped
-from comparisons.figures.quantity import LABELS, QUANTITIES, error_text, label
+from comparisons.figures.quantity import LABELS, QUANTITIES, label
 from comparisons.studies import contact
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.study import CONDITIONS, HINTS, NAME, VALIDATION
@@ -82,21 +81,13 @@ def answer_rows(run: Run, answer: str) -> list[tuple[str, ...]]:
 
 
 def _cells(run: Run, known: Figures, difference: Figure) -> tuple[str, ...]:
-    name, bound = difference.quantity, difference.tolerance
-    wanted = {"quantity": name, "at": difference.at, "against": None}
-    own = known.one(**wanted)
+    quantity, stated = difference.quantity, difference.uncertainty.parts.get("own")
+    wanted = {"quantity": quantity, "at": difference.at, "against": None}
+    value = known.one(**wanted)
     reference = run.figures.one(study=contact.NAME, source=difference.against, **wanted)
-    values = [figure and figure.value for figure in (own, own and reference)]
-    scale = scale_of(values, QUANTITIES[name].unit)
-    stated = difference.uncertainty.parts.get("own")
-    return (
-        *("" if value is None else scale.text(value) for value in values),
-        error_text(name, difference.value, difference.numerical),
-        percent(difference.numerical),
-        NOT_STATED if stated is None else percent(stated),
-        "" if bound is None else given_percent(bound),
-        difference.verdict or "",
-    )
+    values = value, value and reference
+    *cells, tolerance, verdict = compared_cells(difference, values, QUANTITIES[quantity].unit)
+    return *cells, NOT_STATED if stated is None else percent(stated), tolerance, verdict
 
 
 def answer_facts(run: Run, answer: str) -> list[tuple[str, str]]:

@@ -210,7 +210,7 @@ def _rows(
         unsure = grid_convergence(history, quantity.formal_order, resolution).uncertainty
         unsure += max(1.0, size) * iteration(model.finest)
         unsure += sum(repeated[name])
-        stated = _stated(name, [each.get(name) for each in by_file], answers, reading)
+        stated = _stated(name, [differences.get(name) for differences in by_file], answers, reading)
         if source.scatter is not None:
             stated = (stated or 0.0) + source.scatter * (1.0 if quantity.of_pair else size)
         parts = {"reading": reading} if stated is None else {"own": stated}

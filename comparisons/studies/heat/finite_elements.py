@@ -165,5 +165,5 @@ def finite_element_stress(
     tau1 = maximum(body, both, lambda stress: stress.tau1, bounds)
     x = surface_places(level, window, field.ends)
     along = evaluate_all(body, (both, elastic), x, np.zeros_like(x))
-    own = level.stress(friction).extremes["tau1"]
-    return HeatedStress((tau1, own), x, np.array([each.sx for each in along]))
+    cold = level.stress(friction).extremes["tau1"]
+    return HeatedStress((tau1, cold), x, np.array([stress.sx for stress in along]))

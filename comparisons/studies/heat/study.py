@@ -227,7 +227,7 @@ def _figures(
     """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
     is infinite, they discretise it each in its own way. All is over the finite elements' value; of
     stresses over that without heat where it is larger, as heat may cancel it; of depths over a."""
-    levels = {model: [each.figures[name] for each in h] for model, h in histories.items()}
+    levels = {model: [known.figures[name] for known in h] for model, h in histories.items()}
     values, uncertainties = {model: history[-1] for model, history in levels.items()}, {}
     cold = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
     size = max(abs(known[list(values)[-1]]) for known in (values, cold) if known)
@@ -281,12 +281,13 @@ def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, floa
     from analytic.heat.partition import layered_fraction, one_fraction
 
     heat, pitch = contact.heat, float(contact.x[1] - contact.x[0])
-    bodies, own = half_spaces(problem, len(heat), pitch), problem.scene.heat
-    body = own.body.conductivity, (own.coating or own.body).conductivity
+    bodies, settings = half_spaces(problem, len(heat), pitch), problem.scene.heat
+    surface = settings.coating or settings.body
+    body = settings.body.conductivity, surface.conductivity
     fractions = {
         "equal_largest": one_fraction(*bodies, heat, np.max),
         "equal_mean": one_fraction(*bodies, heat, np.mean),
-        "conductivities": layered_fraction(body, 2 * (own.roller.conductivity,)),
+        "conductivities": layered_fraction(body, 2 * (settings.roller.conductivity,)),
     }
     alone = float(bodies[0].rise(heat).max())
     return {
@@ -301,9 +302,8 @@ def _subsurface(
     """Places, depths and rises in both half-spaces, half as far again as the grid: a picture."""
     pitch, half_width = float(contact.x[1] - contact.x[0]), problem.hertz.half_width
     beside = len(contact.x) // 4
-    fluxes = [
-        np.pad(each, beside) for each in (contact.into_body, contact.heat - contact.into_body)
-    ]
+    into_bodies = contact.into_body, contact.heat - contact.into_body
+    fluxes = [np.pad(flux, beside) for flux in into_bodies]
     x = contact.x[0] + pitch * np.arange(-beside, len(contact.x) + beside)
     z = half_width * np.linspace(0.0, 1.0, DEPTHS) ** 2
     bodies = half_spaces(problem, len(x), pitch)

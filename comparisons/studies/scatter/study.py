@@ -152,23 +152,23 @@ def _interval(values: np.ndarray) -> np.ndarray:
     return np.percentile(values, (50.0 * (1.0 - INTERVAL), 50.0 * (1.0 + INTERVAL)), axis=0)
 
 
-def _by_input(found: Shares | None, inputs: tuple[str, ...]) -> dict | None:
-    if found is None:
+def _by_input(of_figure: Shares | None, inputs: tuple[str, ...]) -> dict | None:
+    if of_figure is None:
         return None
-    columns = {name: values.tolist() for name, values in asdict(found).items()}
+    columns = {name: values.tolist() for name, values in asdict(of_figure).items()}
     return {
         name: {kind: values[i] for kind, values in columns.items()} for i, name in enumerate(inputs)
     }
 
 
-def values_at(spread: Spread, own: float, share: ArrayLike) -> np.ndarray:
-    """The input's values at which its distribution reaches `share`, from 0 to 1; the scene's `own`
-    value is the mean of what is normal."""
+def values_at(spread: Spread, nominal: float, share: ArrayLike) -> np.ndarray:
+    """The input's values at which its distribution reaches `share`, from 0 to 1; the scene's
+    `nominal` value is the mean of what is normal."""
     if spread.range:
         low, high = spread.range
         return low + share * (high - low)
     left_out = ndtr(-CUT_OFF)
-    return own + spread.size(own) * ndtri(left_out + share * (1.0 - 2.0 * left_out))
+    return nominal + spread.size(nominal) * ndtri(left_out + share * (1.0 - 2.0 * left_out))
 
 
 def sampled(scene: Scene, surface: SceneSurface, point: np.ndarray) -> tuple[Scene, SceneSurface]:
@@ -178,8 +178,8 @@ def sampled(scene: Scene, surface: SceneSurface, point: np.ndarray) -> tuple[Sce
     spreads = scene.scatter.inputs
     at = dict(zip(spreads, point, strict=True))
 
-    def value(name: str, own: float) -> float:
-        return float(values_at(spreads[name], own, at[name])) if name in at else own
+    def value(name: str, nominal: float) -> float:
+        return float(values_at(spreads[name], nominal, at[name])) if name in at else nominal
 
     fields = {
         f"{section}.{field}": value(name, getattr(getattr(scene, section), field))

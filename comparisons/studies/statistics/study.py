@@ -265,7 +265,7 @@ def patch_loads(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     patches, x = level.patches, level.grid.x
     carried = level.grid.weights * level.solution.pressure
     places = np.searchsorted(0.5 * (patches[:-1, 1] + patches[1:, 0]), x)
-    load, moment = (np.bincount(places, each, len(patches)) for each in (carried, carried * x))
+    load, moment = (np.bincount(places, w, len(patches)) for w in (carried, carried * x))
     peak = np.zeros(len(patches))
     np.maximum.at(peak, places, level.solution.pressure)
     return load, moment / load, peak
