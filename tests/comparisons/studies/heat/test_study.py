@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import PROFILES, STEEL, changed, refound, resolved
+from scenes import BOTH_CONDUCT, PROFILES, STEEL, changed, refound, resolved
 
 from comparisons.figures.quantity import MODELS
 from comparisons.output.flat_csv import rows_of
@@ -16,19 +16,13 @@ from comparisons.runs.run import run
 from comparisons.studies.heat.show import heat_facts, heat_table, lines
 from comparisons.studies.heat.study import HEATED, WITHOUT
 
-CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
-EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}
 TRACE = {
     "roller": {"radius": 7.5706e-3, **STEEL},
     "body": dict(STEEL),
-    "profile": {
-        "file": str(PROFILES / "ground_unrun.csv"),
-        "x_unit": "um",
-        "z_unit": "um",
-        "form": "none",
-    },
+    "profile": {"file": str(PROFILES / "ground_unrun.csv"), "x_unit": "um", "z_unit": "um"}
+    | {"form": "none"},
     "load": {"per_length": 0.6e6, "friction": [0.0, 0.1], "position": "1118 um"},
-    "heat": {"speed": 1.0, **EQUAL},
+    "heat": {"speed": 1.0, **BOTH_CONDUCT},
     "budget": {"effects": False},
     "resolution": {"pitch": "1.6 um"},
 }
@@ -132,7 +126,7 @@ STRESSED = {
     "roller": {"radius": 7.5706e-3, **STEEL},
     "body": dict(STEEL),
     "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
-    "heat": {"speed": 10.0, "stresses": True, "body_expansion": "12 um/m/K", **EQUAL},
+    "heat": {"speed": 10.0, "stresses": True, "body_expansion": "12 um/m/K", **BOTH_CONDUCT},
     "stress": {"points": [120, 40]},
     "budget": {"effects": False},
 }
