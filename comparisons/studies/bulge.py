@@ -81,21 +81,13 @@ Patches: about the centre of each one's own load, as far as the next, over its o
 
 @dataclass(frozen=True)
 class Excess:
-    """The largest excess of B over the half-plane's; lengths in m."""
+    """The largest excess of B over the half-plane's, whose `half_plane` is exact for its pressure:
+    height, half_plane, at and end [m], each with its uncertainty [m]."""
 
-    height: float
-    uncertainty: float  # of it: discretisation, iteration and, of an unbounded body, its boundary
-    at: float  # s there
-    spacing: float  # of the distances next to it
-    end: float | None  # from where it is below half of that; None: not within 20 a
-    end_uncertainty: float  # by the levels; infinite where one has no end
-    half_plane: float  # B of the half-plane there, exact for its pressure
-
-    @property
-    def uncertainties(self) -> dict[str, float]:
-        """By figure [m]; what is read at the same place is as uncertain as the height."""
-        sizes = {"height": self.uncertainty, "half_plane": self.uncertainty}
-        return sizes | {"at": self.spacing, "end": self.end_uncertainty}
+    values: Mapping[str, float | None]  # None: no end within 20 a
+    uncertainties: Mapping[str, float]  # of an end by the levels; infinite where one has none
+    curve: np.ndarray  # (n,) [m] B of the finest level
+    tilt: float  # of the surface, that the far boundary makes
 
 
 def needs(solved: Solved) -> str | None:
@@ -163,14 +155,11 @@ def _found(
     a, radius, level = problem.hertz.half_width, problem.scene.roller.radius, run.finest
     s, h = a * DISTANCES, a**2 / radius
     centres = [_centre(level) for level in run.levels]
-    whole, curve, tilt = _excess(problem, run, friction, s, centres, NEAR * a)
-    sizes = whole.uncertainties
-    known = {
-        name: (getattr(whole, name), _over(size, getattr(whole, name)))
-        for name, size in sizes.items()
-    }
+    whole = _excess(problem, run, friction, s, centres, NEAR * a)
+    known = {n: (value, _over(whole.uncertainties[n], value)) for n, value in whole.values.items()}
+    height, stated = known["height"]
     known |= {
-        "over_penetration": (whole.height / h, known["height"][1]),
+        "over_penetration": (height / h, stated),
         "penetration": (h, None),
         "relative_penetration": ((a / radius) ** 2, None),
         "work_scale": (problem.hertz.load_per_length * h, None),
@@ -182,7 +171,7 @@ def _found(
         known["plastic_strain"] = _settled(strains, level)
     if len(level.field_on_mesh.displacement) > 1:  # of one coefficient v is not known by itself
         places = zip(run.levels, centres, strict=True)
-        works = [_work(level, friction, centre, whole.at) for level, centre in places]
+        works = [_work(level, friction, centre, known["at"][0]) for level, centre in places]
         known["work"] = _settled(works, level)
     figures = [
         figure
@@ -191,11 +180,11 @@ def _found(
     ]
     columns = {
         "distance": Column(tuple(s.tolist()), "m"),
-        "rise": Column(tuple(curve.tolist()), "m", (whole.uncertainty,) * len(s)),
+        "rise": Column(tuple(whole.curve.tolist()), "m", (whole.uncertainties["height"],) * len(s)),
     }
     tables = [Series(CURVE, columns, MODEL, at)]
     if problem.scene.profile:
-        tables.append(_by_patch(problem, run, friction, tilt))
+        tables.append(_by_patch(problem, run, friction, whole.tilt))
     return [*figures, *_energies(solved, friction)], tables
 
 
@@ -244,23 +233,21 @@ def _by_patch(problem: Problem, run: ModelRun, friction: float, tilt: float) -> 
         reach = min(centres[k] - before[k], after[k] - centres[k], NEAR * 0.5 * (stop - start))
         s = reach * DISTANCES / DISTANCES[-1]
         here = [centres[k]] * len(run.levels)
-        excess, _, _ = _excess(problem, run, friction, s, here, reach, tilt)
+        excess = _excess(problem, run, friction, s, here, reach, tilt)
         h = 4.0 * loads[k] / (np.pi * problem.modulus)
         rows.append(
             {
                 "start": float(start),
                 "stop": float(stop),
                 "penetration": float(h),
-                "over_penetration": float(excess.height / h),
+                "over_penetration": float(excess.values["height"] / h),
                 "relative_penetration": float(depth["ridge"][k]),
                 "kind": str(kinds[k]),
-                "height": excess.height,
-                "half_plane": excess.half_plane,
-                "at": excess.at,
-                "end": excess.end,
+                **excess.values,
             }
         )
-        sizes.append({"over_penetration": float(excess.uncertainty / h)} | excess.uncertainties)
+        over = float(excess.uncertainties["height"] / h)
+        sizes.append({"over_penetration": over, **excess.uncertainties})
     units = {name: quantity.unit for name, quantity in QUANTITIES.items()}
     uncertainties = {name: [row[name] for row in sizes] for name in sizes[0]}
     columns = columns_of(rows, units | {"start": "m", "stop": "m"}, uncertainties)
@@ -275,11 +262,10 @@ def _excess(
     centres: list[float],
     near: float,
     tilt: float | None = None,
-) -> tuple[Excess, np.ndarray, float]:
-    """Height, place and end of the largest excess within `near` [m] of each level's centre [m], B
-    (n,) [m] on the finest level, and the tilt of the surface that the far boundary makes: the step
-    is constant to infinity, and held there it falls evenly on the way. None: from the farthest s,
-    where bulges have ended; 0 of a body with its own base or sides."""
+) -> Excess:
+    """Within `near` [m] of each level's centre [m]. The tilt: the step is constant to infinity, and
+    held at a far boundary it falls evenly on the way. None: from the farthest s, where bulges have
+    ended; 0 of a body with its own base or sides."""
 
     def of_level(level: Level, centre: float) -> tuple[np.ndarray, np.ndarray]:
         curve = _across(centre, s, *_rise(level, friction))
@@ -293,20 +279,16 @@ def _excess(
     top = int(np.argmax(excess[s <= near]))
     ends = [_end(s, values, top) for values in excesses]
     settled = np.inf if None in ends else float(grid_convergence(ends, ORDER).uncertainty)
-    uncertainty = grid_convergence([values[top] for values in excesses], ORDER).uncertainty
-    uncertainty += iteration(run.finest) * abs(curve[top]) + tilt * s[top]
+    size = grid_convergence([values[top] for values in excesses], ORDER).uncertainty
+    size += iteration(run.finest) * abs(curve[top]) + tilt * s[top]
     longer = [of_level(level, centres[0])[1] for level in run.longer_increments]
-    uncertainty += of_increments([values[top] for values in (*longer, excesses[0])])
-    excess_of = Excess(
-        height=float(excess[top]),
-        uncertainty=float(uncertainty),
-        at=float(s[top]),
-        spacing=float(np.diff(s)[min(top, len(s) - 2)]),
-        end=ends[-1],
-        end_uncertainty=settled,
-        half_plane=float(curve[top] - excess[top]),
-    )
-    return excess_of, curve, tilt
+    size = float(size + of_increments([values[top] for values in (*longer, excesses[0])]))
+    values = {"height": excess[top], "half_plane": curve[top] - excess[top], "at": s[top]}
+    values = {name: float(value) for name, value in values.items()} | {"end": ends[-1]}
+    # what is read at the same place is as uncertain as the height
+    spacing = float(np.diff(s)[min(top, len(s) - 2)])
+    sizes = {"height": size, "half_plane": size, "at": spacing, "end": settled}
+    return Excess(values, sizes, curve, tilt)
 
 
 def _end(s: np.ndarray, excess: np.ndarray, top: int) -> float | None:
