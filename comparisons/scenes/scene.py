@@ -215,8 +215,8 @@ def with_tolerance(scene: Scene, tolerance: float, source: str = "tolerance") ->
     Raises InputError, which calls it by its `source`, unless it is above 0 and below 1."""
     is_number = isinstance(tolerance, int | float) and not isinstance(tolerance, bool)
     if not (is_number and 0.0 < tolerance < 1.0):
-        given = f"{tolerance:g}" if is_number else describe(tolerance)
-        raise InputError(f"{source}: is {given}; allowed is a number above 0 and below 1")
+        shown = f"{tolerance:g}" if is_number else describe(tolerance)
+        raise InputError(f"{source}: is {shown}; allowed is a number above 0 and below 1")
     return scene.changed("tolerance", dict.fromkeys(scene.tables["tolerance"], tolerance))
 
 
@@ -257,13 +257,14 @@ def _unknown(sections: dict[str, type[SceneSection]], location: tuple, value: ob
         table: {field: f"{table}.{field}" for field in sections[table].model_fields}
         for table in titles
     }
-    own = {"title": "title", **titles}
+    inside = {"title": "title", **titles}
     if section:
         within = ".".join(section)
-        own = {field: f"{within}.{field}" for field in sections[section[0]].model_fields}
+        inside = {field: f"{within}.{field}" for field in sections[section[0]].model_fields}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
-    near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)
+    near = _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
+    near = near or _nearest(name, inside)
     return f"{place}: is no known field; the nearest is {near}"
 
 

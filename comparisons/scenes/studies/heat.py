@@ -87,17 +87,15 @@ class HeatSection(SceneSection):
         if not any(scene.load.friction):
             yield "heat", "is given without friction; allowed with load.friction above 0"
         if self.base is not None and scene.body.thickness is None:
-            yield (
-                "heat.base",
-                "is given for a half-plane, which has none; allowed with body.thickness",
-            )
+            unbounded = "is given for a half-plane, which has none"
+            yield "heat.base", f"{unbounded}; allowed with body.thickness"
         yield from self._of_stresses(scene)
         expansion = ("expansion",) if self.stresses else ()
         for name in (f"coating_{constant}" for constant in (*CONSTANTS, *expansion)):
-            given = getattr(self, name) is not None
-            if given and scene.coating is None:
+            is_there = getattr(self, name) is not None
+            if is_there and scene.coating is None:
                 yield f"heat.{name}", "is given for a body without one; allowed with [coating]"
-            if scene.coating is not None and not given:
+            if scene.coating is not None and not is_there:
                 yield f"heat.{name}", f"is missing; allowed is {allowed(type(self), name)}"
 
     def _of_stresses(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
