@@ -14,8 +14,7 @@ from comparisons.studies import contact, coupling, yielding
 from comparisons.studies.model_error.account import INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import law_leaned_on
-from comparisons.studies.scatter.show import beside_inputs
-from comparisons.studies.scatter.study import by_inputs
+from comparisons.studies.scatter.study import beside_inputs, by_inputs
 from comparisons.studies.study import MODEL_ERROR, SCATTER, Run
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]

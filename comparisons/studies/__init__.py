@@ -15,11 +15,11 @@ from comparisons.studies import (
     problem,
     quiescent_zone,
     running_in,
-    scatter,
     statistics,
     yielding,
 )
 from comparisons.studies.model_error import study as model_error
+from comparisons.studies.scatter import study as scatter
 
 # In the order in which they are done, and their figures shown.
 STUDIES = (
