@@ -198,7 +198,7 @@ def _shown(value: object) -> str:
 
 
 def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:
-    """The sections that a file may have, by name; of [answers.NAME] that of any name."""
+    """The sections that a file may have, by name; of such as [answers.NAME] that of any name."""
 
     def inside(annotation: object) -> Iterator[type[SceneSection]]:
         if isinstance(annotation, type) and issubclass(annotation, SceneSection):
@@ -231,7 +231,7 @@ def _scene_error(scene: type[SceneBase], error: ValidationError, where: str) -> 
 def _line(scene: type[SceneBase], problem: dict) -> str:
     location, kind = problem["loc"], problem["type"]
     if kind == "extra_forbidden":
-        return _unknown(sections_of(scene), location, problem["input"])
+        return _unknown(scene, location, problem["input"])
     if kind == "missing" and len(location) == 1:
         return f"{location[0]}: is missing; allowed is a section [{location[0]}]"
     if kind == "missing":
@@ -246,11 +246,13 @@ def _line(scene: type[SceneBase], problem: dict) -> str:
     return f"{'.'.join(map(str, location))}: {cause or problem['msg']}"
 
 
-def _unknown(sections: dict[str, type[SceneSection]], location: tuple, value: object) -> str:
+def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
     """A name that no section has: the nearest one, in its own section if there is one alike."""
     *section, name = map(str, location)
-    place = ".".join([*section, name])
-    titles = {table: f"[{table}]" for table in sections if table != "answers"}
+    place, sections = ".".join([*section, name]), sections_of(scene)
+    hints = {table: scene.model_fields[table].annotation for table in sections}
+    # but for those of which there may be several
+    titles = {n: f"[{n}]" for n, hint in hints.items() if sections[n] in (hint, *get_args(hint))}
     if not section and isinstance(value, dict):
         return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
     fields = {
