@@ -51,16 +51,22 @@ class HeatedContact:
 
     @property
     def figures(self) -> dict[str, float]:
-        """Largest rise in the contact [K] and its place [m], the mean where heat is made, weighed
-        by it, and the part of it that enters the body."""
-        touch = self.heat > 0.0
-        largest = np.argmax(np.where(touch, self.body, -np.inf))
+        """Largest rise in the contact [K], the mean where heat is made, weighed by it, and the part
+        of it that enters the body."""
         return {
-            "flash_temperature": float(self.body[largest]),
+            "flash_temperature": float(self.body[self._hottest]),
             "mean_temperature": float(self.heat @ self.body / self.heat.sum()),
             "fraction_into_body": self.fraction,
-            "flash_position": float(self.x[largest]),
         }
+
+    @property
+    def places(self) -> dict[str, tuple[float, ...]]:
+        """Of the largest [m]."""
+        return {"flash_temperature": (float(self.x[self._hottest]),)}
+
+    @property
+    def _hottest(self) -> int:
+        return int(np.argmax(np.where(self.heat > 0.0, self.body, -np.inf)))
 
 
 def reach_of(problem: Problem) -> float:
@@ -165,7 +171,7 @@ class HeatedStress:
 
     @property
     def figures(self) -> dict[str, float]:
-        """With heat [Pa], and their places [m]."""
+        """With heat [Pa], [m]."""
         return self._figures(0)
 
     @property
@@ -173,10 +179,15 @@ class HeatedStress:
         """The same without heat."""
         return self._figures(1)
 
+    @property
+    def places(self) -> dict[str, tuple[float, ...]]:
+        """Of the largest with heat [m]."""
+        tau1, sx = self.tau1[0], self.sx[0]
+        return {"tau1_heated": (tau1.x, tau1.z), "sx_heated": (self.x[sx.argmax()],)}
+
     def _figures(self, row: int) -> dict[str, float]:
         tau1, sx = self.tau1[row], self.sx[row]
-        largest = {"tau1_heated": tau1.value, "tau1_depth_heated": tau1.z, "sx_heated": sx.max()}
-        return largest | {"tau1_position": tau1.x, "sx_position": self.x[sx.argmax()]}
+        return {"tau1_heated": tau1.value, "tau1_depth_heated": tau1.z, "sx_heated": sx.max()}
 
 
 def surface_places(level: Level, window: Window, ends: EndStress) -> np.ndarray:

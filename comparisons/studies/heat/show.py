@@ -95,7 +95,7 @@ def heat_facts(run: Run) -> list[tuple[str, str]]:
     body, roller = (f"{significant(abs(v), 3)} m/s" for v in heat.velocities)
     known = run.figures.of(study=NAME)
     peclet = [f"{f.source} {significant(f.value, 3)}" for f in known.of(quantity="peclet_number")]
-    places = (contact.figures["flash_position"] for contact in study.contacts.values())
+    places = (contact.places["flash_temperature"][0] for contact in study.contacts.values())
     reach = with_unit(reach_of(run.problem), "m")
     facts = [
         ("surfaces pass the contact at", f"body {body}, roller {roller}"),

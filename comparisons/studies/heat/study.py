@@ -69,7 +69,7 @@ class HeatRow:
     parts: tuple[Part, ...] = ()
     tolerance: float | None = None
     cold: Mapping[str, float] = field(default_factory=dict)  # of a stress, what it is without heat
-    places: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # by model [m]
+    places: Mapping[str, tuple[float, ...] | None] = field(default_factory=dict)  # by model [m]
 
     def figures(self, friction: float) -> Iterator[Figure]:
         """By each model, with heat and without, and their difference."""
@@ -252,21 +252,9 @@ def _figures(
         parts=tuple(parts),
         tolerance=problem.scene.heat.tolerance,
         cold=cold,
-        places={model: _place(name, h[-1].figures) for model, h in histories.items()},
+        places={model: h[-1].places.get(name) for model, h in histories.items()},
     )
     return list(row.figures(friction_of(problem)))
-
-
-def _place(quantity: str, values: Mapping[str, float]) -> tuple[float, ...] | None:
-    """Where a largest value stands [m], by a model's figures."""
-    match quantity:
-        case "flash_temperature":
-            return (values["flash_position"],)
-        case "tau1_heated":
-            return values["tau1_position"], values["tau1_depth_heated"]
-        case "sx_heated":
-            return (values["sx_position"],)
-    return None
 
 
 def _effect(feature: str, pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> Part:
