@@ -15,15 +15,15 @@ from comparisons.studies import (
     problem,
     quiescent_zone,
     running_in,
+    scatter,
     statistics,
     yielding,
 )
-from comparisons.studies.model_error import study as model_error
-from comparisons.studies.scatter import study as scatter
+from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 
 # In the order in which they are done, and their figures shown.
 STUDIES = (
-    *(contact.STUDY, comparison.STUDY, coupling.STUDY, model_error.STUDY),
+    *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
 )
