@@ -16,7 +16,7 @@ from pathlib import Path
 
 import typer
 
-from comparisons.commands import checks, doctor, finished, run, scenes, studies
+from comparisons.commands import checks, doctor, finished, materials, run, scenes, studies
 from comparisons.common.errors import ExitStatus, InputError, SolverError, address_space, drop, tell
 from comparisons.common.mpi import as_one, forget_inherited_launcher, is_several
 
@@ -62,6 +62,7 @@ for name, command in {
     "verify": checks.verify,
     "paper": studies.paper,
     "scenes": scenes.scenes,
+    "materials": materials.materials,
     "deck": scenes.deck,
     "init": scenes.init,
     "doctor": doctor.doctor,

@@ -12,7 +12,7 @@ from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TW
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.notebook import run
-from comparisons.scenes.fields import SceneSection, allowed
+from comparisons.scenes.fields import SceneSection, allowed, file_fields
 from comparisons.scenes.finite_element import HELD_BLOCK
 from comparisons.scenes.profile import FILTER, VARIETIES
 from comparisons.scenes.scene import Origin, Scene
@@ -144,11 +144,11 @@ class TestReference:
         """Their names, what is allowed and the defaults."""
         model = model_of(section)
         named = {cells[0].strip("`"): cells for cells in every_row("reference", f"`{section}`")}
-        assert named.keys() == model.model_fields.keys()
+        assert named.keys() == file_fields(model).keys()
         for name, (_, _, words, *default) in named.items():
             assert words == short(allowed(model, name))
             if default:
-                assert default == [shown(model.model_fields[name])]
+                assert default == [shown(file_fields(model)[name])]
 
     def test_kinds_of_surfaces_have_the_fields_that_are_listed(self):
         listed = {kind.strip('`"'): rest for kind, *rest in rows("reference", "`kind`")}

@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -71,11 +72,18 @@ def is_watched() -> bool:
 
 
 def show(renderable: object) -> None:
-    """Print a table, as wide as the terminal if there is one."""
+    """Print a table, as wide as the terminal, or as COLUMNS; into a file without padding."""
     from rich.console import Console
 
-    unseen = Console(width=UNSEEN_WIDTH, force_terminal=False)
-    (Console() if is_watched() else unseen).print(renderable)
+    if is_watched():
+        Console().print(renderable)
+        return
+    asked = os.environ.get("COLUMNS", "")
+    width = int(asked) if asked.isascii() and asked.isdigit() and int(asked) else UNSEEN_WIDTH
+    unseen = Console(width=width, force_terminal=False)
+    with unseen.capture() as printed:
+        unseen.print(renderable)
+    print("\n".join(line.rstrip() for line in printed.get().splitlines()))
 
 
 def show_either(as_json: bool, content: object, table: Callable[[], object]) -> None:

@@ -51,6 +51,9 @@ def run(
         list[str] | None,
         Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
     ] = None,
+    details: Annotated[
+        bool, Option("--details", help="Every compared quantity, where the models agree, too.")
+    ] = False,
     pdf: Annotated[bool, Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
@@ -97,7 +100,7 @@ def run(
         seconds = perf_counter() - began
         write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), seconds))
     content = content_of(outcome) if as_json else {}
-    show_either(as_json, content, lambda: summary(outcome))
+    show_either(as_json, content, lambda: summary(outcome, details))
     _say_warnings([*warnings, *warnings_about_result(outcome)])
     return outcome.exit_status
 

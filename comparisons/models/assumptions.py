@@ -41,9 +41,13 @@ def without_law(scene: Scene) -> list[str]:
 
 def laws(scene: Scene) -> str:
     """The laws of elasticity of both bodies at finite strain, in words."""
-    materials = [body.material for body in (scene.body, scene.roller) if body.material is not None]
-    found = {material.law.name: None for material in materials}
-    return " and ".join(LAW_NAMES[law] for law in found)
+    found = {}
+    for section in (scene.body, scene.roller):
+        if section.material is not None:
+            law = section.material.law
+            measured = section.solid and law.murnaghan is not None
+            found[f"{section.solid}'s measured" if measured else LAW_NAMES[law.name]] = None
+    return " and ".join(found)
 
 
 def _law(scene: Scene) -> str:

@@ -1,7 +1,8 @@
-"""The verdict: in a word, in one sentence with the number that decides it, and why.
+"""The verdict: in a word, in one sentence with the figure that decides it, and what to do next.
 
 In: the figures of a run. Out: what terminal, page, JUnit and result.json say alike."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -9,23 +10,29 @@ from typing import Literal
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text, label
-from comparisons.models.assumptions import without_law
+from comparisons.models.assumptions import laws, without_law
+from comparisons.scenes.materials import kinds_like, measured_solids
+from comparisons.scenes.sections import ElasticSection
 from comparisons.studies import contact, coupling, yielding
-from comparisons.studies.model_error.account import INTERACTION
+from comparisons.studies.model_error.account import INPUTS, INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.selection import law_leaned_on
+from comparisons.studies.model_error.laws import EFFECT as LAW
+from comparisons.studies.model_error.show import law_range
 from comparisons.studies.scatter.study import beside_inputs, by_inputs
 from comparisons.studies.study import MODEL_ERROR, SCATTER, Run
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
+AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided
 
 
 @dataclass(frozen=True)
 class Headline:
-    """`kind` in a word or two, and the sentence."""
+    """`kind` in a word or two, the sentence, and what would decide or improve it."""
 
     kind: Kind
     sentence: str
+    next: str  # a sentence
+    paste: tuple[str, ...] = ()  # the same as text for the scene or the command
 
 
 def verdict_of(run: Run) -> tuple[Kind, str]:
@@ -36,7 +43,7 @@ def verdict_of(run: Run) -> tuple[Kind, str]:
         [name] = run.runs
         return "not compared", f"only the {HYPHENATED[name]} model was run"
     kind, why = validity(run.model_errors)
-    why += law_leaned_on(run.data(MODEL_ERROR).selection, run.problem.scene)
+    why += _law_leaned_on(run)
     if flows := run.found[yielding.NAME].said(yielding.BEYOND_DOUBT):
         return "fails", f"{flows}; {why}"
     return kind, why
@@ -78,49 +85,29 @@ def _effects(errors: Sequence[Figure]) -> str:
     return ", ".join(f"{EFFECTS[name].label} {size:.1%}" for name, size in by_size)
 
 
-def remedies(run: Run) -> tuple[str, ...]:
-    """What would decide an open verdict, as text to paste into the scene or the command."""
-    kind, _ = verdict_of(run)
-    if kind == "not compared":
-        return (f"--models {','.join(HYPHENATED.values())}",)
-    if kind != "inconclusive":
-        return ()
-    if not run.model_errors:
-        return ("[tolerance]\npeak_pressure = 0.02",)
-    worst = _nearest([error for error in run.model_errors if error.verdict != "holds"])
-    if not worst.unknown or worst.is_unresolved:
-        return (f"[budget]\ntime = {2.0 * run.problem.scene.budget.time:g}",)
-    largest, selection = max(worst.unknown, key=worst.unknown.get), run.data(MODEL_ERROR).selection
-    if largest == "law_of_elasticity":
-        bodies = without_law(run.problem.scene)
-        return tuple(f'[{name}]\nlaw = "neo-hookean"' for name in bodies)
-    asked = "budget.effects" in selection.impossible.get(largest, "")
-    return ('[budget]\neffects = "all"',) if asked else ()
-
-
 def headline(run: Run) -> Headline:
-    """What the reader needs first: the verdict, and what there is to say of flow."""
+    """What the reader needs first: the verdict, and the one thing to do about it."""
     kind, _ = verdict_of(run)
     if kind == "not converged":
         said = f"A solver did not converge ({_unconverged(run)}): what was computed is shown, "
-        return Headline(kind, f"{said}but no conclusion rests on it.")
-    said, flow = _sentence_of(run), _sentence(yielding.flow_sentence(run))
-    if run.plan.compares and run.found[yielding.NAME].said(yielding.BEYOND_DOUBT):
-        return Headline(kind, f"{flow} Were it elastic: {said[0].lower()}{said[1:]}")
-    return Headline(kind, f"{said} {_inputs(run)}{flow}")
+        remedy = "a lighter load, or finer pressures (resolution.pitch)."
+        return Headline(kind, f"{said}but no conclusion rests on it.", remedy)
+    if kind == "not compared":
+        both = f"--models {','.join(HYPHENATED.values())}"
+        return Headline(kind, _one_model(run), f"{both} compares both models.", (both,))
+    if flows := run.found[yielding.NAME].said(yielding.BEYOND_DOUBT):
+        return Headline(kind, f"{flows[0].upper()}{flows[1:]}.", *_next_of_flow(run))
+    return Headline(kind, f"{_sentence_of(run, kind)}{_inputs(run)}", *_next(run, kind))
 
 
-def _sentence_of(run: Run) -> str:
-    """The half-plane's model errors, or the only model."""
-    if not run.plan.compares:
-        return _one_model(run)
+def _sentence_of(run: Run, kind: Kind) -> str:
+    """What the half-plane's model errors come to."""
     errors = run.model_errors
-    kind, _ = validity(errors)
     several = len(run.problem.scene.load.friction) > 1
-    law = law_leaned_on(run.data(MODEL_ERROR).selection, run.problem.scene)
+    law = _law_leaned_on(run)
     if kind == "holds":
         nearest = _said(_nearest(errors), several)
-        said = f"{_allvalidity(errors)}; nearest to its tolerance, {nearest}"
+        said = f"{_all_hold(errors)}; nearest to its tolerance, {nearest}"
         return f"The half-plane holds here: {said}{law}."
     if kind == "fails":
         outside = [error for error in errors if error.verdict == "fails"]
@@ -128,8 +115,20 @@ def _sentence_of(run: Run) -> str:
         are = "are" if more > 1 else "is"
         others = f"; {more} more of {len(errors)} judged errors {are} outside" if more else ""
         return f"The half-plane fails here: {_said(worst, several)}{_dominant(worst)}{others}{law}."
-    said = _inconclusive(errors, several) if errors else "no figure has a tolerance"
+    said = _inconclusive(run, several) if errors else "no figure has a tolerance"
     return f"The half-plane cannot be judged here: {said}."
+
+
+def _law_leaned_on(run: Run) -> str:
+    """For the end of a sentence: the law of elasticity that the whole has, or that none changes the
+    verdict; nothing where the whole deforms little."""
+    selection, scene = run.data(MODEL_ERROR).selection, run.problem.scene
+    if "finite_strain" not in selection.whole:
+        return ""
+    if not without_law(scene):
+        return f", with {laws(scene)} elasticity"
+    solved = any(not law.is_scatter for law in selection.laws)
+    return ", whatever the law of elasticity" if solved else ""
 
 
 def _inputs(run: Run) -> str:
@@ -142,27 +141,30 @@ def _inputs(run: Run) -> str:
     figure = run.figures.one(study=SCATTER, **wanted)
     if figure is None or by_inputs(figure) <= error.tolerance:
         return ""
-    return beside_inputs(run, error.quantity, error.friction) + " "
+    return f" {beside_inputs(run, error.quantity, error.friction)}"
 
 
-def _sentence(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}."
-
-
-def _inconclusive(errors: Sequence[Figure], several: bool) -> str:
+def _inconclusive(run: Run, several: bool) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
-    worst = _nearest([error for error in errors if error.verdict != "holds"])
+    worst = _worst(run)
     if not worst.unknown or worst.is_unresolved:
         return f"{_said(worst, several)}, an uncertainty that reaches across the tolerance"
     largest = max(worst.unknown, key=worst.unknown.get)
-    remedy = "; body.law and roller.law can name one" if largest == "law_of_elasticity" else ""
+    if worst.part(largest) is not None:  # its range was solved
+        return f"{_said(worst, several)}, an uncertainty that reaches across the tolerance"
+    why = run.data(MODEL_ERROR).selection.impossible.get(largest)
     return (
-        f"{_said(worst, several)}, but effects that are not modelled may change it by "
-        f"{percent(worst.not_modelled)} (estimate), {EFFECTS[largest].label} most{remedy}"
+        f"{_said(worst, several)}, but {EFFECTS[largest].label}, which is not modelled"
+        f"{f' ({why})' if why else ''}, may change it by {percent(worst.not_modelled)} (estimate)"
     )
 
 
-def _allvalidity(errors: Sequence[Figure]) -> str:
+def _worst(run: Run) -> Figure:
+    """The error that is farthest from a verdict that holds."""
+    return _nearest([error for error in run.model_errors if error.verdict != "holds"])
+
+
+def _all_hold(errors: Sequence[Figure]) -> str:
     if len(errors) == 1:
         return "the one judged error is within its tolerance"
     several = "both" if len(errors) == 2 else f"all {len(errors)}"
@@ -178,9 +180,11 @@ def _said(error: Figure, several: bool) -> str:
     """An error of the half-plane as a clause: what, how much, tolerance, uncertainty."""
     stress = QUANTITIES[error.quantity].needs_stress
     where = f" at friction {plain(error.friction)}" if several and stress else ""
+    size = error_text(error.quantity, error.value, error.numerical)
+    if by_law := law_range(error):
+        size = f"{by_law} by the law of elasticity"
     return (
-        f"its model error in the {label(error.quantity)}{where} is "
-        f"{error_text(error.quantity, error.value, error.numerical)} (tolerance "
+        f"its model error in the {label(error.quantity)}{where} is {size} (tolerance "
         f"{given_percent(error.tolerance)}, uncertainty {percent(error.numerical)})"
     )
 
@@ -197,6 +201,91 @@ def _dominant(error: Figure) -> str:
     return f", dominated by {EFFECTS[largest].label}"
 
 
+def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
+    """What would decide or improve a verdict on elastic bodies: a sentence, and text to paste."""
+    if not run.model_errors:
+        given = "[tolerance]\npeak_pressure = 0.02"
+        return "a tolerance, to judge by: tolerance = {peak_pressure = 0.02}.", (given,)
+    if kind == "fails":
+        return f"{_figures_of_whole(run)} in place of the half-plane's.", ()
+    if kind == "holds":
+        unknown = yielding.may_flow(run)
+        given = 'body.yield_stress = "…"'
+        return (f"{given}: {unknown}.", ()) if unknown else ("nothing.", ())
+    worst = _worst(run)
+    holds_at = _rounded_up(abs(worst.value) + worst.total)
+    tolerance = f"--tolerance {holds_at:g}" if holds_at else ""
+    largest = max(worst.unknown, key=worst.unknown.get, default="")
+    if largest == LAW and not worst.is_unresolved:
+        return _next_of_law(run, worst, tolerance)
+    if worst.is_unresolved and worst.uncertainty.parts.get(INPUTS, 0.0) > 0.5 * worst.numerical:
+        return f"{tolerance} holds; third-order constants are measured no better.", (tolerance,)
+    if worst.is_unresolved or not worst.unknown:
+        if worst.total <= AT_TOLERANCE * worst.tolerance:
+            said = f"{tolerance} holds: the error lies at the tolerance, and more digits decide "
+            return f"{said}nothing that matters.", (tolerance,)
+        given = f"[budget]\ntime = {2.0 * run.problem.scene.budget.time:g}"
+        return f"{given.replace(chr(10), ' ')}: finer levels, for a smaller uncertainty.", (given,)
+    why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
+    if "budget.effects" in why:
+        given = '[budget]\neffects = "all"'
+        return 'budget.effects = "all" computes it.', (given,)
+    if largest == "plastic_flow":
+        given = "[finite_element]\nplastic = true"
+        missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"
+        return f"finite_element.plastic = true{missing} computes it.", (given,)
+    return f"{tolerance} holds.", (tolerance,)
+
+
+def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[str, ...]]:
+    """Name the solid; where that is done, what is not known of it."""
+    scene = run.problem.scene
+    ranges = (law for law in run.data(MODEL_ERROR).selection.laws if not law.is_scatter)
+    sections = {name: getattr(scene, name) for law in ranges for name in law.bodies}
+    unnamed = {name: each for name, each in sections.items() if each.solid is None}
+    if unnamed:
+        given = tuple(f'[{name}]\nmaterial = "{_like(each)}"' for name, each in unnamed.items())
+        fields = " and ".join(f'{n}.material = "{_like(s)}"' for n, s in unnamed.items())
+        return f"{fields}, or what it is (crosscheck materials), for its moduli.", given
+    unmeasured = dict.fromkeys(each.solid for each in sections.values())
+    known = f"no third-order constants of {' or '.join(unmeasured)} are published"
+    return f"{tolerance} holds; {known}.", (tolerance,)
+
+
+def _like(section: ElasticSection) -> str:
+    """A measured solid that a body may be."""
+    kinds = kinds_like(section.youngs_modulus, section.poissons_ratio)
+    return next((solid.name for solid in measured_solids(*kinds) if kinds), "…")
+
+
+def _next_of_flow(run: Run) -> tuple[str, tuple[str, ...]]:
+    """Where a body flows beyond doubt."""
+    given = "[finite_element]\nplastic = true"
+    if run.problem.scene.body.yield_stress:
+        return "finite_element.plastic = true computes the flow.", (given,)
+    return 'body.yield_stress = "…" with finite_element.plastic = true computes the flow.', (given,)
+
+
+def _figures_of_whole(run: Run) -> str:
+    """The figures to use instead, at the largest friction."""
+    friction = max(run.problem.scene.load.friction)
+    shown = [
+        f"{label(error.quantity)} {with_unit(error.scale, QUANTITIES[error.quantity].unit)}"
+        for error in run.model_errors
+        if error.friction == friction and not QUANTITIES[error.quantity].of_pair
+    ]
+    where = f" (friction {plain(friction)})" if len(run.problem.scene.load.friction) > 1 else ""
+    return f"take the whole model's {', '.join(shown)}{where}" if shown else "take the whole model"
+
+
+def _rounded_up(size: float) -> float | None:
+    """To a leading digit, a tolerance that a user would write; None where it is not known."""
+    if not math.isfinite(size) or size <= 0.0:
+        return None
+    step = 10.0 ** math.floor(math.log10(size))
+    return round(math.ceil(size / step) * step, 12)
+
+
 def _one_model(run: Run) -> str:
     [name] = run.runs
     known = run.figures.of(study=contact.NAME, source=name)
@@ -210,20 +299,20 @@ def _one_model(run: Run) -> str:
 
 
 def _unconverged(run: Run) -> str:
-    found = [
+    said = [
         f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
         for name, model in run.runs.items()
         for level in model.levels
         if not level.solution.converged
     ]
     moved = run.data(coupling.NAME)
-    found += [
-        f"half-plane with normal-tangential coupling, friction {plain(each.friction)}"
-        for each in (moved.changes if moved else ())
-        if not each.converged
+    said += [
+        f"half-plane with normal-tangential coupling, friction {plain(change.friction)}"
+        for change in (moved.changes if moved else ())
+        if not change.converged
     ]
     run_in = run.problem.surface.run_in
     if run_in is not None and not run_in.converged:
         failed = sum(not one.converged for one in run_in.passes)
-        found.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")
-    return ", ".join(found)
+        said.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")
+    return ", ".join(said)

@@ -10,6 +10,7 @@ from analytic.material import combined_modulus
 from analytic.surface.outliers import spikes
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import given, significant, with_unit
+from comparisons.scenes.materials import solids
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies.study import Run
@@ -34,6 +35,7 @@ def warnings_about(scene: Scene, surface: SceneSurface) -> list[str]:
         if material is not None and not SOFTEST <= material.youngs_modulus <= STIFFEST:
             modulus = f"{section}.youngs_modulus is {given(material.youngs_modulus, 'Pa')}"
             found.append(f"{modulus}: a number without unit is in Pa")
+    found += _of_solids(scene)
     return [*found, *_of_load(scene), *warnings_about_surface(surface.info)]
 
 
@@ -69,6 +71,21 @@ def warnings_about_result(outcome: Run) -> list[str]:
                 "resolution)"
             )
     return found
+
+
+def _of_solids(scene: Scene) -> Iterator[str]:
+    """Measured third-order constants that are left unused beside other moduli."""
+    for name in ("roller", "body"):
+        section = getattr(scene, name)
+        solid = solids()[section.solid] if section.solid else None
+        if solid is None or not (solid.has_constants and section.departures):
+            continue
+        if section.law is None:
+            written = " and ".join(f"{name}.{field}" for field in section.departures)
+            yield (
+                f"{written}: {solid.name} has another value, to which its measured third-order "
+                "constants belong: they are not used"
+            )
 
 
 def _of_load(scene: Scene) -> Iterator[str]:

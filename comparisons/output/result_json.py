@@ -27,7 +27,7 @@ from comparisons.figures.figure import (
     Statement,
 )
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
-from comparisons.output.headline import remedies, verdict_of
+from comparisons.output.headline import headline, verdict_of
 from comparisons.studies import meaning
 from comparisons.studies.study import Run
 
@@ -55,7 +55,7 @@ def result_of(run: Run) -> Result:
     verdict, why = verdict_of(run)
     record = {name: run.record[name] for name in RECORDED}
     scene = run.problem.surface.as_dict(run.problem.scene)
-    return Result(scene, record, verdict, why, remedies(run), run.found)
+    return Result(scene, record, verdict, why, headline(run).paste, run.found)
 
 
 def content_of(run: Run) -> dict:

@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import one_line
-from comparisons.common.numbers import with_unit
-from comparisons.figures.quantity import LABELS, QUANTITIES
+from comparisons.common.numbers import percent, with_unit
+from comparisons.figures.quantity import LABELS, QUANTITIES, error_text
 from comparisons.output.headline import headline
 from comparisons.output.page.tables.comparison import comparison_rows, figure_rows
 from comparisons.output.page.tables.problem import in_mm
@@ -17,6 +17,7 @@ from comparisons.studies.answers.show import (
     answers_of,
     reference_of,
 )
+from comparisons.studies.comparison import NAME as COMPARISON
 from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
 
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
 SHORT = {name: quantity.short for name, quantity in QUANTITIES.items()}
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
-LISTED = 2  # effects in the terminal; the report has them all
 # Lines that have their place; those of other studies come before that of heat.
 ORDER = ("surface", "run in", "not modelled", "another asperity", "inputs", "statistics")
 ORDER += ("asperities", "coupling", "", "heat", "yield")
@@ -37,32 +37,53 @@ PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord(
 PLAIN |= {ord("±"): "+-", ord("σ"): "s"}
 
 
-def summary(outcome: Run) -> "RenderableType":
-    """Table, verdict, files and times; readable at 80 columns and without colour."""
+def summary(run: Run, details: bool = False) -> "RenderableType":
+    """Tables, verdict, what to do next, files and times; readable at 80 columns and without colour.
+
+    details  every compared quantity, where the models agree in all that is judged"""
     from rich.console import Group
     from rich.text import Text
 
-    said = headline(outcome)
+    said = headline(run)
     stamp = said.kind.upper(), STYLES.get(said.kind, "bold")
     verdict = Text.assemble(stamp, f"  {said.sentence.translate(PLAIN)}")
-    title = Text(one_line(outcome.problem.scene.title), style="bold")
-    compares = outcome.plan.compares
-    tables = [_comparison(outcome)] if compares else [_figures(outcome)]
-    if compares and outcome.problem.scene.tolerances:
-        tables += ["", _model_errors(outcome)]
-    for answer in answers_of(outcome):
-        tables += ["", *_answer(outcome, answer)]
-    return Group(title, "", *tables, "", verdict, "", _facts(outcome))
+    next_step = Text.assemble(("Next:", "bold"), f"  {said.next.translate(PLAIN)}")
+    title = Text(one_line(run.problem.scene.title), style="bold")
+    agreement = "" if details else agreement_line(run)
+    if not run.plan.compares:
+        tables = [_figures(run)]
+    else:
+        tables = [Text(agreement.translate(PLAIN)) if agreement else _comparison(run)]
+        if run.problem.scene.tolerances:
+            tables += ["", _model_errors(run)]
+    for answer in answers_of(run):
+        tables += ["", *_answer(run, answer)]
+    return Group(title, "", *tables, "", verdict, next_step, "", _facts(run))
 
 
-def _comparison(outcome: Run) -> "Table":
+def agreement_line(run: Run) -> str:
+    """Both models' largest difference, and their largest uncertainty, where they agree in all that
+    is judged; else nothing."""
+    judged = [row for row in run.figures.of(study=COMPARISON) if row.bounds is not None]
+    if not judged or any(row.verdict != "agree" for row in judged):
+        return ""
+    apart = max(judged, key=lambda row: abs(row.value))
+    unsure = max(judged, key=lambda row: row.numerical)
+    difference = error_text(apart.quantity, apart.value, apart.numerical)
+    return (
+        "Half-plane and finite elements that assume the same agree: largest difference "
+        f"{difference} ({SHORT[apart.quantity]}), uncertainty {percent(unsure.numerical)}."
+    )
+
+
+def _comparison(run: Run) -> "Table":
     table = plain_table(
         "quantity",
         numbers=("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"),
     )
     table.add_column("verdict", overflow="fold")
     table.caption = "difference: (half-plane - finite elements) / finite elements"
-    rows = comparison_rows(outcome)
+    rows = comparison_rows(run)
     if any(row.verdict == "inconclusive" for row in rows):
         table.padding = 0  # the longest verdict fits into 80 columns
     for row in rows:
@@ -73,17 +94,17 @@ def _comparison(outcome: Run) -> "Table":
     return table
 
 
-def _model_errors(outcome: Run) -> "Table":
-    """Of the half-plane in what is judged, and what it is made of."""
-    table = plain_table("quantity", numbers=("mu", "error\n%", "uncert.\n%", "tol.\n%"))
-    table.add_column("dominant\ncontributions, %", overflow="fold")
+def _model_errors(run: Run) -> "Table":
+    """Of the half-plane in what is judged, and what most of it comes from."""
+    numbers = ("mu", "half-\nplane", "whole\nmodel", "error\n%", "uncert.\n%", "tol.\n%")
+    table = plain_table("quantity", numbers=numbers)
+    table.add_column("mostly by, %", overflow="fold")
     table.title = "model error of the half-plane"
-    table.caption = "minus: the half-plane's figure is too low"
-    for row in model_error_rows(outcome, judged=True):
-        name = f"{SHORT[row.quantity]}\n{row.note}".strip()
-        cells = (name, row.friction, row.error, row.uncertainty, row.tolerance)
-        largest = "\n".join(row.contributions[:LISTED]).replace(" %", "")
-        table.add_row(*map(_cell, cells), _cell(largest))
+    for row in model_error_rows(run, judged=True):
+        cells = (row.friction, row.half_plane, row.whole, row.error, row.uncertainty, row.tolerance)
+        parts = "".join(row.contributions[:1]).replace(" %", ""), row.note
+        words = _cell("\n".join(filter(None, parts)))
+        table.add_row(*map(_cell, (SHORT[row.quantity], *cells)), words)
     return table
 
 

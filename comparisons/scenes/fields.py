@@ -5,11 +5,12 @@ allowed is …", and `allowed()`, which is the last part alone, for a missing fi
 
 import operator
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic.fields import FieldInfo
 from pydantic_core import core_schema
 
 from comparisons.common.errors import nearest
@@ -298,6 +299,11 @@ class SceneSection(BaseModel):
         """What does not fit the rest of the scene: "section.field" to change, and what is wrong."""
         yield from ()
 
+    @classmethod
+    def followed(cls, tables: Mapping) -> Mapping:
+        """A scene's tables, as TOML has them, with what this section leaves to others."""
+        return tables
+
     def completed(self, scene: "SceneSection") -> Self:
         """With the fields that it leaves out and that follow from the rest of the scene."""
         return self
@@ -324,9 +330,14 @@ def allowed(table: type[SceneSection], name: str) -> str:
     return field_type(table, name).allowed()
 
 
+def file_fields(table: type[BaseModel]) -> dict[str, FieldInfo]:
+    """The fields of a section by the names that a scene file has for them."""
+    return {info.alias or name: info for name, info in table.model_fields.items()}
+
+
 def field_type(table: type[SceneSection], name: str) -> FieldType:
     """What reads a field; the notes of `Annotated[…] | None` stand inside the union."""
-    info = table.model_fields[name]
+    info = file_fields(table)[name]
     inner = [note for part in get_args(info.annotation) for note in get_args(part)[1:]]
     return next(note for note in (*info.metadata, *inner) if isinstance(note, FieldType))
 
@@ -335,7 +346,8 @@ def plain(value: object) -> object:
     """A section, or a value of a field, as a scene file would have it: defaults written out, SI
     numbers, lists, no None."""
     if isinstance(value, SceneSection):
-        pairs = ((name, getattr(value, name)) for name in type(value).model_fields)
+        fields = type(value).model_fields.items()
+        pairs = ((info.alias or name, getattr(value, name)) for name, info in fields)
         return {name: plain(item) for name, item in pairs if item is not None}
     if isinstance(value, dict):
         return {name: plain(item) for name, item in value.items()}

@@ -14,12 +14,12 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Annotated, Self, get_args
 
-from pydantic import PrivateAttr, ValidationError, create_model
+from pydantic import PrivateAttr, ValidationError, create_model, model_validator
 
 import comparisons.scenes.studies as of_studies
 from comparisons.common.errors import InputError, SceneError, nearest
 from comparisons.common.units import describe
-from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, plain
+from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, file_fields, plain
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.profile import ProfileSection
@@ -162,6 +162,13 @@ class SceneBase(SceneSection):
         """The sections that the scene has, but for those of which there may be several."""
         return ((name, part) for name, part in self if isinstance(part, SceneSection))
 
+    @model_validator(mode="before")
+    @classmethod
+    def _follow(cls, tables: object) -> object:
+        for section in sections_of(cls).values() if isinstance(tables, Mapping) else ():
+            tables = section.followed(tables)
+        return tables
+
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         for _, section in self.sections():
             yield from section.misfits(self)
@@ -256,13 +263,13 @@ def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
     if not section and isinstance(value, dict):
         return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
     fields = {
-        table: {field: f"{table}.{field}" for field in sections[table].model_fields}
+        table: {field: f"{table}.{field}" for field in file_fields(sections[table])}
         for table in titles
     }
     inside = {"title": "title", **titles}
     if section:
         within = ".".join(section)
-        inside = {field: f"{within}.{field}" for field in sections[section[0]].model_fields}
+        inside = {field: f"{within}.{field}" for field in file_fields(sections[section[0]])}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
     near = _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)

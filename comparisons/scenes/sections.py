@@ -1,10 +1,22 @@
 """The sections of a scene that both models need: bodies, load, fields, tolerances, resolution."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar, Self
 
+from pydantic import Field, model_validator
+
 from analytic.material import LAWS, Law, Material
-from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME
+from comparisons.common.units import (
+    DIMENSIONLESS,
+    LENGTH,
+    LOAD,
+    MEMORY,
+    PRESSURE,
+    TIME,
+    Dimension,
+    UnitError,
+    to_si,
+)
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.scenes.fields import (
     Extent,
@@ -22,6 +34,7 @@ from comparisons.scenes.fields import (
     allowed,
 )
 from comparisons.scenes.finite_element import SEVERAL_FRICTIONS
+from comparisons.scenes.materials import ELASTIC, Solid, SolidName, solid_named, solids
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
@@ -33,7 +46,63 @@ PoissonsRatio = Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=0.5)]
 OF_STRESS = [name for name, quantity in QUANTITIES.items() if quantity.needs_stress]
 
 
-class ElasticSection(SceneSection):
+class SolidSection(SceneSection):
+    """What may be named after a solid, which a file calls its `material`: moduli, and where they
+    are the solid's own its measured law of elasticity, then follow; what is written beside the
+    name wins."""
+
+    solid: Annotated[str, SolidName()] | None = Field(None, alias="material")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _follow_solid(cls, table: object) -> object:
+        name = table.get("material") if isinstance(table, Mapping) else None
+        solid = solid_named(name) if isinstance(name, str) else None
+        if solid is None or table.get("rigid") is True:
+            return table
+        moduli = {field: solid.values[field].value for field in ELASTIC if field in solid.values}
+        follows = {**moduli, **table}
+        if "law" in cls.model_fields and solid.law is not None:
+            follows |= _law_of(solid, follows)
+        return follows
+
+    @property
+    def departures(self) -> list[str]:
+        """The moduli that are not those of the solid it is named after."""
+        if self.solid is None:
+            return []
+        solid = solids()[self.solid]
+        return [
+            field
+            for field in ELASTIC
+            if field in solid.values and not solid.agrees(field, getattr(self, field))
+        ]
+
+
+def _law_of(solid: Solid, table: Mapping) -> dict[str, object]:
+    """The law that a table leaves out and that follows from its solid: constants were measured at
+    the solid's own moduli, and belong to no others."""
+    law, constants = table.get("law"), solid.law.murnaghan
+    if constants is None:
+        return {} if law or "murnaghan" in table else {"law": solid.law.name}
+    if law not in (None, solid.law.name):
+        return {}
+    if "murnaghan" in table:
+        return {"law": solid.law.name}
+    if not all(solid.agrees(field, _in_si(table[field], ELASTIC[field])) for field in ELASTIC):
+        return {}
+    return {"law": solid.law.name, "murnaghan": dict(zip("lmn", constants, strict=True))}
+
+
+def _in_si(value: object, dimension: Dimension) -> float | None:
+    """None for what is no such quantity, which its field then refuses."""
+    try:
+        return to_si(value, dimension)
+    except UnitError:
+        return None
+
+
+class ElasticSection(SolidSection):
     """A body and its law of elasticity at finite strains, neo-Hookean by default."""
 
     law: Annotated[str, OneOf(LAWS)] | None = None
@@ -50,7 +119,10 @@ class ElasticSection(SceneSection):
         """None of a rigid body."""
         law = Law()
         if self.law is not None:
-            law = Law(self.law, self.murnaghan and tuple(self.murnaghan.values()))
+            constants = self.murnaghan and tuple(self.murnaghan.values())
+            measured = solids()[self.solid].law if self.solid else None
+            is_measured = measured is not None and measured.murnaghan == constants is not None
+            law = Law(self.law, constants, measured.standard_errors if is_measured else None)
         return Material(self.youngs_modulus, self.poissons_ratio, law)
 
 
@@ -62,6 +134,8 @@ class RollerSection(ElasticSection):
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from super().broken_rules()
+        if self.rigid and self.solid is not None:
+            yield "material", "is given beside rigid = true; allowed is one of the two"
         if self.rigid and self.law is not None:
             yield "law", "is given beside rigid = true; allowed is one of the two"
         for name in ("youngs_modulus", "poissons_ratio"):
@@ -100,7 +174,7 @@ class BodySection(ElasticSection):
         return self.model_copy(update={"base": self.base or "bonded"}) if is_layer else self
 
 
-class CoatingSection(SceneSection):
+class CoatingSection(SolidSection):
     """Bonded to the body."""
 
     thickness: Length

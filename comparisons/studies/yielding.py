@@ -23,6 +23,7 @@ from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.scenes.materials import kinds_of, typical_range
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.estimates import TABOR
 from comparisons.studies.study import Run, Solved, Study
@@ -233,6 +234,27 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
     )
 
 
+def may_flow(run: Run) -> str:
+    """That a body whose yield stress is not given may flow, as a clause; empty where it cannot, or
+    where that is known."""
+    flow, body = run.data(NAME), run.problem.scene.body
+    if flow.ratio is not None or body.youngs_modulus <= STIFF:
+        return ""
+    shear = with_unit(flow.worst.tau1, "Pa", 2)
+    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
+    typical = typical_range("yield_stress", body.solid, kinds)
+    if typical is None:
+        return (
+            f"the figures are those of an elastic body; with a shear yield below {shear} it flows"
+        )
+    if flow.worst.tau1 < 0.5 * typical[0]:
+        return ""
+    low, high = (with_unit(0.5 * end, "Pa", 2) for end in typical)
+    span = low if low == high else f"{low} to {high}"
+    what = body.solid or " or ".join(kinds)
+    return f"{what} typically flows at a shear of {span}, and the largest here is {shear}"
+
+
 def flow_sentence(run: Run) -> str:
     """The one thing to know of flow beside the verdict, without its full stop."""
     flow = run.data(NAME)
@@ -243,7 +265,7 @@ def flow_sentence(run: Run) -> str:
     where += "" if worst.from_field else ", by the peak pressure (no [stress])"
     if flow.ratio is None:
         shear = with_unit(worst.tau1, "Pa", 2)
-        return f"elastic; first flow at a shear yield below {shear}{where}"
+        return f"taken as elastic: it flows if its shear yield is below {shear}{where}"
     stress = with_unit(flow.yield_stress, "Pa", 3)
     third = "" if run.problem.scene.body.yield_stress else ", a third of the hardness"
     largest = f"the half-plane's largest shear is {significant(flow.ratio, 2)} times that of first "

@@ -8,6 +8,7 @@ import struct
 import numpy as np
 from scipy.io import savemat
 
+from comparisons.scenes.fields import file_fields
 from comparisons.scenes.scene import Scene, sections_of
 
 STEEL = 'youngs_modulus = "207 GPa"\npoissons_ratio = 0.3\n'
@@ -64,7 +65,7 @@ WORDS = (
     *('"1.000.000 Pa"', '"1,5 mm"', '"8.2mm"', '"８.２ mm"', "'''\ntwo\nlines'''", '"bonded"'),
 )
 FIELDS = tuple(
-    (section, name) for section, part in sections_of(Scene).items() for name in part.model_fields
+    (section, name) for section, part in sections_of(Scene).items() for name in file_fields(part)
 )
 ASSIGNED = re.compile(r"^(\s*[\w.]+\s*=\s*)(.+)$", re.MULTILINE)
 ALPHABET = "\x00\x01\t\n\r \"'#%,.;:=[]{}+-_/*0123456789eEnxmNPa\x80\xff°µ²\u2212\u3000\u202e\ud800"

@@ -1,6 +1,6 @@
 """The [heat] section: sliding speed, and how both bodies conduct the heat of friction."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated
 
 from analytic.material import ThermalMaterial
@@ -22,6 +22,7 @@ from comparisons.scenes.fields import (
     Truth,
     allowed,
 )
+from comparisons.scenes.materials import solid_named
 
 Conductivity = Annotated[float, Number(CONDUCTIVITY, above=0.0)]
 Density = Annotated[float, Number(DENSITY, above=0.0)]
@@ -55,6 +56,25 @@ class HeatSection(SceneSection):
     stresses: Annotated[bool, Truth()] = False
     body_expansion: Expansion | None = None
     coating_expansion: Expansion | None = None
+
+    @classmethod
+    def followed(cls, tables: Mapping) -> Mapping:
+        """With the constants of bodies that are named after a solid; expansions where stresses are
+        asked for."""
+        heat, follows = tables.get("heat"), {}
+        if not isinstance(heat, Mapping):
+            return tables
+        for body in ("body", "roller", "coating"):
+            section = tables.get(body)
+            name = section.get("material") if isinstance(section, Mapping) else None
+            solid = solid_named(name) if isinstance(name, str) else None
+            names = CONSTANTS
+            if heat.get("stresses") is True and body != "roller":
+                names = (*CONSTANTS, "expansion")
+            for constant in names if solid is not None else ():
+                if constant in solid.values:
+                    follows[f"{body}_{constant}"] = solid.values[constant].value
+        return {**tables, "heat": {**follows, **heat}}
 
     @property
     def velocities(self) -> tuple[float, float]:

@@ -21,6 +21,7 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
+from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.model_error.sideways import sideways_shift
@@ -49,6 +50,12 @@ def figure_of(
     change, by friction coefficient and quantity."""
     parts = [Part(n, e.value, e.uncertainty, e.moves_maximum) for n, e in error.effects.items()]
     parts += [Part(INTERACTION, error.interaction), Part(JUMP, error.jump)]
+    unknown, sure = selection.not_modelled(error.quantity), {"numerical": error.uncertainty}
+    if error.law.half:
+        parts.append(Part(LAW, error.law.middle, error.law.half))
+        unknown[LAW] = error.law.half
+    if error.law.scatter:
+        sure[INPUTS] = error.law.scatter
     inputs = (sampling or {}).get(error.friction, {}).get(error.quantity)
     bound = tolerance.get(error.quantity)
     return Figure(
@@ -59,8 +66,8 @@ def figure_of(
         at={"friction": error.friction},
         against=WHOLE,
         scale=error.scale,
-        uncertainty=Uncertainty({"numerical": error.uncertainty}),
-        unknown=selection.not_modelled(error.quantity),
+        uncertainty=Uncertainty(sure),
+        unknown=unknown,
         bounds=None if bound is None else (-bound, bound),
         parts=(*parts, *([] if inputs is None else [Part(INPUTS, inputs)])),
         place=error.moved,
@@ -112,6 +119,8 @@ def effect_account(name: str, selection: EffectSelection) -> tuple[str, str]:
     """What became of an effect, and why."""
     if name in selection.contained:
         return "contained", "the scene's own finite elements have it"
+    if name == LAW and selection.laws:
+        return "computed", "; ".join(law.words for law in selection.laws)
     if name in selection.added:
         return "computed", "its estimate exceeds a tenth of a tolerance"
     if name in selection.impossible:

@@ -35,6 +35,8 @@ from comparisons.studies.model_error.contributions import (
     contributions_of,
     split_variants,
 )
+from comparisons.studies.model_error.laws import EFFECT as LAW
+from comparisons.studies.model_error.laws import LawSolutions, OpenLaw, law_variants
 from comparisons.studies.model_error.model_error import ModelError, model_errors
 from comparisons.studies.model_error.quantities_of_interest import quantities_of, relative_sizes
 from comparisons.studies.model_error.selection import EffectSelection, select_effects
@@ -97,7 +99,10 @@ def error_budget(
         variants.keep(split.whole for split in splits.values())
         try:
             frugal = selection if is_frugal else None
-            refined = _Refinement(half_plane, rows, splits, variants).result(frugal)
+            refinement = _Refinement(half_plane, rows, splits, variants, selection.laws)
+            refined = refinement.result(frugal)
+            if refinement.without_laws:
+                selection = selection.without(frozenset({LAW}), refinement.without_laws)
             wholes = {mu: variants.finest(split.whole) for mu, split in splits.items()}
             break
         except NotComputedError as error:
@@ -138,9 +143,13 @@ def announce_effects(
     variants.keep(split.whole for split in splits)
     wholes = [each for split in splits for each in split.wholes]
     every = [each for split in splits for each in split.all]
+    of_laws = [
+        each for split in splits for each in law_variants(split.whole, selection.laws).values()
+    ]
     most = min(_most_levels(problem), len(half_plane.levels))
 
     def announce(splitting: int, further: int) -> None:
+        variants.announce(of_laws, 1, splitting)
         for number in range(1, most + 1):
             is_further = number > LEAST_LEVELS
             variants.announce(wholes, number, further if is_further else LATER)
@@ -163,7 +172,7 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
     selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
     if solved.plan.effects:
         return selection
-    asked = selection.added | set(selection.impossible) - {"law_of_elasticity"}
+    asked = selection.added | set(selection.impossible)
     return selection.without(asked, "not asked for (budget.effects)")
 
 
@@ -192,7 +201,11 @@ class _Refinement:
         rows: tuple[Figure, ...],
         splits: dict[float, SplitVariants],
         solved: SolvedVariants,
+        laws: tuple[OpenLaw, ...],
     ) -> None:
+        self.laws = {mu: law_variants(split.whole, laws) for mu, split in splits.items()}
+        self.open_laws, self.without_laws = laws, ""  # why they have no solution
+        self.with_laws: dict[float, LawSolutions] = {}
         self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
         self.runs = {"half_plane": half_plane, "finite_element": solved.own}
         self.most = min(_most_levels(solved.problem), len(solved.own.levels))
@@ -208,6 +221,8 @@ class _Refinement:
         Raises NotComputedError where a whole has no solution on the least levels."""
         for number in range(1, LEAST_LEVELS + 1):
             self.solved.announce(self.every, number, LAST)
+        for variants in self.laws.values():
+            self.solved.announce(variants.values(), 1, LAST)
         left_out = self._take_wholes(frugal)
         levels = len(next(iter(self.history.values())))
         for number in range(1, levels + 1):
@@ -228,6 +243,8 @@ class _Refinement:
                 if number <= LEAST_LEVELS:
                     raise
                 return None
+            if number == LEAST_LEVELS:
+                self._take_laws()
             errors = self._errors()
             if number >= LEAST_LEVELS and _settled(self.rows, errors):
                 return None
@@ -235,6 +252,22 @@ class _Refinement:
                 further = f"level {number + 1} of the whole model"
                 return f"{further}: cannot change a verdict ({ASKED})"
         return None
+
+    def _take_laws(self) -> None:
+        """The wholes on the coarsest level with other laws; `without_laws` where one has none."""
+        for mu, variants in self.laws.items():
+            self.solved.prepare(variants.values(), 1)
+            try:
+                moved = {key: self.solved.solution(v, 1, mu) for key, v in variants.items()}
+            except NotComputedError as error:
+                self.without_laws = f"with the law of {error.variant.laws_name}: {error}"
+                self.with_laws = {}
+                return
+            if variants:
+                whole, window = self.history[mu][0].whole, self.solved.window
+                self.with_laws[mu] = LawSolutions(
+                    self.problem, window, self.open_laws, whole, moved
+                )
 
     def _take(self, number: int, alone: bool) -> None:
         """A level into the history: of the wholes alone, or of every variant."""
@@ -253,7 +286,8 @@ class _Refinement:
         errors = []
         for mu, parts in self.history.items():
             there = [row for row in self.rows if row.friction == mu]
-            errors += model_errors(self.problem, self.solved.window, self.runs, there, parts)
+            laws, window = self.with_laws.get(mu), self.solved.window
+            errors += model_errors(self.problem, window, self.runs, there, parts, laws)
         return errors
 
     def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:

@@ -10,7 +10,7 @@ error is the norm of the half-plane against the whole on the level of the effect
 boundary of the models' difference."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -31,6 +31,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.contact import uncertainties, values_of
 from comparisons.studies.model_error.contributions import EffectContributions
+from comparisons.studies.model_error.laws import LawSolutions, LawSpread
 from comparisons.studies.model_error.quantities_of_interest import (
     LARGEST,
     QuantitiesOfInterest,
@@ -62,6 +63,8 @@ class ModelError:
     value: float  # (half-plane - whole) / whole, or the norm of that difference
     uncertainty: float  # of `value`
     scale: float = 1.0  # the whole's figure [SI], or the Hertz contact's where that vanishes
+    # of elasticity; its middle is a part of `value`
+    law: LawSpread = field(default_factory=LawSpread)
     # of a largest value: what the half-plane's own exceeds its value at the whole's asperity
     jump: float = 0.0
     # x [m] of the half-plane's largest value and of the whole's, where these are at two asperities,
@@ -81,13 +84,15 @@ def model_errors(
     runs: dict[str, ModelRun],
     rows: list[Figure],
     history: list[EffectContributions],
+    laws: LawSolutions | None = None,
 ) -> list[ModelError]:
     """One for each row, all of one friction coefficient.
 
     rows     the models' comparison at that friction
     history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
-             the last of these"""
-    solutions = _Solutions(problem, window, runs, history, rows[0].friction)
+             the last of these
+    laws     the whole there with other laws of elasticity; None: its own is known"""
+    solutions = _Solutions(problem, window, runs, history, rows[0].friction, laws)
     return [solutions.error(row) for row in rows]
 
 
@@ -100,6 +105,7 @@ class _Solutions:
     runs: dict[str, ModelRun]
     history: list[EffectContributions]
     friction: float
+    laws: LawSolutions | None = None
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -192,9 +198,31 @@ class _Solutions:
             value=value,
             uncertainty=uncertainty,
             scale=scale,
+            law=self._law(name, at),
             jump=jump,
             moved=moved,
         )
+
+    def _spread(self, name: str, at: int) -> LawSpread:
+        return LawSpread() if self.laws is None else self.laws.spread(name, at)
+
+    def _figure(self, name: str, at: int) -> float:
+        """Of the whole [SI], by the middle of what its law of elasticity may be."""
+        figure = self.whole.figures[name][at]
+        middle = self._spread(name, at).middle
+        return figure + middle * _scale(figure, name, self.problem) if middle else figure
+
+    def _law(self, name: str, at: int) -> LawSpread:
+        """Relative to the figure that the error is relative to, and of the error."""
+        spread = self._spread(name, at)
+        if spread == LawSpread() or QUANTITIES[name].of_pair:
+            return spread
+        figure = self._figure(name, at)
+        scale = _scale(figure, name, self.problem)
+        over = _scale(self.whole.figures[name][at], name, self.problem) / scale
+        ratio = max(1.0, abs(self.values["half_plane"][name] / scale))
+        sizes = spread.middle * over, spread.half * over * ratio, spread.scatter * over * ratio
+        return LawSpread(*map(float, sizes))
 
     def _estimate(self, name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
         """The relative size of changes, one a level, of a quantity at an asperity."""
@@ -204,7 +232,7 @@ class _Solutions:
                 for change, reference in zip(changes, self.wholes, strict=False)
             ]
         else:  # by one scale: a place may jump to the surface on one level alone
-            scale = _scale(self.whole.figures[name][at], name, self.problem)
+            scale = _scale(self._figure(name, at), name, self.problem)
             values = [float(change.figures[name][at] / scale) for change in changes]
         if not any(values):
             return Estimate(0.0, 0.0)
@@ -223,7 +251,7 @@ class _Solutions:
 
     def _of_figure(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
         """Error of a figure, its uncertainty, and what both are relative to [SI]."""
-        figure, formal_order = self.whole.figures[name][at], QUANTITIES[name].formal_order
+        figure, formal_order = self._figure(name, at), QUANTITIES[name].formal_order
         scale = _scale(figure, name, self.problem)
         numerical *= _scale(self.values["finite_element"][name], name, self.problem) / scale
         if at != self.own[-1].leading(name):  # the comparison is at another asperity
@@ -259,7 +287,7 @@ class _Solutions:
             return 0.0, None
         largest, figures = LARGEST[name], half_plane.figures
         apart = figures[name][before] - figures[name][at]
-        jump = float(apart / _scale(self.whole.figures[name][at], name, self.problem))
+        jump = float(apart / _scale(self._figure(name, at), name, self.problem))
         if not figures[largest][before] / figures[largest][at] - 1.0 > numerical:
             return jump, None
         places = half_plane.places[largest][before], self.wholes[-1].places[largest][at]

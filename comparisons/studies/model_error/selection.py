@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 
 from comparisons.common.mpi import is_several
-from comparisons.models.assumptions import laws
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import Scene
 from comparisons.studies.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
 from comparisons.studies.model_error.estimates import Sizes, estimates
+from comparisons.studies.model_error.laws import EFFECT as LAW
+from comparisons.studies.model_error.laws import OpenLaw, open_laws
 from fem.solver.communicator import is_alone
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
@@ -35,6 +35,7 @@ class EffectSelection:
     negligible: dict[str, Sizes]  # too small to matter, each with its estimate
     impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
     estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
+    laws: tuple[OpenLaw, ...] = ()  # of elasticity, with which the whole is solved once more
 
     @property
     def whole(self) -> frozenset[str]:
@@ -42,13 +43,17 @@ class EffectSelection:
         return self.contained | self.added
 
     def without(self, names: frozenset[str], why: str) -> "EffectSelection":
-        """The same without some of the added effects, for a reason."""
-        impossible = self.impossible | dict.fromkeys(names, why)
-        return replace(self, added=self.added - names, impossible=dict(sorted(impossible.items())))
+        """The same without some of the added effects, for a reason; other laws of elasticity take
+        finite deformation."""
+        added, laws = self.added - names, self.laws
+        if laws and (LAW in names or "finite_strain" not in self.contained | added):
+            names, laws = names | {LAW}, ()
+        impossible = dict(sorted((self.impossible | dict.fromkeys(names, why)).items()))
+        return replace(self, added=added, impossible=impossible, laws=laws)
 
     def not_modelled(self, quantity: str) -> Sizes:
         """By name, estimates of the effects on a quantity that no model has."""
-        open_effects = set(self.negligible) | set(self.impossible)
+        open_effects = set(self.negligible) | set(self.impossible)  # not those of `laws`
         return {
             name: sizes[quantity]
             for name, sizes in self.estimates.items()
@@ -65,40 +70,37 @@ def select_effects(
     found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
     sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
+    mattering = {
+        name
+        for name, sizes in sized.items()
+        if any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
+    }
+    if LAW in mattering:  # it shows in finite deformation alone
+        mattering.add("finite_strain")
+    laws = open_laws(problem.scene) if LAW in mattering else ()
     for name, sizes in sized.items():
-        if name in own:
+        if name in own or (name == LAW and laws and "finite_strain" in own):
             continue
-        matters = any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
         why = why_not(name, problem)
-        if not matters:
+        if name not in mattering:
             negligible[name] = sizes
         elif why is not None:
             impossible[name] = why
-        else:
+        elif name != LAW:
             added.add(name)
     if any(problem.scene.load.friction) and (added | own) & set(NONLINEAR):
         negligible.pop(COUPLED, None)  # these bodies have it
-    return EffectSelection(own, frozenset(added), negligible, impossible, sized)
-
-
-def law_leaned_on(selection: EffectSelection, scene: Scene) -> str:
-    """For the end of a sentence: the law of elasticity that the whole has, where the scene gives
-    one and nothing is left of its spread; else nothing."""
-    if "finite_strain" not in selection.whole or "law_of_elasticity" in selection.estimates:
-        return ""
-    return f", with {laws(scene)} elasticity"
+    return EffectSelection(own, frozenset(added), negligible, impossible, sized, laws)
 
 
 def why_not(name: str, problem: Problem) -> str | None:
     """Why an effect cannot be computed in a scene, or None."""
     scene = problem.scene
-    if name == "law_of_elasticity":
-        return "no law is given: it is taken for neo-Hookean"
     if name == "plastic_flow":
         if scene.body.yield_stress is None:
             return "the body has no yield stress"
-        return "the scene says finite_element.plastic = false"
-    if name != "finite_strain":
+        return "it is not asked for (finite_element.plastic = true)"
+    if name not in ("finite_strain", LAW):
         return None
     reasons = {
         "flow is of small deformation": scene.finite_element.plastic,

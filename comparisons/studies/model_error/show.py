@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import given_percent, listed, percent, with_unit
+from comparisons.common.numbers import given_percent, listed, percent, scale_of, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.studies.model_error.account import INPUTS, INTERACTION, JUMP, LEFT
 from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
@@ -63,7 +64,8 @@ def blocks(run: Run) -> list[Block]:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """What is not modelled, and which largest values stand at another asperity."""
-    said = [("not modelled", not_modelled_line(run))]
+    missing = not_modelled_line(run)
+    said = [("not modelled", missing)] if missing else []
     for row in model_error_rows(run, judged=True):
         if row.moved:
             name = QUANTITIES[row.quantity].short
@@ -91,12 +93,14 @@ class ModelErrorRow:
 
     quantity: str
     friction: str
+    half_plane: str  # its figure, with unit; empty of a norm
+    whole: str  # the whole model's
     error: str
     uncertainty: str
     tolerance: str
     # what makes it up with signs, the largest first; of pressures first what moved peaks leave
     contributions: tuple[str, ...]
-    note: str  # what to know before the figure is taken for evidence
+    note: str  # what is not modelled of the error
     moved: str  # where the whole has its largest value, if not at the half-plane's asperity
 
 
@@ -109,17 +113,20 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
             continue
         for same in grouped(errors, lambda error: (_shown(error), error.place)):
             error, uncertainty, contributions = _shown(same[0])
+            half_plane, whole = _values(same[0])
             without = moved_text(run, same[0].friction) if name == "pressure_l2" else ()
             bound = same[0].tolerance
             rows.append(
                 ModelErrorRow(
                     quantity=name,
                     friction=listed(error.friction for error in same),
+                    half_plane=half_plane,
+                    whole=whole,
                     error=error,
                     uncertainty=uncertainty,
                     tolerance="" if bound is None else given_percent(bound),
                     contributions=(*without, *contributions),
-                    note=left_out(run, same[0]),
+                    note=_not_known(same[0]),
                     moved=_moved(same[0]),
                 )
             )
@@ -127,17 +134,39 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
 
 
 def _shown(error: Figure) -> tuple[str, str, tuple[str, ...]]:
-    size = error_text(error.quantity, error.value, error.numerical)
+    size = law_range(error) or error_text(error.quantity, error.value, error.numerical)
     return size, percent(error.numerical), contributions_in_words(error)
 
 
-def left_out(run: Run, figure: Figure) -> str:
-    """That effects which no model has may exceed the tolerance of a quantity; else nothing."""
-    wanted = {"study": MODEL_ERROR, "quantity": figure.quantity, "at": figure.at}
-    error = run.figures.one(**wanted)
-    if error is None or error.bounds is None or error.not_modelled <= error.tolerance:
+def _values(error: Figure) -> tuple[str, str]:
+    """The figures of the half-plane and of the whole model, as far as they are no norms."""
+    meaning = QUANTITIES[error.quantity]
+    if meaning.of_pair:
+        return "", ""
+    pair = error.scale * (1.0 + error.value), error.scale
+    scale = scale_of(pair, meaning.unit)
+    return scale.text(pair[0]), scale.text(pair[1])
+
+
+def _not_known(error: Figure) -> str:
+    """That effects which no model has may exceed the tolerance; else nothing."""
+    others = math.hypot(*(size for name, size in error.unknown.items() if not error.part(name)))
+    if error.bounds is None or others <= error.tolerance:
         return ""
-    return f"{percent(error.not_modelled)} not modelled"
+    return f"{percent(others)} not modelled"
+
+
+def law_range(error: Figure) -> str:
+    """From which error to which, by the law of elasticity, where the scene names no solid; empty
+    where it does, and of norms."""
+    part = error.part(LAW)
+    if part is None or not part.uncertainty or QUANTITIES[error.quantity].of_pair:
+        return ""
+    ends = (error.value - part.uncertainty, error.value + part.uncertainty)
+    low, high = (
+        error_text(error.quantity, end, error.numerical).removesuffix(" %") for end in ends
+    )
+    return f"{low} to {high} %"
 
 
 def _moved(error: Figure) -> str:
@@ -182,20 +211,20 @@ def moved_text(run: Run, friction: float) -> tuple[str, ...]:
 
 
 def not_modelled_line(run: Run) -> str:
-    """The effects that no model of the run has, by reason, each with its largest estimate."""
+    """The effects that may matter and that no model of the run has, by reason, each with its
+    largest estimate."""
     selection = run.data(MODEL_ERROR).selection
-    effects = (*selection.impossible, *selection.negligible)
     parts = []
-    for same in grouped(effects, lambda name: selection.impossible.get(name, "")):
+    for same in grouped(selection.impossible, selection.impossible.get):
         sizes = [percent(_largest(run, selection.estimates[name])) for name in same]
         named = ", ".join(
             f"{EFFECTS[name].label} (at most {size})"
             for name, size in zip(same, sizes, strict=True)
         )
-        parts.append(": ".join(filter(None, (named, selection.impossible.get(same[0])))))
+        parts.append(f"{named}: {selection.impossible[same[0]]}")
     if (left := run.found[MODEL_ERROR].said("left out")) is not None:
         parts.append(f"left out is {left}")
-    return "; ".join(parts) or "nothing"
+    return "; ".join(parts)
 
 
 def effects_table(run: Run) -> TextTable | None:

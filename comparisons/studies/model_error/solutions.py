@@ -108,7 +108,8 @@ class SolvedVariants:
     def _is_own(self, variant: ModelVariant) -> bool:
         frictions = self.problem.scene.load.friction
         shaped = variant.friction is None or frictions == (variant.friction,)
-        return shaped and not variant.quadratic and variant.effects == self._own_effects
+        changed = variant.quadratic or variant.laws
+        return shaped and not changed and variant.effects == self._own_effects
 
     def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
         whole, problem = variant in self.wholes, problem_with(self.problem, variant)

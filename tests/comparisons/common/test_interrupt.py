@@ -55,10 +55,13 @@ def counted(*given):
     return factorised(*given)
 mumps.factorised = counted
 """
+# A mesher that is busy for ten minutes, and ends with its parent as the real one does: starting MPI
+# can take longer than a command has to end by itself, which is then killed.
 MESHER = """
 from meshes import build
-asleep = "import os, time; open('pid', 'w').write(str(os.getpid())); open('there', 'w'); "
-build.WORKER = (sys.executable, "-c", asleep + "time.sleep(600)")
+asleep = "import os, time; from meshes.gmsh_worker import die_with_parent; die_with_parent(); "
+asleep += "open('pid', 'w').write(str(os.getpid())); open('there', 'w'); time.sleep(600)"
+build.WORKER = (sys.executable, "-c", asleep)
 """
 WAITS = """
 from fem.solver import mumps

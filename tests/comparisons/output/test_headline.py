@@ -105,10 +105,14 @@ def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: 
     )
     said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), selection=missing))
     assert said.kind == "inconclusive"
-    assert "may change it by 10 % (estimate), plastic flow most" in said.sentence
+    assert "but plastic flow, which is not modelled (the body has no yield" in said.sentence
+    assert "may change it by 10 % (estimate)" in said.sentence
+    assert "plastic = true, with body.yield_stress, computes it" in said.next
     said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), selection=missing))
     assert said.kind == "inconclusive"
-    assert "may change it by 10 % (estimate), plastic flow most" in said.sentence
+    assert "but plastic flow, which is not modelled (the body has no yield" in said.sentence
+    assert "may change it by 10 % (estimate)" in said.sentence
+    assert "plastic = true, with body.yield_stress, computes it" in said.next
 
 
 def test_nothing_judged_is_no_verdict(smooth_outcome: Run):

@@ -19,10 +19,10 @@ from comparisons.studies.study import Run
 UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "": 1.0}
 
 
-def printed(outcome: Run, width: int = 80, encoding: str = "utf-8") -> str:
+def printed(outcome: Run, width: int = 80, encoding: str = "utf-8", details: bool = True) -> str:
     """What goes into a file or a pipe."""
     stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
-    Console(file=stream, width=width).print(summary(outcome))
+    Console(file=stream, width=width).print(summary(outcome, details))
     stream.seek(0)
     return stream.read()
 
@@ -86,7 +86,7 @@ def test_peaks_that_the_hardness_limits_are_marked(wavy_outcome: Run):
     known = wavy_outcome.found["contact"].figures
     figures = (replace(f, notes=("capped",) * (f.quantity == "peak_pressure")) for f in known)
     text = printed(refound(wavy_outcome, "contact", figures=tuple(figures)))
-    assert text.count("\ncapped in both") == 1  # and what is not modelled
+    assert text.count("\ncapped in both") == 1
     assert max(map(len, text.splitlines())) <= 80
 
 
@@ -105,11 +105,26 @@ def test_a_terminal_without_unicode_shows_it_too(wavy_outcome: Run):
     assert rows(printed(wavy_outcome, encoding="ascii")) == rows(printed(wavy_outcome))
 
 
+def test_where_the_models_agree_one_line_says_how_well(wavy_outcome: Run):
+    text = printed(wavy_outcome, details=False)
+    judged = [row for row in wavy_outcome.figures.of(study="comparison") if row.bounds]
+    assert all(row.verdict == "agree" for row in judged)
+    apart = max(judged, key=lambda row: abs(row.value))
+    flat = " ".join(text.split())
+    assert "finite elements that assume the same agree: largest difference" in flat
+    assert f"({SHORT[apart.quantity]}), uncertainty" in flat
+    assert "finite elements) / finite elements" not in text
+    [first, *others] = wavy_outcome.found["comparison"].figures
+    apart = refound(wavy_outcome, "comparison", figures=(replace(first, value=0.5), *others))
+    assert printed(apart, details=False) == printed(apart)  # the whole table, then
+
+
 def test_verdict_time_and_files_follow_the_table(smooth_outcome: Run):
     text = " ".join(printed(smooth_outcome).split())
     figures, _, rest = text.partition("tau1 deep, L2")
     assert figures
     assert "INCONCLUSIVE The half-plane cannot be judged here" in rest
+    assert rest.index("INCONCLUSIVE") < rest.index(" Next: ") < rest.index(" time ")
     # three levels of 0.4683 s and of 3 s
     assert "half-plane 1.40 s, finite elements 9.00 s" in rest
     assert "results/made/report.html" in rest
@@ -121,7 +136,7 @@ def test_one_model_is_shown_without_a_comparison(finish: Callable[..., Run], smo
     assert "NOT COMPARED" in text
     assert "verdict" not in text
     assert ("peak pressure", "0") in rows(text)
-    assert "fin" not in text
+    assert "finite elements" not in text and "Next:  --models half-plane,finite-element" in text
 
 
 def test_titles_are_not_taken_for_markup(smooth_outcome: Run):

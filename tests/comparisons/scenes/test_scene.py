@@ -16,7 +16,7 @@ from scenes import PROJECT, resolved
 from analytic.material import Material
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.scenes.fields import Extent
+from comparisons.scenes.fields import Extent, file_fields
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.running_in import RunningInSection
 from comparisons.scenes.scene import Scene, sections_of
@@ -74,7 +74,7 @@ FULL = {
 
 
 SECTIONS = {name: part for name, part in sections_of(Scene).items() if name != "answers"}
-PLACES = [(section, name) for section, table in SECTIONS.items() for name in table.model_fields]
+PLACES = [(section, name) for section, table in SECTIONS.items() for name in file_fields(table)]
 
 
 def changed(tables: dict, section: str, **fields) -> dict:

@@ -19,7 +19,6 @@ from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, error_t
 from comparisons.models.problem import Problem
 from comparisons.studies import comparison, contact
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.show import left_out
 from comparisons.studies.study import MODEL_ERROR, Run
 
 SAME_PROBLEM = "the same problem"
@@ -135,7 +134,7 @@ def _row(
         tolerance="" if bound is None else given_percent(bound),
         verdict=difference.verdict or "",
         reference=reference_of(run, name),
-        note=", ".join(filter(None, (capped, left_out(run, difference)))),
+        note=capped,
     )
 
 

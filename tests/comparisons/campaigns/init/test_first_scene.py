@@ -15,7 +15,7 @@ from comparisons.campaigns.init.first_scene import write_first_scene
 from comparisons.campaigns.init.picture import picture
 from comparisons.campaigns.init.scene_text import FIELDS, scene_text
 from comparisons.cli import main
-from comparisons.scenes.fields import field_type
+from comparisons.scenes.fields import field_type, file_fields
 from comparisons.scenes.profile import VARIETIES
 from comparisons.scenes.scene import Scene, sections_of
 from comparisons.scenes.surface import surface_of
@@ -353,7 +353,7 @@ def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
     tables = sections_of(Scene)
     del tables["answers"]  # from other codes, each in a section of its own name
     for section, table in tables.items():
-        names = set(table.model_fields) if section != "profile" else of_a_file
+        names = set(file_fields(table)) if section != "profile" else of_a_file
         fields = dict(DESCRIBED[section])
         assert fields.pop("section") and set(fields) == names
         for name, (_, example) in fields.items():

@@ -6,7 +6,7 @@ Here they are switched on in the scene, from the first level to the last: nothin
 
 import numpy as np
 import pytest
-from scenes import RUBBER, STEEL, problem, resolved
+from scenes import KNOWN_RUBBER, KNOWN_STEEL, problem, resolved
 
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
@@ -25,9 +25,9 @@ from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.study import Run
 
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
-ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": RUBBER}
-ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": STEEL}
-LIKE_STEEL = {"roller": {"radius": 5e-3, **STEEL}, "body": STEEL}
+ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": KNOWN_RUBBER}
+ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": KNOWN_STEEL}
+LIKE_STEEL = {"roller": {"radius": 5e-3, **KNOWN_STEEL}, "body": KNOWN_STEEL}
 WAVES = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6}
 STRESS = {"depth": 0.5, "half_range": 1.2, "points": [40, 20]}
 CIRCLE = {"roller_shape": "circle"}
@@ -43,13 +43,13 @@ SCENES = {
         STRAINED | {"coupled": True},
     ),
     "rubber layer": (
-        ON_RUBBER | {"body": RUBBER | {"thickness": 5e-3}, "load": {"per_length": 1e3}},
+        ON_RUBBER | {"body": KNOWN_RUBBER | {"thickness": 5e-3}, "load": {"per_length": 1e3}},
         STRAINED,
     ),
     "steel block, friction": (
         ON_STEEL
         | {
-            "body": STEEL | {"thickness": 2e-3, "width": 4e-3},
+            "body": KNOWN_STEEL | {"thickness": 2e-3, "width": 4e-3},
             "load": {"hertz_peak_pressure": 2e9, "friction": 0.2},
         },
         STRAINED | {"coupled": True},
@@ -79,7 +79,7 @@ SCENES = {
     "coated steel, friction": (
         {
             "roller": {"radius": 5e-3, "rigid": True},
-            "body": STEEL,
+            "body": KNOWN_STEEL,
             "coating": COATING,
             "load": {"hertz_peak_pressure": 2.5e9, "friction": 0.2},
         },

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from scenes import NEO_HOOKEAN
 
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.tasks import LATER, PERHAPS, Tasks
@@ -33,6 +34,7 @@ SCENES = {
     "wave": {"roller": RIGID, "profile": WAVY, "load": {"friction": 0.1}},
     "wave, tight": {
         "roller": RIGID,
+        "body": NEO_HOOKEAN,
         "profile": WAVY,
         "tolerance": dict.fromkeys(JUDGED, 0.008),
         "budget": {"time": 20.0},

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from scenes import judging
+from scenes import NEO_HOOKEAN, judging
 
 from comparisons.common.mpi import RANKS
 from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE, select_effects
@@ -118,15 +118,29 @@ def test_finite_deformation_is_chosen_as_one(problem_with):
     assert not parts & capped.added and "finite_strain" in capped.impossible
 
 
-def test_the_law_of_elasticity_counts_with_its_spread(problem_with):
+def test_an_open_law_is_solved_where_it_matters_and_counts_with_its_estimate_else(problem_with):
     for problem in (problem_with(**RIGID), problem_with()):
         selection = select_effects(problem, 2e9, (), 1.5e9)
-        assert "neo-Hookean" in selection.impossible["law_of_elasticity"]
-        law = selection.not_modelled("peak_pressure")["law_of_elasticity"]
-        length = selection.not_modelled("contact_length")["law_of_elasticity"]
-        assert law == pytest.approx(1.25 * 2e9 / 210e9) and length == pytest.approx(0.75 * law)
+        assert selection.laws and "finite_strain" in selection.added
+        assert "law_of_elasticity" not in selection.not_modelled("peak_pressure")
+        sizes = selection.estimates["law_of_elasticity"]
+        [law] = selection.laws
+        assert sizes["peak_pressure"] == pytest.approx(law.size * 2e9 / 210e9)
+        assert sizes["contact_length"] == pytest.approx(0.75 * sizes["peak_pressure"])
+        without = selection.without(frozenset({"finite_strain"}), "its elements are inverted")
+        assert without.laws == () and without.impossible["law_of_elasticity"].startswith("its ele")
+        assert without.not_modelled("peak_pressure")["law_of_elasticity"] == sizes["peak_pressure"]
+    light = chosen(problem_with(load={"hertz_peak_pressure": 1e7}))
+    assert light.laws == () and "law_of_elasticity" in light.negligible
     unlike = problem_with(roller={"youngs_modulus": 1e6 * 210e9})
-    assert chosen(unlike, 2e9).not_modelled("tau1_max")["law_of_elasticity"] == pytest.approx(law)
+    share = chosen(unlike, 2e9).estimates["law_of_elasticity"]["tau1_max"]
+    assert share == pytest.approx(sizes["peak_pressure"], rel=1e-5)
+
+
+def test_a_known_law_is_not_spoken_of(problem_with):
+    known = {"body": NEO_HOOKEAN, "roller": NEO_HOOKEAN}
+    selection = chosen(problem_with(**known), 2e9)
+    assert selection.laws == () and "law_of_elasticity" not in selection.estimates
 
 
 def test_coupling_too_small_to_matter_is_in_finite_deformation(problem_with):

@@ -87,17 +87,14 @@ def test_a_maximum_that_moves_is_named_with_its_places(split: Run):
 
 
 def test_a_row_says_what_may_exceed_its_tolerance(split: Run):
-    """In both tables."""
-    rows = [*model_error_rows(split), *comparison_rows(split)]
-    assert {row.quantity: row.note for row in rows} == {
-        "peak_pressure": "8.0 % not modelled",
-        "pressure_l2": "",
-    }
+    notes = {row.quantity: row.note for row in model_error_rows(split)}
+    assert notes == {"peak_pressure": "8.0 % not modelled", "pressure_l2": ""}
+    assert {row.note for row in comparison_rows(split)} == {""}  # which is of other errors
 
 
 def test_what_is_not_modelled_stands_with_its_size_and_reason(split: Run):
     assert not_modelled_line(split) == (
-        "plastic flow (at most 8.0 %): the body has no yield stress; exact circle (at most 0.15 %)"
+        "plastic flow (at most 8.0 %): the body has no yield stress"  # the circle is negligible
     )
     why = dict.fromkeys(("exact_circle", "plastic_flow"), "not asked for")
     selection = replace(split.data("model_error").selection, impossible=why, negligible=())
@@ -185,7 +182,7 @@ def test_the_terminal_shows_it_in_80_columns(split: Run):
     assert max(map(len, text.splitlines())) <= 80
     flat = " ".join(text.split())
     assert re.search(
-        r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite thickness or width -4\.0 8\.0 % not modelled",
+        r"-3\.1 0\.12 2 finite \w+ thickness or width -4\.0 8\.0 % not modelled",
         flat,
     )
     assert "not modelled plastic flow (at most 8.0%" in flat

@@ -16,14 +16,17 @@ class Law:
     """What stress follows from a finite strain; all laws have the same limit of small strains."""
 
     name: str = "neo-hookean"  # one of LAWS
-    # third-order constants l, m, n [Pa], of that law alone
+    # third-order constants l, m, n [Pa], of that law alone, and where known their standard errors
     murnaghan: tuple[float, float, float] | None = None
+    standard_errors: tuple[float, float, float] | None = None
 
     def __post_init__(self) -> None:
         if self.name not in LAWS:
             raise ValueError(f"the law must be one of {LAWS}, not {self.name!r}")
         if (self.name == "murnaghan") != (self.murnaghan is not None):
             raise ValueError("constants l, m, n are Murnaghan's, who needs them")
+        if self.standard_errors is not None and self.murnaghan is None:
+            raise ValueError("standard errors are those of constants l, m, n")
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,17 @@ class Material:
     def shear_modulus(self) -> float:
         """G = E / (2 (1 + nu)) [Pa]."""
         return self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
+
+    @property
+    def lame_constants(self) -> tuple[float, float]:
+        """lambda = 2 nu G / (1 - 2 nu) and mu = G [Pa]."""
+        shear = self.shear_modulus
+        return 2.0 * self.poissons_ratio * shear / (1.0 - 2.0 * self.poissons_ratio), shear
+
+    @property
+    def bulk_modulus(self) -> float:
+        """K = E / (3 (1 - 2 nu)) [Pa]."""
+        return self.youngs_modulus / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
 
     @property
     def plane_strain_modulus(self) -> float:

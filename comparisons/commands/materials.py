@@ -1,0 +1,166 @@
+"""`crosscheck materials`: the solids that a scene may name, each number with its source."""
+
+from typing import TYPE_CHECKING, Annotated
+
+from typer import Argument
+
+from comparisons.commands.arguments import job, json_option
+from comparisons.commands.output import show_either
+from comparisons.common.errors import ExitStatus, InputError
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from comparisons.scenes.materials import Solid, Value
+
+UNITS = {
+    "youngs_modulus": "Pa",
+    "poissons_ratio": "",
+    "density": "kg/m^3",
+    "conductivity": "W/m/K",
+    "specific_heat": "J/kg/K",
+    "expansion": "1/K",
+    "yield_stress": "Pa",
+    "hardness": "Pa",
+}
+NO_TITLE = "-"
+
+
+@job
+def materials(
+    name: Annotated[
+        str | None, Argument(help="A solid, of which everything is shown with its sources.")
+    ] = None,
+    as_json: Annotated[bool, json_option("the solids as JSON")] = False,
+) -> int:
+    """List the solids that a scene may name, or show one with its sources."""
+    from comparisons.scenes.materials import solids
+
+    listed = [solid_or_error(name)] if name is not None else list(solids().values())
+    entries = [entry_of(solid) for solid in listed]
+    show_either(as_json, entries, lambda: solids_table(listed) if name is None else page(listed[0]))
+    return ExitStatus.DONE
+
+
+def solid_or_error(name: str) -> "Solid":
+    """Raises InputError, with the nearest name, for one that no solid has."""
+    from comparisons.scenes.materials import nearest_name, solid_named
+
+    solid = solid_named(name)
+    if solid is None:
+        raise InputError(f"{name}: is no known solid; the nearest is {nearest_name(name)}")
+    return solid
+
+
+def entry_of(solid: "Solid") -> dict:
+    """A solid as JSON has it: SI, None for what is not known."""
+    from comparisons.scenes.materials import sources
+
+    law = solid.law
+    return {
+        "name": solid.name,
+        "aliases": list(solid.aliases),
+        "class": solid.kind,
+        "description": solid.description,
+        "values": {key: _value(key, value) for key, value in solid.values.items()},
+        "law": None if law is None else law.name,
+        "third_order": law and law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True)),
+        "third_order_errors": law
+        and law.standard_errors
+        and dict(zip("lmn", law.standard_errors, strict=True)),
+        "third_order_sources": list(solid.law_sources),
+        "missing": solid.missing,
+        "typical": {key: _value(key, value) for key, value in solid.typical.items()},
+        "note": solid.note,
+        "sources": {key: sources()[key] for key in _keys(solid)},
+    }
+
+
+def _value(key: str, value: "Value") -> dict:
+    return {
+        "value": value.value,
+        "unit": UNITS[key],
+        "error": value.error,
+        "span": value.span and list(value.span),
+        "sources": list(value.sources),
+    }
+
+
+def _keys(solid: "Solid") -> list[str]:
+    """The keys of every source of a solid, in the order in which they come up."""
+    values = (*solid.values.values(), *solid.typical.values())
+    return list(dict.fromkeys([*(k for v in values for k in v.sources), *solid.law_sources]))
+
+
+def solids_table(listed: list["Solid"]) -> "Table":
+    """Name, class, moduli and third-order constants [GPa] with their standard errors."""
+    from rich.table import Table
+
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for head, side in (("solid", "left"), ("class", "left"), ("E [GPa]", "right"), ("nu", "right")):
+        table.add_column(head, justify=side)
+    for head in ("l [GPa]", "m [GPa]", "n [GPa]"):
+        table.add_column(head, justify="right")
+    table.add_column("source of l, m, n")
+    for solid in listed:
+        table.add_row(solid.name, solid.kind, *_moduli(solid), *_constants(solid))
+    return table
+
+
+def _moduli(solid: "Solid") -> list[str]:
+    young, ratio = (solid.values.get(name) for name in ("youngs_modulus", "poissons_ratio"))
+    return [f"{young.value / 1e9:.4g}", NO_TITLE if ratio is None else f"{ratio.value:.3g}"]
+
+
+def _constants(solid: "Solid") -> list[str]:
+    """l, m, n with their errors, and the source; what stands in their place."""
+    law = solid.law
+    if law is None or law.murnaghan is None:
+        return [NO_TITLE] * 3 + ["none found" if law is None else f"{law.name}: its class"]
+    errors = law.standard_errors or (None,) * 3
+    cells = [_with_error(*pair) for pair in zip(law.murnaghan, errors, strict=True)]
+    return [*cells, ", ".join(solid.law_sources)]
+
+
+def _with_error(value: float, error: float | None) -> str:
+    return f"{value / 1e9:.4g}" + ("" if error is None else f" ± {error / 1e9:.2g}")
+
+
+def page(solid: "Solid") -> "Table":
+    """Everything of one solid, each number with the keys of its sources, and what those are."""
+    from rich.table import Table
+
+    from comparisons.scenes.materials import sources
+
+    table = Table(box=None, padding=(0, 2, 0, 0), show_header=False)
+    table.add_row("solid", solid.name, ", ".join(solid.aliases))
+    table.add_row("class", solid.kind, solid.description)
+    for key, value in solid.values.items():
+        table.add_row(key, _shown(key, value), ", ".join(value.sources))
+    for name, cell in zip("lmn", _constants(solid)[:3], strict=True):
+        if solid.has_constants:
+            table.add_row(name, f"{cell} GPa", ", ".join(solid.law_sources))
+    if not solid.has_constants:
+        law = "not known" if solid.law is None else solid.law.name
+        table.add_row("law", law, solid.missing or ", ".join(solid.law_sources))
+    for key, value in solid.typical.items():
+        words = "typical, never filled in; " + ", ".join(value.sources)
+        table.add_row(key, _shown(key, value), words)
+    if solid.note:
+        table.add_row("note", "", solid.note)
+    for key in _keys(solid):
+        table.add_row(key, "", sources()[key])
+    return table
+
+
+def _shown(key: str, value: "Value") -> str:
+    """A value with its unit, and its standard error or its range."""
+    from comparisons.common.numbers import significant, with_unit
+
+    def text(number: float) -> str:
+        return with_unit(number, "Pa") if UNITS[key] == "Pa" else f"{significant(number, 4)}"
+
+    shown = text(value.value) + ("" if UNITS[key] == "Pa" else f" {UNITS[key]}")
+    if value.error is not None:
+        return f"{shown} ± {text(value.error)}"
+    return shown if value.span is None else f"{shown} ({' to '.join(map(text, value.span))})"

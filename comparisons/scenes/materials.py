@@ -1,0 +1,347 @@
+"""Solids that a scene may name, read from materials.toml: elastic constants, the law of elasticity
+that was measured, thermal constants, typical strengths, each with its source.
+
+Also which measured solids a body may be like (`measured_solids`) whose own law is not known."""
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from analytic.material import Law, Material
+from analytic.material.third_order import (
+    PRESSURE_DERIVATIVES,
+    murnaghan_constants,
+    murnaghan_errors,
+)
+from comparisons.common.errors import nearest
+from comparisons.common.units import (
+    CONDUCTIVITY,
+    DENSITY,
+    DIMENSIONLESS,
+    EXPANSION,
+    PRESSURE,
+    SPECIFIC_HEAT,
+    SPEED,
+    Dimension,
+    describe,
+    to_si,
+)
+from comparisons.scenes.fields import FieldType
+
+SOLIDS = Path(__file__).with_name("materials.toml")
+ELASTIC = {"youngs_modulus": PRESSURE, "poissons_ratio": DIMENSIONLESS}
+THERMAL = {
+    "density": DENSITY,
+    "conductivity": CONDUCTIVITY,
+    "specific_heat": SPECIFIC_HEAT,
+    "expansion": EXPANSION,
+}
+TYPICAL = {"yield_stress": PRESSURE, "hardness": PRESSURE}
+MEASURED = {"longitudinal": SPEED, "transverse": SPEED, "poissons_ratio": DIMENSIONLESS}
+# The next wider class of one with fewer than two solids of known third-order constants.
+METAL, ANY = "metal", "solid"
+WIDER = {
+    **dict.fromkeys(("steel", "iron", "aluminium", "copper", "titanium"), METAL),
+    **dict.fromkeys(("refractory metal", "magnesium"), METAL),
+    "glassy polymer": "polymer",
+    "semicrystalline polymer": "polymer",
+}
+RUBBER = "rubber"
+# Moduli and ratios of one kind of solid scatter by so much: steels from 193 to 213 GPa, glasses
+# from 0.19 to 0.24.
+NEAR_MODULUS, NEAR_RATIO = 0.1, 0.03
+SAME = 1e-9  # relative: a value written beside a solid's name is that solid's
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number in SI with its standard error, or with the range whose middle it is, and the keys of
+    its sources."""
+
+    value: float
+    sources: tuple[str, ...]
+    error: float | None = None
+    span: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Solid:
+    """One entry. `values` holds those of ELASTIC and THERMAL that are known, `typical` those of
+    TYPICAL. `law` is what was measured, None where nothing was, and `missing` then says so."""
+
+    name: str
+    aliases: tuple[str, ...]
+    kind: str  # its class
+    description: str
+    values: dict[str, Value]
+    typical: dict[str, Value]
+    law: Law | None
+    law_sources: tuple[str, ...]
+    missing: str
+    note: str
+
+    @property
+    def material(self) -> Material | None:
+        """None where Poisson's ratio is not known."""
+        if not ELASTIC.keys() <= self.values.keys():
+            return None
+        return Material(*(self.values[name].value for name in ELASTIC), self.law or Law())
+
+    @property
+    def has_constants(self) -> bool:
+        """Whether third-order constants of it are known."""
+        return self.law is not None and self.law.murnaghan is not None
+
+    def agrees(self, name: str, value: object) -> bool:
+        """Whether `value` [SI] of a field is the solid's own."""
+        if name not in self.values or not isinstance(value, int | float):
+            return False
+        return abs(value - self.values[name].value) <= SAME * abs(self.values[name].value)
+
+
+class SolidName(FieldType):
+    """The name of a solid, or one of its other names; it is read as the first."""
+
+    def read(self, given: object) -> str:
+        solid = solid_named(given) if isinstance(given, str) else None
+        if solid is None:
+            near = nearest_name(given) if isinstance(given, str) else None
+            hint = f'; the nearest is "{near}"' if near else ""
+            raise self.wrong(f"is {describe(given)}, which is no known solid{hint}")
+        return solid.name
+
+    def allowed(self) -> str:
+        return 'the name of a solid such as "carbon steel" (crosscheck materials lists them)'
+
+
+@cache
+def solids() -> dict[str, Solid]:
+    """Every solid by name, in the order of the file."""
+    entries = tomllib.loads(SOLIDS.read_text(encoding="utf-8"))["solid"]
+    return {entry["name"]: _solid(entry) for entry in entries}
+
+
+@cache
+def sources() -> dict[str, str]:
+    """What the keys of sources stand for."""
+    return tomllib.loads(SOLIDS.read_text(encoding="utf-8"))["sources"]
+
+
+@cache
+def _names() -> dict[str, str]:
+    """Names and other names, in small letters, of each solid's first name."""
+    return {
+        name.casefold(): solid.name
+        for solid in solids().values()
+        for name in (solid.name, *solid.aliases)
+    }
+
+
+def solid_named(name: str) -> Solid | None:
+    """The solid of that name or other name, whatever its case; None if there is none."""
+    first = _names().get(name.strip().casefold())
+    return None if first is None else solids()[first]
+
+
+def nearest_name(name: str) -> str | None:
+    """The first name of the solid whose name is most like `name`."""
+    return _names().get(nearest(name.casefold(), _names()))
+
+
+def kinds_like(youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
+    """The classes of solids that have about these constants: NEAR_MODULUS, relative, and
+    NEAR_RATIO, absolute; several where they cannot be told apart, none for constants that no known
+    solid has."""
+    like = (
+        solid.kind
+        for solid in solids().values()
+        if solid.material is not None
+        and abs(solid.material.youngs_modulus / youngs_modulus - 1.0) <= NEAR_MODULUS
+        and abs(solid.material.poissons_ratio - poissons_ratio) <= NEAR_RATIO
+    )
+    return tuple(dict.fromkeys(like))
+
+
+def measured_solids(*kinds: str) -> list[Solid]:
+    """Those of known third-order constants in any of the classes, or in the next wider ones where
+    these have fewer than two; all there are without a class. Raises ValueError for a class that is
+    not one."""
+    _check_classes(kinds)
+    within = kinds or (ANY,)
+    while len(measured := [solid for solid in solids().values() if _is_of(solid, within)]) < 2:
+        within = tuple(dict.fromkeys(WIDER.get(kind, ANY) for kind in within))
+    return measured
+
+
+def typical_range(name: str, solid: str | None, kinds: Iterable[str]) -> tuple[float, float] | None:
+    """From which to which value [SI] a strength of TYPICAL goes, of a solid where it is known, else
+    of the classes; None where nothing is known."""
+    of_solid = [solids()[solid]] if solid is not None else []
+    for those in (of_solid, [each for each in solids().values() if each.kind in set(kinds)]):
+        known = [each.typical[name] for each in those if name in each.typical]
+        if known:
+            ends = [value.span or (value.value, value.value) for value in known]
+            return min(low for low, _ in ends), max(high for _, high in ends)
+    return None
+
+
+def kinds_of(solid: str | None, youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
+    """The classes that a body may be of: that of the solid it is named after, else those of solids
+    with about its constants."""
+    if solid is not None:
+        return (solids()[solid].kind,)
+    return kinds_like(youngs_modulus, poissons_ratio)
+
+
+def scaled_law(solid: Solid, body: Material) -> Law:
+    """The solid's third-order constants and errors, for a body with another shear modulus."""
+    factor = body.shear_modulus / solid.material.shear_modulus
+    errors = solid.law.standard_errors
+    return Law(
+        solid.law.name,
+        tuple(factor * constant for constant in solid.law.murnaghan),
+        errors and tuple(factor * error for error in errors),
+    )
+
+
+def classes() -> list[str]:
+    """Every class of solids, the wider ones too."""
+    return sorted({*(solid.kind for solid in solids().values()), *WIDER.values(), ANY})
+
+
+def _check_classes(kinds: tuple[str, ...]) -> None:
+    for kind in kinds:
+        if kind not in classes():
+            raise ValueError(f"the class must be one of {', '.join(classes())}, not {kind!r}")
+
+
+def _is_of(solid: Solid, kinds: tuple[str, ...]) -> bool:
+    """Whether its constants are known, and it is of one of the classes, or of one that these are
+    wider than."""
+    return solid.has_constants and bool({ANY, solid.kind, WIDER.get(solid.kind)} & set(kinds))
+
+
+def _solid(entry: Mapping) -> Solid:
+    values = _elastic(entry)
+    values |= {name: _value(entry[name], THERMAL[name]) for name in THERMAL if name in entry}
+    law, law_sources = _law(entry, values)
+    typical = entry.get("typical", {})
+    return Solid(
+        name=entry["name"],
+        aliases=tuple(entry.get("aliases", ())),
+        kind=entry["class"],
+        description=entry["description"],
+        values=values,
+        typical={name: _value(table, TYPICAL[name]) for name, table in typical.items()},
+        law=law,
+        law_sources=law_sources,
+        missing=entry.get("no_third_order", ""),
+        note=entry.get("note", ""),
+    )
+
+
+def _value(table: Mapping, dimension: Dimension) -> Value:
+    """A number, or the middle of a range."""
+    if "value" in table:
+        return Value(to_si(table["value"], dimension), _keys(table))
+    low, high = to_si(table["from"], dimension), to_si(table["to"], dimension)
+    return Value(0.5 * (low + high), _keys(table), span=(low, high))
+
+
+def _keys(table: Mapping) -> tuple[str, ...]:
+    source = table["source"]
+    return (source,) if isinstance(source, str) else tuple(source)
+
+
+def _elastic(entry: Mapping) -> dict[str, Value]:
+    """Young's modulus and Poisson's ratio of what was measured, with the errors that follow."""
+    table, keys = dict(entry["elastic"]), _keys(entry["elastic"])
+    del table["source"]
+    measured, spans = {}, {}
+    for name in dict.fromkeys(name.removesuffix("_from").removesuffix("_to") for name in table):
+        dimension = {**MEASURED, **THERMAL}.get(name, PRESSURE)
+        ends = {key: table[f"{name}_{key}"] for key in ("from", "to") if name not in table}
+        part = ends or {"value": table[name]}
+        value = _value(part | {"source": keys}, dimension)
+        measured[name], spans[name] = value.value, value.span
+    errors = _errors(entry.get("elastic_errors", {}), measured, PRESSURE)
+    constants = dict.fromkeys(ELASTIC, 0.0)
+    results = _constants(measured)
+    for name in errors:
+        moved = _constants(measured | {name: measured[name] + errors[name]})
+        constants = {key: constants[key] + (moved[key] - results[key]) ** 2 for key in results}
+    return {
+        key: Value(value, keys, float(np.sqrt(constants[key])) if errors else None, spans.get(key))
+        for key, value in results.items()
+    }
+
+
+def _errors(
+    table: Mapping[str, str], values: Mapping[str, float], dimension: Dimension
+) -> dict[str, float]:
+    """Standard errors [SI] of values, as they are or in per cent of them."""
+    return {
+        name: abs(values[name]) * to_si(text, DIMENSIONLESS)
+        if text.endswith("%")
+        else to_si(text, dimension)
+        for name, text in table.items()
+    }
+
+
+def _constants(measured: Mapping[str, float]) -> dict[str, float]:
+    """Young's modulus [Pa] and Poisson's ratio of two moduli, of one alone itself, or of a density
+    [kg/m^3] and both speeds of sound [m/s]."""
+    if measured.keys() <= ELASTIC.keys():
+        return dict(measured)
+    return {
+        frozenset(("lame", "shear")): _of_lame,
+        frozenset(("bulk", "shear")): _of_bulk,
+        frozenset(("shear", "poissons_ratio")): _of_shear,
+        frozenset(("density", "longitudinal", "transverse")): _of_speeds,
+    }[frozenset(measured)](**measured)
+
+
+def _of_lame(lame: float, shear: float) -> dict[str, float]:
+    return _of_shear(shear, 0.5 * lame / (lame + shear))
+
+
+def _of_bulk(bulk: float, shear: float) -> dict[str, float]:
+    return _of_lame(bulk - 2.0 * shear / 3.0, shear)
+
+
+def _of_shear(shear: float, poissons_ratio: float) -> dict[str, float]:
+    return {
+        "youngs_modulus": 2.0 * shear * (1.0 + poissons_ratio),
+        "poissons_ratio": poissons_ratio,
+    }
+
+
+def _of_speeds(density: float, longitudinal: float, transverse: float) -> dict[str, float]:
+    shear = density * transverse**2
+    return _of_lame(density * longitudinal**2 - 2.0 * shear, shear)
+
+
+def _law(entry: Mapping, values: Mapping[str, Value]) -> tuple[Law | None, tuple[str, ...]]:
+    """The measured law and its sources."""
+    if "law" in entry:
+        return Law(entry["law"]["name"]), _keys(entry["law"])
+    if "third_order" not in entry:
+        return None, ()
+    table = dict(entry["third_order"])
+    keys = _keys(table)
+    del table["source"]
+    constants = {
+        name: to_si(value, DIMENSIONLESS if name in PRESSURE_DERIVATIVES else PRESSURE)
+        for name, value in table.items()
+    }
+    material = Material(*(values[name].value for name in ELASTIC))
+    errors = _errors(entry.get("third_order_errors", {}), constants, PRESSURE)
+    return Law(
+        "murnaghan",
+        murnaghan_constants(constants, material),
+        murnaghan_errors(constants, errors, material) if errors else None,
+    ), keys

@@ -1,0 +1,212 @@
+"""What the law of elasticity may change, where the scene leaves it open.
+
+In: a scene whose whole model deforms finitely. Out: the laws with which the whole is solved once
+more on its coarsest level, and what they say of every solid that may be meant.
+
+All laws have one limit of small strains. Their next terms have Murnaghan's constants l and m (n
+moves nothing in the plane; `analytic.material.third_order` has those of every law). So a law is a
+point (l/mu, m/mu), and what it changes is linear in this, to first order in the strain. The whole's
+own law and two others are three points; the plane through their figures holds every solid. The two
+are solids themselves, that span the largest triangle with the whole's.
+
+Where the scene names no law, the error lies between those of the published solids of its kind.
+Where it names a solid whose constants were measured, each is moved by its standard error; two of
+them, independent of each other, are the 95 % of every other uncertainty."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from analytic.material import Law, Material
+from analytic.material.third_order import peak_change, third_order
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+from comparisons.scenes.materials import (
+    RUBBER,
+    kinds_of,
+    measured_solids,
+    scaled_law,
+    solids,
+)
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.sections import ElasticSection
+from comparisons.studies.model_error.quantities_of_interest import (
+    QuantitiesOfInterest,
+    relative_sizes,
+)
+from comparisons.studies.model_error.variants import ModelVariant
+
+EFFECT = "law_of_elasticity"
+BODIES = ("body", "roller")
+COVERED = 2.0  # standard errors
+NOT_STATED = 0.1  # standard error of a constant whose source has none: as of those that have one
+# Relative changes on the coarsest level move by less of themselves on finer ones: peaks and shears
+# of smooth contacts by 0.03, lengths, which are read between nodes, by 0.17.
+SETTLED = 0.2
+SOFT = 1e9  # [Pa] below it, a body like no known solid is taken for rubber
+FLAT = 0.05  # a triangle's height over its length, below which the plane is taken along it alone
+
+
+Point = tuple[float, float]  # l/mu, m/mu
+
+
+def point_of(law: Law, material: Material) -> Point:
+    ell, m, _ = third_order(law, material)
+    return ell / material.shear_modulus, m / material.shear_modulus
+
+
+@dataclass(frozen=True)
+class OpenLaw:
+    """What is not known of the law of one body, or of both where they are of one solid."""
+
+    material: Material  # with the law that the whole has
+    laws: tuple[Law, ...]  # of the solids that may be meant, with the body's own moduli
+    named_probes: tuple[tuple[str, Law], ...]  # those of them that the whole is solved with
+    is_scatter: bool = False  # of measured constants: the probes are these moved, one by one
+    bodies: tuple[str, ...] = ()  # of BODIES
+
+    @property
+    def probes(self) -> dict[str, Law]:
+        return dict(self.named_probes)
+
+    @property
+    def words(self) -> str:
+        """For the account of effects."""
+        solved = " and ".join(self.probes)
+        if self.is_scatter:
+            return f"its constants were measured; the whole is solved again with {solved}"
+        return f"the scene names no measured solid; the whole is solved again as {solved}"
+
+    @property
+    def size(self) -> float:
+        """The largest change of the peak of a smooth contact, over p0/E."""
+        before = peak_change(self.material.law, self.material)
+        changes = [peak_change(law, self.material) - before for law in self.laws]
+        return COVERED * math.hypot(*changes) if self.is_scatter else max(map(abs, changes))
+
+    def range(self, changes: Mapping[str, float]) -> tuple[float, float]:
+        """The least and the largest change that a solid makes, by those of the probes."""
+        origin = np.array(point_of(self.material.law, self.material))
+        moves = [point_of(law, self.material) - origin for law in self.probes.values()]
+        slopes = np.linalg.lstsq(np.array(moves), np.array(list(changes.values())), rcond=FLAT)[0]
+        others = [(point_of(law, self.material) - origin) @ slopes for law in self.laws]
+        every = [*changes.values(), *map(float, others)]
+        return min(every), max(every)
+
+
+def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
+    """Those of a scene's elastic bodies; bodies of equal constants and laws vary together."""
+    found: dict[OpenLaw, list[str]] = {}
+    for name in BODIES:
+        section = getattr(scene, name)
+        if section.material is not None and (law := _open_law(section)) is not None:
+            found.setdefault(law, []).append(name)
+    return tuple(replace(law, bodies=tuple(names)) for law, names in found.items())
+
+
+def _open_law(section: ElasticSection) -> OpenLaw | None:
+    """None where the law is known for certain."""
+    material = section.material
+    if section.law is not None:
+        return _scattered(material) if _is_measured(section) else None
+    kinds = kinds_of(section.solid, section.youngs_modulus, section.poissons_ratio)
+    if RUBBER in kinds or (not kinds and material.youngs_modulus < SOFT):
+        laws = {"neo-Hookean rubber": Law(), "rubber by Hencky's law": Law("hencky")}
+    else:
+        measured = measured_solids(*kinds)
+        laws = {solid.name: scaled_law(solid, material) for solid in measured}
+    return OpenLaw(material, tuple(laws.values()), _probes(laws, material))
+
+
+def _is_measured(section: ElasticSection) -> bool:
+    """Whether its law is that of the solid it is named after, with measured constants."""
+    law = section.material.law
+    of_solid = solids()[section.solid].law if section.solid else None
+    return of_solid is not None and None is not of_solid.murnaghan == law.murnaghan
+
+
+def _scattered(material: Material) -> OpenLaw:
+    """Each of l and m moved by its standard error."""
+    constants, moved = np.array(material.law.murnaghan), {}
+    errors = material.law.standard_errors or NOT_STATED * np.abs(constants)
+    for place, name in enumerate("lm"):
+        step = np.zeros(3)
+        step[place] = errors[place]
+        moved[f"{name} moved by its standard error"] = Law("murnaghan", tuple(constants + step))
+    return OpenLaw(material, tuple(moved.values()), tuple(moved.items()), is_scatter=True)
+
+
+def _probes(laws: Mapping[str, Law], material: Material) -> tuple[tuple[str, Law], ...]:
+    """The two that span the largest triangle with the body's own, or the only one."""
+    laws = {name: law for name, law in laws.items() if law != material.law}
+    origin = np.array(point_of(material.law, material))
+
+    def area(pair: tuple[str, ...]) -> float:
+        one, other = (point_of(laws[name], material) - origin for name in pair)
+        return abs(float(one[0] * other[1] - one[1] * other[0]))
+
+    chosen = max(combinations(laws, 2), key=area, default=tuple(laws))
+    return tuple((name, laws[name]) for name in chosen)
+
+
+def law_variants(
+    whole: ModelVariant, laws: tuple[OpenLaw, ...]
+) -> dict[tuple[int, str], ModelVariant]:
+    """The whole with each probe, by place in `laws` and the probe's name."""
+    return {
+        (number, probe): replace(
+            whole,
+            laws=tuple((body, law) for body in each.bodies),
+            laws_name=f"{'-and-'.join(each.bodies)}-{'-'.join(probe.split())}",
+        )
+        for number, each in enumerate(laws)
+        for probe, law in each.probes.items()
+    }
+
+
+@dataclass(frozen=True)
+class LawSolutions:
+    """The whole at one friction coefficient on its coarsest level, and with other laws."""
+
+    problem: Problem
+    window: Window | None
+    laws: tuple[OpenLaw, ...]
+    whole: QuantitiesOfInterest
+    moved: Mapping[tuple[int, str], QuantitiesOfInterest]  # by place in `laws`, and probe
+
+    def spread(self, name: str, at: int) -> "LawSpread":
+        """Of a quantity, at an asperity where it is a largest value."""
+        low = high = scatter = 0.0
+        for number, law in enumerate(self.laws):
+            changes = {probe: self._change(number, probe, name, at) for probe in law.probes}
+            sizes = list(changes.values())
+            if law.is_scatter:
+                scatter += COVERED * float(np.hypot.reduce(sizes))
+            elif QUANTITIES[name].of_pair:  # a norm's change has no sign
+                low, high = low - max(sizes), high + max(sizes)
+            else:
+                ends = law.range(changes)
+                low, high = low + ends[0], high + ends[1]
+        half = 0.5 * (high - low) + SETTLED * max(abs(low), abs(high))
+        return LawSpread(0.5 * (low + high), half, (1.0 + SETTLED) * scatter)
+
+    def _change(self, number: int, probe: str, name: str, at: int) -> float:
+        """Relative, of the whole's figure on that level."""
+        change = self.moved[number, probe] - self.whole
+        if QUANTITIES[name].of_pair:
+            return relative_sizes(change, self.whole, self.problem, self.window)[name]
+        scale = abs(self.whole.figures[name][at]) or QUANTITIES[name].scale(self.problem.hertz)
+        return float(change.figures[name][at] / scale)
+
+
+@dataclass(frozen=True)
+class LawSpread:
+    """What the law changes in the whole's figure, relative to it."""
+
+    middle: float = 0.0  # of the published solids, against the law that the whole has
+    half: float = 0.0  # of their range, about its middle
+    scatter: float = 0.0  # of measured constants, for 95 %

@@ -1,0 +1,173 @@
+"""Every solid of materials.toml is complete and has its sources; numbers are those of the source;
+solids that a body may be like."""
+
+import pytest
+
+from analytic.material import Material
+from analytic.material.third_order import peak_change
+from comparisons.scenes.materials import (
+    ELASTIC,
+    THERMAL,
+    kinds_like,
+    measured_solids,
+    scaled_law,
+    solid_named,
+    solids,
+    sources,
+    typical_range,
+)
+
+CLASSES = {"steel": 2, "iron": 2, "aluminium": 2, "copper": 2, "titanium": 1, "hard metal": 1}
+CLASSES |= {
+    "ceramic": 1,
+    "glass": 3,
+    "glassy polymer": 2,
+    "semicrystalline polymer": 3,
+    "rubber": 2,
+}
+RANGES = {
+    "youngs_modulus": (1e6, 1e12),
+    "poissons_ratio": (0.1, 0.495),
+    "density": (900.0, 20000.0),
+    "conductivity": (0.1, 500.0),
+    "specific_heat": (200.0, 2500.0),
+    "expansion": (1e-7, 3e-4),
+}
+
+
+def values_of(solid):
+    return (*solid.values.values(), *solid.typical.values())
+
+
+def keys_of(solid):
+    return {*solid.law_sources, *(key for value in values_of(solid) for key in value.sources)}
+
+
+@pytest.mark.parametrize("solid", solids().values(), ids=lambda solid: solid.name)
+def test_every_solid_is_complete_and_has_its_sources(solid):
+    assert solid.description
+    assert "youngs_modulus" in solid.values
+    assert "density" in solid.values
+    # a law that was measured, or a word that none was found
+    assert (solid.law is None) == bool(solid.missing)
+    assert bool(solid.law_sources) == (solid.law is not None)
+    assert keys_of(solid) <= sources().keys()
+    for name, value in solid.values.items():
+        low, high = RANGES[name]
+        assert low <= value.value <= high, name
+    for value in solid.typical.values():
+        assert value.span is None or value.span[0] < value.value < value.span[1]
+
+
+def test_every_source_is_used_and_says_where_it_was_read():
+    used = {key for solid in solids().values() for key in keys_of(solid)}
+    assert used == sources().keys()
+
+
+def test_names_are_of_one_solid_each():
+    names = [
+        name.casefold()
+        for solid in solids().values()
+        for name in {solid.name.casefold(), *map(str.casefold, solid.aliases)}
+    ]
+    assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize(("kind", "count"), CLASSES.items())
+def test_classes_have_their_solids(kind, count):
+    assert sum(solid.kind == kind for solid in solids().values()) >= count
+
+
+# What the sources print, in GPa: l, m, n, or what they give in place of them.
+PRINTED = {
+    "nickel steel S/NVT": {"l": -56, "m": -671, "n": -785, "errors": (20, 6, 7)},
+    "rail steel": {"l": -248, "m": -623, "n": -714, "errors": (6.944, 25.543, 19.278)},
+    "carbon steel": {"l": -385 / 2 - 282, "m": -282 - 2 * 177, "n": -4 * 177},
+    "austenitic stainless steel": {"l": 34 / 2 - 552, "m": -552 - 2 * 100, "n": -4 * 100},
+    "molybdenum": {"l": -301, "m": -852, "n": -908},  # as COMSOL rounds them: -300, -850, -910
+    "tungsten": {"l": -472.5, "m": -792, "n": -1068},
+    "copper": {"l": -160, "m": -620, "n": -1590},
+    "iron": {"l": -170, "m": -770, "n": -1520},
+    "aluminium": {"l": -143, "m": -297, "n": -345},
+    "niobium": {"l": -610, "m": -220, "n": 300},
+    "polystyrene": {"l": -18.9, "m": -13.3, "n": -10.0},
+    "PMMA": {"l": -10.9, "m": -7.7, "n": -1.4},
+}
+
+
+@pytest.mark.parametrize(("name", "printed"), PRINTED.items())
+def test_third_order_constants_are_those_of_the_source(name, printed):
+    law = solids()[name].law
+    printed = dict(printed)
+    errors = printed.pop("errors", None)
+    assert law.murnaghan == pytest.approx([1e9 * value for value in printed.values()], rel=1e-9)
+    if errors:
+        assert law.standard_errors == pytest.approx([1e9 * error for error in errors], rel=1e-9)
+
+
+def test_fused_silica_has_the_pressure_derivatives_and_c111_of_its_sources():
+    solid = solids()["fused silica"]
+    ell, m, n = solid.law.murnaghan
+    lame, shear = solid.material.lame_constants
+    bulk = solid.material.bulk_modulus
+    assert 2.0 * ell + 4.0 * m == pytest.approx(467e9)
+    assert -2.0 * (9.0 * ell + n) / (9.0 * bulk) == pytest.approx(-6.0)
+    assert -(3.0 * m - n / 2.0 + 3.0 * lame + 3.0 * shear) / (3.0 * bulk) == pytest.approx(-3.5)
+
+
+def test_moduli_follow_from_what_was_measured():
+    steel = solids()["carbon steel"].material
+    assert steel.lame_constants == pytest.approx((111e9, 82.1e9))
+    carbide = solids()["tungsten carbide"].material
+    assert (carbide.bulk_modulus, carbide.shear_modulus) == pytest.approx((357.5e9, 253.5e9))
+    silica = solids()["fused silica"].material
+    lame, shear = silica.lame_constants
+    assert ((lame + 2.0 * shear) / 2200.0) ** 0.5 == pytest.approx(5930.0)
+    assert (shear / 2200.0) ** 0.5 == pytest.approx(3750.0)
+    assert solids()["brass"].material.poissons_ratio == pytest.approx(0.335)
+
+
+def test_a_solid_is_known_by_its_other_names_in_any_case():
+    assert solid_named(" PYREX ") is solids()["borosilicate glass"]
+    assert solid_named("52100") is solids()["100Cr6"]
+    assert solid_named("unobtainium") is None
+
+
+def test_a_class_has_its_own_measured_solids_or_those_of_wider_ones():
+    def names(*kinds: str) -> list[str]:
+        return [solid.name for solid in measured_solids(*kinds)]
+
+    assert names("aluminium") == ["aluminium", "aluminium alloy"]
+    assert len(names("steel")) == 7 and "austenitic stainless steel" in names("steel")
+    assert names("titanium") == names("iron") == names("metal")  # no titanium alloy, one iron
+    assert set(names("steel", "iron")) == {*names("steel"), "iron"}
+    assert names("ceramic") == names() and "fused silica" in names()
+    assert names("semicrystalline polymer") == ["polystyrene", "PMMA"]
+    with pytest.raises(ValueError, match="must be one of"):
+        measured_solids("cheese")
+
+
+def test_constants_scale_with_the_shear_modulus():
+    for solid in measured_solids():
+        body = Material(2.0 * solid.material.youngs_modulus, solid.material.poissons_ratio)
+        scaled = scaled_law(solid, body)
+        assert peak_change(scaled, body) == pytest.approx(peak_change(solid.law, solid.material))
+
+
+def test_a_body_is_like_solids_of_about_its_constants():
+    assert kinds_like(207e9, 0.3) == ("steel", "iron")
+    assert kinds_like(70e9, 0.33) == ("aluminium",)
+    assert kinds_like(71e9, 0.21) == ("glass",)
+    assert kinds_like(207e9, 0.1) == ()
+
+
+def test_typical_strengths_are_the_solids_or_those_of_its_class():
+    low, high = typical_range("yield_stress", "carbon steel", ("steel",))
+    assert (low, high) == solids()["carbon steel"].typical["yield_stress"].span
+    of_class = typical_range("yield_stress", "rail steel", ("steel",))
+    assert of_class[0] <= low and high <= of_class[1]
+    assert typical_range("yield_stress", None, ()) is None
+
+
+def test_thermal_and_elastic_fields_are_what_a_scene_takes():
+    assert set(RANGES) == {*ELASTIC, *THERMAL}
