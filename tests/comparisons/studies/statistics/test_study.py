@@ -12,7 +12,6 @@ from analytic.statistics.penetration import RIDGE
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels, problem_of
 from comparisons.output.recorded_run import read_result
@@ -59,13 +58,6 @@ def patches_of(outcome) -> dict[str, list[dict]]:
 
 def test_loads_go_down_three_decades_from_the_scenes(loads):
     assert loads["load"] == pytest.approx(2e6 * np.logspace(0, -3, 7))
-
-
-def test_a_run_that_goes_on_need_not_solve_them_again(tmp_path, outcome):
-    cache = level_cache(tmp_path / "out", outcome.problem, outcome.plan)
-    loads = ({"load": 2e6, "figures.trace.real_length": 1e-4},) * 2, {"difference": (0.1, 0.2)}
-    cache.save("statistics", loads)
-    assert cache.load("statistics") == loads
 
 
 def test_the_trace_under_the_scenes_load_is_the_models(outcome, loads, uncertainties):
