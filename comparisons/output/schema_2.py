@@ -315,6 +315,7 @@ def _yield(old: Mapping) -> Items:
         limit = {"shakedown_limit": values.pop("shakedown_limit")}
         yield from figures_of(flow.NAME, source, values, sure, at)
         yield from figures_of(flow.NAME, "scene", limit, None, at)
+        yield Statement("read", entry["from"], source, at)
 
 
 def _zones(old: Mapping) -> Items:
