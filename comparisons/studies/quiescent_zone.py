@@ -33,8 +33,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from comparisons.common.numbers import plain, significant
-from comparisons.drawing.blocks import Block, Heading, Note, TextTable
-from comparisons.drawing.cells import stated
+from comparisons.drawing.blocks import Block, Heading, Note, TextTable, stated
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import LABELS, Quantity

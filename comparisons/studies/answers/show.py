@@ -16,8 +16,15 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Heading, Names, Note, Pictures, TextTable
-from comparisons.drawing.cells import compared_cells
+from comparisons.drawing.blocks import (
+    Block,
+    Heading,
+    Names,
+    Note,
+    Pictures,
+    TextTable,
+    compared_cells,
+)
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import (
     ColourScale,

@@ -6,8 +6,7 @@ import numpy as np
 
 from comparisons.common.numbers import percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable
-from comparisons.drawing.cells import judged_cells
+from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable, judged_cells
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
 from comparisons.figures.figure import Figures

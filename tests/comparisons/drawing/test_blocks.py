@@ -3,7 +3,7 @@
 from dataclasses import replace
 from math import inf
 
-from comparisons.drawing.cells import compared_cells, judged_cells, stated
+from comparisons.drawing.blocks import compared_cells, judged_cells, stated
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
 
