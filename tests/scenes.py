@@ -17,6 +17,9 @@ PROFILES = PROJECT / "comparisons/scenes/library/profiles"
 MEASURED = PROJECT.parent / "shared/profiles"  # other people's: tests without them are skipped
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+STEEL_HEAT = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
+# Of a [heat] section whose two bodies conduct alike.
+BOTH_CONDUCT = {f"{b}_{name}": v for b in ("body", "roller") for name, v in STEEL_HEAT.items()}
 RUBBER = {"youngs_modulus": 3e6, "poissons_ratio": 0.45}
 # The same of a known law of elasticity: the whole is solved with no other.
 NEO_HOOKEAN = {"law": "neo-hookean"}

@@ -112,6 +112,7 @@ def _fit(levels: np.ndarray, power: float) -> tuple[float, float, float]:
     weights = 1.0 / size / np.mean(1.0 / size)
     matrix = np.column_stack([np.ones_like(size), size])
     root = np.sqrt(weights)
-    found, *_ = np.linalg.lstsq(matrix * root[:, None], change * root, rcond=None)
-    deviation = float(np.sqrt(weights @ (change - matrix @ found) ** 2))
-    return float(levels[-1] + scale * found[0]), float(scale * found[1]), scale * deviation
+    coefficients, *_ = np.linalg.lstsq(matrix * root[:, None], change * root, rcond=None)
+    deviation = float(np.sqrt(weights @ (change - matrix @ coefficients) ** 2))
+    limit, slope = scale * coefficients
+    return float(levels[-1] + limit), float(slope), scale * deviation

@@ -2,24 +2,53 @@
 
 In: what a study has found. Out: the types that every output shows, judges and stores.
 
-The verdict follows from value, uncertainty, estimates and bounds, by one rule, and is kept nowhere.
-Whoever makes a figure states its uncertainty; whoever shows one never makes it up."""
+Whoever makes a figure states its uncertainty; whoever shows one never makes it up. The verdict
+follows by one rule from value d, uncertainty and estimates U, and bounds, and is kept nowhere: yes
+where all of d +- U lies within the bounds, no where all of it is beyond, inconclusive where it
+reaches across, or where U is not known."""
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import Literal, TypeVar
+
+import numpy as np
 
 from comparisons.figures.quantity import WHOLE
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.figures.verdict import Verdict, is_within
 
 Item = TypeVar("Item")
+Verdict = Literal["agree", "differ", "inconclusive", "holds", "fails"]
 
 AGREE = {True: "agree", False: "differ", None: "inconclusive"}  # with another's figure
 HOLD = {True: "holds", False: "fails", None: "inconclusive"}
 FAILED = ("differ", "fails")
 SMALL = 1.0 / 3.0  # of what is not modelled: a numerical uncertainty that hardly matters
+
+
+def is_within(value: float, uncertainty: float, low: float, high: float) -> bool | None:
+    """Whether value +- uncertainty lies between the bounds, which belong to the inside: all of it
+    (True), nothing (False), or neither (None), as where one is not finite. All in one unit."""
+    first, last = value - uncertainty, value + uncertainty
+    if not (math.isfinite(first) and math.isfinite(last)):
+        return None
+    if low <= first and last <= high:
+        return True
+    return False if last < low or first > high else None
+
+
+def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
+    """Verdict on a relative difference."""
+    return AGREE[is_within(difference, uncertainty, -tolerance, tolerance)]
+
+
+def is_decided(difference: float, uncertainty: float, size: float, tolerance: float) -> bool:
+    """Whether a difference agrees or differs, whatever effects that change its reference by up to
+    `size` in all do to it; all relative."""
+    if not size < 1.0:
+        return False
+    moved = (1.0 + abs(difference)) * size / (1.0 - size)
+    return judge(difference, uncertainty + moved, tolerance) != "inconclusive"
 
 
 @dataclass(frozen=True)
@@ -170,6 +199,16 @@ class Column:
     unit: str = ""
     uncertainty: tuple[float, ...] | None = None
 
+    @property
+    def numbers(self) -> np.ndarray:
+        """The values (n,) of numbers, nan where there is none."""
+        return np.array(self.values, dtype=float)
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """The uncertainties (n,), nan where they are not stated."""
+        return np.array(self.uncertainty or (np.nan,) * len(self.values), dtype=float)
+
 
 @dataclass(frozen=True)
 class Series:
@@ -210,10 +249,7 @@ class Findings:
 
     def table(self, name: str, source: str | None = None, **at: float) -> Series | None:
         """The first series of that name, source and place; None without one."""
-        return next(
-            (s for s in self.series if _is_called(s, name, source, at)),
-            None,
-        )
+        return next((s for s in self.series if _is_called(s, name, source, at)), None)
 
     def said(self, name: str, source: str | None = None, **at: float) -> str | None:
         """The text of the first statement of that name, source and place; None without one."""
@@ -249,6 +285,23 @@ def figures_of(
         for name, value in values.items()
         if value is not None and math.isfinite(value)
     ]
+
+
+def columns_of(
+    rows: Sequence[Mapping[str, object]],
+    units: Mapping[str, str] = {},
+    uncertainties: Mapping[str, Iterable[float]] = {},
+) -> dict[str, Column]:
+    """Columns by name of rows that are dictionaries, None where a row has no such name; units and
+    uncertainties (n,), absolute, of those that have any."""
+    return {
+        name: Column(
+            tuple(row.get(name) for row in rows),
+            units.get(name, ""),
+            tuple(uncertainties[name]) if name in uncertainties else None,
+        )
+        for name in dict.fromkeys(name for row in rows for name in row)
+    }
 
 
 def grouped(items: Iterable[Item], key: Callable[[Item], Hashable]) -> list[list[Item]]:

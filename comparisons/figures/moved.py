@@ -73,17 +73,17 @@ def movement(before: Mapping[str, Item], after: Mapping[str, Item]) -> Movement:
     return Movement(tuple(rows), same, rounding, len(set(after) - set(before)))
 
 
-def items_of(found: Mapping[str, Findings], other: Mapping[str, object]) -> dict[str, Item]:
+def items_of(findings: Mapping[str, Findings], other: Mapping[str, object]) -> dict[str, Item]:
     """All that is compared of a run's findings, and `other` numbers and texts, which are exact."""
     items = {}
-    for study, findings in found.items():
-        for figure in findings.figures:
+    for study, of_study in findings.items():
+        for figure in of_study.figures:
             items |= dict(_of_figure(figure))
-        for series in findings.series:
+        for series in of_study.series:
             if not series.is_account:
                 items |= dict(_of_series(study, series))
-    plain = {name: Item(value, 0.0, _size(value)) for name, value in other.items()}
-    return plain | items
+    sizes = {name: abs(value) if _is_number(value) else 1.0 for name, value in other.items()}
+    return {name: Item(value, 0.0, sizes[name] or 1.0) for name, value in other.items()} | items
 
 
 def named(study: str, name: str, source: str, at: Mapping[str, float]) -> str:
@@ -105,8 +105,8 @@ def _of_figure(figure: Figure) -> Iterator[tuple[str, Item]]:
     if sizes:
         yield f"{name}, uncertainty", Item(allowed, allowed)
     for part in figure.parts:
-        own = allowed if part.uncertainty is None else part.uncertainty
-        yield f"{name}, {part.name}", Item(part.value, own if math.isfinite(own) else allowed)
+        size = allowed if part.uncertainty is None else part.uncertainty
+        yield f"{name}, {part.name}", Item(part.value, size if math.isfinite(size) else allowed)
     if figure.spread is not None:
         ends = dict(zip(("low", "high"), figure.spread.interval, strict=True))
         sizes = {"mean": figure.spread.mean, "deviation": figure.spread.deviation} | ends
@@ -134,17 +134,15 @@ def _of_series(study: str, series: Series) -> Iterator[tuple[str, Item]]:
         yield name, Item(column.values, math.hypot(*sizes) / scale, scale)
 
 
-def _size(value: object) -> float:
-    return abs(value) or 1.0 if isinstance(value, int | float) else 1.0
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _moved(name: str, item: Item, new: Value) -> Moved:
     old, change = item.value, None
     if isinstance(old, tuple) and isinstance(new, tuple):
         change = _of_columns(old, new)
-    elif not (
-        isinstance(old, str | bool | tuple | None) or isinstance(new, str | bool | tuple | None)
-    ):
+    elif _is_number(old) and _is_number(new):
         change = new - old
     if change is None:
         return Moved(name, old, new, None, None, True)
@@ -157,9 +155,7 @@ def _of_columns(old: tuple, new: tuple) -> float | None:
     longer, or has a value where the other has none."""
     if old and isinstance(old[0], tuple):
         return _uncovered(old, new)
-    if len(old) != len(new) or any(
-        (a is None) != (b is None) for a, b in zip(old, new, strict=True)
-    ):
+    if [value is None for value in old] != [value is None for value in new]:
         return None
     known = [(a, b) for a, b in zip(old, new, strict=True) if a is not None]
     return math.hypot(*(b - a for a, b in known))

@@ -100,20 +100,20 @@ def error_text(quantity: str, value: float, uncertainty: float | None = None) ->
     return percent(value, signed=not QUANTITIES[quantity].of_pair, uncertainty=uncertainty)
 
 
-def models_named(given: str | Sequence[str], option: str) -> tuple[str, ...]:
+def models_named(names: str | Sequence[str], option: str) -> tuple[str, ...]:
     """The models that a text names, or several texts; names are separated by commas, "-" is "_".
     Raises InputError, with the name of the option, for an unknown one and for none."""
-    named = given.split(",") if isinstance(given, str) else given
-    if not isinstance(named, list | tuple) or not all(isinstance(name, str) for name in named):
-        raise InputError(f"{option}: is {named!r}; allowed are {', '.join(HYPHENATED.values())}")
-    found = [name.strip().replace("-", "_") for name in named if name.strip()]
+    listed = names.split(",") if isinstance(names, str) else names
+    if not isinstance(listed, list | tuple) or not all(isinstance(name, str) for name in listed):
+        raise InputError(f"{option}: is {listed!r}; allowed are {', '.join(HYPHENATED.values())}")
+    models = [name.strip().replace("-", "_") for name in listed if name.strip()]
     allowed = ", ".join(HYPHENATED.values())
-    for name in found:
+    for name in models:
         if name not in MODELS:
             near = HYPHENATED[nearest(name, MODELS)]
             raise InputError(
                 f"{option}: there is no model {name}; the nearest is {near}; allowed are {allowed}"
             )
-    if not found:
+    if not models:
         raise InputError(f"{option}: is empty; allowed are {allowed}")
-    return tuple(name for name in MODELS if name in found)
+    return tuple(name for name in MODELS if name in models)

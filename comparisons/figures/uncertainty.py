@@ -124,14 +124,14 @@ def peak_resolution(pressure: np.ndarray) -> float:
     return float(2.0 * (2.0 * high - before - after) / 8.0 / high) if high > 0.0 else 0.0
 
 
-def difference_of_figures(own: float, ratio: float, reference: float) -> float:
+def difference_of_figures(figure: float, ratio: float, reference: float) -> float:
     """Of (figure - reference) / reference, in a run's comparison and in the model error.
 
-    own        uncertainty of the figure, relative to the reference
+    figure     uncertainty of the figure, relative to the reference
     ratio      figure over reference
     reference  relative uncertainty of the reference. It counts |ratio| times, to first order, and
                not less than whole: a figure that vanishes says nothing of its reference."""
-    return own + max(1.0, abs(ratio)) * reference
+    return figure + max(1.0, abs(ratio)) * reference
 
 
 def difference_of_norms(refined: float, domain: float, parts: tuple[float, ...]) -> float:

@@ -39,7 +39,7 @@ from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
 from comparisons.studies import STUDIES, comparison, contact, meaning
 from comparisons.studies import problem as asked
-from comparisons.studies.answers import answer as answers
+from comparisons.studies.answers import study as answers
 from comparisons.studies.model_error.account import INTERACTION, JUMP
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.study import MODEL_ERROR

@@ -18,10 +18,8 @@ from comparisons.studies.model_error.account import INPUTS, INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.show import law_range
-from comparisons.studies.scatter.figures import NAME as SCATTER
-from comparisons.studies.scatter.figures import by_inputs
-from comparisons.studies.scatter.show import beside_inputs
-from comparisons.studies.study import MODEL_ERROR, Run
+from comparisons.studies.scatter.study import beside_inputs, by_inputs
+from comparisons.studies.study import MODEL_ERROR, SCATTER, Run
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
 AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided

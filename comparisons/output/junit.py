@@ -10,8 +10,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_first
 from comparisons.common.numbers import given_percent, percent, with_unit
-from comparisons.figures.figure import Figure
-from comparisons.figures.verdict import Verdict
+from comparisons.figures.figure import Figure, Verdict
 from comparisons.output.headline import headline
 from comparisons.studies import meaning
 from comparisons.studies.study import Run

@@ -19,6 +19,7 @@ from comparisons.figures.figure import (
     SampleSpread,
     Series,
     Statement,
+    columns_of,
     figures_of,
 )
 from comparisons.figures.quantity import MODELS, QUANTITIES
@@ -30,13 +31,12 @@ from comparisons.scenes.surface import SceneSurface
 from comparisons.studies import bulge, checks, comparison, contact, coupling, problem, running_in
 from comparisons.studies import quiescent_zone as zone
 from comparisons.studies import yielding as flow
-from comparisons.studies.answers import answer as answers
-from comparisons.studies.answers.study import ComparedAnswers
+from comparisons.studies.answers import study as answers
 from comparisons.studies.coupling import Couplings
-from comparisons.studies.heat import figures as heat
+from comparisons.studies.heat import study as heat
 from comparisons.studies.model_error import account
-from comparisons.studies.scatter import figures as scatter
-from comparisons.studies.statistics import figures as statistics
+from comparisons.studies.scatter import study as scatter
+from comparisons.studies.statistics import study as statistics
 from comparisons.studies.study import CONVERGED, MODEL_ERROR, WHY_NOT, Solved
 
 SCHEMA = 2
@@ -267,6 +267,11 @@ def _checks(old: Mapping) -> Items:
 
 def _scatter(old: Mapping) -> Items:
     counts = old["scatter_samples"]
+    if counts is not None:
+        numbers = {name: counts[name] for name in ("samples", "solutions", "failed", "pitch")}
+        yield Series(scatter.SAMPLES, columns_of([numbers], {"pitch": "m"}))
+    if counts is not None and counts["why"] is not None:
+        yield Statement("first failure", counts["why"])
     for name, rows in (old["scatter"] or {}).items():
         for row in rows:
             spread = row["mean"], row["standard_deviation"], tuple(row["interval"]), row["shares"]
@@ -294,6 +299,7 @@ def _yield(old: Mapping) -> Items:
         limit = {"shakedown_limit": values.pop("shakedown_limit")}
         yield from figures_of(flow.NAME, source, values, sure, at)
         yield from figures_of(flow.NAME, "scene", limit, None, at)
+        yield Statement("read", entry["from"], source, at)
 
 
 def _zones(old: Mapping) -> Items:
@@ -309,8 +315,7 @@ def _zones(old: Mapping) -> Items:
                 yield from figures_of(zone.NAME, model, {name: value}, _total(size, value), at)
             yield Statement(zone.STATE, entry["status"], model, at)
             rows = [row | {"state": row["status"]} for row in entry["asperities"]]
-            units = {"x": "m", "length": "m", "level": "", "state": ""}
-            yield Series(zone.ASPERITIES, _columns(rows, units), model, at)
+            yield zone.asperity_series(rows, model, at)
 
 
 def _bulges(old: Mapping) -> Items:
@@ -342,29 +347,47 @@ def _bulges(old: Mapping) -> Items:
 
 
 def _statistics(old: Mapping) -> Items:
-    known = old.get("statistics") or {"summits": (), "loads": (), "patches": {}}
-    tables = {("summits", ""): known["summits"], ("loads", ""): known["loads"]}
-    tables |= {("patches", model): patches for model, patches in known["patches"].items()}
-    for (name, model), rows in tables.items():
-        left = ("grid", "scatter", "uncertainty") if not model else ()
-        flat = [statistics.flat({n: v for n, v in row.items() if n not in left}) for row in rows]
-        if flat:
-            yield Series(name, statistics.columns_of(flat, {}), model)
+    known = old.get("statistics")
+    if known is None:
+        return
+    loads = known["loads"]
+    sizes = {
+        f"figures.{source}.{name}": [
+            abs(row[share][name] * row["figures"][source][name]) for row in loads
+        ]
+        for source, share in (("random", "scatter"), ("trace", "grid"))
+        for name in statistics.FIGURES
+    }
+    sizes["difference"] = [row["uncertainty"] for row in loads]
+    unsure = {"grid", "scatter", "uncertainty"}
+    rows = [statistics.flat({k: v for k, v in row.items() if k not in unsure}) for row in loads]
+    yield statistics.series_of("summits", list(map(statistics.flat, known["summits"])))
+    yield statistics.series_of("loads", rows, sizes)
+    for model, patches in known["patches"].items():
+        rows = list(map(statistics.flat, patches))
+        yield statistics.series_of("patches", rows, source=model)
+    yield Series("traces", {"traces": Column((known["traces"],))})
 
 
 def _answers(old: Mapping) -> Items:
     for answer, content in old.get("answers", {}).items():
         for name, rows in content["comparison"].items():
             for row in rows:
-                of_answer, total = row["own_uncertainty"], _number(row["uncertainty"])
-                stated = total if of_answer is None else total - of_answer
+                own, total = row["own_uncertainty"], _number(row["uncertainty"])
+                parts = {"model": total} if own is None else {"model": total - own, "own": own}
                 of_row = answers.AnswerRow(
                     *(name, row["friction"], row["answer"], row["reference"], row["difference"]),
-                    *(stated, 0.0, of_answer, row["tolerance"]),
+                    *(Uncertainty(parts), row["tolerance"]),
                 )
                 yield from of_row.figures(answer, content["reference"])
         yield from figures_of(answers.NAME, answer, {"load_balance": content["balance"]}, ITSELF)
         yield from figures_of(answers.NAME, answer, {"spacing": content["spacing"]})
+        by_model = [{"model": model} | row for model, row in content["conditions"].items()]
+        measured = [
+            {"quantity": name} | row for name, rows in content["validation"].items() for row in rows
+        ]
+        tables = {answers.CONDITIONS: by_model, answers.HINTS: content["hints"]}
+        yield from answers.tables_of(answer, tables | {answers.VALIDATION: measured})
 
 
 def _heat(old: Mapping) -> Items:
@@ -416,13 +439,8 @@ def kinds_of_schema_2(kinds: Mapping[str, object]) -> dict[str, object]:
         "Uncertainty": numerical,
         "Convergence": Convergence,
         "Column": ComplianceColumn,
-        "InputScatter": lambda figures, **row: scatter.InputScatter(**row),
+        "InputScatter": lambda pitch, x, band, **_: scatter.PressureBand(pitch, x, band),
         "HeatStudy": lambda **row: heat.HeatStudy(*(row[f.name] for f in fields(heat.HeatStudy))),
-        "AnswerRow": lambda **row: answers.AnswerRow(
-            **{n: v for n, v in row.items() if n not in ("uncertainty", "verdict")},
-            model=_number(row["uncertainty"]),
-            reading=0.0,
-        ),
     }
     return defaultdict(lambda: SimpleNamespace, {**kinds, **changed})
 
@@ -446,8 +464,9 @@ def parts_of_schema_2(
         coupling.NAME: Couplings(old["couplings"]),
         MODEL_ERROR: old["budget"],
         scatter.NAME: old["scatter"],
-        statistics.NAME: old["statistics"],
-        answers.NAME: ComparedAnswers(old["answers"]) if old["answers"] else None,
+        answers.NAME: answers.OutsideAnswers(
+            {each.name: each.answers for each in old["answers"] or ()}
+        ),
         heat.NAME: old["heat"],
         flow.NAME: flow.flow_assessment(posed.problem, posed.runs),
     }

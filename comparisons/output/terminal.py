@@ -11,8 +11,12 @@ from comparisons.output.page.tables.comparison import comparison_rows, figure_ro
 from comparisons.output.page.tables.problem import in_mm
 from comparisons.scenes.surface import ProfileInfo
 from comparisons.studies import STUDIES
-from comparisons.studies.answers.answer import ComparedAnswer
-from comparisons.studies.answers.show import answer_facts, answer_rows, compared_answers
+from comparisons.studies.answers.show import (
+    answer_facts,
+    answer_rows,
+    answers_of,
+    reference_of,
+)
 from comparisons.studies.comparison import NAME as COMPARISON
 from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -52,7 +56,7 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
         tables = [Text(agreement.translate(PLAIN)) if agreement else _comparison(run)]
         if run.problem.scene.tolerances:
             tables += ["", _model_errors(run)]
-    for answer in compared_answers(run):
+    for answer in answers_of(run):
         tables += ["", *_answer(run, answer)]
     return Group(title, "", *tables, "", verdict, next_step, "", _facts(run))
 
@@ -104,18 +108,18 @@ def _model_errors(run: Run) -> "Table":
     return table
 
 
-def _answer(outcome: Run, answer: ComparedAnswer) -> "list[RenderableType]":
+def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
     """An answer from outside beside its reference, and what is to be said of it."""
     from rich.text import Text
 
-    numbers = ("mu", answer.name, LABELS[answer.reference].replace(" ", "\n"))
+    numbers = ("mu", answer, LABELS[reference_of(outcome)].replace(" ", "\n"))
     table = plain_table("quantity", numbers=(*numbers, "differ.\n%", "uncert.\n%", "tol.\n%"))
     table.add_column("verdict", overflow="fold")
-    table.title = f"{answer.name}, from outside"
+    table.title = f"{answer}, from outside"
     for quantity, *cells, _, tolerance, verdict in answer_rows(outcome, answer):
         styled = _cell(verdict, STYLES.get(verdict, ""))
         table.add_row(SHORT[quantity], *map(_cell, cells), _cell(tolerance), styled)
-    lines = (f"{name}: {text}" for name, text in answer_facts(answer))
+    lines = (f"{name}: {text}" for name, text in answer_facts(outcome, answer))
     return [table, *(Text(line.translate(PLAIN)) for line in lines)]
 
 

@@ -71,10 +71,9 @@ def rerun(
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone
         from comparisons.output.page.saved import read_run
-        from comparisons.studies.answers.show import compared_answers
+        from comparisons.studies.answers.show import answers_of
 
-        recorded = compared_answers(read_run(folder, with_mesh=False))
-        answers = {each.name: each.answers for each in recorded}
+        answers = answers_of(read_run(folder, with_mesh=False))
     with _place(folder, out) as place:
         known = Known(record.surface, answers, record.levels)
         outcome = run(record.scene, place, record.models, callback, known=known)

@@ -5,7 +5,7 @@ allowed is …", and `allowed()`, which is the last part alone, for a missing fi
 
 import operator
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Self, get_args
 
@@ -298,6 +298,11 @@ class SceneSection(BaseModel):
     def misfits(self, scene: "SceneSection") -> Iterator[tuple[str, str]]:
         """What does not fit the rest of the scene: "section.field" to change, and what is wrong."""
         yield from ()
+
+    @classmethod
+    def followed(cls, tables: Mapping) -> Mapping:
+        """A scene's tables, as TOML has them, with what this section leaves to others."""
+        return tables
 
     def completed(self, scene: "SceneSection") -> Self:
         """With the fields that it leaves out and that follow from the rest of the scene."""

@@ -2,17 +2,21 @@
 
 What a file leaves out and what follows from the rest stands in the sections as well. Where the
 surface is needed (the trace, the place of the roller on it) see `comparisons.scenes.surface`.
+A study has its section in a module of `comparisons.scenes.studies`, of the section's name.
 What is wrong is one line: "file: section.field: problem; allowed is …"."""
 
 import copy
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 from typing import Annotated, Self, get_args
 
-from pydantic import PrivateAttr, ValidationError, model_validator
+from pydantic import PrivateAttr, ValidationError, create_model, model_validator
 
+import comparisons.scenes.studies as of_studies
 from comparisons.common.errors import InputError, SceneError, nearest
 from comparisons.common.units import describe
 from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, file_fields, plain
@@ -31,10 +35,6 @@ from comparisons.scenes.sections import (
     StressSection,
     ToleranceSection,
 )
-from comparisons.scenes.studies.answers import Answers
-from comparisons.scenes.studies.heat import HeatSection, with_heat_of_solids
-from comparisons.scenes.studies.scatter import ScatterSection
-from comparisons.scenes.studies.statistics import StatisticsSection
 
 
 @dataclass(frozen=True)
@@ -162,6 +162,13 @@ class SceneBase(SceneSection):
         """The sections that the scene has, but for those of which there may be several."""
         return ((name, part) for name, part in self if isinstance(part, SceneSection))
 
+    @model_validator(mode="before")
+    @classmethod
+    def _follow(cls, tables: object) -> object:
+        for section in sections_of(cls).values() if isinstance(tables, Mapping) else ():
+            tables = section.followed(tables)
+        return tables
+
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         for _, section in self.sections():
             yield from section.misfits(self)
@@ -177,18 +184,17 @@ class SceneBase(SceneSection):
             yield "load.friction", f"{slides}, which nothing would hold; {held}"
 
 
-class Scene(SceneBase):
-    """With the sections of the studies."""
+def _sections_of_studies() -> dict[str, tuple[object, None]]:
+    """By the name of each module of `comparisons.scenes.studies` what it calls SECTION, or none."""
+    names = sorted(module.name for module in iter_modules(of_studies.__path__))
+    modules = {name: import_module(f"{of_studies.__name__}.{name}") for name in names}
+    return {name: (module.SECTION | None, None) for name, module in modules.items()}
 
-    scatter: ScatterSection | None = None
-    statistics: StatisticsSection | None = None
-    heat: HeatSection | None = None
-    answers: Answers | None = None
 
-    @model_validator(mode="before")
-    @classmethod
-    def _follow_solids(cls, tables: object) -> object:
-        return with_heat_of_solids(tables) if isinstance(tables, Mapping) else tables
+# Every scene that is read: with the sections of the studies.
+Scene = create_model(
+    "Scene", __base__=SceneBase, __module__=SceneBase.__module__, **_sections_of_studies()
+)
 
 
 def _shown(value: object) -> str:
@@ -199,7 +205,7 @@ def _shown(value: object) -> str:
 
 
 def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:
-    """The sections that a file may have, by name; of [answers.NAME] that of any name."""
+    """The sections that a file may have, by name; of such as [answers.NAME] that of any name."""
 
     def inside(annotation: object) -> Iterator[type[SceneSection]]:
         if isinstance(annotation, type) and issubclass(annotation, SceneSection):
@@ -216,8 +222,8 @@ def with_tolerance(scene: Scene, tolerance: float, source: str = "tolerance") ->
     Raises InputError, which calls it by its `source`, unless it is above 0 and below 1."""
     is_number = isinstance(tolerance, int | float) and not isinstance(tolerance, bool)
     if not (is_number and 0.0 < tolerance < 1.0):
-        given = f"{tolerance:g}" if is_number else describe(tolerance)
-        raise InputError(f"{source}: is {given}; allowed is a number above 0 and below 1")
+        shown = f"{tolerance:g}" if is_number else describe(tolerance)
+        raise InputError(f"{source}: is {shown}; allowed is a number above 0 and below 1")
     return scene.changed("tolerance", dict.fromkeys(scene.tables["tolerance"], tolerance))
 
 
@@ -232,7 +238,7 @@ def _scene_error(scene: type[SceneBase], error: ValidationError, where: str) -> 
 def _line(scene: type[SceneBase], problem: dict) -> str:
     location, kind = problem["loc"], problem["type"]
     if kind == "extra_forbidden":
-        return _unknown(sections_of(scene), location, problem["input"])
+        return _unknown(scene, location, problem["input"])
     if kind == "missing" and len(location) == 1:
         return f"{location[0]}: is missing; allowed is a section [{location[0]}]"
     if kind == "missing":
@@ -247,24 +253,27 @@ def _line(scene: type[SceneBase], problem: dict) -> str:
     return f"{'.'.join(map(str, location))}: {cause or problem['msg']}"
 
 
-def _unknown(sections: dict[str, type[SceneSection]], location: tuple, value: object) -> str:
+def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
     """A name that no section has: the nearest one, in its own section if there is one alike."""
     *section, name = map(str, location)
-    place = ".".join([*section, name])
-    titles = {table: f"[{table}]" for table in sections if table != "answers"}
+    place, sections = ".".join([*section, name]), sections_of(scene)
+    hints = {table: scene.model_fields[table].annotation for table in sections}
+    # but for those of which there may be several
+    titles = {n: f"[{n}]" for n, hint in hints.items() if sections[n] in (hint, *get_args(hint))}
     if not section and isinstance(value, dict):
         return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
     fields = {
         table: {field: f"{table}.{field}" for field in file_fields(sections[table])}
         for table in titles
     }
-    own = {"title": "title", **titles}
+    inside = {"title": "title", **titles}
     if section:
         within = ".".join(section)
-        own = {field: f"{within}.{field}" for field in file_fields(sections[section[0]])}
+        inside = {field: f"{within}.{field}" for field in file_fields(sections[section[0]])}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
-    near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)
+    near = _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
+    near = near or _nearest(name, inside)
     return f"{place}: is no known field; the nearest is {near}"
 
 

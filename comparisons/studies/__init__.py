@@ -5,28 +5,27 @@ A new study is named here, and nowhere else."""
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import Quantity
 from comparisons.studies import (
+    answers,
     bulge,
     checks,
     comparison,
     contact,
     coupling,
+    heat,
     problem,
     quiescent_zone,
     running_in,
+    scatter,
+    statistics,
     yielding,
 )
-from comparisons.studies.answers.study import STUDY as ANSWERS
-from comparisons.studies.heat.study import STUDY as HEAT
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
-from comparisons.studies.scatter.study import STUDY as SCATTER
-from comparisons.studies.statistics.study import STUDY as STATISTICS
-from comparisons.studies.study import Study
 
 # In the order in which they are done, and their figures shown.
-STUDIES: tuple[Study, ...] = (
+STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
-    *(problem.STUDY, running_in.STUDY, checks.STUDY, SCATTER, yielding.STUDY),
-    *(quiescent_zone.STUDY, bulge.STUDY, STATISTICS, ANSWERS, HEAT),
+    *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
+    *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
 )
 
 

@@ -18,7 +18,7 @@ pressure, for its kernel is odd: int p v dx = 0. The bulge is what B exceeds thi
 a base below, flow, or slopes of a boundary that is meshed as it is. The same holds about the centre
 of any patch's load, as far as the next patches: B and the step there are those of the patch."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,14 +30,22 @@ from comparisons.common.numbers import percent, plain, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Heading, Note, Pictures, TextTable
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.figure import Column, Figure, Figures, Findings, Series, figures_of
+from comparisons.figures.figure import (
+    Column,
+    Figure,
+    Figures,
+    Findings,
+    Series,
+    columns_of,
+    figures_of,
+)
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration, of_increments
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies import contact
-from comparisons.studies.statistics.patches import STRAIN, patch_loads
+from comparisons.studies.statistics.study import STRAIN, patch_loads
 from comparisons.studies.study import WHY_NOT, Run, Solved, Study
 
 NAME, MODEL = "bulge", "finite_element"
@@ -45,7 +53,7 @@ QUANTITIES = {
     "height": Quantity("bulge ahead of the load's centre", "m"),
     "half_plane": Quantity("the half-plane's step there", "m"),
     "at": Quantity("distance of the bulge from the centre", "m"),
-    "end": Quantity("distance from which it is below half its height", "m"),
+    "end": Quantity("distance from which it is below half its height", "m"),  # within 20 a
     "penetration": Quantity("penetration h", "m"),
     "over_penetration": Quantity("bulge over h"),
     "relative_penetration": Quantity("h/R"),
@@ -73,15 +81,13 @@ Patches: about the centre of each one's own load, as far as the next, over its o
 
 @dataclass(frozen=True)
 class Excess:
-    """The largest excess of B over the half-plane's; lengths in m."""
+    """The largest excess of B over the half-plane's, whose `half_plane` is exact for its pressure:
+    height, half_plane, at and end [m], each with its uncertainty [m]."""
 
-    height: float
-    uncertainty: float  # of it: discretisation, iteration and, of an unbounded body, its boundary
-    at: float  # s there
-    spacing: float  # of the distances next to it
-    end: float | None  # from where it is below half of that; None: not within 20 a
-    end_uncertainty: float  # by the levels; infinite where one has no end
-    half_plane: float  # B of the half-plane there, exact for its pressure
+    values: Mapping[str, float | None]  # None: no end within 20 a
+    uncertainties: Mapping[str, float]  # of an end by the levels; infinite where one has none
+    curve: np.ndarray  # (n,) [m] B of the finest level
+    tilt: float  # of the surface, that the far boundary makes
 
 
 def needs(solved: Solved) -> str | None:
@@ -98,10 +104,12 @@ def needs(solved: Solved) -> str | None:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """At every friction coefficient above 0; `before` has the models' figures."""
     figures, series = [], []
+    known = Figures(before[contact.NAME].figures)
+    length = known.one(quantity="contact_length", source=MODEL)
     for friction in solved.problem.scene.load.friction:
         if friction > 0.0:
-            own, tables = _bulge(solved, before[contact.NAME], friction)
-            figures += own
+            of_friction, tables = _found(solved, friction, Uncertainty(length.uncertainty.parts))
+            figures += of_friction
             series += tables
     return Findings(tuple(figures), tuple(series))
 
@@ -138,138 +146,111 @@ def elastic_energy(
     return float(middle - back), float(front - middle)
 
 
-def _bulge(solved: Solved, known: Findings, friction: float) -> tuple[list[Figure], list[Series]]:
-    """Figures of the finite elements at one friction coefficient, the curve B(s), and the patches.
-
-    height, at, end   as of an Excess, within 5 a
-    penetration, over_penetration, relative_penetration   h, height / h and h / R
-    contact       half its length: over R the slope of the roller at its edges
-    work_scale    P h [J/m]
-    plastic_strain   the largest, where the body flows
-    work          int p v dx over the same of |v|: what the traction's rise stores or releases; not
-                  of one friction coefficient, where v is not known by itself
-    energy        [J/m] elastic energy ahead of c less that behind it, in the window
-    energy_ahead  by model: the share ahead
-    patches       on a profile: start, stop, kind by h/R, and the above of every patch by itself,
-                  as far as the next patches and 5 of its half-widths; h = 4 P/(pi E*) of its load P
-    """
-    problem, run = solved.problem, solved.runs[MODEL]
-    a, level = problem.hertz.half_width, run.finest
-    s, h, at = a * DISTANCES, a**2 / problem.scene.roller.radius, {"friction": friction}
-    centres = [_centre(each) for each in run.levels]
-    whole, curve, tilt = _excess(problem, run, friction, s, centres, NEAR * a)
-    figures = _figures_of(whole, at)
-    figures += figures_of(
-        NAME, MODEL, {"over_penetration": whole.height / h}, figures[0].uncertainty, at
-    )
-    exact = {
-        "penetration": h,
-        "relative_penetration": (a / problem.scene.roller.radius) ** 2,
-        "work_scale": problem.hertz.load_per_length * h,
+def _found(
+    solved: Solved, friction: float, of_length: Uncertainty
+) -> tuple[list[Figure], list[Series]]:
+    """Figures of the finite elements at one friction coefficient, the curve B(s), and on a profile
+    the patches; `of_length` is the uncertainty of the contact length."""
+    problem, run, at = solved.problem, solved.runs[MODEL], {"friction": friction}
+    a, radius, level = problem.hertz.half_width, problem.scene.roller.radius, run.finest
+    s, h = a * DISTANCES, a**2 / radius
+    centres = [_centre(level) for level in run.levels]
+    whole = _excess(problem, run, friction, s, centres, NEAR * a)
+    known = {n: (value, _over(whole.uncertainties[n], value)) for n, value in whole.values.items()}
+    height, stated = known["height"]
+    known |= {
+        "over_penetration": (height / h, stated),
+        "penetration": (h, None),
+        "relative_penetration": ((a / radius) ** 2, None),
+        "work_scale": (problem.hertz.load_per_length * h, None),
+        "contact": (0.5 * level.contact_length, of_length),
     }
-    figures += figures_of(NAME, MODEL, exact, None, at)
-    length = Figures(known.figures).one(quantity="contact_length", source=MODEL)
-    stated = Uncertainty(length.uncertainty.parts)
-    figures += figures_of(NAME, MODEL, {"contact": 0.5 * level.contact_length}, stated, at)
-    sequences = {}
     if STRAIN in level.field_on_mesh.others:
-        strains = [float(each.field_on_mesh.others[STRAIN].max()) for each in run.levels]
-        sequences["plastic_strain"] = strains
-    if len(level.field_on_mesh.displacement) > 1:
+        fields = (level.field_on_mesh for level in run.levels)
+        strains = [float(field.others[STRAIN].max()) for field in fields]
+        known["plastic_strain"] = _settled(strains, level)
+    if len(level.field_on_mesh.displacement) > 1:  # of one coefficient v is not known by itself
         places = zip(run.levels, centres, strict=True)
-        sequences["work"] = [_work(each, friction, c, whole.at) for each, c in places]
-    for name, values in sequences.items():
-        figures += figures_of(NAME, MODEL, {name: values[-1]}, _settled(values, level), at)
-    figures += _energies(solved, friction)
+        works = [_work(level, friction, centre, known["at"][0]) for level, centre in places]
+        known["work"] = _settled(works, level)
+    figures = [
+        figure
+        for name, (value, stated) in known.items()
+        for figure in figures_of(NAME, MODEL, {name: value}, stated, at)
+    ]
     columns = {
         "distance": Column(tuple(s.tolist()), "m"),
-        "rise": Column(tuple(curve.tolist()), "m", (whole.uncertainty,) * len(s)),
+        "rise": Column(tuple(whole.curve.tolist()), "m", (whole.uncertainties["height"],) * len(s)),
     }
     tables = [Series(CURVE, columns, MODEL, at)]
     if problem.scene.profile:
-        tables.append(_by_patch(problem, run, friction, tilt))
-    return figures, tables
+        tables.append(_by_patch(problem, run, friction, whole.tilt))
+    return [*figures, *_energies(solved, friction)], tables
 
 
-def _figures_of(excess: Excess, at: Mapping[str, float]) -> list[Figure]:
-    """What is read at the same place is as uncertain as the height."""
-    sizes = {"height": excess.uncertainty, "half_plane": excess.uncertainty}
-    sizes |= {"at": excess.spacing, "end": excess.end_uncertainty}
-    figures = []
-    for name, size in sizes.items():
-        value = getattr(excess, name)
-        stated = Uncertainty({"numerical": float(size / (abs(value or 0.0) or 1.0))})
-        figures += figures_of(NAME, MODEL, {name: value}, stated, at)
-    return figures
+def _over(size: float, value: float | None) -> Uncertainty:
+    """Of a value, by an uncertainty in its unit."""
+    return Uncertainty({"numerical": float(size / (abs(value or 0.0) or 1.0))})
 
 
-def _settled(values: Sequence[float], level: Level) -> Uncertainty:
-    """Of the last of values on all levels, by these and by the iteration."""
+def _settled(values: Sequence[float], level: Level) -> tuple[float, Uncertainty]:
+    """The last of values on all levels, as certain as these and the iteration make it."""
     size = grid_convergence(values, ORDER).uncertainty + iteration(level) * abs(values[-1])
-    return Uncertainty({"numerical": float(size / (abs(values[-1]) or 1.0))})
+    return values[-1], _over(size, values[-1])
 
 
 def _work(level: Level, friction: float, centre: float, s: float) -> float:
-    """The traction's rise counts from its mean at the distance s on both sides [m]."""
+    """int p v dx over the same of |v|; v counts from its mean at the distance s on both sides."""
     load, (x, rise) = level.solution.pressure * level.grid.weights, _rise(level, friction)
     moved = np.interp(level.grid.x, x, rise)
     moved -= 0.5 * np.sum(np.interp(centre + s * np.array([-1.0, 1.0]), x, rise))
     return float(load @ moved / (load @ np.abs(moved)))
 
 
-def _energies(solved: Solved, friction: float) -> list[Figure]:
+def _energies(solved: Solved, friction: float) -> Iterator[Figure]:
     """The finite elements' energy ahead less that behind, and each model's share ahead."""
-    figures, at = [], {"friction": friction}
     for name, run in solved.runs.items():
         stored = [
-            elastic_energy(solved.problem, each, solved.window, friction) for each in run.levels
+            elastic_energy(solved.problem, level, solved.window, friction) for level in run.levels
         ]
-        shares = [front / (back + front) for back, front in stored]
-        ahead = {"energy": [front - back for back, front in stored]} if name == MODEL else {}
-        for quantity, values in (ahead | {"energy_ahead": shares}).items():
-            stated = _settled(values, run.finest)
-            figures += figures_of(NAME, name, {quantity: values[-1]}, stated, at)
-    return figures
+        known = {"energy": [front - back for back, front in stored]} if name == MODEL else {}
+        known["energy_ahead"] = [front / (back + front) for back, front in stored]
+        for quantity, values in known.items():
+            value, stated = _settled(values, run.finest)
+            yield from figures_of(NAME, name, {quantity: value}, stated, {"friction": friction})
 
 
 def _by_patch(problem: Problem, run: ModelRun, friction: float, tilt: float) -> Series:
+    """About the centre of each patch's load, as far as the next patches and 5 of its half-widths;
+    its h is 4 P/(pi E*) of its load P."""
     level, wanted = run.finest, problem.scene.statistics
     ends, (loads, centres, peaks) = level.patches, patch_loads(level)
     depth = relative_penetration(peaks, problem.modulus)
     rule = (wanted.metal, wanted.lubricated) if wanted else ("ferrous", False)
-    kinds, rows, unsure = contact_kind(depth["sphere"], depth["ridge"], *rule), [], []
+    kinds, rows, sizes = contact_kind(depth["sphere"], depth["ridge"], *rule), [], []
     before, after = np.append(-np.inf, ends[:-1, 1]), np.append(ends[1:, 0], np.inf)
     for k, (start, stop) in enumerate(ends):
         reach = min(centres[k] - before[k], after[k] - centres[k], NEAR * 0.5 * (stop - start))
         s = reach * DISTANCES / DISTANCES[-1]
         here = [centres[k]] * len(run.levels)
-        own, _, _ = _excess(problem, run, friction, s, here, reach, tilt)
+        excess = _excess(problem, run, friction, s, here, reach, tilt)
         h = 4.0 * loads[k] / (np.pi * problem.modulus)
         rows.append(
             {
                 "start": float(start),
                 "stop": float(stop),
                 "penetration": float(h),
-                "over_penetration": float(own.height / h),
+                "over_penetration": float(excess.values["height"] / h),
                 "relative_penetration": float(depth["ridge"][k]),
                 "kind": str(kinds[k]),
-                "height": own.height,
-                "half_plane": own.half_plane,
-                "at": own.at,
-                "end": own.end,
+                **excess.values,
             }
         )
-        size, far = own.uncertainty, own.end_uncertainty
-        unsure.append(
-            {"over_penetration": float(size / h), "height": size, "half_plane": size}
-            | {"at": own.spacing, "end": far}
-        )
-    columns = {}
-    for name in rows[0]:
-        values = tuple(row[name] for row in rows)
-        sizes = tuple(row[name] for row in unsure) if name in unsure[0] else None
-        unit = "m" if name in ("start", "stop") else ""
-        columns[name] = Column(values, QUANTITIES[name].unit if name in QUANTITIES else unit, sizes)
+        over = float(excess.uncertainties["height"] / h)
+        sizes.append({"over_penetration": over, **excess.uncertainties})
+    units = {name: quantity.unit for name, quantity in QUANTITIES.items()}
+    uncertainties = {name: [row[name] for row in sizes] for name in sizes[0]}
+    columns = columns_of(rows, units | {"start": "m", "stop": "m"}, uncertainties)
     return Series(PATCHES, columns, MODEL, {"friction": friction})
 
 
@@ -281,11 +262,10 @@ def _excess(
     centres: list[float],
     near: float,
     tilt: float | None = None,
-) -> tuple[Excess, np.ndarray, float]:
-    """Height, place and end of the largest excess within `near` [m] of each level's centre [m], B
-    (n,) [m] on the finest level, and the tilt of the surface that the far boundary makes: the step
-    is constant to infinity, and held there it falls evenly on the way. None: from the farthest s,
-    where bulges have ended; 0 of a body with its own base or sides."""
+) -> Excess:
+    """Within `near` [m] of each level's centre [m]. The tilt: the step is constant to infinity, and
+    held at a far boundary it falls evenly on the way. None: from the farthest s, where bulges have
+    ended; 0 of a body with its own base or sides."""
 
     def of_level(level: Level, centre: float) -> tuple[np.ndarray, np.ndarray]:
         curve = _across(centre, s, *_rise(level, friction))
@@ -294,25 +274,21 @@ def _excess(
     curves, excesses = zip(*map(of_level, run.levels, centres), strict=True)
     curve, excess = curves[-1], excesses[-1]
     if tilt is None:
-        own = problem.scene.body.thickness is not None or problem.scene.body.width is not None
-        tilt = 0.0 if own else far_boundary(excess[-1] / s[-1])
+        is_bounded = {problem.scene.body.thickness, problem.scene.body.width} != {None}
+        tilt = 0.0 if is_bounded else far_boundary(excess[-1] / s[-1])
     top = int(np.argmax(excess[s <= near]))
-    ends = [_end(s, each, top) for each in excesses]
+    ends = [_end(s, values, top) for values in excesses]
     settled = np.inf if None in ends else float(grid_convergence(ends, ORDER).uncertainty)
-    uncertainty = grid_convergence([each[top] for each in excesses], ORDER).uncertainty
-    uncertainty += iteration(run.finest) * abs(curve[top]) + tilt * s[top]
+    size = grid_convergence([values[top] for values in excesses], ORDER).uncertainty
+    size += iteration(run.finest) * abs(curve[top]) + tilt * s[top]
     longer = [of_level(level, centres[0])[1] for level in run.longer_increments]
-    uncertainty += of_increments([each[top] for each in (*longer, excesses[0])])
-    excess_of = Excess(
-        height=float(excess[top]),
-        uncertainty=float(uncertainty),
-        at=float(s[top]),
-        spacing=float(np.diff(s)[min(top, len(s) - 2)]),
-        end=ends[-1],
-        end_uncertainty=settled,
-        half_plane=float(curve[top] - excess[top]),
-    )
-    return excess_of, curve, tilt
+    size = float(size + of_increments([values[top] for values in (*longer, excesses[0])]))
+    values = {"height": excess[top], "half_plane": curve[top] - excess[top], "at": s[top]}
+    values = {name: float(value) for name, value in values.items()} | {"end": ends[-1]}
+    # what is read at the same place is as uncertain as the height
+    spacing = float(np.diff(s)[min(top, len(s) - 2)])
+    sizes = {"height": size, "half_plane": size, "at": spacing, "end": settled}
+    return Excess(values, sizes, curve, tilt)
 
 
 def _end(s: np.ndarray, excess: np.ndarray, top: int) -> float | None:
@@ -362,15 +338,15 @@ class Bulge:
 
 def bulges_of(findings: Findings | None) -> list[Bulge]:
     """By friction coefficient; none where it was not measured."""
-    found = []
+    bulges = []
     for curve in findings.series if findings else ():
         if curve.name == CURVE:
-            own = [f for f in findings.figures if f.at == curve.at]
-            shares = tuple(f.value for f in own if f.quantity == "energy_ahead")
-            figures = {f.quantity: f for f in own if f.source == MODEL}
+            known = [f for f in findings.figures if f.at == curve.at]
+            shares = tuple(f.value for f in known if f.quantity == "energy_ahead")
+            figures = {f.quantity: f for f in known if f.source == MODEL}
             patches = findings.table(PATCHES, **curve.at)
-            found.append(Bulge(curve.at["friction"], figures, shares, curve, patches))
-    return found
+            bulges.append(Bulge(curve.at["friction"], figures, shares, curve, patches))
+    return bulges
 
 
 def blocks(run: Run) -> list[Block]:
@@ -428,8 +404,8 @@ def bulge_picture(run: Run) -> style.Picture | None:
     axes.set(xlim=(0.0, FARTHEST), xlabel="s/a", ylabel="ahead − behind, over h")
     axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.1)
     largest = "; ".join(
-        f"friction {plain(each.friction)}: {significant(each.value('over_penetration'), 3)} h"
-        for each in bulges
+        f"friction {plain(bulge.friction)}: {significant(bulge.value('over_penetration'), 3)} h"
+        for bulge in bulges
     )
     words = "Surface ahead of the sliding contact less that as far behind it, raised by the "
     words += f"traction alone, over the distance from the load's centre. Bulge: {largest}."

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 
 from analytic.contact.problem import KKT_TOLERANCE
-from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.models.finite_element.compliance_check import ComplianceCheck, Differences
+from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.studies.study import Solved, Study
 
 NAME = "checks"
@@ -37,7 +37,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             words = {
                 "": check.verdict,
                 ", because": check.because,
-                ", by level": ", ".join(each.verdict for each in levels if each is not None),
+                ", by level": ", ".join(known.verdict for known in levels if known is not None),
                 ", datum": "of the base" if check.datum else "a constant is removed",
                 ", not modelled": ", ".join(check.not_modelled),
                 ", finite": ", ".join(check.finite),
@@ -48,22 +48,15 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 
 def _compliance(check: ComplianceCheck, source: str) -> Iterator[Series]:
     """Columns and waves by the surface that they differ from."""
-    against: dict[str, Differences | None] = {"nearest surface": check.nearest}
-    against["half-plane"] = check.half_plane
-    for surface, found in against.items():
-        for kind, units in (("columns", {"x": "m"}), ("waves", {"length": "m"})):
-            rows = [asdict(row) for row in getattr(found, kind)] if found is not None else []
+    against = {"nearest surface": check.nearest, "half-plane": check.half_plane}
+    for surface, differences in against.items():
+        for kind, place in (("columns", "x"), ("waves", "length")):
+            rows = [asdict(row) for row in getattr(differences, kind, ())]
             if rows:
-                columns = {
-                    name: _column([row[name] for row in rows], units.get(name)) for name in rows[0]
-                }
+                # places are exact; a difference is an error: as sure as its order of size
+                sizes = {n: [abs(row[n]) for row in rows] for n in rows[0] if n != place}
+                columns = columns_of(rows, {place: "m"}, sizes)
                 yield Series(f"{COMPLIANCE}, {kind}, {surface}", columns, source)
-
-
-def _column(values: list[float], unit: str | None) -> Column:
-    """Places are exact; a difference is an error: as sure as its order of size."""
-    exact = unit is not None
-    return Column(tuple(values), unit or "", None if exact else tuple(map(abs, values)))
 
 
 STUDY = Study(NAME, QUANTITIES, solve)

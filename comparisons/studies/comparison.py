@@ -95,28 +95,28 @@ def differences(
 ) -> dict[str, float]:
     """(level - reference) / reference of every figure, over the Hertz contact's where the
     reference's vanishes, and the norms; in the order of QUANTITIES."""
-    one, other = (values_of(each, problem, friction) for each in (level, reference))
-    found = norms(level, reference, problem, friction, window)
-    found |= relative_differences(one, other, problem)
-    return {name: found[name] for name in QUANTITIES if name in found}
+    one, other = (values_of(known, problem, friction) for known in (level, reference))
+    sizes = norms(level, reference, problem, friction, window)
+    sizes |= relative_differences(one, other, problem)
+    return {name: sizes[name] for name in QUANTITIES if name in sizes}
 
 
 def relative_differences(
     one: dict[str, float], reference: dict[str, float], problem: Problem
 ) -> dict[str, float]:
     """(one - reference) / reference of figures by name, or over Hertz's where that vanishes."""
-    found = {}
+    sizes = {}
     for name, value in one.items():
         scale = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
-        found[name] = (value - reference[name]) / scale
-    return found
+        sizes[name] = (value - reference[name]) / scale
+    return sizes
 
 
 def norms(
     level: Level, reference: Level, problem: Problem, friction: float, window: Window | None
 ) -> dict[str, float]:
     """The compared quantities of a pair of levels on the same pressure elements: relative L2."""
-    stresses = [each.stress(friction) for each in (level, reference)]
+    stresses = [known.stress(friction) for known in (level, reference)]
     return pair_norms(
         (level.solution.pressure, reference.solution.pressure),
         tuple(None if stress is None else stress.field.tau1 for stress in stresses),
@@ -133,10 +133,10 @@ def pair_norms(
 ) -> dict[str, float]:
     """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k)
     on the window, None without one; the second of each is the reference."""
-    found = {"pressure_l2": relative_l2(*pressures)}
+    sizes = {"pressure_l2": relative_l2(*pressures)}
     if all(field is not None for field in tau1):
-        found |= field_norms(*tau1, problem, window)
-    return found
+        sizes |= field_norms(*tau1, problem, window)
+    return sizes
 
 
 def field_norms(
@@ -157,14 +157,14 @@ def discretisations(
     """Discretisation uncertainty that refinement is to lower: the larger of the difference's, which
     is judged, and of SHOWN times each model's own, for figures are shown too; or of one model. Not
     the sum: what the pressure elements leave out is in both and cancels in the difference."""
-    each = [uncertainties(run, problem, friction) for run in runs.values()]
+    by_model = [uncertainties(run, problem, friction) for run in runs.values()]
     if len(runs) == 1:
-        return {name: _left(stated) for name, stated in each[0].items()}
+        return {name: _left(stated) for name, stated in by_model[0].items()}
     pair = differences_of(*runs.values(), problem, friction, window)
     sizes = {name: _left(difference.uncertainty) for name, difference in pair.items()}
-    for name in each[0]:
-        own = max(_left(stated[name]) for stated in each)
-        sizes[name] = max(sizes[name], SHOWN * own)
+    for name in by_model[0]:
+        larger = max(_left(stated[name]) for stated in by_model)
+        sizes[name] = max(sizes[name], SHOWN * larger)
     return sizes
 
 

@@ -13,7 +13,7 @@ from comparisons.common.numbers import Scale, plain
 from comparisons.drawing import style
 from comparisons.drawing.curves import hertz_text
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.figure import Column, Figure, Findings, Series, Statement, columns_of
 from comparisons.figures.quantity import LABELS, WHOLE, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.uncertainty import (
@@ -27,8 +27,7 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
-from comparisons.studies.scatter.figures import NAME as SCATTER
-from comparisons.studies.study import Run, Solved, Study
+from comparisons.studies.study import SCATTER, Run, Solved, Study
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,6 +44,8 @@ MARKERS = {"half_plane": "o", "finite_element": "x", "whole": "d"}  # of nodes
 AT_HARDNESS = 1.0 - 1e-9  # times the hardness: a pressure held there
 # What is read of the same field or patches is as uncertain.
 AS_UNCERTAIN = {"von_mises_max": "tau1_max", "contact_ratio_extent": "contact_length"}
+UNITS = {"pitch": "m", "seconds": "s", "expected_seconds": "s"}  # of what a level took
+UNITS |= {"peak_memory": "byte", "expected_memory": "byte"}
 EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
 
 
@@ -60,7 +61,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         statements.append(Statement("converged", "yes" if converged else "no", run.name))
         if (why := no_approach(problem, run)) is not None:
             statements.append(Statement("no approach", why, run.name))
-    series = tuple(each for run in runs for each in _series(problem, run))
+    series = tuple(table for run in runs for table in _series(problem, run))
     return Findings(tuple(figures), series, tuple(statements))
 
 
@@ -118,7 +119,7 @@ def by_repetition(
     return {
         name: (
             far_boundary(moved.get(name, value), value),
-            of_increments([each.get(name, value) for each in increments]),
+            of_increments([figures.get(name, value) for figures in increments]),
         )
         for name, value in first.items()
     }
@@ -138,7 +139,7 @@ def no_approach(problem: Problem, run: ModelRun) -> str | None:
 def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
     """The figures of one model at one friction coefficient."""
     level, half_width = run.finest, problem.hertz.half_width
-    levels = [values_of(each, problem, friction) for each in run.levels]
+    levels = [values_of(level, problem, friction) for level in run.levels]
     stated = uncertainties(run, problem, friction)
     values, places = _further(problem, run, friction)
     # what no sequence of levels is known of: a load that finite elements find, an approach
@@ -164,7 +165,7 @@ def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
             scale=scale,
             uncertainty=uncertainty,
             place=places.get(name),
-            levels=tuple(each[name] for each in levels) if name in levels[-1] else (),
+            levels=tuple(values[name] for values in levels) if name in levels[-1] else (),
             notes=("capped",) if capped else (),
         )
 
@@ -174,7 +175,7 @@ def _further(
 ) -> tuple[dict[str, float], dict[str, tuple[float, ...]]]:
     """What is not compared [SI], and the places [m] of largest values."""
     level = run.finest
-    peak = float(level.grid.x[level.solution.pressure.argmax()])
+    peak = peak_position(level)
     values = {
         "contact_ratio_extent": level.contact_length / level.extent,
         "peak_position": peak,
@@ -198,15 +199,18 @@ def _series(problem: Problem, run: ModelRun) -> Iterator[Series]:
     edges = (stated * level.contact_length,) * len(level.patches)
     start, stop = (Column(tuple(ends), "m", edges) for ends in level.patches.T.tolist())
     yield Series("patches", {"start": start, "stop": stop}, run.name)
-    columns = {
-        "pitch": Column(tuple(each.grid.pitch for each in run.levels), "m"),
-        "unknowns": Column(tuple(each.unknowns for each in run.levels)),
-        "seconds": Column(tuple(sum(each.seconds.values()) for each in run.levels), "s"),
-        "expected_seconds": Column(tuple(each.expected_seconds for each in run.levels), "s"),
-        "peak_memory": Column(tuple(each.peak_memory for each in run.levels), "byte"),
-        "expected_memory": Column(tuple(each.expected_memory for each in run.levels), "byte"),
-    }
-    yield Series("levels", columns, run.name, is_account=True)
+    took = [
+        {
+            "pitch": level.grid.pitch,
+            "unknowns": level.unknowns,
+            "seconds": sum(level.seconds.values()),
+            "expected_seconds": level.expected_seconds,
+            "peak_memory": level.peak_memory,
+            "expected_memory": level.expected_memory,
+        }
+        for level in run.levels
+    ]
+    yield Series("levels", columns_of(took, UNITS), run.name, is_account=True)
     for name, counts, unit in (
         ("seconds", run.seconds, "s"),
         ("iterations", level.solution.iterations, ""),

@@ -18,7 +18,7 @@ from comparisons.common.numbers import percent, plain, with_unit
 from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.blocks import Block, Note, TextTable
-from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.quantity import Quantity, label
 from comparisons.figures.uncertainty import Uncertainty
@@ -77,26 +77,26 @@ class Couplings:
 
 def coupled(solved: Solved, tasks: Tasks) -> Couplings:
     """Of the half-plane as far as it is refined, computed once."""
-    run, given = solved.runs["half_plane"], (solved.problem, solved.window, tasks.callback)
-    return tasks.held(NAME, len(run.levels), lambda: couplings(run, *given))
+    run, problem = solved.runs["half_plane"], solved.problem
+    levels, window = len(run.levels), solved.window
+    return tasks.held(NAME, levels, lambda: couplings(run, problem, window, tasks.callback))
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Of every friction coefficient. A change is as uncertain as the half-plane's figure that
     changes, a shift as the contact's length, a norm as the worst."""
-    found, problem, known = coupled(solved, tasks), solved.problem, before[contact.NAME]
+    changed, known = coupled(solved, tasks), before[contact.NAME].figures
     figures, series, said = [], [], []
-    for each in found.changes:
-        at = {"friction": each.friction}
-        figures += figures_of_changes(each, problem, known.figures)
-        if each.why is not None:
-            said.append(Statement(WHY_NOT, each.why, "half_plane", at))
+    for coupling in changed.changes:
+        at = {"friction": coupling.friction}
+        figures += figures_of_changes(coupling, solved.problem, known)
+        if coupling.why is not None:
+            said.append(Statement(WHY_NOT, coupling.why, "half_plane", at))
             continue
-        said.append(Statement(CONVERGED, "yes" if each.converged else "no", "half_plane", at))
-        counts = each.iterations | {"seconds": each.seconds}
-        columns = {name: Column((count,)) for name, count in counts.items()}
-        series.append(Series("cost", columns, "half_plane", at, is_account=True))
-    return Findings(tuple(figures), tuple(series), tuple(said), found)
+        said.append(Statement(CONVERGED, "yes" if coupling.converged else "no", "half_plane", at))
+        counts = coupling.iterations | {"seconds": coupling.seconds}
+        series.append(Series("cost", columns_of([counts]), "half_plane", at, is_account=True))
+    return Findings(tuple(figures), tuple(series), tuple(said), changed)
 
 
 def figures_of_changes(
@@ -104,60 +104,56 @@ def figures_of_changes(
 ) -> Iterator[Figure]:
     """Each figure with coupling and its change; `known` are the models' own."""
     at = {"friction": coupling.friction}
-    own = (f for f in known if f.source == "half_plane" and f.at == at and f.levels)
-    stated = {figure.quantity: figure for figure in own}
+    without = (f for f in known if f.source == "half_plane" and f.at == at and f.levels)
+    stated = {figure.quantity: figure for figure in without}
     worst = max(stated.values(), key=lambda f: f.numerical)
     for name, change in coupling.changes.items():
-        owner = stated.get("contact_length" if name == SHIFT else name, worst)
+        figure = stated.get("contact_length" if name == SHIFT else name, worst)
         scale = problem.hertz.half_width if name == SHIFT else abs(change.value or 0.0) or 1.0
-        common = {
-            "study": NAME,
-            "quantity": name,
-            "source": "half_plane",
-            "at": at,
-            "scale": scale,
-            "uncertainty": Uncertainty(owner.uncertainty.parts),
-        }
-        if change.value is not None:
-            yield Figure(value=change.value, **common)
-        if change.difference is not None:
-            yield Figure(value=change.difference, against=UNCOUPLED, **common)
+        unsure = Uncertainty(figure.uncertainty.parts)
+        for value, against in ((change.value, None), (change.difference, UNCOUPLED)):
+            if value is not None:
+                yield Figure(NAME, name, "half_plane", value, at, against, scale, unsure)
 
 
 def couplings(
     run: ModelRun, problem: Problem, window: Window | None, callback: ProgressCallback
 ) -> Couplings:
     """From the finished half-plane."""
-    found = []
+    changes = []
     for friction in problem.scene.load.friction:
         why = no_coupling(problem, friction)
         if why is None:
-            found.append(_coupling(problem, run.finest, friction, window, callback))
+            changes.append(_coupling(problem, run.finest, friction, window, callback))
         else:
-            found.append(Coupling(friction, {}, why=why))
-    return Couplings(tuple(found))
+            changes.append(Coupling(friction, {}, why=why))
+    return Couplings(tuple(changes))
 
 
 def _coupling(
-    problem: Problem, own: Level, friction: float, window: Window | None, callback: ProgressCallback
+    problem: Problem,
+    level: Level,
+    friction: float,
+    window: Window | None,
+    callback: ProgressCallback,
 ) -> Coupling:
     stages = Stages(lambda _: callback("half-plane: surfaces moved by friction"))
     size = friction * problem.dundurs_beta
     # the level itself was solved with coupling or without; solve the other way
     other_size = 0.0 if problem.coupling else size
     # friction moves the contact by at most about mu beta of its own half-length
-    more = int(np.ceil(0.5 * abs(size) * own.grid.count))
+    more = int(np.ceil(0.5 * abs(size) * level.grid.count))
     while True:
-        grid = _stretched(problem, own.grid, more)
+        grid = _stretched(problem, level.grid, more)
         other = half_plane_on(problem, grid, other_size, (friction,), window, stages)
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             break
         more *= 2
-        if _stretched(problem, own.grid, more) == grid:
+        if _stretched(problem, level.grid, more) == grid:
             return Coupling(friction, {}, why=BEYOND_THE_END)
-    own = _spread(own, grid)
-    moved, still = (own, other) if problem.coupling else (other, own)
+    level = _spread(level, grid)
+    moved, still = (level, other) if problem.coupling else (other, level)
     return Coupling(
         friction=friction,
         changes=_changes(problem, moved, still, friction, window),
@@ -187,12 +183,12 @@ def _spread(level: Level, grid: HatGrid) -> Level:
 def _changes(
     problem: Problem, moved: Level, still: Level, friction: float, window: Window | None
 ) -> dict[str, Change]:
-    one, other = values_of(moved, problem, friction), values_of(still, problem, friction)
-    found = {name: Change(one[name], _relative(one[name], other[name])) for name in one}
+    values, before = (values_of(level, problem, friction) for level in (moved, still))
+    changes = {name: Change(v, _relative(v, before[name])) for name, v in values.items()}
     shift = _centroid(moved) - _centroid(still)
-    found[SHIFT] = Change(shift, shift / problem.hertz.half_width)
+    changes[SHIFT] = Change(shift, shift / problem.hertz.half_width)
     between = norms(moved, still, problem, friction, window)
-    return found | {name: Change(None, size) for name, size in between.items()}
+    return changes | {name: Change(None, size) for name, size in between.items()}
 
 
 def _relative(value: float, before: float) -> float | None:
@@ -206,23 +202,17 @@ def _centroid(level: Level) -> float:
     return float(level.grid.x @ pressure / pressure.sum())
 
 
-def _applies(solved: Solved) -> bool:
-    return solved.plan.coupling
-
-
 def coupling_table(run: Run) -> TextTable | None:
     """Figures with the surfaces moved, and the change; None where friction moves nothing."""
     changes = run.figures.of(study=NAME)
     if not changes:
         return None
-    names = [SHIFT, *(name for name in COMPARED if name != REPEATED)]
-    frictions = list(dict.fromkeys(figure.friction for figure in changes))
-    rows = []
-    for name in names:
-        cells = [cell for mu in frictions for cell in _cells(run, name, mu)]
+    frictions, rows = list(dict.fromkeys(figure.friction for figure in changes)), []
+    for name in (SHIFT, *(name for name in COMPARED if name != REPEATED)):
+        cells = [cell for friction in frictions for cell in _cells(run, name, friction)]
         if any(cells):
             rows.append((QUANTITIES[name].label if name == SHIFT else label(name), *cells))
-    head = [cell for mu in frictions for cell in (f"friction {plain(mu)}", "change")]
+    head = [cell for friction in frictions for cell in (f"friction {plain(friction)}", "change")]
     return TextTable("Half-plane, surfaces moved by friction", ("", *head), tuple(rows))
 
 
@@ -255,8 +245,16 @@ def _cells(run: Run, name: str, friction: float, digits: int = 4) -> tuple[str, 
 def blocks(run: Run) -> list[Block]:
     if (table := coupling_table(run)) is None:
         return []
-    contained = run.problem.scene.load.coupled
-    return [Block("contact", (table, Note(NOTE.format(CONTAINED if contained else NOT_CONTAINED))))]
+    note = NOTE.format(CONTAINED if run.problem.scene.load.coupled else NOT_CONTAINED)
+    return [Block("contact", (table, Note(note)))]
 
 
-STUDY = Study(NAME, QUANTITIES, solve, _applies, data=Couplings, blocks=blocks, lines=lines)
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=lambda solved: solved.plan.coupling,
+    data=Couplings,
+    blocks=blocks,
+    lines=lines,
+)

@@ -6,7 +6,7 @@ which it is a part; what was skipped and assumed, in words; the levels that were
 from collections.abc import Mapping
 from dataclasses import asdict
 
-from comparisons.figures.figure import Column, Figure, Findings, Series, Statement, figures_of
+from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of, figures_of
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.forecast import forecast
@@ -94,11 +94,7 @@ def _surface(problem: Problem) -> list[Figure]:
 
 def _planned(solved: Solved) -> Series:
     levels = [asdict(level) for level in forecast(solved.problem, solved.plan).levels]
-    units = {"pitch": "m", "seconds": "s", "memory": "byte"}
-    columns = {
-        name: Column(tuple(level[name] for level in levels), units.get(name, ""))
-        for name in levels[0]
-    }
+    columns = columns_of(levels, {"pitch": "m", "seconds": "s", "memory": "byte"})
     return Series("planned levels", columns, is_account=True)
 
 
@@ -106,7 +102,7 @@ def _statements(solved: Solved) -> list[Statement]:
     """What was assumed and skipped, why refinement stopped, why there are no standard figures."""
     plan, info = solved.plan, solved.problem.surface.info
     said = [Statement("assumed", text) for text in plan.assumptions]
-    said += [Statement("skipped", each.because, each.step) for each in plan.skipped]
+    said += [Statement("skipped", step.because, step.step) for step in plan.skipped]
     said.append(Statement("refinement", solved.refinement))
     if info is not None and info.standard_why is not None:
         said.append(Statement("no standard parameters", info.standard_why, STANDARD))

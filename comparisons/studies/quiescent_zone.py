@@ -33,7 +33,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from comparisons.common.numbers import plain, significant
-from comparisons.drawing.blocks import Block, Heading, Note, TextTable
+from comparisons.drawing.blocks import Block, Heading, Note, TextTable, stated
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import LABELS, Quantity
@@ -135,21 +135,13 @@ def zone_of(
     return shear_dip(window.z[::every], shear, DEEP * problem.hertz.half_width)
 
 
-@dataclass(frozen=True)
-class AsperityDip:
-    """Below one asperity: its place and length of contact [m], and the dip of the largest shear."""
-
-    x: float
-    length: float
-    dip: ShearDip
-
-
-def asperity_dips(
+def asperity_rows(
     problem: Problem, level: Level, window: Window, friction: float
-) -> list[AsperityDip]:
-    """The dip under each asperity that touches at |x| <= a, its zone as wide as the asperity."""
+) -> list[dict[str, object]]:
+    """By each asperity that touches at |x| <= a, its zone as wide as it: place and length of its
+    contact [m], and the dip of the largest shear below it."""
     a, tau1 = problem.hertz.half_width, level.stress(friction).field.tau1
-    found, tau1 = [], np.where(np.isfinite(tau1), tau1, -inf)
+    rows, tau1 = [], np.where(np.isfinite(tau1), tau1, -inf)
     for start, stop in zip((-inf, *problem.asperities), (*problem.asperities, inf), strict=True):
         columns = (window.x >= max(start, -a)) & (window.x < min(stop, a))
         patches = np.clip(level.patches, max(start, -a), min(stop, a))
@@ -157,10 +149,17 @@ def asperity_dips(
         if not np.any(columns) or lengths.sum() <= 0.0:
             continue
         shear = np.max(tau1[:, columns], axis=1)
-        place = float(lengths @ patches.mean(axis=1) / lengths.sum())
         dip = shear_dip(window.z, np.where(np.isfinite(shear), shear, nan), DEEP * a)
-        found.append(AsperityDip(place, float(lengths.sum()), dip))
-    return found
+        place = float(lengths @ patches.mean(axis=1) / lengths.sum())
+        length = float(lengths.sum())
+        rows.append({"x": place, "length": length, "level": dip.level, "state": dip.status})
+    return rows
+
+
+def asperity_series(rows: list[dict[str, object]], source: str, at: Mapping[str, float]) -> Series:
+    units = {"x": "m", "length": "m", "level": "", "state": ""}
+    columns = {name: Column(tuple(row[name] for row in rows), unit) for name, unit in units.items()}
+    return Series(ASPERITIES, columns, source, at)
 
 
 def zone_figures(
@@ -169,27 +168,26 @@ def zone_figures(
     """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
     boundary, iteration, and what reading every second row and column of the window changes."""
 
-    def read(level: Level) -> dict[str, float]:
-        dip = zone_of(problem, level, window, friction)
+    def read(level: Level, every: int = 1) -> dict[str, float]:
+        dip = zone_of(problem, level, window, friction, every)
         return {name: getattr(dip, name) for name in QUANTITIES}
 
     levels, repeated = [read(level) for level in run.levels], by_repetition(run, read)
-    dip = zone_of(problem, run.finest, window, friction)
-    coarse = zone_of(problem, run.finest, window, friction, every=2)
-    figures = []
-    for name in QUANTITIES:
-        values = tuple(each[name] for each in levels)
+    coarse, figures = read(run.finest, every=2), []
+    for name, value in levels[-1].items():
+        values = tuple(level[name] for level in levels)
         size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else inf
-        size += iteration(run.finest) * abs(values[-1]) + abs(getattr(coarse, name) - values[-1])
+        size += iteration(run.finest) * abs(value) + abs(coarse[name] - value)
         size = float(size + sum(repeated[name]))
-        if isfinite(values[-1]):
-            scale = abs(values[-1]) or 1.0
-            stated = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
-            named = NAME, name, run.name, values[-1], {"friction": friction}
-            figures.append(Figure(*named, scale=scale, uncertainty=stated, levels=values))
+        if isfinite(value):
+            scale = abs(value) or 1.0
+            unsure = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
+            named = NAME, name, run.name, value, {"friction": friction}
+            figures.append(Figure(*named, scale=scale, uncertainty=unsure, levels=values))
         if name == "ratio":
-            across = abs(dip.ratio - QUIET) <= size
-    return tuple(figures), UNCLEAR if across else dip.status
+            is_unclear = abs(value - QUIET) <= size
+    status = zone_of(problem, run.finest, window, friction).status
+    return tuple(figures), UNCLEAR if is_unclear else status
 
 
 def needs(solved: Solved) -> str | None:
@@ -207,18 +205,12 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     problem, window, figures, series, states = solved.problem, solved.window, [], [], []
     for name, run in solved.runs.items():
         for friction in problem.scene.load.friction:
-            found, state = zone_figures(problem, run, window, friction)
-            figures += found
             at = {"friction": friction}
+            of_zone, state = zone_figures(problem, run, window, friction)
+            figures += of_zone
             states.append(Statement(STATE, state, name, at))
-            dips = asperity_dips(problem, run.finest, window, friction)
-            columns = {
-                "x": Column(tuple(each.x for each in dips), "m"),
-                "length": Column(tuple(each.length for each in dips), "m"),
-                "level": Column(tuple(each.dip.level for each in dips)),
-                "state": Column(tuple(each.dip.status for each in dips)),
-            }
-            series.append(Series(ASPERITIES, columns, name, at))
+            rows = asperity_rows(problem, run.finest, window, friction)
+            series.append(asperity_series(rows, name, at))
     return Findings(tuple(figures), tuple(series), tuple(states))
 
 
@@ -239,33 +231,34 @@ def zones_of(findings: Findings | None) -> list[Zone]:
     zones = []
     for said in findings.statements if findings else ():
         if said.name == STATE:
-            own = [f for f in findings.figures if (f.source, f.at) == (said.source, said.at)]
+            known = (f for f in findings.figures if (f.source, f.at) == (said.source, said.at))
             states = findings.table(ASPERITIES, said.source, **said.at).columns["state"].values
-            named = said.source, said.at["friction"], said.text, {f.quantity: f for f in own}
-            zones.append(Zone(*named, states.count(BRIDGED), len(states)))
+            figures, friction = {f.quantity: f for f in known}, said.at["friction"]
+            counts = states.count(BRIDGED), len(states)
+            zones.append(Zone(said.source, friction, said.text, figures, *counts))
     return zones
 
 
 def blocks(run: Run) -> list[Block]:
     """A table with a row for each friction coefficient and model."""
     findings, a = run.found[NAME], run.problem.hertz.half_width
+    heading = Heading("Quiescent zone")
     if (why := findings.said(WHY_NOT)) is not None:
         table = TextTable("Not measured", ("because",), ((why,),))
-    else:
-        rows = [
-            (
-                *(plain(zone.friction), LABELS[zone.model], zone.state),
-                *(_text(zone, name, a) for name in ("start", "stop", "depth")),
-                *(_text(zone, name) for name in ("level", "ratio")),
-                f"{zone.bridged} of {zone.asperities}",
-            )
-            for zone in sorted(zones_of(findings), key=lambda zone: zone.friction)
-        ]
-        head = ("friction", "model", "", "from, z/a", "to, z/a", "least shear at, z/a")
-        head += ("least over Hertz zone's", "over the smaller maximum", "asperities that bridge it")
-        title = "Mean shear between asperities and Hertz zone"
-        table = TextTable(title, head, tuple(rows))
-    return [Block("stresses", (Heading("Quiescent zone"), table, Note(NOTE)))]
+        return [Block("stresses", (heading, table, Note(NOTE)))]
+    rows = [
+        (
+            *(plain(zone.friction), LABELS[zone.model], zone.state),
+            *(stated(zone.figures.get(name), a) for name in ("start", "stop", "depth")),
+            *(stated(zone.figures.get(name)) for name in ("level", "ratio")),
+            f"{zone.bridged} of {zone.asperities}",
+        )
+        for zone in sorted(zones_of(findings), key=lambda zone: zone.friction)
+    ]
+    head = ("friction", "model", "", "from, z/a", "to, z/a", "least shear at, z/a")
+    head += ("least over Hertz zone's", "over the smaller maximum", "asperities that bridge it")
+    table = TextTable("Mean shear between asperities and Hertz zone", head, tuple(rows))
+    return [Block("stresses", (heading, table, Note(NOTE)))]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -278,23 +271,12 @@ def lines(run: Run) -> list[tuple[str, str]]:
 def _said(zone: Zone, a: float) -> str:
     words = zone.state
     if words == QUIESCENT:
-        ends = (_text(zone, name, a, uncertain=False) for name in ("start", "stop"))
+        ends = (significant(zone.figures[name].value / a, 3) for name in ("start", "stop"))
         words = f"{' a to '.join(ends)} a deep"
     if words != BRIDGED and zone.bridged:
         words += f", bridged under {zone.bridged} of {zone.asperities} asperities"
-    level = _text(zone, "level", uncertain=False)
+    level = significant(zone.figures["level"].value, 3)
     return f"friction {plain(zone.friction)}: {words}, least shear {level} of the Hertz zone's"
-
-
-def _text(zone: Zone, name: str, unit: float = 1.0, uncertain: bool = True) -> str:
-    """A figure in a unit [SI] with its uncertainty, empty where there is none."""
-    figure = zone.figures.get(name)
-    if figure is None:
-        return ""
-    text = significant(figure.value / unit, 3)
-    if not uncertain or not isfinite(figure.numerical):
-        return text
-    return f"{text} ± {significant(figure.numerical * figure.scale / unit, 1)}"
 
 
 STUDY = Study(

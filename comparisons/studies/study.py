@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 WHY_NOT, CONVERGED = "not done", "converged"
 REPEATED = "contact_ratio"  # says again what the contact length says
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
+SCATTER = "scatter"  # the study of uncertain inputs
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ class Run:
     @cached_property
     def figures(self) -> Figures:
         """Every number that is a result."""
-        return Figures(figure for found in self.found.values() for figure in found.figures)
+        return Figures(f for findings in self.found.values() for f in findings.figures)
 
     @cached_property
     def judged(self) -> Figures:
@@ -97,16 +98,16 @@ class Run:
     @property
     def converged(self) -> bool:
         """Whether every solution met its contact conditions, and running-in did."""
-        said = (each for found in self.found.values() for each in found.statements)
-        return all(each.text == "yes" for each in said if each.name == CONVERGED)
+        said = (words for findings in self.found.values() for words in findings.statements)
+        return all(words.text == "yes" for words in said if words.name == CONVERGED)
 
     def levels(self, friction: float) -> dict[str, Level]:
         """The finest level of every model at a friction coefficient, last of the whole model where
         it is not the scene's own finite elements."""
         finest = {name: run.finest for name, run in self.runs.items()}
-        budget, own = self.data(MODEL_ERROR), self.runs.get("finite_element")
+        budget, elements = self.data(MODEL_ERROR), self.runs.get("finite_element")
         whole = None if budget is None else budget.wholes.get(friction)
-        if whole is not None and all(whole is not level for level in own.levels):
+        if whole is not None and all(whole is not level for level in elements.levels):
             finest[WHOLE] = whole
         return finest
 
@@ -140,22 +141,6 @@ class Run:
         return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
 
 
-def _always(solved: Solved) -> bool:
-    return True
-
-
-def _nothing(*_: object) -> None:
-    return None
-
-
-def _empty(run: Run) -> list:
-    return []
-
-
-def _no_files(run: Run) -> dict:
-    return {}
-
-
 @dataclass(frozen=True)
 class Study:
     """One question, by the functions that answer it."""
@@ -165,32 +150,33 @@ class Study:
     # what it finds; the second argument holds the findings of earlier studies by name
     solve: "Callable[[Solved, Mapping[str, Findings], Tasks], Findings]"
     # whether the scene asks for it; before anything is solved, as the next two
-    applies: Callable[[Solved], bool] = _always
-    needs: Callable[[Solved], str | None] = _nothing  # why it cannot be done, though asked for
+    applies: Callable[[Solved], bool] = lambda solved: True
+    # why it cannot be done, though asked for
+    needs: Callable[[Solved], str | None] = lambda solved: None
     # makes known to the tasks what `solve` will ask for; again once more is solved, and known tasks
     # stay as they are
-    begin: "Callable[[Solved, Tasks], None]" = _nothing
-    blocks: Callable[[Run], list[Block]] = _empty  # its parts of the page
+    begin: "Callable[[Solved, Tasks], None]" = lambda solved, tasks: None
+    blocks: Callable[[Run], list[Block]] = lambda run: []  # its parts of the page
     # what draws its pictures, by name; None where there is nothing to draw
     pictures: Mapping[str, Callable[[Run], object]] = field(default_factory=dict)
     data: type | None = None  # of its findings' `data`
     # quantities that have a row of the wide table, by both models
     tabled: tuple[str, ...] = ()
     # files of its own in the run's folder, by path: columns (n,) of a CSV by their headings
-    files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = _no_files
+    files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = lambda run: {}
     # its lines of the terminal, each with its name
-    lines: Callable[[Run], list[tuple[str, str]]] = _empty
+    lines: Callable[[Run], list[tuple[str, str]]] = lambda run: []
 
 
 def studied(
-    studies: tuple[Study, ...], solved: Solved, found: dict[str, Findings], tasks: "Tasks"
+    studies: tuple[Study, ...], solved: Solved, before: dict[str, Findings], tasks: "Tasks"
 ) -> dict[str, Findings]:
-    """What earlier studies have `found`, and each of these in turn."""
+    """What earlier studies have found `before`, and each of these in turn."""
     for study in studies:
         if study.applies(solved):
-            why = study.needs(solved)
-            if why is None:
-                found[study.name] = study.solve(solved, found, tasks)
+            why_not = study.needs(solved)
+            if why_not is None:
+                before[study.name] = study.solve(solved, before, tasks)
             else:
-                found[study.name] = Findings(statements=(Statement(WHY_NOT, why),))
-    return found
+                before[study.name] = Findings(statements=(Statement(WHY_NOT, why_not),))
+    return before

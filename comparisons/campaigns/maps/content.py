@@ -14,8 +14,8 @@ from comparisons.campaigns.maps.request import MapRequest
 from comparisons.campaigns.maps.rule import rules_of, values_of
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
+from comparisons.figures.figure import judge
 from comparisons.figures.quantity import HEAT_QUANTITIES, QUANTITIES, label
-from comparisons.figures.verdict import judge
 
 if TYPE_CHECKING:
     from rich.console import Group

@@ -1,1 +1,1 @@
-"""The sections of single studies: each is all that a scene knows of its study."""
+"""The sections of single studies: of the section's name is the module, whose SECTION it is."""

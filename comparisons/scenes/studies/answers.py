@@ -95,7 +95,7 @@ def checked_names(answers: dict) -> dict:
     return answers
 
 
-Answers = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
+SECTION = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
 
 
 def answers_named(options: Sequence[str], known: object) -> dict:
@@ -115,7 +115,7 @@ def answers_named(options: Sequence[str], known: object) -> dict:
             tables[name] = read_toml(path)
             files = tables[name].get("file", [])
             files = [files] if isinstance(files, str) else files
-            files = [os.fspath(path.parent / each) for each in map(str, files)]
+            files = [os.fspath(path.parent / entry) for entry in map(str, files)]
         named.setdefault(name, []).extend(files)
         tables[name] = dict(tables.get(name) or {}) | {"file": named[name]}
     return tables

@@ -31,30 +31,6 @@ Expansion = Annotated[float, Number(EXPANSION, above=0.0, at_most=1e-3)]
 CONSTANTS = ("conductivity", "density", "specific_heat")
 
 
-def with_heat_of_solids(tables: Mapping) -> Mapping:
-    """A scene's tables with what [heat] leaves out of the constants of bodies that are named after
-    a solid; expansions where stresses are asked for."""
-    heat = tables.get("heat")
-    if not isinstance(heat, Mapping):
-        return tables
-    follows = {}
-    for body in ("body", "roller", "coating"):
-        section = tables.get(body)
-        name = section.get("material") if isinstance(section, Mapping) else None
-        solid = solid_named(name) if isinstance(name, str) else None
-        if solid is None:
-            continue
-        names = CONSTANTS
-        if heat.get("stresses") is True and body != "roller":
-            names = (*CONSTANTS, "expansion")
-        follows |= {
-            f"{body}_{constant}": solid.values[constant].value
-            for constant in names
-            if constant in solid.values
-        }
-    return {**tables, "heat": {**follows, **heat}}
-
-
 class HeatSection(SceneSection):
     """By default the roller takes the contact with it: the body sees a moving source."""
 
@@ -80,6 +56,25 @@ class HeatSection(SceneSection):
     stresses: Annotated[bool, Truth()] = False
     body_expansion: Expansion | None = None
     coating_expansion: Expansion | None = None
+
+    @classmethod
+    def followed(cls, tables: Mapping) -> Mapping:
+        """With the constants of bodies that are named after a solid; expansions where stresses are
+        asked for."""
+        heat, follows = tables.get("heat"), {}
+        if not isinstance(heat, Mapping):
+            return tables
+        for body in ("body", "roller", "coating"):
+            section = tables.get(body)
+            name = section.get("material") if isinstance(section, Mapping) else None
+            solid = solid_named(name) if isinstance(name, str) else None
+            names = CONSTANTS
+            if heat.get("stresses") is True and body != "roller":
+                names = (*CONSTANTS, "expansion")
+            for constant in names if solid is not None else ():
+                if constant in solid.values:
+                    follows[f"{body}_{constant}"] = solid.values[constant].value
+        return {**tables, "heat": {**follows, **heat}}
 
     @property
     def velocities(self) -> tuple[float, float]:
@@ -112,17 +107,15 @@ class HeatSection(SceneSection):
         if not any(scene.load.friction):
             yield "heat", "is given without friction; allowed with load.friction above 0"
         if self.base is not None and scene.body.thickness is None:
-            yield (
-                "heat.base",
-                "is given for a half-plane, which has none; allowed with body.thickness",
-            )
+            unbounded = "is given for a half-plane, which has none"
+            yield "heat.base", f"{unbounded}; allowed with body.thickness"
         yield from self._of_stresses(scene)
         expansion = ("expansion",) if self.stresses else ()
         for name in (f"coating_{constant}" for constant in (*CONSTANTS, *expansion)):
-            given = getattr(self, name) is not None
-            if given and scene.coating is None:
+            is_there = getattr(self, name) is not None
+            if is_there and scene.coating is None:
                 yield f"heat.{name}", "is given for a body without one; allowed with [coating]"
-            if scene.coating is not None and not given:
+            if scene.coating is not None and not is_there:
                 yield f"heat.{name}", f"is missing; allowed is {allowed(type(self), name)}"
 
     def _of_stresses(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
@@ -145,3 +138,6 @@ class HeatSection(SceneSection):
         ):
             if there:
                 yield "heat.stresses", f"is true {what}"
+
+
+SECTION = HeatSection

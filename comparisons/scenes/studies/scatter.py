@@ -39,14 +39,14 @@ class Spread:
     relative: bool = False
     range: tuple[float, float] | None = None
 
-    def size(self, own: float) -> float:
-        """Standard deviation about the scene's `own` value, in SI."""
-        return self.deviation * (abs(own) if self.relative else 1.0)
+    def size(self, nominal: float) -> float:
+        """Standard deviation about the scene's value, in SI."""
+        return self.deviation * (abs(nominal) if self.relative else 1.0)
 
-    def ends(self, own: float) -> tuple[float, float]:
+    def ends(self, nominal: float) -> tuple[float, float]:
         """The smallest and the largest value that is sampled."""
-        far = CUT_OFF * self.size(own)
-        return self.range or (own - far, own + far)
+        far = CUT_OFF * self.size(nominal)
+        return self.range or (nominal - far, nominal + far)
 
     def plain(self) -> dict | str | float:
         """As a scene file has it."""
@@ -118,8 +118,8 @@ class ScatterSection(SceneSection):
     @property
     def inputs(self) -> dict[str, Spread]:
         """What is uncertain, by name; of the noise its deviation [m]."""
-        found = {name: spread for name, spread in self if isinstance(spread, Spread)}
-        return found if self.noise is None else found | {"noise": Spread(self.noise)}
+        spreads = {name: spread for name, spread in self if isinstance(spread, Spread)}
+        return spreads if self.noise is None else spreads | {"noise": Spread(self.noise)}
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.samples & (self.samples - 1):
@@ -138,19 +138,19 @@ class ScatterSection(SceneSection):
             if name in self.inputs and scene.profile is None:
                 yield f"scatter.{name}", "is given for a smooth surface; allowed with [profile]"
         if self.friction is not None and len(scene.load.friction) > 1:
-            given = f"is given for {len(scene.load.friction)} coefficients"
-            yield "scatter.friction", f"{given}; allowed with one"
+            several = f"is given for {len(scene.load.friction)} coefficients"
+            yield "scatter.friction", f"{several}; allowed with one"
         for name, (section, field) in FIELDS.items():
             table, spread = getattr(scene, section), getattr(self, name)
-            own = getattr(table, field)
+            nominal = getattr(table, field)
             if spread is None:
                 continue
-            if own is None:
+            if nominal is None:
                 problem = f"is given without {section}.{field}; allowed beside it"
                 yield f"scatter.{name}", problem
             else:
-                own = own[0] if isinstance(own, tuple) else own
-                yield from self._beyond(name, spread.ends(own), field_type(type(table), field))
+                nominal = nominal[0] if isinstance(nominal, tuple) else nominal
+                yield from self._beyond(name, spread.ends(nominal), field_type(type(table), field))
         if self.load is not None:
             yield from self._beyond("load", self.load.ends(1.0), Number(DIMENSIONLESS, above=0.0))
         if self.tip_radius is not None:
@@ -165,3 +165,6 @@ class ScatterSection(SceneSection):
                 deviations = f" (normal, cut off at {CUT_OFF:g} deviations)"
                 how = "" if getattr(self, name).range else deviations
                 yield f"scatter.{name}", f"reaches {end:g}{how}; allowed is {field.allowed()}"
+
+
+SECTION = ScatterSection

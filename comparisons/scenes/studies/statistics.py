@@ -21,3 +21,6 @@ class StatisticsSection(SceneSection):
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         if scene.profile is None:
             yield "statistics", "is given for a smooth surface; allowed only with [profile]"
+
+
+SECTION = StatisticsSection

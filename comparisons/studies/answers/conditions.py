@@ -20,31 +20,29 @@ from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer
 
 
-def balance(answer: Answer, problem: Problem) -> float:
-    """(load that the pressures carry - the scene's) / the scene's."""
-    return answer.load / problem.hertz.load_per_length - 1.0
-
-
 def operators_of(
     problem: Problem, plan: Plan, runs: Mapping[str, ModelRun]
 ) -> dict[str, tuple[HatGrid, ComplianceOperator]]:
     """Pressure elements and compliance by model."""
     grid = list(runs.values())[-1].finest.grid
     half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
-    found: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
+    operators: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
     settings = problem.scene.finite_element
     linear = settings.deformation == "linear" and not settings.plastic
     if "finite_element" in runs and linear and settings.gap == "reference":
         level = runs["finite_element"].levels[0]
-        found["finite_element"] = level.grid, _finite_elements(problem, plan, level)
-    return found
+        operators["finite_element"] = level.grid, _finite_elements(problem, plan, level)
+    return operators
 
 
 def conditions(
     answer: Answer, problem: Problem, operators: Mapping[str, tuple[HatGrid, ComplianceOperator]]
 ) -> dict[str, dict]:
     """`Residuals` by model, but for the load; relative and zero when exact."""
-    return {name: _residuals(answer, problem, *given) for name, given in operators.items()}
+    return {
+        name: _residuals(answer, problem, grid, operator)
+        for name, (grid, operator) in operators.items()
+    }
 
 
 def _residuals(
@@ -54,10 +52,10 @@ def _residuals(
     gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
     moved, load = operator.apply(pressure), float(grid.weights @ pressure)
     approach = float(pressure @ (gap + moved)) / load if load > 0.0 else 0.0
-    given = moved, pressure, gap, grid.weights, approach, problem.constraints()
-    found = asdict(assessed(*given, iterations={}).residuals)
-    del found["load_balance"]  # `balance` has it, by the answer's own points
-    return found
+    solved = moved, pressure, gap, grid.weights, approach, problem.constraints()
+    residuals = asdict(assessed(*solved, iterations={}).residuals)
+    del residuals["load_balance"]  # the answer's own points have it
+    return residuals
 
 
 def _finite_elements(problem: Problem, plan: Plan, level: Level) -> ComplianceOperator:
@@ -66,5 +64,6 @@ def _finite_elements(problem: Problem, plan: Plan, level: Level) -> ComplianceOp
     from comparisons.models.finite_element.contact import mutual_compliance
     from comparisons.models.finite_element.mesh import Refinement
 
-    given = problem, plan, Refinement(level.grid.pitch), level.patches, Stages(), BodyCache()
-    return mutual_compliance(problem, bodies_of(*given), level.grid)
+    refinement = Refinement(level.grid.pitch)
+    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), BodyCache())
+    return mutual_compliance(problem, bodies, level.grid)

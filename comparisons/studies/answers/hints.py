@@ -18,7 +18,7 @@ from analytic.profile import surface
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
-from comparisons.studies.answers.answer import Answer, Hint
+from comparisons.studies.answers.answer import Answer
 from comparisons.studies.comparison import relative_l2
 
 DISTINCT = 0.02  # relative L2 norm of a difference that asks for an explanation
@@ -38,6 +38,17 @@ PROBLEMS = (  # with another load, or another radius
     ("radius", 2.0, "the roller's diameter for its radius (or half of E*)"),
     ("radius", 0.5, "half of the roller's radius (or twice E*)"),
 )
+
+
+@dataclass(frozen=True)
+class Hint:
+    """What explains a difference in the pressures: its kind, by how much [SI], in words, and the
+    relative L2 norm of the difference that it leaves."""
+
+    kind: str
+    value: float
+    text: str
+    left: float
 
 
 @dataclass(frozen=True)
@@ -71,22 +82,22 @@ def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
     """What explains the difference of an answer's pressures to a model's, where there is one."""
     reference = Curve(level.grid.x, level.solution.pressure)
     curve = Curve(answer.x, np.where(answer.touching, answer.pressure, 0.0))
-    before, found = curve.off(reference), []
+    before, named = curve.off(reference), []
     if before <= DISTINCT:
         return ()
     if -answer.pressure.min() > answer.pressure.max():
         curve = Curve(answer.x, np.maximum(-answer.pressure, 0.0))
-        found.append(Hint("sign", -1.0, "the other sign of the pressures", curve.off(reference)))
+        named.append(Hint("sign", -1.0, "the other sign of the pressures", curve.off(reference)))
     curve, units = _in_units(curve, reference)
     now = curve.off(reference)
-    found += [replace(hint, left=now) for hint in units]
+    named += [replace(hint, left=now) for hint in units]
     tried = [*_moved(curve, problem, reference), *_other_problems(curve, problem, level.grid)]
     least = min(hint.left for hint in tried)
     best = next(hint for hint in tried if hint.left <= AS_WELL * least + ROUNDING)
     if now > DISTINCT and best.left <= EXPLAINS * now:
-        found.append(best)
-    if found and min(hint.left for hint in found) <= max(EXPLAINS * before, DISTINCT):
-        return tuple(replace(hint, text=f"{hint.text} explains it") for hint in found)
+        named.append(best)
+    if named and min(hint.left for hint in named) <= max(EXPLAINS * before, DISTINCT):
+        return tuple(replace(hint, text=f"{hint.text} explains it") for hint in named)
     text = "no other axes, sign, unit or factor of two explains it: another contact"
     return (Hint("unexplained", before, text, before),) if before > ANOTHER else ()
 
@@ -95,7 +106,7 @@ def _in_units(curve: Curve, reference: Curve) -> tuple[Curve, list[Hint]]:
     """The curve in SI, if lengths or pressures are off by powers of a thousand."""
     extent = np.ptp(reference.ends) / max(np.ptp(curve.ends), 1e-300)
     sizes = {"length": extent, "stress": reference.pressure.max() / curve.pressure.max()}
-    factors, found = {}, []
+    factors, named = {}, []
     for kind, size in sizes.items():
         power = round(float(np.log10(size)) / 3.0)
         factors[kind] = 10.0 ** (3 * power)
@@ -103,26 +114,26 @@ def _in_units(curve: Curve, reference: Curve) -> tuple[Curve, list[Hint]]:
             text = f"a factor of 1e{3 * power} in the {kind} unit"
             if power in UNITS[kind]:
                 text = f"a {kind} unit of {UNITS[kind][power]} in place of the SI unit"
-            found.append(Hint(f"{kind} unit", factors[kind], text, 0.0))
-    return curve.times(factors["length"], factors["stress"]), found
+            named.append(Hint(f"{kind} unit", factors[kind], text, 0.0))
+    return curve.times(factors["length"], factors["stress"]), named
 
 
 def _moved(curve: Curve, problem: Problem, reference: Curve) -> Iterator[Hint]:
     """Other axes, and a factor of two in the pressures."""
     mirrored = curve.mirrored()
-    for kind, words, each in (("", "", curve), ("mirrored ", "mirrored in x, ", mirrored)):
+    for kind, words, turned in (("", "", curve), ("mirrored ", "mirrored in x, ", mirrored)):
         if kind:
-            yield Hint("mirrored", -1.0, "mirrored in x", each.off(reference))
-        shift = _shift(each, reference)
+            yield Hint("mirrored", -1.0, "mirrored in x", turned.off(reference))
+        shift = _shift(turned, reference)
         text = f"{words}shifted by {shift / problem.hertz.half_width:.3g} a"
-        yield Hint(f"{kind}shift", shift, text, each.off(reference, shift))
+        yield Hint(f"{kind}shift", shift, text, turned.off(reference, shift))
     for factor, words in ((2.0, "twice"), (0.5, "half")):
         left = curve.times(1.0, 1.0 / factor).off(reference)
         yield Hint("factor", factor, f"{words} the pressure", left)
     nearest, farthest = sorted(map(abs, curve.ends))
     if nearest < 0.1 * farthest:  # one side alone
-        x, own = reference.x, curve.on(reference.x)
-        whole = own + np.where(np.abs(x) < 0.5 * (x[1] - x[0]), 0.0, mirrored.on(x))
+        x, half = reference.x, curve.on(reference.x)
+        whole = half + np.where(np.abs(x) < 0.5 * (x[1] - x[0]), 0.0, mirrored.on(x))
         left = relative_l2(whole, reference.pressure)
         yield Hint("half model", 0.5, "half of the model alone", left)
 

@@ -1,25 +1,107 @@
 """Answers from outside beside the models.
 
 In: the scene's answers, read from their files or before, and the solved models. Out: each one's
-figures and judged differences from the last model, and what else is to be said of it."""
+figures and judged differences from the last model, the finite elements or the only one; how well
+its pressures solve the scene's problem, what would explain a difference, its files; and, of
+measured data, the validation comparison of ASME V&V 20 (2009)
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+    E = S - D        u_val = sqrt(u_num^2 + u_input^2 + u_D^2)
+
+S is a model's figure, D the measured one; all are relative to D, and expanded uncertainties. The
+model error lies within E +- u_val."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from operator import itemgetter
+
+import numpy as np
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Figures, Findings
-from comparisons.studies.answers import show
-from comparisons.studies.answers.answer import NAME, QUANTITIES, Answer, ComparedAnswer
-from comparisons.studies.answers.compare import compare_answers
-from comparisons.studies.scatter.figures import NAME as SCATTER
-from comparisons.studies.study import Solved, Study
+from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import (
+    Column,
+    Figure,
+    Figures,
+    Findings,
+    Series,
+    columns_of,
+    figures_of,
+    grouped,
+)
+from comparisons.figures.quantity import QUANTITIES as COMPARED
+from comparisons.figures.quantity import Quantity
+from comparisons.figures.uncertainty import (
+    LENGTHS,
+    Uncertainty,
+    iteration,
+    length_resolution,
+    peak_resolution,
+)
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+from comparisons.scenes.studies.answers import AnswerSection
+from comparisons.studies.answers.answer import Answer
+from comparisons.studies.answers.conditions import conditions, operators_of
+from comparisons.studies.answers.hints import hints
+from comparisons.studies.comparison import norms, pair_norms, relative_differences
+from comparisons.studies.contact import by_repetition, uncertainties, values_of
+from comparisons.studies.scatter.study import by_inputs
+from comparisons.studies.study import SCATTER, Solved
+
+NAME = "answers"
+CONDITIONS, HINTS, VALIDATION = "contact conditions", "hints", "validation"  # series
+QUANTITIES = COMPARED | {
+    "load_balance": Quantity("load off the scene's"),
+    "spacing": Quantity("distance from point to point in contact", "m"),
+}
+ITSELF = Uncertainty({"itself": 1.0})  # an error is as sure as its order of size
+LEAST_RATIO = 1.2  # of the spacings of two resolutions that show how a figure converges
+COVERED = 0.5  # of the window: on less of it two fields are not compared
 
 
 @dataclass(frozen=True)
-class ComparedAnswers:
-    """All of a scene."""
+class OutsideAnswers:
+    """All of a scene by name, each on its resolutions, coarse to fine."""
 
-    answers: tuple[ComparedAnswer, ...]
+    answers: Mapping[str, tuple[Answer, ...]]
+
+
+@dataclass(frozen=True)
+class AnswerRow:
+    """A quantity of an answer at one friction coefficient; figures in SI, the others relative."""
+
+    quantity: str
+    friction: float
+    answer: float | None  # None for a norm of the difference, as the reference
+    reference: float | None
+    difference: float  # (answer - reference) / reference, or the norm
+    # of the difference: the model's, and the answer's own, or else how finely its points are read
+    uncertainty: Uncertainty
+    tolerance: float | None  # None: not judged
+
+    def figures(self, source: str, against: str) -> Iterator[Figure]:
+        """The answer's figure, where it has one, and its difference from a model."""
+        stated = self.uncertainty.parts.get("own")
+        common = {"study": NAME, "quantity": self.quantity, "source": source}
+        common["at"] = {"friction": self.friction}
+        if self.answer is not None:
+            yield Figure(
+                value=self.answer,
+                scale=abs(self.answer) or 1.0,
+                uncertainty=None if stated is None else Uncertainty({"own": stated}),
+                **common,
+            )
+        yield Figure(
+            value=self.difference,
+            against=against,
+            scale=abs(self.reference or 0.0) or 1.0,
+            uncertainty=self.uncertainty,
+            bounds=(-self.tolerance, self.tolerance) if self.tolerance else None,
+            **common,
+        )
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
@@ -27,32 +109,188 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     _read(solved, tasks)
 
 
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    problem, answers = solved.problem, _read(solved, tasks)
+    *_, model = solved.runs.values()
+    operators = operators_of(problem, solved.plan, solved.runs)
+    scattered = Figures(before[SCATTER].figures if SCATTER in before else ())
+    figures, series = [], []
+    for name, source in problem.scene.answers.items():
+        finest, validation = answers[name][-1], []
+        frictions = problem.scene.load.friction if source.friction is None else (source.friction,)
+        for friction in frictions:
+            for row in _rows(solved, model, friction, source, answers[name]):
+                figures += row.figures(name, model.name)
+            if source.scatter is not None:
+                measured = figures_of_answer(finest, problem, friction)
+                known = scattered.of(friction=friction)
+                validation += _validation(solved, friction, measured, source.scatter, known)
+        balance = finest.load / problem.hertz.load_per_length - 1.0
+        figures += figures_of(NAME, name, {"load_balance": balance}, ITSELF)
+        figures += figures_of(NAME, name, {"spacing": finest.spacing})
+        by_model = [
+            {"model": model} | residuals
+            for model, residuals in conditions(finest, problem, operators).items()
+        ]
+        by_quantity = grouped(validation, itemgetter("quantity"))
+        tables = {
+            CONDITIONS: by_model,
+            HINTS: [asdict(hint) for hint in hints(finest, problem, model.finest)],
+            VALIDATION: [row for rows in by_quantity for row in rows],
+        }
+        series += tables_of(name, tables)
+        files = columns_of([{"file": a.file, "sha256": a.sha256} for a in answers[name]])
+        series.append(Series("files", files, name, is_account=True))
+    return Findings(tuple(figures), tuple(series), data=OutsideAnswers(answers))
+
+
 def _read(solved: Solved, tasks: Tasks) -> Mapping[str, tuple[Answer, ...]]:
     if solved.answers is not None:
         return solved.answers
-    from comparisons.studies.answers.readers.files import read_answers
+    from comparisons.studies.answers.read import read_answers
 
     return tasks.held(NAME, NAME, lambda: read_answers(solved.problem, solved.window))
 
 
-def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    scattered = Figures(before[SCATTER].figures if SCATTER in before else ())
-    answers = compare_answers(solved, _read(solved, tasks), scattered)
-    found = [each.findings() for each in answers]
-    return Findings(
-        tuple(figure for each in found for figure in each.figures),
-        tuple(series for each in found for series in each.series),
-        data=ComparedAnswers(answers),
+def tables_of(answer: str, tables: Mapping[str, list[dict]]) -> Iterator[Series]:
+    """Those that have rows; numbers are errors, as sure as their order of size."""
+    for name, rows in tables.items():
+        columns = columns_of(rows)
+        for key, column in columns.items():
+            if key != "friction" and all(isinstance(value, float) for value in column.values):
+                columns[key] = Column(column.values, "", tuple(map(abs, column.values)))
+        if rows:
+            yield Series(name, columns, answer)
+
+
+def figures_of_answer(answer: Answer, problem: Problem, friction: float) -> dict[str, float]:
+    """The compared quantities of an answer, as `values_of` has those of a model."""
+    length = float(np.ptp(answer.patches, axis=1).sum())
+    values = {
+        "peak_pressure": float(answer.pressure.max()),
+        "contact_length": length,
+        "contact_ratio": length / (2.0 * problem.hertz.half_width),
+    }
+    stress = answer.stress
+    if stress is not None and stress.friction == friction:
+        values["tau1_max"] = stress.extremes["tau1"].value
+        values["tau1_max_depth"] = stress.depth
+        values["txz_max_abs"] = stress.extremes["txz"].value
+    return values
+
+
+def _rows(
+    solved: Solved,
+    model: ModelRun,
+    friction: float,
+    source: AnswerSection,
+    answers: tuple[Answer, ...],
+) -> Iterator[AnswerRow]:
+    """At one friction coefficient, in the order of QUANTITIES."""
+    problem, window = solved.problem, solved.window
+    finest, first = answers[-1], model.levels[0]
+
+    def against(answer: Answer, level: Level) -> dict[str, float]:
+        return _differences(answer, level, problem, friction, window)
+
+    by_level = [against(finest, level) for level in model.levels]
+    by_file = [against(answer, model.finest) for answer in answers]
+    repeated = by_repetition(model, lambda level: against(finest, level))
+    repeated |= by_repetition(model, lambda level: norms(level, first, problem, friction, window))
+    values = figures_of_answer(finest, problem, friction)
+    reference = values_of(model.finest, problem, friction)
+    for name, difference in by_level[-1].items():
+        quantity, size = COMPARED[name], abs(1.0 + difference)
+        resolution, reading = 0.0, _reading(finest, name) / abs(reference.get(name) or 1.0)
+        if name in LENGTHS:
+            grid, length = model.finest.grid, model.finest.contact_length
+            resolution = length_resolution(grid.pitch, len(model.finest.patches)) / length
+            reading = _reading(finest, name) / length
+        history = [differences[name] for differences in by_level]
+        unsure = grid_convergence(history, quantity.formal_order, resolution).uncertainty
+        unsure += max(1.0, size) * iteration(model.finest)
+        unsure += sum(repeated[name])
+        stated = _stated(name, [differences.get(name) for differences in by_file], answers, reading)
+        if source.scatter is not None:
+            stated = (stated or 0.0) + source.scatter * (1.0 if quantity.of_pair else size)
+        parts = {"reading": reading} if stated is None else {"own": stated}
+        yield AnswerRow(
+            quantity=name,
+            friction=friction,
+            answer=values.get(name),
+            reference=reference.get(name),
+            difference=difference,
+            uncertainty=Uncertainty({"model": unsure} | parts),
+            tolerance=problem.scene.tolerances.get(name),
+        )
+
+
+def _reading(answer: Answer, name: str) -> float:
+    """How finely a figure can be read off the answer's points, in its unit."""
+    match name:
+        case "contact_length" | "contact_ratio":  # of the length
+            return answer.spacing * float(np.sqrt(len(answer.patches)))
+        case "peak_pressure":
+            return peak_resolution(answer.pressure) * float(answer.pressure.max())
+        case "tau1_max_depth":
+            return answer.stress.spacing
+    return 0.0
+
+
+def _stated(
+    name: str, values: list[float | None], answers: tuple[Answer, ...], reading: float
+) -> float | None:
+    """The answer's own uncertainty by the fit of levels, whose ratio is 2: of another ratio r an
+    order p counts as p log2 r; None where one resolution alone is given, or none that differ."""
+    ratios = [one.spacing / other.spacing for one, other in pairwise(answers)]
+    if not ratios or min(ratios) < LEAST_RATIO or None in values:
+        return None
+    order = COMPARED[name].formal_order * float(np.log2(min(ratios)))
+    return grid_convergence(values, order, reading).uncertainty
+
+
+def _differences(
+    answer: Answer, level: Level, problem: Problem, friction: float, window: Window | None
+) -> dict[str, float]:
+    """(answer - level) / level of every figure that both have, and the norms."""
+    stress, other = answer.stress, level.stress(friction)
+    tau1 = None
+    if stress is not None and stress.friction == friction and other is not None:
+        tau1 = stress.field.tau1
+        tau1 = tau1 if np.isfinite(tau1).mean() >= COVERED else None
+    differences = pair_norms(
+        (answer.on(level.grid.x), level.solution.pressure),
+        (tau1, None if other is None else other.field.tau1),
+        problem,
+        window,
     )
+    reference = values_of(level, problem, friction)
+    values = figures_of_answer(answer, problem, friction)
+    both = {name: value for name, value in values.items() if name in reference}
+    differences |= relative_differences(both, reference, problem)
+    return {name: differences[name] for name in COMPARED if name in differences}
 
 
-STUDY = Study(
-    name=NAME,
-    quantities=QUANTITIES,
-    solve=solve,
-    applies=lambda solved: bool(solved.problem.scene.answers),
-    begin=begin,
-    data=ComparedAnswers,
-    blocks=show.blocks,
-    pictures={"answers": show.answer_pictures},
-)
+def _validation(
+    solved: Solved,
+    friction: float,
+    measured: Mapping[str, float],
+    u_data: float,
+    scattered: Figures,
+) -> Iterator[dict]:
+    """Rows by model and quantity.
+
+    measured   the data's figures by quantity, SI; `u_data` is their relative scatter
+    scattered  the half-plane's by uncertain inputs; where one is not known, u_input is None and
+               counts as none"""
+    for name, run in solved.runs.items():
+        stated = uncertainties(run, solved.problem, friction)
+        for quantity, value in values_of(run.finest, solved.problem, friction).items():
+            if not measured.get(quantity):
+                continue
+            ratio, inputs = value / measured[quantity], scattered.one(quantity=quantity)
+            u_num = abs(ratio) * stated[quantity].total
+            u_input = abs(ratio) * by_inputs(inputs) if inputs else None
+            u_val = math.hypot(u_num, u_input or 0.0, u_data)
+            row = {"quantity": quantity, "friction": friction, "model": name, "E": ratio - 1.0}
+            yield row | {"u_num": u_num, "u_input": u_input, "u_D": u_data, "u_val": u_val}

@@ -1,1 +1,19 @@
 """The heat of friction: flash temperatures by both models, and the verdict on their difference."""
+
+from comparisons.studies.heat import show
+from comparisons.studies.heat.study import COMPARED, NAME, QUANTITIES, HeatStudy, begin, solve
+from comparisons.studies.study import Study
+
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=lambda solved: solved.problem.scene.heat is not None,
+    begin=begin,
+    data=HeatStudy,
+    tabled=COMPARED,
+    blocks=show.blocks,
+    pictures=show.PICTURES,
+    files=show.files,
+    lines=show.lines,
+)

@@ -1,17 +1,26 @@
-"""The heat of friction, mu p V, in the half-spaces that both bodies stand for.
+"""The heat of friction, mu p V, in the half-spaces that both bodies stand for, and its stresses.
 
 The contact stays where it is, the surfaces pass it; the pressure is that of one moment and taken as
 steady. That is exact where the contact stays on the rough body (slide-to-roll ratio -2). Else
-asperities move with the body: each heats it for longer than here, the roller in many places."""
+asperities move with the body: each heats it for longer than here, the roller in many places.
+Stresses are steady and elastic, of a body that the bulk temperature leaves without any."""
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.interpolate import RectBivariateSpline
 
+from analytic.contact.end_stress import EndStress
+from analytic.stress.field import StressField
+from analytic.stress.maxima import stress_maxima
+from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
+from comparisons.models.half_plane import field_on, stresses_at
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem
+from comparisons.models.problem import Problem, ends_of
+from comparisons.models.window import Window, search_window
 
 if TYPE_CHECKING:
     from analytic.heat.moving_source import HeatedSurface
@@ -42,16 +51,22 @@ class HeatedContact:
 
     @property
     def figures(self) -> dict[str, float]:
-        """Largest rise in the contact [K] and its place [m], the mean where heat is made, weighed
-        by it, and the part of it that enters the body."""
-        touch = self.heat > 0.0
-        largest = np.argmax(np.where(touch, self.body, -np.inf))
+        """Largest rise in the contact [K], the mean where heat is made, weighed by it, and the part
+        of it that enters the body."""
         return {
-            "flash_temperature": float(self.body[largest]),
+            "flash_temperature": float(self.body[self._hottest]),
             "mean_temperature": float(self.heat @ self.body / self.heat.sum()),
             "fraction_into_body": self.fraction,
-            "flash_position": float(self.x[largest]),
         }
+
+    @property
+    def places(self) -> dict[str, tuple[float, ...]]:
+        """Of the largest [m]."""
+        return {"flash_temperature": (float(self.x[self._hottest]),)}
+
+    @property
+    def _hottest(self) -> int:
+        return int(np.argmax(np.where(self.heat > 0.0, self.body, -np.inf)))
 
 
 def reach_of(problem: Problem) -> float:
@@ -88,8 +103,8 @@ def half_space_heat(problem: Problem, level: Level) -> HeatedContact:
     from analytic.heat.partition import divided
 
     grid, heat = level.grid, heat_of_friction(problem, level)
-    found = divided(*half_spaces(problem, grid.count, grid.pitch), heat)
-    return HeatedContact(grid.x, heat, found.flux, found.first, found.second, found.fraction)
+    parts = divided(*half_spaces(problem, grid.count, grid.pitch), heat)
+    return HeatedContact(grid.x, heat, parts.flux, parts.first, parts.second, parts.fraction)
 
 
 def peclet_numbers(problem: Problem) -> dict[str, float]:
@@ -103,46 +118,121 @@ def peclet_numbers(problem: Problem) -> dict[str, float]:
 
 def what_it_contains(problem: Problem) -> dict[str, str]:
     """What the finite elements have and the half-space has not, in words."""
-    scene, found = problem.scene, {}
+    scene, features = problem.scene, {}
     if scene.body.thickness is not None:
-        how = {"held": "at its bulk temperature", "insulated": "insulated"}[
-            scene.heat.base or "held"
-        ]
-        found["thickness"] = f"the body's thickness, its base {how}"
+        how = "insulated" if scene.heat.base == "insulated" else "at its bulk temperature"
+        features["thickness"] = f"the body's thickness, its base {how}"
     if scene.coating is not None:
-        found["coating"] = "the coating"
-    return found | {"roller": "the roller as a disc"}
+        features["coating"] = "the coating"
+    return features | {"roller": "the roller as a disc"}
 
 
 def check_heat(problem: Problem) -> None:
     """Raise SceneError for speeds that no temperature can be computed for."""
-    scene = problem.scene
-    for body, peclet in peclet_numbers(problem).items():
+    for field, wrong in _unsuitable(problem):
+        raise SceneError(f"{problem.scene.source}: heat.{field}: is {wrong}")
+
+
+def _unsuitable(problem: Problem) -> Iterator[tuple[str, str]]:
+    """Fields of [heat], with what they are and what is allowed."""
+    heat, radius = problem.scene.heat, problem.scene.roller.radius
+    numbers, reach = peclet_numbers(problem), reach_of(problem)
+    for body, peclet in numbers.items():
         if peclet != 0.0 and not SLOWEST <= peclet <= FASTEST:
-            speed = scene.heat.speed
-            low, high = (speed * bound / peclet for bound in (SLOWEST, FASTEST))
+            low, high = (heat.speed * bound / peclet for bound in (SLOWEST, FASTEST))
             why = "heat would reach no depth that elements show"
             if peclet < SLOWEST:
                 why = "no body is as large as the part that would be heated"
-            raise SceneError(
-                f"{scene.source}: heat.speed: is {speed:g} m/s, a Peclet number of {peclet:.3g} of "
-                f"the {body}: {why}; allowed is {low:.3g} m/s to {high:.3g} m/s here, Peclet "
-                f"numbers from {SLOWEST:g} to {FASTEST:g}"
+            yield (
+                "speed",
+                f"{heat.speed:g} m/s, a Peclet number of {peclet:.3g} of the {body}: {why}; "
+                f"allowed is {low:.3g} m/s to {high:.3g} m/s here, Peclet numbers from "
+                f"{SLOWEST:g} to {FASTEST:g}",
             )
-    own = peclet_numbers(problem)["body"]
-    if scene.heat.stresses and own < LEAST_STRESSED:
-        given = f"{scene.source}: heat.stresses: is true at a Peclet number of {own:.3g}"
-        raise SceneError(f"{given} of the body; allowed is {LEAST_STRESSED:g} or more")
-    least = 4.0 * float(np.abs(problem.extent).max())
-    reach = reach_of(problem)
+    if heat.stresses and numbers["body"] < LEAST_STRESSED:
+        slow = f"true at a Peclet number of {numbers['body']:.3g} of the body"
+        yield "stresses", f"{slow}; allowed is {LEAST_STRESSED:g} or more"
+    least, most = 4.0 * float(np.abs(problem.extent).max()), FARTHEST * radius
     if reach < least:
-        raise SceneError(
-            f"{scene.source}: heat.reach: is {reach:g} m; allowed is at least "
-            f"{least:.3g} m, four times as far as the contact may reach"
-        )
-    most = FARTHEST * scene.roller.radius
-    if scene.heat.velocities[1] == 0.0 and reach > most:
-        raise SceneError(
-            f"{scene.source}: heat.reach: is {reach:g} m in a roller at rest; allowed "
-            f"is at most {most:.3g} m, {FARTHEST:g} times its radius"
-        )
+        far = "four times as far as the contact may reach"
+        yield "reach", f"{reach:g} m; allowed is at least {least:.3g} m, {far}"
+    if heat.velocities[1] == 0.0 and reach > most:
+        allowed = f"allowed is at most {most:.3g} m, {FARTHEST:g} times its radius"
+        yield "reach", f"{reach:g} m in a roller at rest; {allowed}"
+
+
+@dataclass(frozen=True)
+class HeatedStress:
+    """A level's largest tau1 in the window and its sx along the surface, with heat and without."""
+
+    tau1: tuple[Extremum, Extremum]
+    x: np.ndarray  # (n,) [m] ascending
+    sx: np.ndarray  # (2, n) [Pa] of the surface there, tensile where positive
+
+    @property
+    def figures(self) -> dict[str, float]:
+        """With heat [Pa], [m]."""
+        return self._figures(0)
+
+    @property
+    def elastic(self) -> dict[str, float]:
+        """The same without heat."""
+        return self._figures(1)
+
+    @property
+    def places(self) -> dict[str, tuple[float, ...]]:
+        """Of the largest with heat [m]."""
+        tau1, sx = self.tau1[0], self.sx[0]
+        return {"tau1_heated": (tau1.x, tau1.z), "sx_heated": (self.x[sx.argmax()],)}
+
+    def _figures(self, row: int) -> dict[str, float]:
+        tau1, sx = self.tau1[row], self.sx[row]
+        return {"tau1_heated": tau1.value, "tau1_depth_heated": tau1.z, "sx_heated": sx.max()}
+
+
+def surface_places(level: Level, window: Window, ends: EndStress) -> np.ndarray:
+    """x (n,) [m] of grid, window and ends of contact, where sx of the surface is largest."""
+    edges = level.patches.ravel(), *(patch.ends for patch in ends.patches)
+    x = np.unique(np.concatenate([window.x, level.grid.x, *edges]))
+    return x[np.abs(x) <= window.extent]
+
+
+def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedStress:
+    """Of the half-plane on a level of its own."""
+    friction, ends = friction_of(problem), ends_of(problem, level.grid, level.solution)
+    searched, close = search_window(problem, window), ends.at(friction)
+    thermal = _thermal(problem, level, searched)
+    field = field_on(level, searched, ends).at(friction)
+    both = field.stress.plus(1.0, thermal(*np.meshgrid(field.x, field.z)))
+    maxima = stress_maxima(
+        level.grid.x,
+        level.solution.pressure,
+        friction,
+        StressField(field.x, field.z, both),
+        problem.scene.body.poissons_ratio,
+        beside=lambda x, z: close(x, z).plus(1.0, thermal(x, z)),
+    )
+    x = surface_places(level, window, ends)
+    top = x, np.zeros_like(x)
+    elastic = stresses_at(problem, level, (friction,), *top)[friction].sx
+    sx = np.array([elastic + thermal(*top).sx, elastic])
+    return HeatedStress((maxima.tau1, level.stress(friction).extremes["tau1"]), x, sx)
+
+
+def _thermal(
+    problem: Problem, level: Level, window: Window
+) -> Callable[[np.ndarray, np.ndarray], StressState]:
+    """Thermal stresses of x and z [m] in a window, by splines between the nodes of the fluxes."""
+    from analytic.heat.thermal_stress import thermal_stress
+
+    contact, pitch = half_space_heat(problem, level), level.grid.pitch
+    ends = contact.x[0] - window.x[0], window.x[-1] - contact.x[-1]
+    before, after = (max(0, int(np.ceil(beyond / pitch)) + 4) for beyond in ends)
+    flux = np.pad(contact.into_body, (before, after))
+    x = contact.x[0] + pitch * np.arange(-before, len(contact.x) + after)
+    surface, scene = half_spaces(problem, len(x), pitch)[0], problem.scene
+    body, expansion = scene.body.material, scene.heat.body_expansion
+    stress = thermal_stress(surface, flux, window.z, body, expansion)
+    order = min(3, len(window.z) - 1)
+    parts = [RectBivariateSpline(window.z, x, part, kx=order) for part in vars(stress).values()]
+    return lambda x, z: StressState(*(part.ev(z, x) for part in parts))

@@ -4,21 +4,15 @@ In: a run with [heat]. Out: a table, facts, pictures of both surfaces and below,
 
 import numpy as np
 
-from comparisons.common.numbers import (
-    given_percent,
-    percent,
-    plain,
-    scale_of,
-    significant,
-    with_unit,
-)
+from comparisons.common.numbers import percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable
+from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable, judged_cells
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
-from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.studies.heat.figures import (
+from comparisons.studies.heat.half_space import reach_of
+from comparisons.studies.heat.study import (
     COMPARED,
     HEATED,
     NAME,
@@ -26,7 +20,6 @@ from comparisons.studies.heat.figures import (
     QUANTITIES,
     WITHOUT,
 )
-from comparisons.studies.heat.half_space import reach_of
 from comparisons.studies.study import Run
 
 HEIGHT = 1.9  # inches, of a field
@@ -81,6 +74,7 @@ def heat_table(run: Run) -> TextTable:
 
 
 def _cells(known: Figures, quantity: str) -> tuple[str, ...]:
+    """Both models' values, their difference, its uncertainty, tolerance and verdict."""
     unit, texts = QUANTITIES[quantity].unit, []
     values = [known.one(quantity=quantity, source=name, against=None) for name in MODELS]
     for name, figure in zip(MODELS, values, strict=True):
@@ -89,16 +83,9 @@ def _cells(known: Figures, quantity: str) -> tuple[str, ...]:
             texts[-1] += f" ({with_unit(cold.value, unit)} without)"
     difference = known.one(quantity=quantity, against=MODELS[1])
     if difference is None:
-        own = next(filter(None, values))
-        return *texts, "", percent(own.numerical), "", "not compared"
-    judged = given_percent(difference.tolerance), difference.verdict
-    return *texts, _relative(difference), percent(difference.numerical), *judged
-
-
-def _relative(difference: Figure, value: float | None = None) -> str:
-    """A difference, or a part of it, in the digits that are certain."""
-    value = difference.value if value is None else value
-    return percent(value, signed=True, uncertainty=difference.numerical)
+        [only] = filter(None, values)
+        return *texts, "", percent(only.numerical), "", "not compared"
+    return *texts, *judged_cells(difference)
 
 
 def heat_facts(run: Run) -> list[tuple[str, str]]:
@@ -106,24 +93,21 @@ def heat_facts(run: Run) -> list[tuple[str, str]]:
     study, heat = run.data(NAME), run.problem.scene.heat
     body, roller = (f"{significant(abs(v), 3)} m/s" for v in heat.velocities)
     known = run.figures.of(study=NAME)
-    peclet = known.of(quantity="peclet_number")
-    numbers = (f"{each.source} {significant(each.value, 3)}" for each in peclet)
-    places = (each.figures["flash_position"] for each in study.contacts.values())
+    peclet = [f"{f.source} {significant(f.value, 3)}" for f in known.of(quantity="peclet_number")]
+    places = (contact.places["flash_temperature"][0] for contact in study.contacts.values())
     reach = with_unit(reach_of(run.problem), "m")
-    datum = f"{plain(heat.bulk_temperature)} K, at rest {reach} away"
     facts = [
         ("surfaces pass the contact at", f"body {body}, roller {roller}"),
-        ("Peclet number V a / 2κ", ", ".join(numbers)),
-        ("bulk temperature", datum),
+        ("Peclet number V a / 2κ", ", ".join(peclet)),
+        ("bulk temperature", f"{plain(heat.bulk_temperature)} K, at rest {reach} away"),
         ("largest rise at x =", ", ".join(dict.fromkeys(with_unit(x, "m") for x in places))),
         ("the finite elements have", ", ".join(study.contains.values())),
     ]
-    first = known.of(quantity="flash_temperature")
-    difference = first.one(against=MODELS[1])
-    parts = (difference or first.one(source=list(run.runs)[-1])).parts
-    for part in sorted(parts, key=lambda part: part.name != OTHER_PRESSURES):
+    flash = known.of(quantity="flash_temperature")
+    figure = flash.one(against=MODELS[1]) or flash.one(source=list(run.runs)[-1])
+    for part in sorted(figure.parts, key=lambda part: part.name != OTHER_PRESSURES):
         if part.name == OTHER_PRESSURES:
-            share = _relative(difference, part.value)
+            share = percent(part.value, signed=True, uncertainty=figure.numerical)
             facts.append(("of its difference, by other pressures", share))
         else:
             share = percent(part.value, signed=True, uncertainty=part.uncertainty)
@@ -136,17 +120,17 @@ def lines(run: Run) -> list[tuple[str, str]]:
     """The largest rise in a line, and largest stresses with heat in others."""
     known, said = run.figures.of(study=NAME), []
     for quantity in ("flash_temperature", *HEATED):
-        of_models = known.of(quantity=quantity, against=None)
-        sources = {figure.source for figure in of_models}
-        cells = zip(_cells(known, quantity), MODELS, strict=False) if of_models else ()
-        values = [f"{cell} ({LABELS[name]})" for cell, name in cells if name in sources]
-        if not values:
+        sources = {figure.source for figure in known.of(quantity=quantity, against=None)}
+        if not sources & set(MODELS):
             continue
+        one, other, *judged = _cells(known, quantity)
+        cells = zip(MODELS, (one, other), strict=True)
+        values = [f"{cell} ({LABELS[name]})" for name, cell in cells if name in sources]
         name = QUANTITIES[quantity].label if quantity in HEATED else "flash temperature"
         text = f"{name} {', '.join(values)}"
-        if (difference := known.one(quantity=quantity, against=MODELS[1])) is not None:
-            size = f"{_relative(difference)} ± {percent(difference.numerical)}"
-            text += f": {size}, {difference.verdict}"
+        if len(values) > 1:
+            difference, uncertainty, _, verdict = judged
+            text += f": {difference} ± {uncertainty}, {verdict}"
         said.append(("heat", text))
     return said
 
@@ -160,22 +144,22 @@ def surfaces_picture(run: Run) -> style.Picture | None:
     drawn, axes = panels(style.WIDE, rows)
     above, below, *along = axes
     unit = scale_of(next(iter(contacts.values())).x, "m")
-    for name, each in contacts.items():
-        x, look = each.x / unit.factor, style.LINES[name]
+    for name, contact in contacts.items():
+        x, look = contact.x / unit.factor, style.LINES[name]
         thin = {**look, "linewidth": 0.5 * look["linewidth"]}
-        above.plot(x, each.body, label=f"body, {LABELS[name]}", **look)
-        above.plot(x, each.roller, label=f"roller, {LABELS[name]}", **thin)
-        below.plot(x, each.heat / 1e6, label=f"all, {LABELS[name]}", **thin)
-        below.plot(x, each.into_body / 1e6, label=f"into the body, {LABELS[name]}", **look)
+        above.plot(x, contact.body, label=f"body, {LABELS[name]}", **look)
+        above.plot(x, contact.roller, label=f"roller, {LABELS[name]}", **thin)
+        below.plot(x, contact.heat / 1e6, label=f"all, {LABELS[name]}", **thin)
+        below.plot(x, contact.into_body / 1e6, label=f"into the body, {LABELS[name]}", **look)
         for sx, line in zip(stresses[name].sx if stresses else (), (look, thin), strict=False):
             along[0].plot(stresses[name].x / unit.factor, sx / 1e6, **line)
-    for each, name in zip(axes, ("rise [K]", "heat [W/mm²]", "σx [MPa]"), strict=False):
-        each.set_ylabel(name)
+    for panel, name in zip(axes, ("rise [K]", "heat [W/mm²]", "σx [MPa]"), strict=False):
+        panel.set_ylabel(name)
     over(axes, f"x [{unit.name}]", x)
     above.legend(loc="upper right")
     largest = "; ".join(
-        f"{LABELS[name]} {significant(each.figures['flash_temperature'])} K"
-        for name, each in contacts.items()
+        f"{LABELS[name]} {significant(contact.figures['flash_temperature'])} K"
+        for name, contact in contacts.items()
     )
     caption = (
         "Rise of both surfaces above the bulk temperature, equal where they touch. Below, the "

@@ -1,165 +1,259 @@
 """Flash temperature by both models: figures with uncertainties, their difference, the verdict.
 
 The half-space takes the half-plane's pressures, the finite elements their own, so that the
-difference has what both theories leave out: `by_pressure` is the part of it that the half-space
+difference has what both theories leave out: OTHER_PRESSURES is the part of it that the half-space
 finds under the finite elements' pressures. One rule judges it, as everything else."""
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
-from comparisons.common.progress import ProgressCallback
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.figure import Figure, Figures, Findings, Part, Statement, figures_of
-from comparisons.figures.quantity import HEAT_QUANTITIES
+from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
+from comparisons.figures.quantity import HEAT_QUANTITIES, MODELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.heat import show
-from comparisons.studies.heat.figures import (
-    COMPARED,
-    HEATED,
-    NAME,
-    OTHER_PRESSURES,
-    QUANTITIES,
-    HeatRow,
-    HeatStudy,
-    place_of,
-)
-from comparisons.studies.heat.half_plane_stress import HeatedStress, half_plane_stress
 from comparisons.studies.heat.half_space import (
     HeatedContact,
+    HeatedStress,
     check_heat,
     friction_of,
+    half_plane_stress,
     half_space_heat,
     half_spaces,
     peclet_numbers,
     what_it_contains,
 )
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.study import Solved
 
+NAME = "heat"
+QUANTITIES = {
+    "flash_temperature": Quantity("largest rise in the contact", "K"),
+    "mean_temperature": Quantity("mean rise, by heat", "K"),
+    "fraction_into_body": Quantity("heat that enters the body"),
+    "tau1_heated": Quantity("largest τ1 with heat", "Pa"),
+    "tau1_depth_heated": Quantity("depth of that τ1", "m"),
+    "sx_heated": Quantity("largest σx of the surface with heat", "Pa"),
+    "tau1_heated_without_heat": Quantity("the same without", "Pa"),
+    "tau1_depth_heated_without_heat": Quantity("the same without", "m"),
+    "sx_heated_without_heat": Quantity("the same without", "Pa"),
+    "peclet_number": Quantity("Peclet number V a / 2κ"),
+}
+COMPARED = tuple(QUANTITIES)[:6]  # by both models
+WITHOUT = "_without_heat"
+HEATED = ("tau1_heated", "tau1_depth_heated", "sx_heated")  # with thermal stresses
+OTHER_PRESSURES = "other pressures"  # the part of a difference that these make
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
+Histories = dict[str, list[HeatedContact] | list[HeatedStress]]  # by model, on every level
 
 
-def findings_of(
-    problem: Problem, runs: dict[str, ModelRun], window: Window | None, callback: ProgressCallback
-) -> Findings:
+@dataclass(frozen=True)
+class HeatRow:
+    """A quantity by one or both models, from which its figures follow; all but `values`, `cold` and
+    `places` relative."""
+
+    quantity: str
+    values: Mapping[str, float]
+    uncertainties: Mapping[str, float]  # numerical, of each model's value
+    scale: float  # what all that is relative is relative to [SI]
+    # (half-plane - finite elements) / finite elements; None for one model
+    difference: float | None = None
+    # by the half-plane under the finite elements' pressures; of each feature that the finite
+    # elements alone have, what the figure is without it, over what it is with it, less 1
+    parts: tuple[Part, ...] = ()
+    tolerance: float | None = None
+    cold: Mapping[str, float] = field(default_factory=dict)  # of a stress, what it is without heat
+    places: Mapping[str, tuple[float, ...] | None] = field(default_factory=dict)  # by model [m]
+
+    def figures(self, friction: float) -> Iterator[Figure]:
+        """By each model, with heat and without, and their difference."""
+        common = {"study": NAME, "at": {"friction": friction}, "scale": self.scale}
+        for model, value in self.values.items():
+            stated = Uncertainty({"numerical": self.uncertainties[model]})
+            yield Figure(
+                quantity=self.quantity,
+                source=model,
+                value=value,
+                uncertainty=stated,
+                parts=self.parts if self.difference is None and model == MODELS[1] else (),
+                place=self.places.get(model),
+                **common,
+            )
+            if model in self.cold:
+                yield Figure(
+                    quantity=f"{self.quantity}{WITHOUT}",
+                    source=model,
+                    value=self.cold[model],
+                    uncertainty=stated,
+                    **common,
+                )
+        if self.difference is not None:
+            yield Figure(
+                quantity=self.quantity,
+                source="half_plane",
+                value=self.difference,
+                against="finite_element",
+                uncertainty=Uncertainty(self.uncertainties),
+                bounds=(-self.tolerance, self.tolerance),
+                parts=self.parts,
+                **common,
+            )
+
+
+@dataclass(frozen=True)
+class HeatStudy:
+    """Temperatures of a scene at its largest friction coefficient, for pictures and files."""
+
+    contacts: dict[str, HeatedContact]  # by model, on the finest level
+    contains: dict[str, str]  # what the finite elements alone have, in words
+    # by model, on the finest level; empty where thermal stresses are not asked for
+    stresses: dict[str, HeatedStress] = field(repr=False)
+    x: np.ndarray = field(repr=False)  # (n,) [m]
+    z: np.ndarray = field(repr=False)  # (m,) [m]
+    field: np.ndarray = field(repr=False)  # (2, m, n) [K] in body and roller, half-planes
+
+
+def begin(solved: Solved, tasks: Tasks) -> None:
+    """Raise SceneError for a sliding speed that no temperature can be computed for."""
+    if not solved.runs:
+        check_heat(solved.problem)
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Temperatures on every level of every model that was run, with thermal stresses in the window
     where they are asked for, and the comparison; what older rules say, and in words what the
     finite elements have."""
-    callback("frictional heat")
+    problem, runs = solved.problem, solved.runs
+    tasks.callback("frictional heat")
     contains = what_it_contains(problem) if "finite_element" in runs else {}
     figures, finest = heat_figures(problem, runs, effects=contains)
-    at, stresses = {"friction": friction_of(problem)}, {}
+    stresses: dict[str, HeatedStress] = {}
     if problem.scene.heat.stresses:
-        callback("thermal stresses")
-        histories, moved = _stresses(problem, runs, window)
-        for name in HEATED:
-            figures += _figures(problem, runs, histories, moved, {}, name)
-        stresses = {model: history[-1] for model, history in histories.items()}
-    model, first = next(iter(finest.items()))
-    numbers = [
+        tasks.callback("thermal stresses")
+        of_stresses, stresses = _stress_figures(problem, runs, solved.window)
+        figures += of_stresses
+    model, contact = next(iter(finest.items()))
+    stated = {f.quantity: f.uncertainty for f in figures if (f.source, f.against) == (model, None)}
+    at = {"friction": friction_of(problem)}
+    peclet = [
         figure
         for body, number in peclet_numbers(problem).items()
         for figure in figures_of(NAME, body, {"peclet_number": number}, None, at)
     ]
     rules = [
         figure
-        for rule, values in _rules(problem, first).items()
-        for name, value in values.items()
-        for figure in figures_of(NAME, rule, {name: value}, _stated(figures, name, model), at)
+        for rule, values in _rules(problem, contact).items()
+        for quantity, value in values.items()
+        for figure in figures_of(NAME, rule, {quantity: value}, stated[quantity], at)
     ]
     said = tuple(Statement("the finite elements have", text, n) for n, text in contains.items())
-    data = HeatStudy(finest, contains, stresses, *_subsurface(problem, first))
-    return Findings((*numbers, *figures, *rules), statements=said, data=data)
-
-
-def _stated(figures: Iterable[Figure], quantity: str, model: str) -> Uncertainty:
-    return Figures(figures).one(quantity=quantity, source=model, against=None).uncertainty
+    data = HeatStudy(finest, contains, stresses, *_subsurface(problem, contact))
+    return Findings((*peclet, *figures, *rules), statements=said, data=data)
 
 
 def heat_figures(
     problem: Problem,
-    runs: dict[str, ModelRun],
+    runs: Mapping[str, ModelRun],
     without: Set[str] = frozenset(),
     effects: Iterable[str] = (),
 ) -> tuple[list[Figure], dict[str, HeatedContact]]:
     """The figures, and both models' contacts on the finest level. The finite elements are `without`
     features (`what_it_contains`); the `effects` of some are stated."""
-    histories, moved, dropped = {}, {}, {}
-    if "half_plane" in runs:
-        levels = runs["half_plane"].levels
-        histories["half_plane"] = [half_space_heat(problem, level) for level in levels]
-    if "finite_element" in runs:
-        from comparisons.studies.heat.conduction import finite_element_heat
+    from comparisons.studies.heat.finite_elements import finite_element_heat
 
+    solve = {
+        "half_plane": partial(half_space_heat, problem),
+        "finite_element": partial(finite_element_heat, problem, without=without),
+    }
+    smaller = partial(finite_element_heat, problem, block=0.5, without=without)
+    histories, domain = _histories(runs, solve, smaller)
+    dropped = {}
+    for feature in effects:
         levels = runs["finite_element"].levels
-        coarse, *_ = own = [finite_element_heat(problem, each, without=without) for each in levels]
-        histories["finite_element"] = own
-        smaller = finite_element_heat(problem, levels[0], 0.5, without)
-        for name in HEAT_QUANTITIES:
-            moved[name] = far_boundary(smaller.figures[name], coarse.figures[name])
-        for feature in effects:
-            bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
-            dropped[feature] = list(zip(bare, own, strict=True))
+        bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
+        dropped[feature] = list(zip(bare, histories["finite_element"], strict=True))
     figures = []
     for name in HEAT_QUANTITIES:
-        figures += _figures(problem, runs, histories, moved, dropped, name)
+        parts = [_effect(feature, pairs, name) for feature, pairs in dropped.items()]
+        figures += _figures(problem, runs, histories, domain, name, parts)
     return figures, {name: history[-1] for name, history in histories.items()}
 
 
-def _stresses(
-    problem: Problem, runs: dict[str, ModelRun], window: Window
-) -> tuple[dict[str, list[HeatedStress]], dict[str, float]]:
-    """On every level, and what the far boundary leaves of the finite elements' figures."""
-    histories, moved = {}, {}
-    if "half_plane" in runs:
-        levels = runs["half_plane"].levels
-        histories["half_plane"] = [half_plane_stress(problem, each, window) for each in levels]
-    if "finite_element" in runs:
-        from comparisons.studies.heat.element_stress import finite_element_stress
+def _stress_figures(
+    problem: Problem, runs: Mapping[str, ModelRun], window: Window
+) -> tuple[list[Figure], dict[str, HeatedStress]]:
+    """Thermal stresses with those of the contact, and both models' on the finest level."""
+    from comparisons.studies.heat.finite_elements import finite_element_stress
 
-        levels = runs["finite_element"].levels
-        coarse, *_ = own = [finite_element_stress(problem, each, window) for each in levels]
-        histories["finite_element"] = own
-        smaller = finite_element_stress(problem, levels[0], window, beyond=0.5).figures
-        moved = {name: far_boundary(smaller[name], coarse.figures[name]) for name in HEATED}
-    return histories, moved
+    solve = {
+        "half_plane": partial(half_plane_stress, problem, window=window),
+        "finite_element": partial(finite_element_stress, problem, window=window),
+    }
+    smaller = partial(finite_element_stress, problem, window=window, beyond=0.5)
+    histories, domain = _histories(runs, solve, smaller)
+    figures = [f for name in HEATED for f in _figures(problem, runs, histories, domain, name, [])]
+    return figures, {name: history[-1] for name, history in histories.items()}
+
+
+def _histories(
+    runs: Mapping[str, ModelRun],
+    solve: Mapping[str, Callable[[Level], HeatedContact | HeatedStress]],
+    smaller: Callable[[Level], HeatedContact | HeatedStress],
+) -> tuple[Histories, dict[str, float]]:
+    """What each model finds on its levels; and, by figure, what the far boundary leaves in the
+    finite elements', by the coarsest level on a `smaller` block."""
+    histories = {name: [solve[name](level) for level in run.levels] for name, run in runs.items()}
+    if "finite_element" not in runs:
+        return histories, {}
+    whole = histories["finite_element"][0].figures
+    moved = smaller(runs["finite_element"].levels[0]).figures
+    return histories, {name: far_boundary(moved[name], whole[name]) for name in whole}
 
 
 def _figures(
     problem: Problem,
-    runs: dict[str, ModelRun],
-    histories: dict[str, list[HeatedContact | HeatedStress]],
-    moved: dict[str, float],
-    dropped: dict[str, list[tuple[HeatedContact, HeatedContact]]],
+    runs: Mapping[str, ModelRun],
+    histories: Histories,
+    domain: Mapping[str, float],
     name: str,
+    parts: list[Part],
 ) -> list[Figure]:
     """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
     is infinite, they discretise it each in its own way. All is over the finite elements' value; of
     stresses over that without heat where it is larger, as heat may cancel it; of depths over a."""
-    values = {model: [each.figures[name] for each in h] for model, h in histories.items()}
-    shown, own = {model: history[-1] for model, history in values.items()}, {}
+    levels = {model: [known.figures[name] for known in h] for model, h in histories.items()}
+    values, uncertainties = {model: history[-1] for model, history in levels.items()}, {}
     cold = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
-    size = max(abs(each[list(shown)[-1]]) for each in (shown, cold) if each)
+    size = max(abs(known[list(values)[-1]]) for known in (values, cold) if known)
     size = problem.hertz.half_width if name == "tau1_depth_heated" else size
-    for model, history in values.items():
+    for model, history in levels.items():
         left = grid_convergence(history, FORMAL_ORDER).uncertainty
-        left += moved[name] if model == "finite_element" else 0.0
-        own[model] = left / size + iteration(runs[model].finest)
-    parts = [_effect(feature, pairs, name) for feature, pairs in dropped.items()]
+        left += domain[name] if model == "finite_element" else 0.0
+        uncertainties[model] = left / size + iteration(runs[model].finest)
     difference = None
     if len(values) > 1:
-        difference = (shown["half_plane"] - shown["finite_element"]) / size
-    if difference is not None and not cold:
-        under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
-        parts.append(Part(OTHER_PRESSURES, (shown["half_plane"] - under_theirs) / size))
-    places = {model: place_of(name, h[-1].figures) for model, h in histories.items()}
-    judged = difference, tuple(parts), problem.scene.heat.tolerance
-    row = HeatRow(name, shown, own, size, *judged, cold, places)
+        difference = (values["half_plane"] - values["finite_element"]) / size
+        if not cold:
+            under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
+            share = (values["half_plane"] - under_theirs) / size
+            parts = [*parts, Part(OTHER_PRESSURES, share)]
+    row = HeatRow(
+        quantity=name,
+        values=values,
+        uncertainties=uncertainties,
+        scale=size,
+        difference=difference,
+        parts=tuple(parts),
+        tolerance=problem.scene.heat.tolerance,
+        cold=cold,
+        places={model: h[-1].places.get(name) for model, h in histories.items()},
+    )
     return list(row.figures(friction_of(problem)))
 
 
@@ -175,12 +269,13 @@ def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, floa
     from analytic.heat.partition import layered_fraction, one_fraction
 
     heat, pitch = contact.heat, float(contact.x[1] - contact.x[0])
-    bodies, own = half_spaces(problem, len(heat), pitch), problem.scene.heat
-    body = own.body.conductivity, (own.coating or own.body).conductivity
+    bodies, settings = half_spaces(problem, len(heat), pitch), problem.scene.heat
+    surface = settings.coating or settings.body
+    body = settings.body.conductivity, surface.conductivity
     fractions = {
         "equal_largest": one_fraction(*bodies, heat, np.max),
         "equal_mean": one_fraction(*bodies, heat, np.mean),
-        "conductivities": layered_fraction(body, 2 * (own.roller.conductivity,)),
+        "conductivities": layered_fraction(body, 2 * (settings.roller.conductivity,)),
     }
     alone = float(bodies[0].rise(heat).max())
     return {
@@ -195,37 +290,11 @@ def _subsurface(
     """Places, depths and rises in both half-spaces, half as far again as the grid: a picture."""
     pitch, half_width = float(contact.x[1] - contact.x[0]), problem.hertz.half_width
     beside = len(contact.x) // 4
-    fluxes = [
-        np.pad(each, beside) for each in (contact.into_body, contact.heat - contact.into_body)
-    ]
+    into_bodies = contact.into_body, contact.heat - contact.into_body
+    fluxes = [np.pad(flux, beside) for flux in into_bodies]
     x = contact.x[0] + pitch * np.arange(-beside, len(contact.x) + beside)
     z = half_width * np.linspace(0.0, 1.0, DEPTHS) ** 2
     bodies = half_spaces(problem, len(x), pitch)
     shown = slice(None, None, max(1, len(x) // COLUMNS))
     fields = [body.field(flux, z)[:, shown] for body, flux in zip(bodies, fluxes, strict=True)]
     return x[shown], z, np.array(fields)
-
-
-def begin(solved: Solved, tasks: Tasks) -> None:
-    """Raise SceneError for a sliding speed that no temperature can be computed for."""
-    if not solved.runs:
-        check_heat(solved.problem)
-
-
-def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    return findings_of(solved.problem, solved.runs, solved.window, tasks.callback)
-
-
-STUDY = Study(
-    name=NAME,
-    quantities=QUANTITIES,
-    solve=solve,
-    applies=lambda solved: solved.problem.scene.heat is not None,
-    begin=begin,
-    data=HeatStudy,
-    tabled=COMPARED,
-    blocks=show.blocks,
-    pictures=show.PICTURES,
-    files=show.files,
-    lines=show.lines,
-)

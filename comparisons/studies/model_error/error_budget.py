@@ -21,8 +21,7 @@ from analytic.profile import Profile
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
-from comparisons.figures.figure import Figure
-from comparisons.figures.verdict import is_decided
+from comparisons.figures.figure import Figure, is_decided
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem

@@ -53,12 +53,12 @@ def shares(values: np.ndarray, scores: np.ndarray, seed: int = 0) -> Shares | No
     count, inputs = values.shape[1], scores.shape[-1]
     if count <= inputs or np.ptp(values[:2]) <= ROUNDING * np.abs(values[:2]).max():
         return None
-    found = _estimates(values, scores)
+    estimates = _estimates(values, scores)
     draws = np.random.default_rng(seed).integers(count, size=(RESAMPLED, count))
     drawn = np.array([_estimates(values[:, draw], scores[:, draw]) for draw in draws])
     tails = 50.0 * (1.0 - INTERVAL), 50.0 * (1.0 + INTERVAL)
     low, high = np.nanpercentile(drawn, tails, axis=0)
-    return Shares(*found, *(0.5 * (high - low)))
+    return Shares(*estimates, *(0.5 * (high - low)))
 
 
 def _estimates(values: np.ndarray, scores: np.ndarray) -> np.ndarray:

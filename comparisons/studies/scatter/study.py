@@ -1,47 +1,136 @@
-"""What a scene's uncertain inputs do to the half-plane's figures."""
+"""What a scene's uncertain inputs do to the half-plane's figures: their spread over samples.
+
+A sample is a point of the unit cube, which stands for a scene with other inputs. It is solved by
+the half-plane on its coarsest pressure elements, whose error is in every sample alike; figures are
+scaled to the finest. Shares of the variance are those of `comparisons.studies.scatter.shares`.
+
+In: a scene with [scatter], and the solved half-plane. Out: figures with their spread; how many
+samples there were; the band that pressures lie in; a table, and sentences."""
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import ndtr, ndtri
 
+from analytic.contact.problem import ContactError
+from analytic.surface.stylus import opened, with_noise
+from comparisons.common.errors import InputError, one_line
+from comparisons.common.numbers import listed, percent, with_unit
+from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import LATER, Here, Tasks
-from comparisons.figures.figure import Findings, SampleSpread
-from comparisons.figures.quantity import QUANTITIES
-from comparisons.models.half_plane import expected_of
-from comparisons.models.level import Level
-from comparisons.models.problem import Problem
+from comparisons.drawing.blocks import Block, Note, TextTable
+from comparisons.figures.figure import (
+    Figure,
+    Findings,
+    SampleSpread,
+    Series,
+    Statement,
+    columns_of,
+    grouped,
+)
+from comparisons.figures.quantity import QUANTITIES, error_text, label
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.half_plane import expected_of, half_plane_level
+from comparisons.models.problem import Problem, problem_of
+from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
+from comparisons.scenes.studies.scatter import CUT_OFF, FIELDS, Spread
 from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.contact import values_of
-from comparisons.studies.scatter import show
-from comparisons.studies.scatter.figures import NAME, InputScatter, scattered
-from comparisons.studies.scatter.samples import solve_samples, solved, values_at
 from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
+from comparisons.studies.study import SCATTER as NAME
 
 TOGETHER = 16  # samples of a task: what an interrupted run may lose
+DESIGN, SHARES = "Sobol, scrambled", "Saltelli et al. 2010"
+SAMPLES = "samples"  # series of their numbers
+LISTED = 2  # inputs of a figure in the table
+SMALL = 1.0 / 3.0  # a model error over what the inputs do, to be called small
+SHORT = {"youngs_modulus": "E", "poissons_ratio": "ν", "_": " "}
+NOTE = """The half-plane on its coarsest pressure elements, {solutions} times with inputs drawn from
+the scene's [scatter] (Sobol's sequence), scaled to the finest: mean, central 95 %, and the
+first-order share of each input in the variance, the largest first (Saltelli et al. 2010). Shares
+that do not add up to 1 belong to inputs that act together.{failures} In the pictures of pressures
+the same 95 % are a band."""
+
+
+@dataclass(frozen=True)
+class PressureBand:
+    """The pressures of the samples, for pictures."""
+
+    pitch: float  # [m] of the pressure elements
+    x: np.ndarray = field(repr=False)  # (k,) [m]
+    band: np.ndarray = field(repr=False)  # (2, k) [Pa], 2.5th and 97.5th percentile at each x
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Make the samples known, before anything is solved."""
     if solved.runs:
         return
-    scene, surface = solved.problem.scene, solved.problem.surface
-    points = _points(solved.problem)
-    x = solved.problem.grid(solved.problem.pitches[0]).x
-    cost = expected_of(len(x)).seconds * TOGETHER
-    for start in _starts(points):
-        batch = points.reshape(-1, len(scene.scatter.inputs))[start : start + TOGETHER]
-        by = _by(solved, tasks)
-        by.add(_key(start), _batch, scene, surface, batch, x, seconds=cost, urgency=LATER)
+    problem = solved.problem
+    x = problem.grid(problem.pitches[0]).x
+    cost, by = expected_of(len(x)).seconds * TOGETHER, _tasks(solved, tasks)
+    for key, points in _batches(_points(problem)).items():
+        sampled_scene = problem.scene, problem.surface, points, x
+        by.add(key, _solve_batch, *sampled_scene, seconds=cost, urgency=LATER)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    points, by = _points(solved.problem), _by(solved, tasks)
-    batches = [by.result(_key(start)) for start in _starts(points)]
-    return _gathered(solved.problem, solved.runs["half_plane"].finest, points, batches)
+    problem, wanted = solved.problem, solved.problem.scene.scatter
+    points, by = _points(problem), _tasks(solved, tasks)
+    batches = [by.result(key) for key in _batches(points)]
+    answers = [answer for batch in batches for answer in batch["figures"]]
+    failures = [answer for answer in answers if isinstance(answer, str)]
+    columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
+    scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
+    figures, finest = [], solved.runs["half_plane"].finest
+    for number, (friction, coarse) in enumerate(_nominal(problem)[0].items()):
+        for quantity, value in values_of(finest, problem, friction).items():
+            values = [np.nan if isinstance(a, str) else a[number][quantity] for a in answers]
+            values = np.array(values).reshape(len(points), -1)
+            if coarse[quantity]:
+                values *= value / coarse[quantity]
+            drawn = values[np.isfinite(values)]
+            if drawn.size:
+                parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
+                spread = _spread(drawn, parts)
+                samples = len(answers) - len(failures)
+                figures.append(scattered(quantity, friction, float(value), spread, samples))
+    counts = {"samples": wanted.samples, "solutions": len(answers), "failed": len(failures)}
+    counts["pitch"] = problem.pitches[0]
+    said = [Statement("design", DESIGN), Statement("shares", SHARES)]
+    said += [Statement("first failure", text) for text in failures[:1]]
+    series = Series(SAMPLES, columns_of([counts], {"pitch": "m"}))
+    return Findings(tuple(figures), (series,), tuple(said), _band(problem, batches))
+
+
+def scattered(
+    quantity: str, friction: float, nominal: float, spread: SampleSpread, samples: int
+) -> Figure:
+    """A figure of the half-plane [SI] with every input as the scene has it, on the finest pressure
+    elements, and its spread over so many samples. Their mean is as sure as their deviation over the
+    root of their number."""
+    scale = abs(nominal) or 1.0
+    error = spread.deviation / max(1, samples) ** 0.5
+    return Figure(
+        study=NAME,
+        quantity=quantity,
+        source="half_plane",
+        value=nominal,
+        at={"friction": friction},
+        scale=scale,
+        uncertainty=Uncertainty({"sampling": error / scale}),
+        spread=spread,
+    )
+
+
+def by_inputs(figure: Figure) -> float:
+    """Half the interval of a figure's spread, relative."""
+    low, high = figure.spread.interval
+    return 0.5 * (high - low) / figure.scale
 
 
 def _points(problem: Problem) -> np.ndarray:
@@ -49,58 +138,32 @@ def _points(problem: Problem) -> np.ndarray:
     return designs(wanted.samples, len(wanted.inputs), wanted.seed)
 
 
-def _starts(points: np.ndarray) -> range:
-    """Of the batches of samples."""
-    return range(0, points[..., 0].size, TOGETHER)
+def _batches(points: np.ndarray) -> dict[str, np.ndarray]:
+    """The points of all designs (n, d), so many together, by the name of their task."""
+    every = points.reshape(-1, points.shape[-1])
+    starts = range(0, len(every), TOGETHER)
+    return {f"{NAME}-{start}": every[start : start + TOGETHER] for start in starts}
 
 
-def _key(start: int) -> str:
-    return f"{NAME}-{start}"
-
-
-def _by(solved: Solved, tasks: Tasks) -> Tasks:
-    """Tasks that solve samples: those of the run, or by workers from outside."""
+def _tasks(solved: Solved, tasks: Tasks) -> Tasks:
+    """Those that solve samples: the run's, or by workers from outside."""
     if solved.opens is None:
         return tasks
     return tasks.held(NAME, NAME, lambda: Tasks(solved.opens, math.inf, tasks.kept))
 
 
-def _batch(
-    here: Here, scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
-) -> dict[str, object]:
-    here.callback("half-plane: uncertain inputs")
-    return solve_samples(scene, surface, points, places)
+def _spread(drawn: np.ndarray, parts: dict | None) -> SampleSpread:
+    deviation = drawn.std(ddof=1) if drawn.size > 1 else 0.0
+    ends = tuple(map(float, _interval(drawn)))
+    return SampleSpread(float(drawn.mean()), float(deviation), ends, parts)
 
 
-def _gathered(problem: Problem, finest: Level, points: np.ndarray, batches: list[dict]) -> Findings:
-    """Figures, shares and band from the batches in their order."""
-    wanted, (nominal, _) = problem.scene.scatter, solved(problem)
+def _band(problem: Problem, batches: list[dict]) -> PressureBand:
     x = problem.grid(problem.pitches[0]).x
-    found = [each for batch in batches for each in batch["figures"]]
-    why = [each for each in found if isinstance(each, str)]
-    figures = []
-    columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
-    scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
-    for number, (friction, coarse) in enumerate(nominal.items()):
-        for quantity, value in values_of(finest, problem, friction).items():
-            values = [np.nan if isinstance(f, str) else f[number][quantity] for f in found]
-            values = np.array(values).reshape(len(points), -1)
-            if coarse[quantity]:
-                values *= value / coarse[quantity]
-            drawn = values[np.isfinite(values)]
-            if not drawn.size:
-                continue
-            spread = drawn.std(ddof=1) if drawn.size > 1 else 0.0
-            parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
-            ends = tuple(map(float, _interval(drawn)))
-            over_samples = SampleSpread(float(drawn.mean()), float(spread), ends, parts)
-            samples = len(found) - len(why)
-            figures.append(scattered(quantity, friction, float(value), over_samples, samples))
     pressures = np.concatenate([batch["pressures"] for batch in batches])
     pressures = pressures[np.isfinite(pressures[:, 0])]
     band = _interval(pressures) if len(pressures) else np.full((2, len(x)), np.nan)
-    counts = wanted.samples, len(found), len(why), why[0] if why else None
-    return InputScatter(*counts, problem.pitches[0], x, band).findings(tuple(figures))
+    return PressureBand(problem.pitches[0], x, band)
 
 
 def _interval(values: np.ndarray) -> np.ndarray:
@@ -108,13 +171,157 @@ def _interval(values: np.ndarray) -> np.ndarray:
     return np.percentile(values, (50.0 * (1.0 - INTERVAL), 50.0 * (1.0 + INTERVAL)), axis=0)
 
 
-def _by_input(found: Shares | None, inputs: tuple[str, ...]) -> dict | None:
-    if found is None:
+def _by_input(of_figure: Shares | None, inputs: tuple[str, ...]) -> dict | None:
+    if of_figure is None:
         return None
-    columns = {name: values.tolist() for name, values in asdict(found).items()}
+    columns = {name: values.tolist() for name, values in asdict(of_figure).items()}
     return {
         name: {kind: values[i] for kind, values in columns.items()} for i, name in enumerate(inputs)
     }
+
+
+def values_at(spread: Spread, nominal: float, share: ArrayLike) -> np.ndarray:
+    """The input's values at which its distribution reaches `share`, from 0 to 1; the scene's
+    `nominal` value is the mean of what is normal."""
+    if spread.range:
+        low, high = spread.range
+        return low + share * (high - low)
+    left_out = ndtr(-CUT_OFF)
+    return nominal + spread.size(nominal) * ndtri(left_out + share * (1.0 - 2.0 * left_out))
+
+
+def sampled(scene: Scene, surface: SceneSurface, point: np.ndarray) -> tuple[Scene, SceneSurface]:
+    """Scene and surface with their uncertain inputs at a point (d,) of the unit cube, in their
+    order. Of the noise the point chooses the seed. Noise comes before the tip, which rounds what
+    it makes too sharp, as a stylus would have."""
+    spreads = scene.scatter.inputs
+    at = dict(zip(spreads, point, strict=True))
+
+    def value(name: str, nominal: float) -> float:
+        return float(values_at(spreads[name], nominal, at[name])) if name in at else nominal
+
+    fields = {
+        f"{section}.{field}": value(name, getattr(getattr(scene, section), field))
+        for name, (section, field) in FIELDS.items()
+        if name in at and name != "friction"
+    }
+    fields["load.friction"] = tuple(value("friction", mu) for mu in scene.load.friction)
+    fields[f"load.{scene.load.kind}"] = value("load", scene.load.value)
+    scene = scene.unchecked(fields)
+    moved, profile = value("position", surface.position) - surface.position, surface.profile
+    if profile is None:
+        return scene, surface
+    if "noise" in at:
+        rng = np.random.default_rng(int(at["noise"] * 2.0**32))
+        size, correlation_length = spreads["noise"].deviation, scene.scatter.correlation_length
+        profile = with_noise(profile, size, correlation_length or 0.0, rng)
+    if "tip_radius" in at:
+        profile = opened(profile, value("tip_radius", 0.0))
+    position = surface.position + moved
+    return scene, replace(surface, profile=profile.shifted(moved), position=position)
+
+
+def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarray]:
+    """Figures of the half-plane on the coarsest level, by friction coefficient and quantity, and
+    the pressure (n,) [Pa] at its nodes."""
+    scene = problem.scene
+    window = None if scene.stress is None else window_of(problem)
+    stages = Stages(no_progress)
+    level = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
+    figures = {friction: values_of(level, problem, friction) for friction in scene.load.friction}
+    return figures, level.solution.pressure
+
+
+def _solve_batch(
+    here: Here, scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
+) -> dict[str, object]:
+    """What the half-plane finds at points (n, d): `figures`, at each a dictionary by quantity for
+    every friction coefficient, or why there is none; and its `pressures` (n, k) [Pa] at places
+    (k,) [m], nan without a solution."""
+    here.callback("half-plane: uncertain inputs")
+    answers, pressures = [], np.full((len(points), len(places)), np.nan)
+    for number, point in enumerate(points):
+        try:
+            problem = problem_of(*sampled(scene, surface, point))
+            by_friction, pressure = _nominal(problem)
+            x = problem.grid(problem.pitches[0]).x
+            pressures[number] = np.interp(places, x, pressure, 0.0, 0.0)
+            answers.append(tuple(by_friction.values()))
+        except (InputError, ContactError, ArithmeticError, ValueError) as error:
+            answers.append(one_line(str(error)))
+    return {"figures": tuple(answers), "pressures": pressures}
+
+
+def blocks(run: Run) -> list[Block]:
+    findings = run.found[NAME]
+    [counts] = findings.table(SAMPLES).rows()
+    why = findings.said("first failure")
+    failures = f" {counts['failed']} had no solution, the first because: {why}."
+    note = NOTE.format(solutions=counts["solutions"], failures=failures if why else "")
+    return [Block("inputs", (scatter_table(run), Note(note)), "Uncertain inputs")]
+
+
+def scatter_table(run: Run) -> TextTable:
+    """A row for each quantity, and each friction coefficient that matters."""
+    rows = []
+    for same in grouped(run.figures.of(study=NAME), _cells):
+        words, *cells = _cells(same[0])
+        rows.append((words, listed(figure.friction for figure in same), *cells))
+    head = ("", "friction", "nominal", "mean", "central 95 %", "of nominal", "by input")
+    return TextTable("Half-plane", head, tuple(rows))
+
+
+def _cells(figure: Figure) -> tuple[str, ...]:
+    unit, spread = QUANTITIES[figure.quantity].unit, figure.spread
+    nominal, mean, low, high = (
+        with_unit(value, unit) for value in (figure.value, spread.mean, *spread.interval)
+    )
+    parts = ", ".join(largest_shares(figure))
+    name = label(figure.quantity)
+    return name, nominal, mean, f"{low} to {high}", f"±{percent(by_inputs(figure))}", parts
+
+
+def largest_shares(figure: Figure, most: int = LISTED) -> list[str]:
+    """The inputs with the largest total shares of the variance, each with its first-order one."""
+    parts = sorted((figure.spread.shares or {}).items(), key=lambda part: -part[1]["total"])
+    shares = []
+    for name, part in parts[:most]:
+        for long, short in SHORT.items():
+            name = name.replace(long, short)
+        size = percent(max(part["first"], 0.0), uncertainty=part["first_uncertainty"])
+        shares.append(f"{name} {size}")
+    return shares
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """Of every judged figure at the friction coefficient that decides: what the inputs do."""
+    said = []
+    for figure in run.figures.of(study=NAME, friction=run.deciding_friction):
+        if figure.quantity in run.problem.scene.tolerances:
+            most = ", ".join(largest_shares(figure, 1))
+            text = f"{label(figure.quantity)} ±{percent(by_inputs(figure))}, most by {most}"
+            said.append(("inputs", text))
+    return said
+
+
+def beside_inputs(run: Run, quantity: str, friction: float) -> str:
+    """How the model error of a figure compares with what inputs do to it; "" if one is unknown."""
+    figure, error = (
+        run.figures.one(study=study, quantity=quantity, friction=friction)
+        for study in (NAME, MODEL_ERROR)
+    )
+    if figure is None or error is None:
+        return ""
+    size, moved = abs(error.value), by_inputs(figure)
+    if size + error.numerical < SMALL * moved:
+        how = "is small beside it"
+    elif size - error.numerical > moved:
+        how = "is larger"
+    else:
+        how = "is of that size"
+    shown = error_text(quantity, error.value, error.numerical)
+    inputs = f"Your inputs move the {label(quantity)} by ±{percent(moved)}"
+    return f"{inputs}: the half-plane's model error of {shown} {how}."
 
 
 def _applies(solved: Solved) -> bool:
@@ -127,7 +334,7 @@ STUDY = Study(
     solve=solve,
     applies=_applies,
     begin=begin,
-    data=InputScatter,
-    blocks=show.blocks,
-    lines=show.lines,
+    data=PressureBand,
+    blocks=blocks,
+    lines=lines,
 )

@@ -1,1 +1,21 @@
-"""Theories of rough contact beside the solved one, and every asperity's penetration."""
+"""Theories of rough contact beside the solved one, and how its asperities are penetrated."""
+
+from comparisons.studies.statistics import show
+from comparisons.studies.statistics.study import NAME, begin, solve
+from comparisons.studies.study import Solved, Study
+
+
+def _applies(solved: Solved) -> bool:
+    return solved.problem.scene.statistics is not None and "half_plane" in solved.plan.models
+
+
+STUDY = Study(
+    name=NAME,
+    quantities={},
+    solve=solve,
+    applies=_applies,
+    begin=begin,
+    blocks=show.blocks,
+    pictures={"statistics": show.statistics_pictures},
+    lines=show.lines,
+)

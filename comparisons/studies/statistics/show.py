@@ -8,8 +8,9 @@ from comparisons.common.numbers import percent, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import over, panels
+from comparisons.figures.figure import Findings, Series
 from comparisons.figures.quantity import LABELS
-from comparisons.studies.statistics.figures import NAME, LoadRow, SummitRow
+from comparisons.studies.statistics.study import FIGURES, NAME, PRESSURE
 from comparisons.studies.study import Run
 
 KINDS = {"elastic": "#0072B2", "plastic": "#E69F00", "cutting": "#D55E00"}
@@ -28,6 +29,9 @@ SUMMITS += ("summits a mm²", "radius of summits", "deviation of summits")
 PRESSURES = ("load", "patches", "theory, by moments", "by peaks", "Persson, ridges")
 PRESSURES += ("as many ridges, Hertz", "random traces", "the trace", "theory over random")
 PRESSURES += ("as the product of", "half-width over a: theory", "random", "the trace")
+THEORIES = [f"figures.{source}.{PRESSURE}" for source in ("moments", "peaks")]
+THEORIES += ["persson.ridges", "even"]
+STRAIN = "plastic_strain"
 ON_THEORY = """Theory: a rough cylinder whose summits, spheres of Gaussian heights, bear each as if
 alone on a half-space that gives way under their mean pressure (Greenwood and Williamson 1966,
 Greenwood and Tripp 1967, in line contact). Summits by moments of the profile's spectrum (Nayak
@@ -45,15 +49,16 @@ counts the patches above a plastic strain."""
 
 
 def blocks(run: Run) -> list[Block]:
-    section, found = run.problem.scene.statistics, run.data(NAME)
-    kinds = ("", *(f"{LABELS[m]}, {how}" for m in found.patches for how in ("book", "exact")))
+    section, findings = run.problem.scene.statistics, run.found[NAME]
+    models = [LABELS[patches.source] for patches in _patches(findings)]
+    kinds = ("", *(f"{model}, {how}" for model in models for how in ("book", "exact")))
     asperities = "Asperities by relative penetration; after a semicolon, how many of them flow"
-    pressures = tuple(map(_pressures, found.loads))
+    summits = tuple(map(_summits, findings.table("summits").rows()))
     items = (
         Pictures(("statistics",)),
-        TextTable("Summits, by moments / by peaks", SUMMITS, tuple(map(_summits, found.summits))),
-        TextTable("Mean real pressure, load over real length", PRESSURES, pressures),
-        TextTable(asperities, kinds, tuple(_kinds(run, kind) for kind in KINDS)),
+        TextTable("Summits, by moments / by peaks", SUMMITS, summits),
+        _pressures(findings.table("loads")),
+        TextTable(asperities, kinds, tuple(_kinds(findings, kind) for kind in KINDS)),
         Note(ON_THEORY),
         Note(
             ON_PENETRATION.format(
@@ -67,119 +72,132 @@ def blocks(run: Run) -> list[Block]:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """Of the scene's own load, and of its asperities."""
-    found = run.data(NAME)
-    row, (model, patches) = found.loads[0], list(found.patches.items())[-1]
-    theory = with_unit(row.figures["moments"].mean_real_pressure, "Pa", 3)
-    solved = f"solved {_random(row)} under random traces"
-    exact = [patch.kinds["exact"] for patch in patches]
+    findings, (*_, patches) = run.found[NAME], _patches(run.found[NAME])
+    loads = findings.table("loads")
+    row = loads.rows()[0]
+    theory = with_unit(row[f"figures.moments.{PRESSURE}"], "Pa", 3)
+    solved = f"solved {_random(loads)[0]} under random traces"
+    exact = patches.columns["kinds.exact"].values
     kinds = ", ".join(f"{exact.count(kind)} {kind}" for kind in KINDS)
     return [
         ("statistics", f"mean real pressure {theory} by theory, {solved}: {_causes(row)}"),
-        ("asperities", f"by h/R {kinds} ({LABELS[model]})"),
+        ("asperities", f"by h/R {kinds} ({LABELS[patches.source]})"),
     ]
 
 
-def _causes(row: LoadRow) -> str:
-    return ", ".join(f"{name} ×{significant(value, 3)}" for name, value in row.causes.items())
+def _patches(findings: Findings) -> list[Series]:
+    """By model."""
+    return [series for series in findings.series if series.name == "patches"]
 
 
-def _random(row: LoadRow) -> str:
-    size = percent(row.scatter.mean_real_pressure, digits=1)
-    return f"{with_unit(row.figures['random'].mean_real_pressure, 'Pa', 3)} ± {size}"
+def _causes(row: dict) -> str:
+    factors = {name.removeprefix("causes."): row[name] for name in row if "causes." in name}
+    return ", ".join(f"{name} ×{significant(value, 3)}" for name, value in factors.items())
 
 
-def _summits(row: SummitRow) -> tuple[str, ...]:
-    name = row.treatment
-    name += "" if name == "as pressed" else f" {with_unit(row.size, 'm', 3)}"
-    cells = [name, significant(row.bandwidth, 3), significant(row.rms_slope, 3)]
-    for pair, area in ((row.peaks, 1e-3), (row.summits, 1e-6)):
-        known = [each for each in pair if each is not None]
-        cells.append(" / ".join(significant(area * each.density, 3) for each in known))
+def _random(loads: Series) -> list[str]:
+    """The mean real pressure of the random traces under each load."""
+    column = loads.columns[f"figures.random.{PRESSURE}"]
+    shares = column.sizes / column.numbers
+    return [
+        f"{with_unit(value, 'Pa', 3)} ± {percent(share, digits=1)}"
+        for value, share in zip(column.values, shares, strict=True)
+    ]
+
+
+def _summits(row: dict) -> tuple[str, ...]:
+    name = row["treatment"]
+    name += "" if name == "as pressed" else f" {with_unit(row['size'], 'm', 3)}"
+    cells = [name, significant(row["bandwidth"], 3), significant(row["rms_slope"], 3)]
+    for kind, area in (("peaks", 1e-3), ("summits", 1e-6)):
+        both = (f"{kind}.moments.", f"{kind}.peaks.")
+        known = [where for where in both if row.get(f"{where}density") is not None]
+        cells.append(" / ".join(significant(area * row[f"{w}density"], 3) for w in known))
         for field in ("radius", "deviation"):
-            cells.append(" / ".join(with_unit(getattr(each, field), "m", 3) for each in known))
+            cells.append(" / ".join(with_unit(row[where + field], "m", 3) for where in known))
     return tuple(cells)
 
 
-def _pressures(row: LoadRow) -> tuple[str, ...]:
-    each, (over_random, uncertainty) = row.figures, row.difference
-    theories = (each[name].mean_real_pressure for name in ("moments", "peaks"))
-    widths = (each[name].effective_half_width for name in ("moments", "random", "trace"))
-    return (
-        *(with_unit(row.load, "N/m", 3), significant(row.patches, 2)),
-        *(with_unit(value, "Pa", 3) for value in (*theories, row.persson["ridges"], row.even)),
-        *(_random(row), with_unit(each["trace"].mean_real_pressure, "Pa", 3)),
-        f"{percent(over_random, signed=True)} ± {percent(uncertainty, digits=1)}",
-        _causes(row),
-        *(significant(width / row.half_width, 3) for width in widths),
-    )
+def _pressures(loads: Series) -> TextTable:
+    rows, differences = [], loads.columns["difference"].sizes
+    for row, random, uncertainty in zip(loads.rows(), _random(loads), differences, strict=True):
+        before = [row[name] for name in THEORIES]
+        widths = (row[f"figures.{n}.{FIGURES[2]}"] for n in ("moments", "random", "trace"))
+        rows.append(
+            (
+                *(with_unit(row["load"], "N/m", 3), significant(row["patches"], 2)),
+                *(with_unit(value, "Pa", 3) for value in before),
+                *(random, with_unit(row[f"figures.trace.{PRESSURE}"], "Pa", 3)),
+                f"{percent(row['difference'], signed=True)} ± {percent(uncertainty, digits=1)}",
+                _causes(row),
+                *(significant(width / row["half_width"], 3) for width in widths),
+            )
+        )
+    return TextTable("Mean real pressure, load over real length", PRESSURES, tuple(rows))
 
 
-def _kinds(run: Run, kind: str) -> tuple[str, ...]:
+def _kinds(findings: Findings, kind: str) -> tuple[str, ...]:
     """How many patches by the book's coefficient and the exact one, and how many of them flow."""
     cells = [kind]
-    for states in run.data(NAME).patches.values():
+    for patches in _patches(findings):
         for how in ("book", "exact"):
-            own = [state.plastic_strain for state in states if state.kinds[how] == kind]
-            known = states[0].plastic_strain is not None
-            flow = f"; {sum(strain > FLOWS for strain in own)}" if known else ""
-            cells.append(f"{len(own)}{flow}")
+            rows = [row for row in patches.rows() if row[f"kinds.{how}"] == kind]
+            flowing = sum(row[STRAIN] > FLOWS for row in rows if STRAIN in row)
+            cells.append(f"{len(rows)}; {flowing}" if STRAIN in patches.columns else f"{len(rows)}")
     return tuple(cells)
 
 
 def statistics_pictures(run: Run) -> list[style.Picture]:
     """None without [statistics]."""
-    return [] if run.data(NAME) is None else [_over_load(run), _asperities(run)]
+    return [_over_load(run), _asperities(run)] if NAME in run.found else []
 
 
 def _over_load(run: Run) -> style.Picture:
     """As figure 4.5 of Seireg, with what the theory is held against."""
-    rows = run.data(NAME).loads
-    load, names = np.array([row.load for row in rows]), rows[0].figures
-    pressure = {n: np.array([r.figures[n].mean_real_pressure for r in rows]) for n in names}
-    unit = scale_of(pressure["moments"], "Pa")
-    others = {"ridges": [row.persson["ridges"] for row in rows], "even": [r.even for r in rows]}
-    shown = pressure | {name: np.array(values) for name, values in others.items()}
-    hertz = np.array([row.half_width for row in rows])
-    widths = {n: np.array([r.figures[n].effective_half_width for r in rows]) / hertz for n in names}
+    findings = run.found[NAME]
+    columns = findings.table("loads").columns
+    load, hertz = columns["load"].numbers, columns["half_width"].numbers
+    unit = scale_of(columns[f"figures.moments.{PRESSURE}"].values, "Pa")
     drawn, axes = panels(style.COLUMN, [(0.3, 2.6), (0.25, 1.75)], foot=0.7)
-    for each, values, field, factor in (
-        (axes[0], shown, "mean_real_pressure", unit.factor),
-        (axes[1], widths, "effective_half_width", 1.0),
-    ):
+    for panel, figure, scale in ((axes[0], PRESSURE, unit.factor), (axes[1], FIGURES[2], hertz)):
         for name, look in LOOKS.items():
-            if name in values:
-                each.plot(load, values[name] / factor, markersize=4.5, **look)
-        bars = values["random"] * [getattr(row.scatter, field) for row in rows] / factor
-        at = {"color": LOOKS["random"]["color"], "linestyle": "none", "capsize": 2.0}
-        each.errorbar(load, values["random"] / factor, bars, **at)
-        each.set(xscale="log", yscale="log")
+            of_theory = {"ridges": "persson.ridges", "even": "even"} if panel is axes[0] else {}
+            column = columns.get(of_theory.get(name, f"figures.{name}.{figure}"))
+            if column is not None:
+                panel.plot(load, column.numbers / scale, markersize=4.5, **look)
+        random = columns[f"figures.random.{figure}"]
+        look = {"color": LOOKS["random"]["color"], "linestyle": "none", "capsize": 2.0}
+        panel.errorbar(load, random.numbers / scale, random.sizes / scale, **look)
+        panel.set(xscale="log", yscale="log")
     axes[0].set_ylabel(f"mean real pressure [{unit.name}]")
     axes[0].legend(loc="lower right", fontsize=7.5)
     axes[1].set_ylabel("half-width / a")
     over(axes, "load [N/m]")
-    grown = [significant(pressure[n][0] / pressure[n][-1], 3) for n in ("moments", "random")]
-    said = f"times {grown[0]} by the theory and times {grown[1]} solved"
-    alternative = f"Over three decades of load the mean real pressure grows {said}."
+    ends = (columns[f"figures.{name}.{PRESSURE}"].values for name in ("moments", "random"))
+    theory, solved = (significant(first / last, 3) for first, *_, last in ends)
+    grown = f"times {theory} by the theory and times {solved} solved"
+    alternative = f"Over three decades of load the mean real pressure grows {grown}."
+    [traces] = findings.table("traces").columns["traces"].values
     caption = (
         "Mean real pressure, and effective half-width over Hertz's, against load. Over three "
-        f"decades the pressure grows {said}. Bars: 95 % interval of the mean over "
-        f"{run.data(NAME).traces} random traces of the same spectrum."
+        f"decades the pressure grows {grown}. Bars: 95 % interval of the mean over "
+        f"{traces} random traces of the same spectrum."
     )
     return style.picture(drawn, alternative, caption)
 
 
 def _asperities(run: Run) -> style.Picture:
     """The profile, its patches of contact in the colour of their kind."""
-    (name, patches), problem = list(run.data(NAME).patches.items())[-1], run.problem
+    (*_, patches), problem = _patches(run.found[NAME]), run.problem
     x, spline = np.linspace(*problem.extent, POINTS), problem.surface.profile.spline()
     along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
     drawn, [axes] = panels(style.WIDE, [(0.35, 2.34)], foot=0.51)
     axes.plot(x / along.factor, spline(x) / up.factor, **{**style.OUTLINE, "linewidth": 0.7})
     counts = []
     for kind, colour in KINDS.items():
-        own = [patch for patch in patches if patch.kinds["exact"] == kind]
-        counts.append(f"{len(own)} {kind}")
-        places = [np.append(np.linspace(p.start, p.stop, ALONG), np.nan) for p in own]
+        ends = [(p["start"], p["stop"]) for p in patches.rows() if p["kinds.exact"] == kind]
+        counts.append(f"{len(ends)} {kind}")
+        places = [np.append(np.linspace(*pair, ALONG), np.nan) for pair in ends]
         place = np.concatenate([*places, [np.nan]])
         look = {"color": colour, "linewidth": 3.0, "label": counts[-1]}
         axes.plot(place / along.factor, spline(place) / up.factor, **look)
@@ -189,7 +207,6 @@ def _asperities(run: Run) -> style.Picture:
     wanted = problem.scene.statistics
     rule = f"{wanted.metal}, {'lubricated' if wanted.lubricated else 'dry'}"
     said = f"by relative penetration, {rule}: {', '.join(counts)}"
+    caption = f"Patches of contact ({LABELS[patches.source]}) {said}."
     alternative = f"The profile and its patches of contact, {said}."
-    return style.picture(
-        drawn, alternative, f"Patches of contact ({LABELS[name]}) {said}.", data=False, wide=True
-    )
+    return style.picture(drawn, alternative, caption, data=False, wide=True)

@@ -2,11 +2,29 @@
 
 The theory's surfaces are random, and so are the ones it is held against: traces with the scene's
 power spectrum and new phases, solved by the elastic half-plane. The scene's own trace is one more.
-"""
 
-from collections.abc import Mapping
+In: a scene with [statistics], and its solved models. Out: series, whose columns are
+
+    summits   of the trace as pressed, filtered or thinned, a row each: `peaks` expected by
+              `moments` of its spectrum or counted (`peaks`), the `summits` of a surface by either
+    loads     a row a load, from the scene's own down
+      figures.S.Q   Q of FIGURES by S: `moments` and `peaks`, the rough cylinder on these summits;
+                    `trace`, the half-plane under the scene's own; `random`, on average under others
+      half_width    [m] Hertz's           patches  in contact, on average under random traces
+      persson.S     [Pa] mean real pressure by Persson's theory under the pressures of `moments`, of
+                    an `isotropic` surface and of one with `ridges` across the plane
+      even          [Pa] the same of as many ridges as patches, of the profile's mean radius and
+                    under even shares of the load, by Hertz: right where few touch and none merges
+      causes.C      factors of the mean real pressure by `moments` over `random`, whose product
+                    less 1 is the `difference`
+    patches   of each model: `depth` is h/R (`analytic.statistics.penetration`), `kinds` elastic,
+              plastic or cutting, `radius` [m] that of the ridge that Hertz has it on,
+              `plastic_strain` the largest below it where the model flows"""
+
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext, suppress
-from dataclasses import replace
+from dataclasses import asdict, dataclass
+from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,34 +37,50 @@ from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile, surface
-from analytic.statistics.nominally_flat import persson_fraction
+from analytic.statistics.nominally_flat import Summits, persson_fraction
+from analytic.statistics.penetration import contact_kind, relative_penetration
 from analytic.statistics.summits import counted_peaks, spectral_moments, summits_of_peaks
 from analytic.surface.filters import filtered
 from analytic.surface.roughness import shortest_wavelength
 from analytic.surface.synthetic import same_spectrum
 from comparisons.common.errors import SceneError
 from comparisons.common.tasks import LATER, Here, Tasks
-from comparisons.figures.figure import Findings
+from comparisons.figures.figure import Column, Findings, Series, columns_of
 from comparisons.models.half_plane import expected_of
+from comparisons.models.level import Level, MeshField
 from comparisons.models.problem import Problem
 from comparisons.studies import contact
-from comparisons.studies.statistics import show
-from comparisons.studies.statistics.figures import (
-    NAME,
-    ContactFigures,
-    LoadRow,
-    RoughContactStatistics,
-    SummitRow,
-)
-from comparisons.studies.statistics.patches import patch_states
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.study import Solved
 
 if TYPE_CHECKING:
     from analytic.statistics.rough_bodies import RoughContact
 
+NAME = "statistics"
+STRAIN = "equivalent_plastic_strain"
 STEPS, PER_DECADE = 7, 2  # loads: from the scene's own down to a thousandth
 CUTOFFS, THINNED = (1.0, 2.0, 4.0, 8.0), (2, 4)  # shortest wavelengths; every so many samples
 QUANTILE = 0.975
+# Sum of the patches, load over it, and the half-width of the smooth contact with the same mean |x|
+# of the pressure.
+FIGURES = ("real_length", "mean_real_pressure", "effective_half_width")
+PRESSURE = "mean_real_pressure"
+UNITS = {"load": "N/m", **dict.fromkeys(("real_length", "effective_half_width", "half_width"), "m")}
+UNITS |= dict.fromkeys(("size", "radius", "deviation", "start", "stop"), "m")
+UNITS |= dict.fromkeys((PRESSURE, "peak", "even", "isotropic", "ridges"), "Pa")
+RATIOS = ("causes", "depth")  # tables without a unit
+
+
+@dataclass(frozen=True)
+class SummitRow:
+    """Of the trace, filtered or thinned: its peaks, expected by moments and counted, and the
+    summits by either; the latter None where they are too few."""
+
+    treatment: str  # as pressed | cut-off | sampling
+    size: float  # [m] the cut-off or the sampling interval
+    bandwidth: float
+    rms_slope: float
+    peaks: tuple[Summits, Summits | None]
+    summits: tuple[Summits, Summits | None]
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
@@ -66,11 +100,44 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    """Patches are as uncertain as the worst of their model's figures, which `before` has."""
     problem, wanted = solved.problem, solved.problem.scene.statistics
-    patches = {name: patch_states(problem, run.finest) for name, run in solved.runs.items()}
-    rows = summit_rows(problem.surface.profile, wanted.cutoffs)
-    found = RoughContactStatistics(rows, tasks.result(NAME), wanted.traces, patches)
-    return replace(found.findings(before[contact.NAME]), data=found)
+    summits = [flat(asdict(r)) for r in summit_rows(problem.surface.profile, wanted.cutoffs)]
+    series = [series_of("summits", summits), series_of("loads", *tasks.result(NAME))]
+    for name, run in solved.runs.items():
+        stated = (f for f in before[contact.NAME].figures if f.source == name and f.levels)
+        worst = max(figure.numerical for figure in stated)
+        patches = patch_rows(problem, run.finest)
+        numbers = (name for name, value in patches[0].items() if isinstance(value, float))
+        sizes = {name: [worst * abs(patch[name]) for patch in patches] for name in numbers}
+        series.append(series_of("patches", patches, sizes, name))
+    series.append(Series("traces", {"traces": Column((wanted.traces,))}))
+    return Findings(series=tuple(series))
+
+
+def flat(content: Mapping[str, object], before: str = "") -> dict[str, object]:
+    """Nested tables as one, with dots in the names; pairs are by `moments` and by `peaks`."""
+    row: dict[str, object] = {}
+    for name, value in content.items():
+        if isinstance(value, tuple | list):
+            value = dict(zip(("moments", "peaks"), value, strict=True))
+        if isinstance(value, dict):
+            row |= flat(value, f"{before}{name}.")
+        elif value is not None:
+            row[before + name] = value
+    return row
+
+
+def series_of(
+    name: str,
+    rows: Sequence[Mapping[str, object]],
+    uncertainties: Mapping[str, Sequence[float]] = {},
+    source: str = "",
+) -> Series:
+    """Columns with their units, of rows that are flat."""
+    names = dict.fromkeys(name for row in rows for name in row if not name.startswith(RATIOS))
+    units = {name: UNITS.get(name.rpartition(".")[2], "") for name in names}
+    return Series(name, columns_of(rows, units, uncertainties), source)
 
 
 def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[SummitRow, ...]:
@@ -87,39 +154,42 @@ def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[Su
 
 
 def _summits(profile: Profile, treatment: str, size: float, strict: bool = False) -> SummitRow:
-    found, counted, summits = spectral_moments(profile), None, None
+    moments, counted, summits = spectral_moments(profile), None, None
     with nullcontext() if strict else suppress(ValueError):
         counted = counted_peaks(profile)
-        summits = summits_of_peaks(counted, found)
-    by_both = (found.peaks(), counted), (found.summits(), summits)
-    return SummitRow(treatment, size, found.bandwidth, float(np.sqrt(found.m2)), *by_both)
+        summits = summits_of_peaks(counted, moments)
+    by_both = (moments.peaks(), counted), (moments.summits(), summits)
+    return SummitRow(treatment, size, moments.bandwidth, float(np.sqrt(moments.m2)), *by_both)
 
 
 def _cylinders(problem: Problem, load: float, row: SummitRow) -> "dict[str, RoughContact]":
     from analytic.statistics.rough_bodies import rough_cylinder
 
-    given = load, problem.scene.roller.radius, problem.modulus
-    each = (rough_cylinder(*given, summits) for summits in row.summits)
-    return dict(zip(("moments", "peaks"), each, strict=True))
+    radius, modulus = problem.scene.roller.radius, problem.modulus
+    cylinders = (rough_cylinder(load, radius, modulus, summits) for summits in row.summits)
+    return dict(zip(("moments", "peaks"), cylinders, strict=True))
 
 
-def _loads(here: Here, problem: Problem, summits: SummitRow) -> tuple[LoadRow, ...]:
-    """Every load, from the heaviest."""
+def _loads(
+    here: Here, problem: Problem, summits: SummitRow
+) -> tuple[tuple[dict[str, float], ...], dict[str, tuple[float, ...]]]:
+    """A row a load, from the heaviest, and the uncertainties of some of their columns."""
     here.callback("half-plane: random traces")
-    own, wanted = problem.surface.profile, problem.scene.statistics
-    traces = [same_spectrum(own, wanted.seed + number) for number in range(wanted.traces)]
+    measured, wanted = problem.surface.profile, problem.scene.statistics
+    traces = [same_spectrum(measured, wanted.seed + number) for number in range(wanted.traces)]
     rows = []
     for step in range(STEPS):
         load = problem.hertz.load_per_length * 10.0 ** (-step / PER_DECADE)
         pitch = problem.pitches[0] / 2.0 ** (step // PER_DECADE)  # light loads touch little
-        given = [(own, pitch), (own, 0.5 * pitch), *((trace, pitch) for trace in traces)]
-        solved = np.array([_pressed(problem, load, *each) for each in given])
+        pressed = [(measured, pitch), (measured, 0.5 * pitch), *((t, pitch) for t in traces)]
+        solved = np.array([_pressed(problem, load, *trace) for trace in pressed])
         rows.append(_row(problem, load, summits, solved))
-    return tuple(rows)
+    sizes = {name: tuple(unsure[name] for _, unsure in rows) for name in rows[0][1]}
+    return tuple(row for row, _ in rows), sizes
 
 
 def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> list[float]:
-    """ContactFigures of the elastic half-plane, and how many patches there are."""
+    """FIGURES of the elastic half-plane, and how many patches there are."""
     radius, relief = problem.scene.roller.radius, float(np.ptp(profile.height))
     half_width = hertz_from_load(load, radius, problem.modulus).half_width
     reach = 2.0 * half_width + np.sqrt(2.0 * radius * relief)
@@ -139,8 +209,13 @@ def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> l
     return [length, load / length, width, len(patches)]
 
 
-def _row(problem: Problem, load: float, summits: SummitRow, solved: np.ndarray) -> LoadRow:
-    """solved (2 + n, 4): the scene's trace on coarse and on fine elements, and random ones."""
+def _row(
+    problem: Problem, load: float, summits: SummitRow, solved: np.ndarray
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Columns of one load, and the uncertainty of some.
+
+    solved (2 + n, 4): the scene's trace on coarse and on fine elements, and random ones, whose mean
+    is as sure as the 95 % interval of it."""
     radius, modulus, slope = problem.scene.roller.radius, problem.modulus, summits.rms_slope
     (coarse, fine), random = solved[:2], solved[2:]
     mean, count = random.mean(axis=0), len(random)
@@ -148,42 +223,85 @@ def _row(problem: Problem, load: float, summits: SummitRow, solved: np.ndarray) 
     cylinders, patches = _cylinders(problem, load, summits), float(mean[3])
     ridge = hertz_from_load(load / patches, summits.peaks[0].radius, modulus)
 
-    def figures(values: np.ndarray) -> ContactFigures:
-        return ContactFigures(*map(float, values[:3]))
-
     def persson(slope: float) -> float:
         first = cylinders["moments"]
         share = persson_fraction(first.pressure, modulus, slope)
         return load / (2.0 * float(first.steps @ share))
 
-    theories = {
-        name: ContactFigures(load / c.mean_real_pressure, c.mean_real_pressure, c.effective_width)
+    values = {
+        name: (load / c.mean_real_pressure, c.mean_real_pressure, c.effective_width)
         for name, c in cylinders.items()
     }
-    return LoadRow(
-        load=load,
-        half_width=hertz_from_load(load, radius, modulus).half_width,
-        figures=theories | {"trace": figures(fine), "random": figures(mean)},
-        grid=figures(coarse / fine - 1.0),
-        scatter=figures(error / mean),
-        patches=patches,
-        persson={"isotropic": persson(np.sqrt(2.0) * slope), "ridges": persson(slope)},
-        even=0.25 * np.pi * ridge.peak_pressure,
-    )
+    values |= {"trace": tuple(map(float, fine[:3])), "random": tuple(map(float, mean[:3]))}
+    figures = {name: dict(zip(FIGURES, known, strict=True)) for name, known in values.items()}
+    pressures = {"isotropic": persson(np.sqrt(2.0) * slope), "ridges": persson(slope)}
+    isotropic, ridges = pressures.values()
+    theory, random_mean = (figures[name][PRESSURE] for name in ("moments", "random"))
+    factors = theory / isotropic, isotropic / ridges, ridges / random_mean
+    causes = dict(zip(("summits alone", "ridges", "few contacts"), factors, strict=True))
+    row = {
+        "load": load,
+        "half_width": hertz_from_load(load, radius, modulus).half_width,
+        "figures": figures,
+        "patches": patches,
+        "persson": pressures,
+        "even": 0.25 * np.pi * ridge.peak_pressure,
+        "causes": causes,
+        "difference": prod(causes.values()) - 1.0,
+    }
+    shares = {"random": error / mean, "trace": coarse / fine - 1.0}
+    sizes = {
+        f"figures.{source}.{name}": abs(float(share) * figures[source][name])
+        for source, of_source in shares.items()
+        for name, share in zip(FIGURES, of_source, strict=False)
+    }
+    of_pressures = (abs(float(share[FIGURES.index(PRESSURE)])) for share in shares.values())
+    return flat(row), sizes | {"difference": prod(causes.values()) * sum(of_pressures)}
 
 
-def _applies(solved: Solved) -> bool:
-    return solved.problem.scene.statistics is not None and "half_plane" in solved.plan.models
+def patch_loads(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Load [N/m], its centre [m] and peak pressure [Pa] (k,) of a level's patches. Pressures belong
+    to the nearest patch."""
+    patches, x = level.patches, level.grid.x
+    carried = level.grid.weights * level.solution.pressure
+    places = np.searchsorted(0.5 * (patches[:-1, 1] + patches[1:, 0]), x)
+    load, moment = (np.bincount(places, w, len(patches)) for w in (carried, carried * x))
+    peak = np.zeros(len(patches))
+    np.maximum.at(peak, places, level.solution.pressure)
+    return load, moment / load, peak
 
 
-STUDY = Study(
-    name=NAME,
-    quantities={},
-    solve=solve,
-    applies=_applies,
-    begin=begin,
-    data=RoughContactStatistics,
-    blocks=show.blocks,
-    pictures={"statistics": show.statistics_pictures},
-    lines=show.lines,
-)
+def patch_rows(problem: Problem, level: Level) -> tuple[dict[str, object], ...]:
+    """Every patch of a level, from `start` to `stop` [m]: load [N/m], peak [Pa], and how deep it
+    is penetrated."""
+    patches, wanted = level.patches, problem.scene.statistics
+    load, _, peak = patch_loads(level)
+    depth = relative_penetration(peak, problem.modulus)
+    rule = wanted.metal, wanted.lubricated
+    kinds = {
+        "book": contact_kind(depth["book"], depth["book"], *rule),
+        "exact": contact_kind(depth["sphere"], depth["ridge"], *rule),
+    }
+    field = level.mesh_field
+    flows = isinstance(field, MeshField) and STRAIN in field.others
+    rows = []
+    for k, (start, stop) in enumerate(patches):
+        row = {
+            "start": float(start),
+            "stop": float(stop),
+            "load": float(load[k]),
+            "peak": float(peak[k]),
+            "radius": float(np.pi * problem.modulus * (stop - start) ** 2 / (16.0 * load[k])),
+            "depth": {name: float(values[k]) for name, values in depth.items()},
+            "kinds": {name: str(values[k]) for name, values in kinds.items()},
+            "plastic_strain": _strain_below(field, start, stop) if flows else None,
+        }
+        rows.append(flat(row))
+    return tuple(rows)
+
+
+def _strain_below(field: MeshField, start: float, stop: float) -> float:
+    """The largest below a patch, no deeper than that is wide: first flow is at 0.4 of it."""
+    x, z = field.points.T
+    below = (x >= start) & (x <= stop) & (z <= stop - start)
+    return float(np.max(field.others[STRAIN][below], initial=0.0))

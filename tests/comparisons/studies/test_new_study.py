@@ -1,4 +1,5 @@
 """A study is one file and one name: whatever shows, judges, stores or repeats has it from there.
+Its section of a scene is one more file, which nothing names.
 
 The study is partial slip: what sticks under a tangential load Q below friction is the contact under
 P - Q/mu (Jaeger 1998), of smooth bodies of half-width a sqrt(1 - Q/(mu P)) (Cattaneo, Mindlin)."""
@@ -29,7 +30,7 @@ from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.studies.study import Study
 
-NAME, SHARE = "partial_slip", 0.5
+NAME = "partial_slip"
 QUANTITIES = {
     "stick_length": Quantity("length that sticks", "m"),
     "stick_ratio": Quantity("share of the contact that sticks"),
@@ -38,8 +39,8 @@ QUANTITIES = {
 
 def solve(solved, before, tasks):
     problem, run = solved.problem, solved.runs["half_plane"]
-    left = (1.0 - SHARE) * problem.hertz.load_per_length
-    lengths = []
+    rest = 1.0 - problem.scene.partial_slip.share
+    left, lengths = rest * problem.hertz.load_per_length, []
     for level in run.levels:
         from analytic.operators.half_plane import HalfPlane
         from comparisons.models.problem import pressed_on
@@ -52,7 +53,7 @@ def solve(solved, before, tasks):
     left = refined.uncertainty / lengths[-1]
     stated = Uncertainty({"iteration": iteration(run.finest), "discretisation": left}, refined)
     ratio = lengths[-1] / run.finest.contact_length
-    exact = (1.0 - SHARE) ** 0.5
+    exact = rest**0.5
     at = {"friction": max(problem.scene.load.friction)}
     common = {"study": NAME, "source": "half_plane", "at": at, "uncertainty": stated}
     return Findings(
@@ -78,13 +79,29 @@ STUDY = Study(
     NAME,
     QUANTITIES,
     solve,
-    applies=lambda solved: any(solved.problem.scene.load.friction),
+    applies=lambda solved: solved.problem.scene.partial_slip is not None,
     blocks=blocks,
     lines=lambda run: [("partial slip", run.found[NAME].said("state"))],
 )
 '''
+SECTION = '''
+"""The [partial_slip] section: the tangential load."""
+from typing import Annotated
+
+from comparisons.common.units import DIMENSIONLESS
+from comparisons.scenes.fields import Number, SceneSection
+
+
+class SlipSection(SceneSection):
+    share: Annotated[float, Number(DIMENSIONLESS, above=0.0, below=1.0)]
+
+
+SECTION = SlipSection
+'''
 WITH_IT = """
 import sys
+import comparisons.scenes.studies
+comparisons.scenes.studies.__path__.append("sections")
 import comparisons.studies
 import partial_slip
 comparisons.studies.STUDIES += (partial_slip.STUDY,)
@@ -95,6 +112,7 @@ SCENE = """
 roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
 body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
 load = {per_length = "1 N/um", friction = 0.1}
+partial_slip = {share = 0.5}
 """
 
 
@@ -103,6 +121,8 @@ def folder(tmp_path_factory) -> Path:
     """A scene that was solved with the study."""
     folder = tmp_path_factory.mktemp("study")
     (folder / "partial_slip.py").write_text(STUDY)
+    (folder / "sections").mkdir()
+    (folder / "sections/partial_slip.py").write_text(SECTION)
     (folder / "scene.toml").write_text(SCENE)
     asked = ("run", "scene.toml", "--models", "half-plane", "--out", "out", "--junit", "ci.xml")
     (folder / "terminal.txt").write_text(command(folder, *asked))
@@ -120,7 +140,7 @@ def command(folder: Path, *arguments: str, status: int = 0) -> str:
         text=True,
     )
     assert done.returncode == status, done.stderr
-    return done.stdout
+    return done.stdout + done.stderr
 
 
 def test_its_figures_are_results(folder):
@@ -148,6 +168,13 @@ def test_continuous_integration_has_it(folder):
     cases = ElementTree.parse(folder / "ci.xml").iter("testcase")
     [case] = [case for case in cases if "stick_ratio" in case.attrib["name"]]
     assert {part.tag for part in case} == {"system-out"}  # neither failed nor skipped
+
+
+def test_a_wrong_field_of_its_section_is_one_line(folder):
+    (folder / "wrong.toml").write_text(SCENE.replace("share = 0.5", "shares = 0.5"))
+    said = command(folder, "run", "wrong.toml", status=2)
+    assert "partial_slip.shares: is no known field; the nearest is partial_slip.share" in said
+    assert said.count("\n") == 1
 
 
 def test_a_repetition_finds_what_moved(folder):

@@ -13,10 +13,9 @@ from math import inf
 from comparisons.campaigns.paper.claims.readings import SLIDING, LevelView
 from comparisons.common.numbers import finite, plain
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, is_within
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.figures.uncertainty import Uncertainty, iteration
-from comparisons.figures.verdict import is_within
 from comparisons.studies.contact import by_repetition
 from comparisons.studies.study import MODEL_ERROR, Run
 

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 
 from comparisons.common.numbers import (
     Scale,
-    given_percent,
     listed,
     percent,
-    scale_of,
     with_unit,
 )
-from comparisons.drawing.blocks import TextTable
+from comparisons.drawing.blocks import TextTable, compared_cells
 from comparisons.figures.figure import Figure, grouped
-from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, error_text, label
+from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, label
 from comparisons.models.problem import Problem
 from comparisons.studies import comparison, contact
 from comparisons.studies.model_error.catalogue import EFFECTS
@@ -68,10 +66,11 @@ def comparison_table(run: Run) -> TextTable:
     return TextTable("", (*head, "tolerance", "verdict", "reference"), rows, "comparison", True)
 
 
-def _values(run: Run, difference: Figure) -> tuple[Figure | None, ...]:
+def _values(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:
     """Both models' figures, None of a norm."""
     at = {"quantity": difference.quantity, "at": difference.at}
-    return tuple(run.figures.one(study=contact.NAME, source=model, **at) for model in MODELS)
+    one, other = (run.figures.one(study=contact.NAME, source=m, **at) for m in MODELS)
+    return one, other
 
 
 def _shown(pair: tuple[Figure, tuple[Figure | None, ...]]) -> tuple:
@@ -115,24 +114,23 @@ def figure_table(run: Run) -> TextTable:
 
 
 def _row(
-    run: Run, difference: Figure, models: tuple[Figure | None, ...], frictions: str
+    run: Run, difference: Figure, models: tuple[Figure | None, Figure | None], frictions: str
 ) -> ComparisonRow:
-    name, values = difference.quantity, [each and each.value for each in models]
+    name = difference.quantity
+    half_plane, finite_element, *judged = compared_cells(difference, models, QUANTITIES[name].unit)
+    error, uncertainty, tolerance, verdict = judged
     # the hardness holds the peaks of both models, which makes them equal by itself
-    capped = "capped in both" if all(each and "capped" in each.notes for each in models) else ""
-    scale = scale_of(values, QUANTITIES[name].unit)
-    half_plane, finite_element = ("" if v is None else scale.text(v) for v in values)
-    bound = difference.tolerance
+    capped = "capped in both" if all(f and "capped" in f.notes for f in models) else ""
     return ComparisonRow(
         quantity=name,
         friction=frictions,
         half_plane=half_plane,
         finite_element=finite_element,
-        in_hertz=tuple(in_hertz(run.problem, name, value) for value in values),
-        difference=error_text(name, difference.value, difference.numerical),
-        uncertainty=percent(difference.numerical),
-        tolerance="" if bound is None else given_percent(bound),
-        verdict=difference.verdict or "",
+        in_hertz=tuple(in_hertz(run.problem, name, f and f.value) for f in models),
+        difference=error,
+        uncertainty=uncertainty,
+        tolerance=tolerance,
+        verdict=verdict,
         reference=reference_of(run, name),
         note=capped,
     )

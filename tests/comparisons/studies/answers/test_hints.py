@@ -8,14 +8,15 @@ from analytic.exact.hertz import hertz_from_load
 
 
 def hints(outcome):
-    return {hint.kind: hint for hint in outcome.data("answers").answers[0].hints}
+    series = outcome.found["answers"].table("hints")
+    return {row["kind"]: row for row in (series.rows() if series else ())}
 
 
 def test_a_tenth_of_a_half_width_aside(answered, curve, hertz):
     found = hints(answered(curve(x=lambda x: x + 0.1 * hertz.half_width)))
     assert set(found) == {"shift"}
-    assert found["shift"].text == "shifted by 0.1 a explains it"
-    assert found["shift"].value == pytest.approx(0.1 * hertz.half_width, rel=2e-3)
+    assert found["shift"]["text"] == "shifted by 0.1 a explains it"
+    assert found["shift"]["value"] == pytest.approx(0.1 * hertz.half_width, rel=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -36,9 +37,9 @@ def test_units_signs_and_factors(answered, curve, change, kinds):
 def test_another_load_and_the_diameter_for_the_radius(answered, curve, hertz, load, radius):
     given = load * hertz.load_per_length, radius * QUICK["roller"]["radius"]
     contact = hertz_from_load(*given, hertz.combined_modulus)
-    (hint,) = answered(curve(contact=contact)).data("answers").answers[0].hints
-    assert hint.value == load * radius
-    assert hint.kind == ("load" if load < 1.0 else "radius")
+    [(kind, hint)] = hints(answered(curve(contact=contact))).items()
+    assert hint["value"] == load * radius
+    assert kind == ("load" if load < 1.0 else "radius")
 
 
 def test_half_of_a_symmetric_model(answered, tmp_path, hertz):
@@ -46,7 +47,8 @@ def test_half_of_a_symmetric_model(answered, tmp_path, hertz):
     np.savetxt(tmp_path / "half.csv", np.column_stack([x, hertz.pressure(x)]), delimiter=",")
     outcome = answered({"file": str(tmp_path / "half.csv")})
     assert set(hints(outcome)) == {"half model"}
-    assert outcome.data("answers").answers[0].balance == pytest.approx(-0.5, abs=2e-3)
+    balance = outcome.figures.one(study="answers", quantity="load_balance").value
+    assert balance == pytest.approx(-0.5, abs=2e-3)
 
 
 def test_a_mirrored_answer(answered, curve, hertz):

@@ -17,7 +17,7 @@ from comparisons.common.errors import InputError
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.answers import answers_named
-from comparisons.studies.answers.readers.files import read_answers
+from comparisons.studies.answers.read import read_answers
 from meshes.block import structured
 
 NO_CCX = "no CalculiX: apt-get install calculix-ccx"
@@ -57,8 +57,13 @@ def block(hertz):
     return structured(hertz.half_width * x, hertz.half_width * z)
 
 
-def exact(mesh, hertz):
-    return hertz_stress(hertz, mesh.points[:, 0], mesh.points[:, 1], 0.0)
+def upright(mesh):
+    """Its points in a file, y out of the body."""
+    return mesh.points @ [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]
+
+
+def exact(mesh, hertz, friction=0.0):
+    return hertz_stress(hertz, *mesh.points.T, friction)
 
 
 def read(section, **changes):
@@ -66,10 +71,15 @@ def read(section, **changes):
     return read_answers(posed, window_of(posed))["other"][-1]
 
 
-def vtu(path, points, triangles, stress, name="S"):
-    """Quadratic triangles with a tensor of six components, x y z xy yz xz."""
+def grid_of(points, triangles):
+    """Quadratic triangles."""
     cells = np.column_stack([np.full(len(triangles), 6), triangles]).ravel()
-    grid = pyvista.UnstructuredGrid(cells, np.full(len(triangles), 22), points)
+    return pyvista.UnstructuredGrid(cells, np.full(len(triangles), 22), points)
+
+
+def vtu(path, points, triangles, stress, name="S"):
+    """A file with a tensor of six components, x y z xy yz xz."""
+    grid = grid_of(points, triangles)
     grid[name] = stress
     grid.save(path)
     return {"file": str(path)}
@@ -110,9 +120,8 @@ def test_any_axis_may_point_out_of_the_body(hertz, tmp_path, up):
 def test_friction_keeps_its_direction(hertz, tmp_path):
     """The shear on the top is minus the traction's: sliding that pulls towards +x."""
     mesh = block(hertz)
-    stress = hertz_stress(hertz, mesh.points[:, 0], mesh.points[:, 1], 0.2)
-    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
-    section = vtu(tmp_path / "a.vtu", points, mesh.triangles, tensor(stress))
+    stress = tensor(exact(mesh, hertz, 0.2))
+    section = vtu(tmp_path / "a.vtu", upright(mesh), mesh.triangles, stress)
     found = read(section, load=QUICK["load"] | {"friction": 0.2})
     middle = found.stress.field.txz.shape[1] // 2
     expected = hertz_stress(hertz, np.zeros(1), np.full(1, 1e-9), 0.2).txz
@@ -121,15 +130,10 @@ def test_friction_keeps_its_direction(hertz, tmp_path):
 
 def test_the_roller_in_the_same_file_is_left_out(hertz, tmp_path):
     mesh = block(hertz)
-    body = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
-    roller = body * [0.2, -0.2, 1.0]
-    stress = tensor(exact(mesh, hertz))
-    section = vtu(
-        tmp_path / "a.vtu",
-        np.vstack([roller, body]),
-        np.vstack([mesh.triangles, mesh.triangles + len(body)]),
-        np.vstack([7.0 * stress, stress]),
-    )
+    body, stress = upright(mesh), tensor(exact(mesh, hertz))
+    points = np.vstack([body * [0.2, -0.2, 1.0], body])
+    triangles = np.vstack([mesh.triangles, mesh.triangles + len(body)])
+    section = vtu(tmp_path / "a.vtu", points, triangles, np.vstack([7.0 * stress, stress]))
     holds(read(section), hertz, near=2e-3)
 
 
@@ -233,15 +237,13 @@ def test_a_body_that_is_not_in_a_plane(hertz, tmp_path):
 
 def test_missing_stresses_steps_and_frictions(hertz, tmp_path):
     mesh = block(hertz)
-    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
-    section = vtu(tmp_path / "a.vtu", points, mesh.triangles, tensor(exact(mesh, hertz)), "U")
+    points, stress = upright(mesh), tensor(exact(mesh, hertz))
+    section = vtu(tmp_path / "a.vtu", points, mesh.triangles, stress, "U")
     with pytest.raises(InputError, match="holds no stresses in its plane, of U"):
         read(section)
     with pytest.raises(InputError, match=r"allowed is friction = one of 0, 0\.1"):
         read(section, load=QUICK["load"] | {"friction": [0.0, 0.1]})
-    moved = vtu(
-        tmp_path / "b.vtu", points - [0, 1e-3, 0], mesh.triangles, tensor(exact(mesh, hertz))
-    )
+    moved = vtu(tmp_path / "b.vtu", points - [0, 1e-3, 0], mesh.triangles, stress)
     with pytest.raises(InputError, match=r"its surface lies 0\.001 m off the scene's"):
         read(moved)
     holds(read(moved | {"z_origin": -1e-3}), hertz, near=2e-3)
@@ -252,10 +254,7 @@ def test_components_in_an_exodus_file(hertz, tmp_path):
     from vtkmodules.vtkIOExodus import vtkExodusIIWriter
 
     mesh = block(hertz)
-    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
-    cells = np.column_stack([np.full(len(mesh.triangles), 6), mesh.triangles]).ravel()
-    grid = pyvista.UnstructuredGrid(cells, np.full(len(mesh.triangles), 22), points)
-    stress = exact(mesh, hertz)
+    grid, stress = grid_of(upright(mesh), mesh.triangles), exact(mesh, hertz)
     named = {"stress_xx": stress.sx, "stress_xy": -stress.txz, "stress_yy": stress.sz}
     for name, values in named.items():
         grid[name] = values
@@ -268,11 +267,9 @@ def test_components_in_an_exodus_file(hertz, tmp_path):
 
 def test_steps_of_xdmf(hertz, tmp_path):
     mesh = block(hertz)
-    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
     stress = tensor(exact(mesh, hertz))
-    cells = [("triangle6", mesh.triangles)]
     with meshio.xdmf.TimeSeriesWriter(tmp_path / "a.xdmf", data_format="XML") as writer:
-        writer.write_points_cells(points, cells)
+        writer.write_points_cells(upright(mesh), [("triangle6", mesh.triangles)])
         for time in (0.5, 1.0):
             writer.write_data(time, point_data={"S": time * stress})
     holds(read({"file": str(tmp_path / "a.xdmf")}), hertz, near=2e-3)
@@ -287,8 +284,8 @@ def test_med_is_read_beside_another_hdf5(hertz, tmp_path):
     if find_spec("h5py") is None:
         pytest.skip("no h5py: pip install h5py")
     mesh = block(hertz)
-    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
-    vtu(tmp_path / "a.vtu", points, mesh.triangles, tensor(exact(mesh, hertz)), "SIEF_NOEU")
+    stress = tensor(exact(mesh, hertz))
+    vtu(tmp_path / "a.vtu", upright(mesh), mesh.triangles, stress, "SIEF_NOEU")
     convert = "import pyvista; pyvista.save_meshio('a.med', pyvista.read('a.vtu'))"
     subprocess.run([sys.executable, "-c", convert], cwd=tmp_path, check=True)
     holds(read({"file": str(tmp_path / "a.med")}), hertz, near=2e-3)

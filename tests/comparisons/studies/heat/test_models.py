@@ -4,26 +4,32 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from moving_band import band_maximum
-from scenes import STEEL, problem
+from moving_band import band_maximum, band_mean
+from scenes import BOTH_CONDUCT, STEEL, problem
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
+from analytic.material import ThermalMaterial
 from comparisons.common.progress import Stages, no_progress
+from comparisons.figures.convergence import grid_convergence
 from comparisons.models.half_plane import half_plane_level
-from comparisons.studies.heat.conduction import finite_element_heat
+from comparisons.studies.heat.finite_elements import finite_element_heat
 from comparisons.studies.heat.half_space import half_space_heat, peclet_numbers, what_it_contains
+from fem.heat.body import thermal_body
+from fem.heat.conduction import Conduction, Surroundings
+from fem.heat.surface_heat import flux_load
+from meshes.build import build_block
+from meshes.thermal_layer import thermal_spec
 
-CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
-EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}
 INSULATOR = {"roller_conductivity": 1e-6, "roller_density": 2e-4}  # of a diffusivity like steel's
 LAYER = {"conductivity": 2.0, "density": 5000.0, "specific_heat": 500.0}
 SCENE = {
     "roller": {"radius": 7.5706e-3, **STEEL},
     "body": dict(STEEL),
     "load": {"hertz_peak_pressure": 1e9, "friction": 0.1},
-    "heat": {"speed": 2.0, "slide_to_roll": 0.5, **EQUAL},
+    "heat": {"speed": 2.0, "slide_to_roll": 0.5, **BOTH_CONDUCT},
 }
+FAR = 3e-5  # relative, by the open boundary of a block of ten half-widths
 SOFT = {"thickness": 20e-6, "youngs_modulus": 210e9, "poissons_ratio": 0.3}
 
 
@@ -105,9 +111,8 @@ def test_finite_bodies_against_transforms(body, coating, base):
     found = finite_element_heat(given, level)
     assert found.fraction == pytest.approx(1.0, abs=1e-4)
     exact = through_layers(given, level, base == "held")
-    inside = np.flatnonzero(found.heat)[
-        2:-2
-    ]  # next to the ends of contact the flux is not that of the hats
+    # next to the ends of contact the flux is not that of the hats
+    inside = np.flatnonzero(found.heat)[2:-2]
     assert found.body[inside] == pytest.approx(exact[inside], abs=2e-3 * exact.max())
     contained = {"thickness": "thickness" in (body or {}), "coating": bool(coating), "roller": True}
     assert list(what_it_contains(given)) == [name for name, has in contained.items() if has]
@@ -187,3 +192,23 @@ def test_largest_temperature_of_a_band():
         exact = band_maximum(peclet)[0] * heat * half / material.conductivity
         # the flux falls to zero over one more pitch on either side
         assert contact.figures["flash_temperature"] == pytest.approx(exact, rel=5e-3)
+
+
+def of_band(peclet, number):
+    """k T / (q l) of the band: the largest, and the mean."""
+    law = {"length": -0.5 / peclet, "layers": 0.5 * 2**number, "growth": 0.4 / np.sqrt(2.0**number)}
+    spec = thermal_spec([[-1.0, 1.0]], 0.2 / 2**number, half_width=10.0, depth=10.0, **law)
+    body = thermal_body(build_block(spec), ThermalMaterial(1.0, 1.0, 1.0))
+    load = flux_load(body, np.linspace(-1.0, 1.0, 3), np.ones(3))
+    found = Conduction(body, -2.0 * peclet, Surroundings("open", "open")).steady(load)
+    return found.max(), 0.5 * load @ found
+
+
+@pytest.mark.parametrize("peclet", [0.1, 1.0, 2.0, 10.0, 100.0])
+def test_three_levels_of_finite_elements_cover_the_error(peclet):
+    """Against Jaeger's band."""
+    levels = np.array([of_band(peclet, number) for number in range(3)])
+    exact = band_maximum(peclet)[0], band_mean(peclet)
+    for values, true in zip(levels.T, exact, strict=True):
+        found = grid_convergence(values, 2.0, FAR * true)
+        assert abs(found.value - true) <= found.uncertainty < 2e-3 * true

@@ -4,26 +4,23 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem
+from scenes import BOTH_CONDUCT, STEEL, STEEL_HEAT, changed, problem
 
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
-from comparisons.studies.heat.conduction import solved_heat
-from comparisons.studies.heat.element_stress import finite_element_stress
+from comparisons.studies.heat.finite_elements import finite_element_stress, solved_heat
 
-CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
-EQUAL = {f"{b}_{name}": v for b in ("body", "roller") for name, v in CONSTANTS.items()}
 PLAIN = {
     "roller": {"radius": 7.5706e-3, **STEEL},
     "body": dict(STEEL),
     "load": {"hertz_peak_pressure": 1e9, "friction": 0.1},
-    "heat": {"speed": 10.0, "stresses": True, "body_expansion": 12e-6, **EQUAL},
+    "heat": {"speed": 10.0, "stresses": True, "body_expansion": 12e-6, **BOTH_CONDUCT},
     "stress": {"points": [120, 40]},
 }
-OF_COAT = {f"coating_{name}": value for name, value in CONSTANTS.items()}
+OF_COAT = {f"coating_{name}": value for name, value in STEEL_HEAT.items()}
 COATED = changed(PLAIN, heat={**OF_COAT, "coating_expansion": 12e-6}) | {
     "coating": {"thickness": "5 um", **STEEL}
 }

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import PROFILES, STEEL, changed, refound, resolved
+from scenes import BOTH_CONDUCT, PROFILES, STEEL, changed, refound, resolved
 
 from comparisons.figures.quantity import MODELS
 from comparisons.output.flat_csv import rows_of
@@ -13,22 +13,16 @@ from comparisons.output.junit import run_cases_of
 from comparisons.output.page.saved import read_run
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
-from comparisons.studies.heat.figures import HEATED, WITHOUT
 from comparisons.studies.heat.show import heat_facts, heat_table, lines
+from comparisons.studies.heat.study import HEATED, WITHOUT
 
-CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
-EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}
 TRACE = {
     "roller": {"radius": 7.5706e-3, **STEEL},
     "body": dict(STEEL),
-    "profile": {
-        "file": str(PROFILES / "ground_unrun.csv"),
-        "x_unit": "um",
-        "z_unit": "um",
-        "form": "none",
-    },
+    "profile": {"file": str(PROFILES / "ground_unrun.csv"), "x_unit": "um", "z_unit": "um"}
+    | {"form": "none"},
     "load": {"per_length": 0.6e6, "friction": [0.0, 0.1], "position": "1118 um"},
-    "heat": {"speed": 1.0, **EQUAL},
+    "heat": {"speed": 1.0, **BOTH_CONDUCT},
     "budget": {"effects": False},
     "resolution": {"pitch": "1.6 um"},
 }
@@ -132,7 +126,7 @@ STRESSED = {
     "roller": {"radius": 7.5706e-3, **STEEL},
     "body": dict(STEEL),
     "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
-    "heat": {"speed": 10.0, "stresses": True, "body_expansion": "12 um/m/K", **EQUAL},
+    "heat": {"speed": 10.0, "stresses": True, "body_expansion": "12 um/m/K", **BOTH_CONDUCT},
     "stress": {"points": [120, 40]},
     "budget": {"effects": False},
 }
@@ -173,7 +167,8 @@ def test_thermal_stresses_in_every_output(stressed):
     own = result.figures.of(study="heat", source="half_plane", against=None)
     warm, cold = (own.one(quantity=f"sx_heated{name}") for name in ("", "_without_heat"))
     assert warm.value < 0.0 < cold.value
-    place = stressed.data("heat").stresses["finite_element"].elastic["sx_position"]
+    stress = stressed.data("heat").stresses["finite_element"]
+    place = stress.x[stress.sx[1].argmax()]
     assert place == pytest.approx(-stressed.problem.hertz.half_width, rel=2e-3)
     page = (stressed.directory / "report.html").read_text()
     assert "Last, σx of the body's surface, thin without heat." in page.replace("&#39;", "'")

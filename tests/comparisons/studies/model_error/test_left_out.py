@@ -6,10 +6,9 @@ import pytest
 
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.tasks import LATER, PERHAPS, Tasks
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, is_decided
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.figures.verdict import is_decided
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
 from comparisons.output.headline import validity

@@ -22,10 +22,8 @@ from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
 from comparisons.scenes.studies.scatter import Spread
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.scatter.figures import by_inputs
-from comparisons.studies.scatter.samples import sampled, values_at
 from comparisons.studies.scatter.shares import designs
-from comparisons.studies.scatter.study import begin, solve
+from comparisons.studies.scatter.study import begin, by_inputs, sampled, solve, values_at
 from comparisons.studies.study import unsolved
 
 INPUTS = {"load": "4 %", "body_youngs_modulus": "6 %", "roller_radius": "3 %"}
@@ -139,7 +137,7 @@ def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
         return solve(replace(scene, runs={"half_plane": half_plane}), {}, tasks)
 
     first = found()
-    monkeypatch.setattr("comparisons.studies.scatter.study.solve_samples", None)
+    monkeypatch.setattr("comparisons.studies.scatter.study._solve_batch", None)
     again = found()
     assert again.figures == first.figures
     np.testing.assert_array_equal(again.data.band, first.data.band)
@@ -178,8 +176,10 @@ class TestASample:
     def test_what_has_no_solution_is_counted(self):
         beyond = {"position": {"range": [0.0, 1.5e-3]}, "samples": 8}
         outcome = run(resolved(changed(ROUGH, scatter=beyond)), None, ("half_plane",))
-        scatter = outcome.data("scatter")
-        assert 0 < scatter.failed < scatter.solutions and "end of the trace" in scatter.why
+        findings = outcome.found["scatter"]
+        [counts] = findings.table("samples").rows()
+        assert 0 < counts["failed"] < counts["solutions"]
+        assert "end of the trace" in findings.said("first failure")
         known = outcome.figures.of(study="scatter", quantity="peak_pressure")
         assert np.isfinite(known.one(friction=0.0).spread.mean)
 

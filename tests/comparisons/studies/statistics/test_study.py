@@ -12,16 +12,13 @@ from analytic.statistics.penetration import RIDGE
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels, problem_of
 from comparisons.output.record import read_result
 from comparisons.runs.run import Known, run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.statistics.figures import LoadRow
-from comparisons.studies.statistics.patches import patch_states
-from comparisons.studies.statistics.study import summit_rows
+from comparisons.studies.statistics.study import patch_rows, summit_rows
 
 ROUGH = {
     "kind": "self-affine", "hurst": 0.8, "rms_slope": 0.05, "samples": 4097, "length": 4e-3,
@@ -37,75 +34,82 @@ def outcome():
 
 @pytest.fixture(scope="module")
 def loads(outcome):
-    return outcome.data("statistics").loads
+    """Columns by name: values (7,) from the heaviest load down."""
+    columns = outcome.found["statistics"].table("loads").columns
+    return {name: column.numbers for name, column in columns.items()}
+
+
+@pytest.fixture(scope="module")
+def uncertainties(outcome):
+    """The same of their uncertainties."""
+    columns = outcome.found["statistics"].table("loads").columns
+    return {name: column.sizes for name, column in columns.items()}
+
+
+def pressure(source):
+    return f"figures.{source}.mean_real_pressure"
+
+
+def patches_of(outcome) -> dict[str, list[dict]]:
+    """Rows by model."""
+    series = outcome.found["statistics"].series
+    return {each.source: each.rows() for each in series if each.name == "patches"}
 
 
 def test_loads_go_down_three_decades_from_the_scenes(loads):
-    assert [row.load for row in loads] == pytest.approx(2e6 * np.logspace(0, -3, 7))
+    assert loads["load"] == pytest.approx(2e6 * np.logspace(0, -3, 7))
 
 
-def test_a_run_that_goes_on_need_not_solve_them_again(tmp_path, outcome, loads):
-    cache = level_cache(tmp_path / "out", outcome.problem, outcome.plan, LoadRow)
-    cache.save("statistics", loads)
-    assert cache.load("statistics") == loads
-
-
-def test_the_trace_under_the_scenes_load_is_the_models(outcome, loads):
-    level, figures = outcome.runs["half_plane"].finest, loads[0].figures["trace"]
-    assert figures.real_length == pytest.approx(level.contact_length, rel=5e-3)
-    assert figures.mean_real_pressure == pytest.approx(2e6 / level.contact_length, rel=5e-3)
-    assert abs(loads[0].grid.real_length) < 0.01
+def test_the_trace_under_the_scenes_load_is_the_models(outcome, loads, uncertainties):
+    level, name = outcome.runs["half_plane"].finest, "figures.trace.real_length"
+    assert loads[name][0] == pytest.approx(level.contact_length, rel=5e-3)
+    assert loads[pressure("trace")][0] == pytest.approx(2e6 / level.contact_length, rel=5e-3)
+    assert 0.0 < uncertainties[name][0] < 0.01 * loads[name][0]
 
 
 def test_the_theory_hardly_moves_where_ridges_do(loads):
     """Three decades: less than twice by the theory, and by Hertz of one ridge the root of 1000."""
-    grown = {
-        name: loads[0].figures[name].mean_real_pressure / loads[-1].figures[name].mean_real_pressure
-        for name in ("moments", "peaks", "trace", "random")
-    }
+    sources = ("moments", "peaks", "trace", "random")
+    grown = {name: loads[pressure(name)][0] / loads[pressure(name)][-1] for name in sources}
     assert 1.4 < grown["moments"] < 2.0 and 1.4 < grown["peaks"] < 2.0
     assert 3.5 < grown["random"] < np.sqrt(1000.0) and 3.5 < grown["trace"] < np.sqrt(1000.0)
 
 
-def test_a_light_load_rests_on_few_ridges_that_hertz_knows(loads):
-    few = [row for row in loads if row.patches < 2.5]
-    assert few
-    for row in few:
-        solved, error = row.figures["random"].mean_real_pressure, row.scatter.mean_real_pressure
-        assert row.even == pytest.approx(solved, rel=0.15 + error)
+def test_a_light_load_rests_on_few_ridges_that_hertz_knows(loads, uncertainties):
+    few, solved = loads["patches"] < 2.5, loads[pressure("random")]
+    error = 0.15 * solved + uncertainties[pressure("random")]
+    assert few.any() and np.all(np.abs(loads["even"] - solved)[few] < error[few])
 
 
 def test_a_heavy_load_has_no_cause_left_but_the_summits(loads):
     """With tens of contacts Persson's ridges meet the solved ones within a third."""
-    heavy = loads[0]
-    assert heavy.patches > 25.0
-    assert 1.0 < heavy.causes["few contacts"] < 1.33
-    assert 1.2 < heavy.causes["ridges"] < np.sqrt(2.0)
-    assert loads[-1].causes["ridges"] == pytest.approx(np.sqrt(2.0), rel=1e-3)
-    few = [row.causes["few contacts"] for row in loads]
-    assert few == sorted(few)
+    few, ridges = loads["causes.few contacts"], loads["causes.ridges"]
+    assert loads["patches"][0] > 25.0
+    assert 1.0 < few[0] < 1.33 and np.all(np.diff(few) >= 0.0)
+    assert 1.2 < ridges[0] < np.sqrt(2.0)
+    assert ridges[-1] == pytest.approx(np.sqrt(2.0), rel=1e-3)
 
 
-def test_causes_multiply_to_the_difference(loads):
-    for row in loads:
-        theory, solved = (row.figures[n].mean_real_pressure for n in ("moments", "random"))
-        difference, uncertainty = row.difference
-        assert np.prod(list(row.causes.values())) == pytest.approx(theory / solved)
-        assert difference == pytest.approx(theory / solved - 1.0)
-        assert uncertainty > (1.0 + difference) * row.scatter.mean_real_pressure
+def test_causes_multiply_to_the_difference(loads, uncertainties):
+    ratio = loads[pressure("moments")] / loads[pressure("random")]
+    causes = [values for name, values in loads.items() if name.startswith("causes.")]
+    assert len(causes) == 3 and np.prod(causes, axis=0) == pytest.approx(ratio)
+    assert loads["difference"] == pytest.approx(ratio - 1.0)
+    scatter = uncertainties[pressure("random")] / loads[pressure("random")]
+    assert np.all(uncertainties["difference"] > ratio * scatter)
 
 
 def test_effective_width_tends_to_hertz(loads):
-    ratios = [row.figures["moments"].effective_half_width / row.half_width for row in loads]
-    assert ratios == sorted(ratios) and ratios[0] < 1.15 and ratios[-1] > 3.0
-    assert loads[0].figures["random"].effective_half_width == pytest.approx(
-        loads[0].half_width, rel=0.1
-    )
+    ratios = loads["figures.moments.effective_half_width"] / loads["half_width"]
+    assert np.all(np.diff(ratios) >= 0.0) and ratios[0] < 1.15 and ratios[-1] > 3.0
+    solved = loads["figures.random.effective_half_width"][0]
+    assert solved == pytest.approx(loads["half_width"][0], rel=0.1)
 
 
 def test_filters_take_the_sharpest_summits_first(outcome):
     rows = {kind: [] for kind in ("as pressed", "cut-off", "sampling")}
-    for row in outcome.data("statistics").summits:
+    profile = outcome.problem.surface.profile
+    for row in summit_rows(profile, None):
         rows[row.treatment].append(row)
     assert [len(each) for each in rows.values()] == [1, 4, 2]
     for finer, coarser in zip(rows["cut-off"], rows["cut-off"][1:], strict=False):
@@ -128,32 +132,30 @@ def test_cutoffs_can_be_asked_for():
 
 class TestPatches:
     def test_each_is_what_its_pressure_makes_it(self, outcome):
-        (found,) = outcome.data("statistics").patches.values()
+        [found] = patches_of(outcome).values()
         level = outcome.runs["half_plane"].finest
         assert len(found) == len(level.patches)
-        assert sum(patch.load for patch in found) == pytest.approx(2e6, rel=1e-6)
-        assert max(patch.peak for patch in found) == level.solution.pressure.max()
+        assert sum(patch["load"] for patch in found) == pytest.approx(2e6, rel=1e-6)
+        assert max(patch["peak"] for patch in found) == level.solution.pressure.max()
         for patch in found:
-            assert patch.depth["sphere"] < patch.depth["ridge"]
-            flows, cuts = patch.depth["sphere"] > 0.01, patch.depth["ridge"] > 0.1
+            assert patch["depth.sphere"] < patch["depth.ridge"]
+            flows, cuts = patch["depth.sphere"] > 0.01, patch["depth.ridge"] > 0.1
             kind = "cutting" if cuts else "plastic" if flows else "elastic"
-            assert patch.kinds["exact"] == kind
-            assert patch.plastic_strain is None
-        assert len({patch.kinds["exact"] for patch in found}) > 1
+            assert patch["kinds.exact"] == kind
+            assert "plastic_strain" not in patch
+        assert len({patch["kinds.exact"] for patch in found}) > 1
 
     def test_one_smooth_patch_has_the_rollers_radius(self):
         """Hertz: h/R of a ridge is (a/R)^2, its radius the roller's."""
         found = run(resolved(SMOOTH), None, ("half_plane",))
         wanted = SimpleNamespace(metal="ferrous", lubricated=False)
         scene = found.problem.scene.unchecked({"statistics": wanted})
-        (patch,) = patch_states(
-            replace(found.problem, scene=scene), found.runs["half_plane"].finest
-        )
+        level = found.runs["half_plane"].finest
+        [patch] = patch_rows(replace(found.problem, scene=scene), level)
         hertz = found.problem.hertz
-        assert patch.radius == pytest.approx(hertz.radius, rel=1e-3)
-        assert patch.depth["ridge"] == pytest.approx(
-            (hertz.half_width / hertz.radius) ** 2, rel=1e-3
-        )
+        assert patch["radius"] == pytest.approx(hertz.radius, rel=1e-3)
+        depth = (hertz.half_width / hertz.radius) ** 2
+        assert patch["depth.ridge"] == pytest.approx(depth, rel=1e-3)
         assert RIDGE == 4.0
 
     def test_beside_them_stands_where_the_finite_elements_flow(self):
@@ -169,17 +171,17 @@ class TestPatches:
             "resolution": {"levels": 2, "pitch": 8e-6}, "budget": {"effects": False},
         }  # fmt: skip
         known = Known(levels=Levels(2))
-        patches = run(resolved(tables), None, MODELS, known=known).data("statistics").patches
-        elastic, flowing = patches["half_plane"], patches["finite_element"]
-        assert all(patch.plastic_strain is None for patch in elastic)
-        assert {patch.kinds["exact"] for patch in flowing} == {"elastic"}
+        elastic, flowing = patches_of(run(resolved(tables), None, MODELS, known=known)).values()
+        assert "plastic_strain" not in elastic[0]
+        assert {patch["kinds.exact"] for patch in flowing} == {"elastic"}
         for patch in flowing:
-            if patch.peak > 2.0 * 1.5e9:
-                assert patch.plastic_strain > 1e-4
-            if patch.peak < 1.5 * 1.5e9:
-                assert patch.plastic_strain < 1e-6
-        assert max(patch.peak for patch in flowing) < max(patch.peak for patch in elastic)
-        assert any(patch.plastic_strain > 1e-4 for patch in flowing)
+            if patch["peak"] > 2.0 * 1.5e9:
+                assert patch["plastic_strain"] > 1e-4
+            if patch["peak"] < 1.5 * 1.5e9:
+                assert patch["plastic_strain"] < 1e-6
+        largest = [max(patch["peak"] for patch in patches) for patches in (elastic, flowing)]
+        assert largest[1] < largest[0]
+        assert any(patch["plastic_strain"] > 1e-4 for patch in flowing)
 
 
 def test_a_run_says_it(tmp_path, capsys):
@@ -264,5 +266,5 @@ def test_statistics_of_a_smooth_profile_end_with_two_and_write_nothing(tmp_path,
 def test_the_scene_that_comes_along_has_both_kinds_of_asperities():
     scene = Scene.read("rough-statistics")
     assert scene.statistics.traces >= 8
-    (patches,) = run(scene, None, ("half_plane",)).data("statistics").patches.values()
-    assert {patch.kinds["exact"] for patch in patches} == {"elastic", "plastic"}
+    [patches] = patches_of(run(scene, None, ("half_plane",))).values()
+    assert {patch["kinds.exact"] for patch in patches} == {"elastic", "plastic"}

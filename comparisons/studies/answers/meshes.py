@@ -54,9 +54,9 @@ def _at_step(reader: object, step: int | None) -> "UnstructuredGrid":
     count = getattr(reader, "number_time_points", 0)
     if count:
         reader.set_active_time_point(_chosen(count, step))
-    found = reader.read()
-    found = found.combine() if hasattr(found, "combine") else found
-    return found.cast_to_unstructured_grid()
+    mesh = reader.read()
+    mesh = mesh.combine() if hasattr(mesh, "combine") else mesh
+    return mesh.cast_to_unstructured_grid()
 
 
 def _frd(path: Path, step: int | None) -> "UnstructuredGrid":

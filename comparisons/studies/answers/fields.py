@@ -17,12 +17,12 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import OutsideStress
-from comparisons.studies.answers.readers.curves import checked
-from comparisons.studies.answers.readers.meshes import read_mesh
+from comparisons.studies.answers.meshes import read_mesh
 
 if TYPE_CHECKING:
     from pyvista import PolyData, UnstructuredGrid
 
+FEWEST = 5  # points that show a pressure
 PLANES = 3  # of nodes of one layer of elements
 SAME = 1e-6  # of the mesh's extent: nodes of one plane
 FACING = 0.5  # cosine between the normal of a top edge and the way up
@@ -61,7 +61,7 @@ def read_fields(
     frictions = problem.scene.load.friction
     friction = frictions[0] if source.friction is None else source.friction
     if friction not in frictions or (source.friction is None and len(frictions) > 1):
-        listed = ", ".join(f"{each:g}" for each in frictions)
+        listed = ", ".join(f"{friction:g}" for friction in frictions)
         raise ValueError(f"is of one friction coefficient; allowed is friction = one of {listed}")
     body = plane_mesh(read_mesh(path, source.step), source, friction)
     nodes, pressure = _surface_pressure(body)
@@ -76,6 +76,20 @@ def read_fields(
     if window is None:
         return x, pressure, None
     return x, pressure, _stresses(body, nodes, friction, problem, window)
+
+
+def checked(x: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Both in ascending order. Raises ValueError for what is no pressure along a surface."""
+    order = np.argsort(x, kind="stable")
+    x, pressure = x[order], pressure[order]
+    if len(x) < FEWEST:
+        raise ValueError(f"has {len(x)} points; allowed are {FEWEST} or more along the contact")
+    if not np.all(np.diff(x) > 0.0):
+        twice = x[:-1][np.diff(x) <= 0.0][0]
+        raise ValueError(f"has x = {twice:g} m twice; allowed is one pressure at each place")
+    if not np.any(pressure):
+        raise ValueError("has no pressure but 0; allowed is that of a contact")
+    return x, pressure
 
 
 def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float) -> PlaneMesh:
@@ -98,7 +112,7 @@ def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float)
     triangles = _below(x, z, triangles)
     used, triangles = np.unique(triangles, return_inverse=True)
     arrays = {name: np.asarray(values)[used] for name, values in surface.point_data.items()}
-    stress = [source.stress * each for each in _stress_of(arrays, vertical, sign, friction)]
+    stress = [source.stress * part for part in _stress_of(arrays, vertical, sign, friction)]
     if not np.all(np.isfinite(stress)):
         raise ValueError("holds a stress that is no number; allowed is one at every node")
     pressure = None
@@ -154,22 +168,22 @@ def _stress_of(
     for suffix in ("", f" (friction {friction:g})"):
         if all(name + suffix in arrays for name in OWN):
             return tuple(arrays[name + suffix] for name in OWN)
-    found: dict[tuple[int, int], np.ndarray] = {}
+    components: dict[tuple[int, int], np.ndarray] = {}
     for name, values in arrays.items():
         bare = re.sub(r"[^a-z0-9]", "", name.lower())
         if values.ndim == 2 and (match := ROW.fullmatch(bare)):
             pairs = (tuple(sorted((AXES[match[1]], other))) for other in range(3))
-            found |= dict(zip(pairs, values.T, strict=False))
+            components |= dict(zip(pairs, values.T, strict=False))
         elif values.ndim == 2 and values.shape[1] in ORDERS and TENSOR.fullmatch(bare):
             for pair, column in zip(ORDERS[values.shape[1]], values.T, strict=True):
-                found.setdefault(pair, column)
+                components.setdefault(pair, column)
         elif values.ndim == 1 and (match := COMPONENT.fullmatch(bare)):
-            found.setdefault(tuple(sorted(AXES[axis] for axis in match[1])), values)
+            components.setdefault(tuple(sorted(AXES[axis] for axis in match[1])), values)
     wanted = ((0, 0), (vertical, vertical), (0, vertical))
-    if any(pair not in found for pair in wanted):
+    if any(pair not in components for pair in wanted):
         listed = ", ".join(arrays) or "none"
         raise ValueError(f"holds no stresses in its plane, of {listed}; allowed is S or sxx, …")
-    along, out, shear = (found[pair] for pair in wanted)
+    along, out, shear = (components[pair] for pair in wanted)
     return along, out, -sign * shear
 
 
@@ -198,12 +212,12 @@ def _surface_pressure(body: PlaneMesh) -> tuple[np.ndarray, np.ndarray]:
     up = normal[1] < -FACING * np.hypot(*normal)
     nodes = np.unique([start[up], stop[up]])
     at = np.searchsorted(nodes, [start[up], stop[up]]).ravel()
-    nx, nz = (np.bincount(at, np.tile(each[up], 2), len(nodes)) for each in normal)
+    nx, nz = (np.bincount(at, np.tile(part[up], 2), len(nodes)) for part in normal)
     nx, nz = nx / np.hypot(nx, nz), nz / np.hypot(nx, nz)
     stress = body.stress
     if body.pressure is not None:
         return nodes, body.pressure[nodes]
-    sx, sz, txz = (each[nodes] for each in (stress.sx, stress.sz, stress.txz))
+    sx, sz, txz = (part[nodes] for part in (stress.sx, stress.sz, stress.txz))
     return nodes, -(sx * nx**2 + 2.0 * txz * nx * nz + sz * nz**2)
 
 
@@ -236,7 +250,7 @@ def on_window(body: PlaneMesh, window: Window) -> StressState:
     mesh, at = Triangulation(body.x, body.z, body.triangles), np.meshgrid(window.x, window.z)
     parts = (body.stress.sx, body.stress.sz, body.stress.txz)
     try:
-        found = [LinearTriInterpolator(mesh, part)(*at).filled(np.nan) for part in parts]
+        fields = [LinearTriInterpolator(mesh, part)(*at).filled(np.nan) for part in parts]
     except RuntimeError as error:
         raise ValueError(f"its elements overlap ({error}); allowed is a mesh of one body") from None
-    return StressState(*found)
+    return StressState(*fields)

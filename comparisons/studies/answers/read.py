@@ -1,14 +1,18 @@
 """From the files of an answer to its pressures and stresses, or to one line of what is wrong."""
 
 import hashlib
+from pathlib import Path
+
+import numpy as np
 
 from analytic.surface.readers.source import MAX_BYTES, ProfileError, contents
+from analytic.surface.readers.text import read_table
 from comparisons.common.errors import InputError, one_line
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import Answer
-from comparisons.studies.answers.readers.curves import read_curve
+from comparisons.studies.answers.fields import checked, read_fields
 
 TABLES = (".csv", ".txt", ".dat", ".tsv", ".asc")
 LONGEST = 200  # characters of what a library says
@@ -24,17 +28,15 @@ def read_answers(problem: Problem, window: Window | None) -> dict[str, tuple[Ans
 def _read(
     name: str, source: AnswerSection, problem: Problem, window: Window | None
 ) -> tuple[Answer, ...]:
-    found = []
+    answers = []
     for file in source.file:
-        path = problem.scene.folder / file
+        path, stress = problem.scene.folder / file, None
+        is_table = path.suffix.lower() in TABLES
         try:
             sha256 = hashlib.sha256(contents(path, MAX_BYTES)).hexdigest()
-            if path.suffix.lower() in TABLES:
-                x, pressure = read_curve(path, source)
-                stress = None
+            if is_table:
+                x, pressure = _read_curve(path, source)
             else:
-                from comparisons.studies.answers.readers.fields import read_fields
-
                 x, pressure, stress = read_fields(path, source, problem, window)
         except ProfileError as error:
             said = str(error).replace("a profile is a text file", "allowed is a file")
@@ -42,6 +44,27 @@ def _read(
         except ValueError as error:
             said = one_line(str(error))[:LONGEST]
             raise InputError(f"answers.{name}.file: {path}: {said}") from None
-        of_mesh = path.suffix.lower() not in TABLES and source.pressure is None
-        found.append(Answer(path.name, sha256, x, pressure, stress, of_mesh))
-    return tuple(sorted(found, key=lambda answer: -answer.spacing))
+        of_mesh = not is_table and source.pressure is None
+        answers.append(Answer(path.name, sha256, x, pressure, stress, of_mesh))
+    return tuple(sorted(answers, key=lambda answer: -answer.spacing))
+
+
+def _read_curve(path: Path, source: AnswerSection) -> tuple[np.ndarray, np.ndarray]:
+    """x (n,) [m], ascending, and pressure (n,) [Pa] in a table."""
+    table = read_table(path, MAX_BYTES, one_column=False, columns=source.columns)
+    lost = np.flatnonzero(np.isnan(table.numbers).any(axis=1))
+    if len(lost):
+        raise table.error(int(lost[0]), "holds no number; allowed are x and pressure")
+    x, pressure = table.numbers.T
+    if not _one_way(x) and _one_way(pressure):
+        one, other = source.columns
+        raise ValueError(
+            "its first column goes to and fro and its second one way: are they swapped? allowed "
+            f"is x before pressure, columns = {[other, one]}"
+        )
+    return checked(x * source.length - source.x_origin, pressure * source.stress)
+
+
+def _one_way(values: np.ndarray) -> bool:
+    steps = np.diff(values)
+    return bool(np.all(steps > 0.0) or np.all(steps < 0.0))

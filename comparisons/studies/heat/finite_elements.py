@@ -1,4 +1,5 @@
-"""The heat of friction in finite bodies: conduction on meshes of their own, and its partition.
+"""The heat of friction in finite bodies: conduction on meshes of their own, its partition, and the
+thermal stresses of the rough body with those of its contact.
 
 A body without a thickness goes on as a half-space beyond its mesh. That of a layer ends where the
 heat has gone into its base or been carried off. The roller is a disc of its radius and has its bulk
@@ -6,21 +7,34 @@ temperature at the scene's `reach` from the contact, and where its rim comes in;
 what is heated is meshed."""
 
 from collections.abc import Callable, Set
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
 from analytic.heat.moving_source import line_source
-from analytic.material import ThermalMaterial
 from analytic.numerics import runs_of
+from comparisons.models.finite_element.bodies import rough_support
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.studies.heat.half_space import FARTHEST, HeatedContact, heat_of_friction, reach_of
+from comparisons.models.window import Window
+from comparisons.studies.heat.half_space import (
+    FARTHEST,
+    HeatedContact,
+    HeatedStress,
+    friction_of,
+    heat_of_friction,
+    reach_of,
+    surface_places,
+)
 from fem.body.coating import Coating
+from fem.body.elasticity import elastic_body
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.partition import FrictionalHeat
 from fem.heat.surface_heat import values_at
+from fem.heat.thermal_stress import thermal_stress
+from fem.stress.maximum import maximum
+from fem.stress.stress import evaluate_all
 from meshes.build import build_block
 from meshes.real_shape import rounded
 from meshes.thermal_layer import thermal_spec
@@ -46,30 +60,24 @@ def solved_heat(
 ) -> tuple[HeatedContact, Callable[[np.ndarray], np.ndarray]]:
     """`finite_element_heat`, and the rough body's temperature (k,) [K] of places (k, 2) [m] by its
     shape functions; beyond its mesh a moving half-plane has a line source's, a layer its end's."""
-    x, heat = level.grid.x, heat_of_friction(problem, level)
-    x = np.concatenate([[x[0] - level.grid.pitch], x, [x[-1] + level.grid.pitch]])
+    x, heat, pitch = level.grid.x, heat_of_friction(problem, level), level.grid.pitch
+    x = np.concatenate([[x[0] - pitch], x, [x[-1] + pitch]])
     heat = np.pad(heat, 1)
     contact = (heat[1:] > 0.0) | (heat[:-1] > 0.0)
     first, after = runs_of(contact)
     patches = np.column_stack([x[first], x[after]])
-    settings = problem.scene.heat
-    rough_velocity, roller_velocity = settings.velocities
-    halves = (
-        _Half(True, settings.body, rough_velocity),
-        _Half(False, settings.roller, roller_velocity),
-    )
     bodies = tuple(
-        _conduction(problem, half, patches, level.grid.pitch, block, without) for half in halves
+        _conduction(problem, is_rough, patches, pitch, block, without) for is_rough in (True, False)
     )
-    found = FrictionalHeat(bodies, x, contact).steady(heat)
+    steady = FrictionalHeat(bodies, x, contact).steady(heat)
     into_body = np.zeros_like(heat)
-    into_body[np.searchsorted(x, found.x)] = found.flux[0]
+    into_body[np.searchsorted(x, steady.x)] = steady.flux[0]
     rises = [
-        values_at(each.body.surface, x) @ temperature[each.body.surface.point]
-        for each, temperature in zip(bodies, found.temperature, strict=True)
+        values_at(conduction.body.surface, x) @ temperature[conduction.body.surface.point]
+        for conduction, temperature in zip(bodies, steady.temperature, strict=True)
     ]
     inner = (values[1:-1] for values in (x, heat, into_body, *rises))
-    body, nodal, velocity = bodies[0].body, found.temperature[0], settings.velocities[0]
+    body, nodal, velocity = bodies[0].body, steady.temperature[0], bodies[0].velocity
 
     def at(places: np.ndarray) -> np.ndarray:
         if bodies[0].surroundings.base != "open":
@@ -79,36 +87,29 @@ def solved_heat(
         rise, rate = body.at(places, nodal), -0.5 * velocity / body.material.diffusivity
         beyond, centre = np.isnan(rise), x @ into_body / into_body.sum()
         away, z = (places[beyond] - (centre, 0.0)).T
-        share = found.share * heat.sum() * level.grid.pitch / (np.pi * body.material.conductivity)
+        share = steady.share * heat.sum() * pitch / (np.pi * body.material.conductivity)
         rise[beyond] = share * line_source(away, rate, z)
         return rise
 
-    return HeatedContact(*inner, found.share), at
-
-
-@dataclass(frozen=True)
-class _Half:
-    """One of the two bodies."""
-
-    rough: bool  # else the roller
-    material: ThermalMaterial
-    velocity: float  # of its surface past the contact [m/s]
+    return HeatedContact(*inner, steady.share), at
 
 
 def _conduction(
     problem: Problem,
-    half: _Half,
+    is_rough: bool,
     patches: np.ndarray,
     pitch: float,
     block: float,
     without: Set[str],
 ) -> Conduction:
-    """The rough body or the roller on a mesh of its own, finer on each level in every respect."""
+    """The rough body, or else the roller, on a mesh of its own, finer on each level in every
+    respect."""
     scene, settings = problem.scene, problem.scene.heat
-    rough, material, velocity = half.rough, half.material, half.velocity
-    thickness = scene.body.thickness if rough and "thickness" not in without else None
-    coated = scene.coating if rough and "coating" not in without else None
-    radius = np.inf if rough or "roller" in without else scene.roller.radius
+    material = settings.body if is_rough else settings.roller
+    velocity = settings.velocities[0 if is_rough else 1]
+    thickness = scene.body.thickness if is_rough and "thickness" not in without else None
+    coated = scene.coating if is_rough and "coating" not in without else None
+    radius = np.inf if is_rough or "roller" in without else scene.roller.radius
     half_width = block * BLOCK * float(np.abs(patches).max())
     layer = None if coated is None else Coating(settings.coating, coated.thickness)
     slower = min(m.diffusivity for m in (material, layer and layer.material) if m)
@@ -141,3 +142,28 @@ def _conduction(
     mesh = rounded(mesh, radius) if np.isfinite(radius) else mesh
     body = thermal_body(mesh, material, coating=layer, radius=radius)
     return Conduction(body, velocity, around, float(patches.mean()), reach_of(problem))
+
+
+def finite_element_stress(
+    problem: Problem, level: Level, window: Window, beyond: float = np.inf
+) -> HeatedStress:
+    """Of a level; an unbounded body is held `beyond` this part of its mesh."""
+    heat, friction, field = problem.scene.heat, friction_of(problem), level.mesh_field
+    made = field.mesh, field.material, rough_support(problem, field.mesh.spec, beyond)
+    body = elastic_body(*made, degree=field.degree, coating=field.coating)
+    expansion = np.where(body.coated, heat.coating_expansion or 0.0, heat.body_expansion)
+    temperature = solved_heat(problem, level)[1]
+    thermal, _ = thermal_stress(body, expansion, temperature(body.points))
+    elastic = field.on(body)[field.frictions.index(friction)]
+    both = replace(
+        elastic,
+        at=lambda node: elastic.at(node) + thermal.at(node),
+        estimate=lambda: elastic.estimate() + thermal.values,
+        together=None,
+    )
+    bounds = -window.extent, window.extent, window.z[-1]
+    tau1 = maximum(body, both, lambda stress: stress.tau1, bounds)
+    x = surface_places(level, window, field.ends)
+    along = evaluate_all(body, (both, elastic), x, np.zeros_like(x))
+    cold = level.stress(friction).extremes["tau1"]
+    return HeatedStress((tau1, cold), x, np.array([stress.sx for stress in along]))

@@ -1,1 +1,0 @@
-"""Files of answers from outside: tables of pressures, and results on any mesh."""
