@@ -20,7 +20,7 @@ from comparisons.common.mpi import is_first
 from comparisons.common.numbers import finite
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, key_of, machine, program_code, versions
-from comparisons.common.tasks import Here, ProcessEnded, tasks_here
+from comparisons.common.tasks import ProcessEnded, called, tasks_here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS
 from comparisons.figures.uncertainty import Uncertainty
@@ -180,13 +180,17 @@ class Row:
         }
 
 
+def summary_row(group: str, name: str, model: str, *figures: Figure) -> Row:
+    """A row that follows from others."""
+    return Row(Case(group, name, model, tuple), figures, None, 0.0)
+
+
 def carried_out(case: Case) -> Row:
-    return Row(case, *_solved(None, case.solve))
+    return Row(case, *_solved(case.solve))
 
 
-def _solved(
-    here: Here | None, solve: Callable[[], Iterable[Figure]]
-) -> tuple[CaseFigures, str | None, float]:
+def _solved(solve: Callable[[], Iterable[Figure]]) -> tuple[CaseFigures, str | None, float]:
+    """Figures, the message of what was raised, and seconds of the processor."""
     start, figures, error = process_time(), (), None
     try:
         with warnings.catch_warnings():
@@ -202,17 +206,18 @@ def rows_of(
 ) -> tuple[Row, ...]:
     """The rows of all cases, which processes share where that pays (`comparisons.common.tasks`):
     what solves a case can be pickled then."""
-    cases, rows = tuple(cases), []
+    named, rows = {str(number): case for number, case in enumerate(cases, start=1)}, []
     with tasks_here(kept=kept) as tasks:
-        for number, case in enumerate(cases, start=1):
-            tasks.add(str(number), _solved, case.solve, seconds=USUAL_SECONDS.get(case.model, 0.0))
-        for number, case in enumerate(cases, start=1):
+        for key, case in named.items():
+            seconds = USUAL_SECONDS.get(case.model, 0.0)
+            tasks.add(key, called, _solved, case.solve, seconds=seconds)
+        for key, case in named.items():
             failed = sum(not row.holds for row in rows)
-            name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
-            name += f"{case.model}: {case.group}: {case.name}"
-            callback(Step(name, (number - 1) / len(cases)))
+            failures = f", {failed} failed" if failed else ""
+            name = f"{key} of {len(named)}{failures}: {case.model}: {case.group}: {case.name}"
+            callback(Step(name, len(rows) / len(named)))
             try:
-                rows.append(Row(case, *tasks.result(str(number))))
+                rows.append(Row(case, *tasks.result(key)))
             except ProcessEnded:
                 rows.append(Row(case, (), ENDED, 0.0))
     return tuple(rows)
@@ -221,8 +226,7 @@ def rows_of(
 def answers_of(out: Path, cases: Iterable[Case]) -> Cache:
     """Answers of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
-    code = program_code("analytic", "comparisons", "fem", "meshes")
-    key = key_of(names, versions(), code)
+    key = key_of(names, versions(), program_code("analytic", "comparisons", "fem", "meshes"))
     return Cache(unfinished(out), key, kinds_of(Figure), by_all=True)
 
 
@@ -280,8 +284,7 @@ def carry_out(
     check_writable(out, (f"{command}.json", f"{command}.html"))
     check_place(junit)
     start, kept = perf_counter(), answers_of(out, cases)
-    rows = rows_of(cases, callback, kept)
-    campaign = concluded(command, rows, perf_counter() - start)
+    campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     if is_first():
         files = {f"{command}.json": as_json(finite(campaign.as_dict()))}
         if page is not None:

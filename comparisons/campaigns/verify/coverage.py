@@ -1,29 +1,26 @@
 """Figures with an exact answer: coverage of their stated uncertainties, and orders of convergence.
 
-In: rows of cases that yield a figure, its exact value, and whether both are close (`compared`).
-Out: cases of what must hold of all of them together, and the verification.
+In: rows of cases that yield figures with exact values, and whether both are close (`compared`).
+Out: rows of what must hold of all of them together.
 
 Of one contact the error varies with where the edge falls between two nodes; the root mean square
 over contacts with different numbers of elements falls like a power of the element size."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import cached_property, partial
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from comparisons.campaigns.cases import (
-    Campaign,
-    Case,
     CaseFigures,
     Row,
     bounded,
-    carried_out,
     holds,
     order_figure,
+    summary_row,
 )
-from comparisons.figures.figure import Figure, grouped
-from comparisons.figures.uncertainty import COVERAGE, Uncertainty
+from comparisons.figures.figure import Figure, Part
+from comparisons.figures.uncertainty import COVERAGE
 from comparisons.studies import contact
 from comparisons.studies.study import MODEL_ERROR
 
@@ -73,16 +70,11 @@ FEWEST_CONTACTS = 16  # for an observed order
 def compared(
     figure: Figure, exact: float, reference: str, kind: str, converged: bool = True
 ) -> CaseFigures:
-    """The figure of a case of that kind, the exact value by a reference [SI], and the error, which
-    must be below a ceiling whatever uncertainty is stated; infinite if not converged."""
-    figure = replace(figure, notes=() if converged else (NOT_CONVERGED,))
-    value = Figure(
-        *(figure.study, figure.quantity, EXACT, float(exact)),
-        against=figure.against,
-        uncertainty=Uncertainty(),
-        notes=(reference,),
-    )
-    return figure, value, Pair(kind, "", figure, value).closeness
+    """The figure of a case of that kind, with its exact value by a reference [SI]; and its error,
+    which must be below a ceiling whatever uncertainty is stated, infinite if not converged."""
+    notes = (reference,) if converged else (reference, NOT_CONVERGED)
+    figure = replace(figure, parts=(Part(EXACT, float(exact)),), notes=notes)
+    return figure, Pair(kind, "", figure).closeness
 
 
 @dataclass(frozen=True)
@@ -92,8 +84,19 @@ class Pair:
     # kind, case: Hertz | surface | sliding | hardness | layer | wave | punch | rough, and its name
     kind: str
     case: str
-    figure: Figure  # with its levels, and its uncertainty as stated
-    exact: Figure
+    figure: Figure  # with its levels, its uncertainty as stated, and what `compared` adds
+
+    @property
+    def exact(self) -> float:
+        return self.figure.part(EXACT).value
+
+    @property
+    def reference(self) -> str:
+        return self.figure.notes[0]
+
+    @property
+    def converged(self) -> bool:
+        return NOT_CONVERGED not in self.figure.notes
 
     @property
     def model(self) -> str:
@@ -110,7 +113,7 @@ class Pair:
     @property
     def errors(self) -> list[float]:
         """True errors of all levels, relative to the figure's scale, with their signs."""
-        return [(value - self.exact.value) / self.figure.scale for value in self.figure.levels]
+        return [(value - self.exact) / self.figure.scale for value in self.figure.levels]
 
     @property
     def error(self) -> float:
@@ -139,28 +142,28 @@ class Pair:
         ceiling *= MODEL_ERROR_FACTOR if is_error else 1.0
         ratio = "rounding" if self.overestimation is None else f"{self.overestimation:.3g}"
         note = (
-            f"value {figure.value:.12g}, exact {self.exact.value:.12g}, relative error "
+            f"value {figure.value:.12g}, exact {self.exact:.12g}, relative error "
             f"{self.error:.3e}, stated uncertainty {figure.numerical:.3e}, "
             f"{'covered' if self.covered else 'NOT covered'}, overestimation ratio {ratio}, "
-            + (NOT_CONVERGED if figure.notes else figure.uncertainty.convergence.behaviour)
+            + (figure.uncertainty.convergence.behaviour if self.converged else NOT_CONVERGED)
         )
-        error = np.inf if figure.notes else abs(self.error)
+        error = abs(self.error) if self.converged else np.inf
         name = f"{self.table}, {self.quantity}" if is_error else self.quantity
-        return bounded(name, error, ceiling, self.exact.notes[0], note=note)
+        return bounded(name, error, ceiling, self.reference, note=note)
 
     def as_dict(self) -> dict:
         stated = self.figure.uncertainty
         return {
             "case": self.case,
-            "source": self.exact.notes[0],
+            "source": self.reference,
             "kind": self.kind,
             "model": self.model,
             "quantity": self.quantity,
             "levels": self.figure.levels,
-            "exact": self.exact.value,
+            "exact": self.exact,
             "scale": self.figure.scale,
             "uncertainty": {name: stated.parts[name] for name in PARTS} | {"total": stated.total},
-            "converged": not self.figure.notes,
+            "converged": self.converged,
             "table": self.table,
             "error": self.error,
             "covered": self.covered,
@@ -173,9 +176,8 @@ class Pair:
 
 def pairs_of(row: Row) -> list[Pair]:
     """The figures of a row that have an exact value."""
-    known = grouped(row.figures, lambda figure: (figure.study, figure.quantity))
     case = row.case.group, row.case.name
-    return [Pair(*case, *both) for both in known if both[-1].source == EXACT]
+    return [Pair(*case, figure) for figure in row.figures if figure.part(EXACT)]
 
 
 @dataclass(frozen=True)
@@ -200,28 +202,25 @@ def coverage(pairs: Iterable[Pair]) -> Coverage:
     return Coverage(len(pairs), len(informative), share, median, high)
 
 
-def coverage_cases(
-    pairs: Iterable[Pair], fewest: int = FEWEST, fewest_rough: int = FEWEST_ROUGH
-) -> list[Case]:
+def coverage_rows(
+    pairs: Sequence[Pair], fewest: int = FEWEST, fewest_rough: int = FEWEST_ROUGH
+) -> Iterator[Row]:
     """Enough informative figures, covered often enough, by uncertainties that are not too large:
     of all contacts, and of the rough ones."""
-    pairs = list(pairs)
-    groups = [("all figures", pairs, MOST_OVERESTIMATION, fewest)]
+    yield _coverage_row("all figures", pairs, MOST_OVERESTIMATION, fewest)
     rough = [pair for pair in pairs if pair.kind == "rough"]
     if rough or fewest_rough:
-        groups.append(("rough contacts", rough, MOST_ROUGH, fewest_rough))
-    return [
-        Case("coverage", name, "both", partial(_covered, coverage(group), most, least))
-        for name, group, most, least in groups
-    ]
+        yield _coverage_row("rough contacts", rough, MOST_ROUGH, fewest_rough)
 
 
-def _covered(shown: Coverage, most: float, fewest: int) -> CaseFigures:
-    ratio, uncertainties = shown.median_overestimation, "the stated uncertainties"
-    return (
-        bounded("share covered", shown.covered, 1.0, uncertainties, LEAST_COVERAGE),
-        bounded("median overestimation ratio", ratio, most, uncertainties),
-        bounded("informative figures", shown.informative, np.inf, "exact answers", fewest),
+def _coverage_row(name: str, pairs: Sequence[Pair], most: float, fewest: int) -> Row:
+    shown, stated = coverage(pairs), "the stated uncertainties"
+    ratio, count = shown.median_overestimation, shown.informative
+    return summary_row(
+        *("coverage", name, "both"),
+        bounded("share covered", shown.covered, 1.0, stated, LEAST_COVERAGE),
+        bounded("median overestimation ratio", ratio, most, stated),
+        bounded("informative figures", count, np.inf, "exact answers", fewest),
     )
 
 
@@ -231,7 +230,7 @@ def observed_order(errors: Sequence[Sequence[float]]) -> float:
     return float(np.log2(square[0] / square[-1]) / (len(square) - 1))
 
 
-def order_cases(rows: Iterable[Row]) -> list[Case]:
+def order_rows(rows: Iterable[Row]) -> Iterator[Row]:
     """Orders of the figures of Hertz's contact and of all pressures, where there are enough."""
     errors: dict[tuple[str, str], list[Sequence[float]]] = {key: [] for key in ORDERS}
     for row in rows:
@@ -241,52 +240,9 @@ def order_cases(rows: Iterable[Row]) -> list[Case]:
         for pair in pairs_of(row):
             if pair.kind == "Hertz" and (pair.model, pair.quantity) in ORDERS:
                 errors[pair.model, pair.quantity].append(pair.errors)
-    cases = []
-    for (model, name), of_contacts in errors.items():
+    for (model, quantity), of_contacts in errors.items():
         if len(of_contacts) >= FEWEST_CONTACTS:
-            order = observed_order(of_contacts), *ORDERS[model, name]
-            figures = (order_figure("observed order", *order, "the exact contacts"),)
-            words = f"{name}, {len(of_contacts)} contacts"
-            cases.append(Case("order", words, model, partial(tuple, figures)))
-    return cases
-
-
-@dataclass(frozen=True)
-class Verification(Campaign):
-    """The rows of `verify`, with the pairs of stated uncertainty and true error among them."""
-
-    @cached_property
-    def pairs(self) -> tuple[Pair, ...]:
-        return tuple(pair for row in self.rows for pair in pairs_of(row))
-
-    @cached_property
-    def coverage(self) -> Coverage:
-        return coverage(self.pairs)
-
-    def groups(self, *names: str) -> dict[tuple[str, ...], Coverage]:
-        """Coverage by the named fields of the pairs, in order of appearance."""
-
-        def key(pair: Pair) -> tuple[str, ...]:
-            return tuple(getattr(pair, name) for name in names)
-
-        return {key(pairs[0]): coverage(pairs) for pairs in grouped(self.pairs, key)}
-
-    def as_dict(self) -> dict:
-        return super().as_dict() | {
-            "coverage": asdict(self.coverage),
-            "groups": [
-                {**dict(zip(names, group, strict=True)), **asdict(covered)}
-                for names in GROUPS
-                for group, covered in self.groups(*names).items()
-            ],
-            "pairs": [pair.as_dict() for pair in self.pairs],
-        }
-
-
-def verification(
-    rows: tuple[Row, ...], seconds: float, fewest: int, fewest_rough: int
-) -> Verification:
-    """All rows, with those of the coverage by the stated uncertainties."""
-    pairs = [pair for row in rows for pair in pairs_of(row)]
-    covered = map(carried_out, coverage_cases(pairs, fewest, fewest_rough))
-    return Verification("verify", (*rows, *covered), seconds)
+            order = observed_order(of_contacts), *ORDERS[model, quantity]
+            figure = order_figure("observed order", *order, "the exact contacts")
+            name = f"{quantity}, {len(of_contacts)} contacts"
+            yield summary_row("order", name, model, figure)

@@ -150,7 +150,6 @@ def _operator_contact(seed: int, body: RoughBody) -> OperatorContact:
         *(_name(seed, body, contact), SOURCE, "rough", "layer"),
         make=partial(LayeredSurface, body=contact.layer),
         gap=contact.gap,
-        knots=(),
         load=contact.load,
         span=(contact.ends[0] - margin, contact.ends[1] + margin),
         scale=_half_patch(contact),

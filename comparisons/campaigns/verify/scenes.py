@@ -57,6 +57,7 @@ GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 # Extremes are searched in the window of the field.
 WINDOW = {"half_range": 1.5, "depth": 1.5, "points": [60, 20]}
 LAYER_RADIUS, LAYER_THICKNESS, LAYER_MODULUS = 0.1, 1e-3, 200e9
+LAYER_SOURCE = "slope equation by collocation, analytic/exact/layer_contact.json"
 FINER = 8.0
 NEARLY_INCOMPRESSIBLE = 0.4999  # beside 0.3, where any Poisson's ratio gives the same
 
@@ -129,11 +130,12 @@ def spread(count: int, fewest: float = FEWEST_ELEMENTS, most: float = MOST_ELEME
 
 def layer_scenes() -> tuple[ExactScene, ...]:
     """Rigid cylinders on layers, for the finite elements alone."""
-    scenes = []
-    for reference in layer_references():
-        nu = reference.poissons_ratio
-        ratios = (0.3, NEARLY_INCOMPRESSIBLE) if nu is None else (nu,)
-        scenes += [layer_scene(reference, ratio) for ratio in ratios]
+    any_ratio = 0.3, NEARLY_INCOMPRESSIBLE
+    scenes = [
+        layer_scene(reference, nu)
+        for reference in layer_references()
+        for nu in (any_ratio if reference.poissons_ratio is None else [reference.poissons_ratio])
+    ]
     # every other one's model error: with both models it takes twice the time
     return tuple(
         replace(scene, half_plane=smooth_half_plane) if number % 2 else scene
@@ -215,8 +217,7 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
         "contact_length": 2.0 * reference.half_width * LAYER_THICKNESS,
     }
     name = f"layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t"
-    source = "slope equation by collocation, analytic/exact/layer_contact.json"
-    return ExactScene(name, source, "layer", tables, exact, models=("finite_element",))
+    return ExactScene(name, LAYER_SOURCE, "layer", tables, exact, models=("finite_element",))
 
 
 def scene_cases(scenes: Iterable[ExactScene]) -> list[Case]:

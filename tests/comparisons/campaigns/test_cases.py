@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from comparisons.campaigns import robustness
 from comparisons.campaigns.cases import (
     ENDED,
     Case,
@@ -17,6 +18,7 @@ from comparisons.campaigns.cases import (
     answers_of,
     bounded,
     carried_out,
+    carry_out,
     junit_of,
     order_figure,
     relative_error,
@@ -24,11 +26,10 @@ from comparisons.campaigns.cases import (
     rows_table,
     verdict_lines,
 )
-from comparisons.campaigns.robustness import run as robustness
-from comparisons.campaigns.robustness.run import all_cases, run_robustness
 from comparisons.cli import main
 from comparisons.common import tasks
 from comparisons.common.errors import ExitStatus
+from comparisons.common.progress import no_progress
 from comparisons.figures.figure import Figure
 
 
@@ -117,7 +118,7 @@ def written(tmp_path):
     announced = []
     cases = case(figure(np.inf)), RAISES, case(figure(0.1), name="good")
     junit = tmp_path / "ci" / "rows.xml"
-    return run_robustness(tmp_path, junit, announced.append, lambda: cases), tmp_path, announced
+    return carry_out("stability", cases, tmp_path, junit, announced.append), tmp_path, announced
 
 
 def test_one_bad_row_does_not_end_the_others_and_the_table_shows_all(written):
@@ -165,14 +166,14 @@ def test_junit_has_a_testcase_for_each_figure_and_error(written):
 
 
 def test_no_rows_are_no_success(tmp_path):
-    assert run_robustness(tmp_path, cases=tuple).exit_status == ExitStatus.OUTSIDE_TOLERANCE
+    empty = carry_out("stability", (), tmp_path, None, no_progress)
+    assert empty.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 
 @pytest.mark.parametrize(("value", "status"), [(0.5, 0), (2.0, 1)])
 def test_the_command_ends_with_what_the_rows_say(tmp_path, monkeypatch, capsys, value, status):
     monkeypatch.chdir(tmp_path)
-    short = partial(run_robustness, cases=lambda: [case(figure(value))])
-    monkeypatch.setattr(robustness, "run_robustness", short)
+    monkeypatch.setattr(robustness, "all_cases", lambda: [case(figure(value))])
     assert main(["stability", "--junit", "ci.xml"]) == status
     out, err = capsys.readouterr()
     assert f"{1 - status} of 1 cases hold" in out and err == ""
@@ -187,14 +188,14 @@ def test_places_that_cannot_be_written_are_refused_first(tmp_path, capsys, comma
     (tmp_path / "file").write_text("")
     assert main([command, "--out", str(tmp_path / "file")]) == ExitStatus.BAD_INPUT
     assert "is not a folder" in capsys.readouterr().err
-    given = [command, "--out", str(tmp_path / "out"), "--junit", str(tmp_path)]
-    assert main(given) == ExitStatus.BAD_INPUT
+    arguments = ["--out", str(tmp_path / "out"), "--junit", str(tmp_path)]
+    assert main([command, *arguments]) == ExitStatus.BAD_INPUT
     assert "allowed is a file" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
 def test_each_case_has_a_name_of_its_own_and_both_models_have_many():
-    cases = all_cases()
+    cases = robustness.all_cases()
     names = [(case.model, case.group, case.name) for case in cases]
     assert len(set(names)) == len(names) >= 105
     assert sum(case.model == "finite_element" for case in cases) >= 50

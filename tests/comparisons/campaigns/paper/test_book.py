@@ -8,9 +8,8 @@ from scenes import DATA
 
 from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.rough_bodies import bearing_of
-from comparisons.campaigns.paper.claims import book
-from comparisons.campaigns.paper.claims.claim_list import book_claims
-from comparisons.campaigns.paper.claims.judgement import CONFIRMED, DENIED, THEORY, judge
+from comparisons.campaigns.paper import book
+from comparisons.campaigns.paper.claims import CONFIRMED, DENIED, THEORY, book_claims, judge
 
 JUDGED = {claim.key: judge(claim, None) for claim in book_claims()}
 REFERENCE = json.loads((DATA / "g_greenwood.json").read_text())["GT"]

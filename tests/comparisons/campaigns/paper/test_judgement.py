@@ -6,17 +6,19 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from comparisons.campaigns.paper.claims.claim_list import FIGURES, SCENES, claims
-from comparisons.campaigns.paper.claims.judgement import (
+from comparisons.campaigns.paper.claims import (
     CONFIRMED,
     DENIED,
+    FIGURES,
     INCONCLUSIVE,
     NOT_CONVERGED,
+    SCENES,
     Claim,
+    claims,
     judgement,
     measured,
 )
-from comparisons.campaigns.paper.claims.readings import LevelView
+from comparisons.campaigns.paper.readings import LevelView
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
 

@@ -10,19 +10,15 @@ import numpy as np
 import pytest
 
 from comparisons import cli
-from comparisons.campaigns.paper import reproduce
-from comparisons.campaigns.paper.claims.claim_list import FIGURES, SCENES, book_claims, claims
-from comparisons.campaigns.paper.claims.judgement import OUTCOMES
-from comparisons.campaigns.paper.claims.readings import SLIDING
-from comparisons.campaigns.paper.pictures import pressure as pressure_pictures
-from comparisons.campaigns.paper.pictures import stresses as stress_pictures
-from comparisons.campaigns.paper.reproduce import FRICTIONS, Fineness
+from comparisons.campaigns.paper import pictures, reproduce
+from comparisons.campaigns.paper.claims import FIGURES, OUTCOMES, SCENES, book_claims, claims
+from comparisons.campaigns.paper.readings import SLIDING
+from comparisons.campaigns.paper.reproduce import FRICTIONS
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.figures.quantity import LABELS, MODELS
 
-COARSE = Fineness(pitch=80e-6, points=(40, 20))
+COARSE = {"resolution.pitch": 80e-6, "stress.points": (40, 20)}
 PICTURES = 1 + 2 + 3 * len(SCENES) + 4 + 2
-DRAWING = (pressure_pictures, stress_pictures)
 
 
 class Page(HTMLParser):
@@ -49,17 +45,15 @@ class Page(HTMLParser):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """The finished paper, its folder, and every figure by the module that drew it."""
-    figures: dict[str, list] = {}
+    """The finished paper, its folder, and its figures in the order of the page."""
+    figures, real = [], pictures._picture
     with pytest.MonkeyPatch.context() as patch:
-        for module in DRAWING:
-            name, real = module.__name__.rpartition(".")[2], module.data_uri
 
-            def keep(drawn, name=name, real=real):
-                figures.setdefault(name, []).append(drawn)
-                return real(drawn)
+        def keep(drawn, *texts, **look):
+            figures.append(drawn)
+            return real(drawn, *texts, **look)
 
-            patch.setattr(module, "data_uri", keep)
+        patch.setattr(pictures, "_picture", keep)
         out = tmp_path_factory.mktemp("paper") / "out"
         stages = []
         found = reproduce.paper(out, COARSE, stages.append)
@@ -133,8 +127,7 @@ def test_exact_figures_are_met_even_so_coarsely(made):
 
 class TestPictures:
     def test_pressures_share_one_scale_and_are_over_hertz(self, made):
-        trace, *panels = made.figures["pressure"]
-        assert len(panels) == len(SCENES)
+        trace, panels = made.figures[0], made.figures[3:15:3]
         limits = {axes.get_ylim() for figure in (trace, *panels) for axes in figure.axes[:1]}
         assert len(limits) == 1
         assert len({figure.axes[1].get_ylim() for figure in panels}) == 1
@@ -150,15 +143,14 @@ class TestPictures:
             assert figure.axes[1].get_ylabel() == "height [µm]"
 
     def test_the_trace_has_the_papers_axis(self, made):
-        axes = made.figures["pressure"][0].axes[1]
+        axes = made.figures[0].axes[1]
         np.testing.assert_allclose(axes.get_xticks(), [0, 559, 1118, 1677, 2236], atol=1e-6)
         assert "µm" in axes.get_xlabel()
         assert "25 µm" in [text.get_text() for text in axes.texts]
 
     def test_shear_has_one_scale_for_all_surfaces(self, made):
-        _, _, *drawn = made.figures["stresses"]
-        assert len(drawn) == 2 * len(SCENES)
-        for contours in (drawn[::2], drawn[1::2]):  # orthogonal, principal
+        for contours in (made.figures[4:15:3], made.figures[5:15:3]):  # orthogonal, principal
+            assert len(contours) == len(SCENES)
             bars = [figure.axes[-1] for figure in contours]
             assert len({(bar.get_xlim(), tuple(bar.get_xticks())) for bar in bars}) == 1
             for figure in contours:
@@ -168,7 +160,7 @@ class TestPictures:
                 assert any(t.get_text().endswith("/p₀") for t in figure.axes[-1].texts)
 
 
-@pytest.mark.parametrize("step", ["solve_surfaces", "sections_of"])
+@pytest.mark.parametrize("step", ["solve_surfaces", "paper_page"])
 def test_an_interrupt_leaves_nothing(monkeypatch, tmp_path, capsys, step):
     def stopped(*_, **__):
         raise KeyboardInterrupt

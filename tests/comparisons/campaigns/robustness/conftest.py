@@ -1,19 +1,17 @@
-"""Rows of `stability`, run by their module and name."""
+"""Rows of `stability`, carried out by their model and name."""
 
 from collections.abc import Callable
-from types import ModuleType
 
 import pytest
 
 from comparisons.campaigns.cases import Row, carried_out
-from comparisons.campaigns.robustness.run import all_cases
+from comparisons.campaigns.robustness import all_cases
 
 
 @pytest.fixture
-def row_of() -> Callable[[ModuleType, str], Row]:
-    def run(module: ModuleType, name: str) -> Row:
-        functions = vars(module).values()
-        cases = (case for case in all_cases() if case.solve.func in functions)
-        return carried_out(next(case for case in cases if case.name == name))
+def row_of() -> Callable[[str, str], Row]:
+    def row(model: str, name: str) -> Row:
+        named = (case for case in all_cases() if (case.model, case.name) == (model, name))
+        return carried_out(next(named))
 
-    return run
+    return row

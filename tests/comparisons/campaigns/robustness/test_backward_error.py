@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import diags
 
-from comparisons.campaigns.robustness.backward_error import backward_ratio, condition_estimate
+from comparisons.campaigns.robustness.measures import backward_ratio, condition_estimate
 
 
 def test_backward_ratio_of_what_is_exact_and_of_what_is_not():
@@ -18,5 +18,5 @@ def test_backward_ratio_of_what_is_exact_and_of_what_is_not():
 
 def test_condition_estimate_of_a_diagonal():
     values = np.array([1e-3, 1.0, 1e5])
-    found = condition_estimate(diags(values).tocsr(), lambda right: np.ravel(right) / values)
-    assert found == pytest.approx(1e8)
+    estimate = condition_estimate(diags(values).tocsr(), lambda right: np.ravel(right) / values)
+    assert estimate == pytest.approx(1e8)

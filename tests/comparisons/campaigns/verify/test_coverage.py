@@ -9,15 +9,13 @@ import pytest
 from comparisons.campaigns.cases import Case, Row, holds, junit_of
 from comparisons.campaigns.verify.coverage import (
     Pair,
-    Verification,
     compared,
     coverage,
-    coverage_cases,
+    coverage_rows,
     observed_order,
     pairs_of,
-    verification,
 )
-from comparisons.campaigns.verify.pages import coverage_line, verify_page
+from comparisons.campaigns.verify.run import Verification, verification, verify_page
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure
@@ -55,7 +53,7 @@ def whole(rows: Iterable[Row], error: str | None = None) -> Verification:
     """The verification of some rows, the first of which raised `error`."""
     first, *others = rows
     first = replace(first, error=error)
-    return verification((first, *others), 0.0, 200, 0)
+    return verification((first, *others), 0.0, (200, 0))
 
 
 ENOUGH = [row()] * 200
@@ -94,8 +92,8 @@ def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
     ],
 )
 def test_coverage_needs_both_a_share_and_a_ratio(pairs, expected):
-    [case] = coverage_cases(pairs, fewest=0, fewest_rough=0)
-    assert all(map(holds, case.solve())) is expected
+    [row] = coverage_rows(pairs, fewest=0, fewest_rough=0)
+    assert row.holds is expected
 
 
 @pytest.mark.parametrize(
@@ -129,11 +127,11 @@ def test_one_miss_among_many_is_reported_but_does_not_fail():
 def test_rough_contacts_have_demands_of_their_own():
     smooth = [pair()] * 200
     rough = [pair(kind="rough")] * 94 + [pair(kind="rough", stated=0.0)] * 6
-    every, of_rough = coverage_cases([*smooth, *rough], 200, 100)
-    assert all(map(holds, every.solve()))
-    assert [*map(holds, of_rough.solve())] == [False, True, True]
-    _, absent = coverage_cases(smooth, 200, 1)
-    assert not any(map(holds, absent.solve()))
+    every, of_rough = coverage_rows([*smooth, *rough], 200, 100)
+    assert every.holds
+    assert [*map(holds, of_rough.figures)] == [False, True, True]
+    _, absent = coverage_rows(smooth, 200, 1)
+    assert not any(map(holds, absent.figures))
 
 
 def test_coverage_is_shown_by_table_model_quantity_and_kind():
@@ -148,10 +146,10 @@ def test_coverage_is_shown_by_table_model_quantity_and_kind():
 
 
 def test_coverage_is_rounded_down():
-    assert coverage_line(whole([row()] * 1999 + [row(stated=0.0)])) == "coverage 99 %"
-    assert coverage_line(whole(ENOUGH)) == "coverage 100 %"
+    assert whole([row()] * 1999 + [row(stated=0.0)]).coverage_line == "coverage 99 %"
+    assert whole(ENOUGH).coverage_line == "coverage 100 %"
     unsolved = replace(row(), figures=(), error="no solution")
-    assert coverage_line(whole([unsolved])) == "coverage 0 %"
+    assert whole([unsolved]).coverage_line == "coverage 0 %"
 
 
 def test_an_observed_order_is_of_the_root_mean_square():

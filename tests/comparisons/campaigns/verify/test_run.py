@@ -4,6 +4,7 @@ import json
 import pickle
 import re
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -17,14 +18,13 @@ from comparisons.campaigns.verify.coverage import (
     FEWEST_ROUGH,
     LEAST_COVERAGE,
     PRESSURE,
-    Verification,
     pairs_of,
 )
 from comparisons.campaigns.verify.independent_solver import independent_cases
 from comparisons.campaigns.verify.manufactured import manufactured_cases
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
 from comparisons.campaigns.verify.rough import rough_operator_contacts, rough_scenes
-from comparisons.campaigns.verify.run import Scope, verify
+from comparisons.campaigns.verify.run import Cases, Verification, verify
 from comparisons.campaigns.verify.scenes import (
     COMPARED,
     exact_scenes,
@@ -53,17 +53,16 @@ def quick(tmp_path_factory) -> tuple[Verification, Path]:
         *rough_scenes(half_planes=3, finite_elements=1, layers=1),
     )
     contacts = (*operator_contacts()[:12], *rough_operator_contacts()[:2])
-    scope = Scope(
-        (*scene_cases(scenes), *operator_cases(contacts, spread(len(contacts)))),
-        (*manufactured_cases([("flat", 2)]), *independent_cases(["smooth"])),
-        fewest=60,
-        fewest_rough=10,
+    cases = (
+        [*scene_cases(scenes), *operator_cases(contacts, spread(len(contacts)))],
+        [*manufactured_cases([("flat", 2)]), *independent_cases(["smooth"])],
     )
-    return verify(folder / "out", folder / "ci" / "verify.xml", scope=scope), folder
+    junit = folder / "ci" / "verify.xml"
+    return verify(folder / "out", junit, cases=cases, fewest=(60, 10)), folder
 
 
-def half_plane_scope(count: int | None = None) -> Scope:
-    return Scope(tuple(scene_cases(half_plane_scenes(rounds=1)[:count])), fewest=0, fewest_rough=0)
+def half_plane_cases(count: int | None = None) -> Cases:
+    return scene_cases(half_plane_scenes(rounds=1)[:count]), []
 
 
 class TestCases:
@@ -143,28 +142,27 @@ class TestWhole:
 
     def test_a_stated_uncertainty_that_is_too_small_is_seen(self, monkeypatch, tmp_path):
         monkeypatch.setattr(convergence, "REGULAR", 0.0)
-        found = verify(tmp_path / "out", scope=half_plane_scope())
+        found = verify(tmp_path / "out", cases=half_plane_cases(), fewest=(0, 0))
         assert not found.holds
         assert any("share covered: 0." in line for line in found.faults)
 
     def test_a_case_that_cannot_be_solved_is_a_fault_and_not_the_end(self, tmp_path):
         scene = half_plane_scenes()[0]
         impossible = replace(scene, tables=scene.tables | {"resolution": {"pitch": 1.0}})
-        scope = Scope(tuple(scene_cases((impossible, scene))), fewest=0, fewest_rough=0)
-        found = verify(tmp_path, scope=scope)
+        cases = scene_cases((impossible, scene)), []
+        found = verify(tmp_path, cases=cases, fewest=(0, 0))
         assert found.rows[0].error is not None and len(found.pairs) == len(scene.exact)
         assert found.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 
 def test_the_command_prints_the_coverage_and_ends_with_the_verdict(monkeypatch, capsys, tmp_path):
-    scope = half_plane_scope(4)
-    monkeypatch.setattr(run, "everything", lambda: scope)
+    monkeypatch.setattr(run, "verify", partial(verify, cases=half_plane_cases(4), fewest=(0, 0)))
     monkeypatch.chdir(tmp_path)
     assert cli.main(["verify", "--junit", "ci.xml"]) == ExitStatus.DONE
     shown = capsys.readouterr().out
     assert re.search(r"^coverage (9[5-9]|100) %\s*$", shown, re.MULTILINE)
     assert (tmp_path / "results" / "verify" / "verify.json").is_file()
     assert (tmp_path / "ci.xml").is_file()
-    monkeypatch.setattr(run, "everything", lambda: replace(scope, fewest=1000))
+    monkeypatch.setattr(run, "verify", partial(verify, cases=half_plane_cases(4), fewest=(1000, 0)))
     assert cli.main(["verify", "--out", "other"]) == ExitStatus.OUTSIDE_TOLERANCE
     assert "informative figures: 20, expected at least 1000" in capsys.readouterr().out
