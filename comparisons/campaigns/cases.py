@@ -29,6 +29,7 @@ from comparisons.output.junit import JunitCase, check_place, junit_xml, write_ju
 if TYPE_CHECKING:
     from rich.console import RenderableType
     from rich.table import Table
+    from rich.text import Text
 
 SCHEMA = 2
 CASE, CONDITION, COST = "case", "condition", "cost"  # studies of what cases yield
@@ -267,6 +268,25 @@ class Campaign:
             "machine": machine(),
         }
 
+    def page(self) -> str | None:
+        """HTML, of a campaign that has a page."""
+        return None
+
+    def summary(self) -> "RenderableType":
+        """For the terminal: all rows and the verdict."""
+        from rich.console import Group
+
+        return Group(rows_table(self.rows), *self.verdict_lines())
+
+    def verdict_lines(self) -> "list[Text]":
+        from rich.text import Text
+
+        verdict = Text("HOLDS" if self.holds else "DOES NOT HOLD", style="bold")
+        count = f"  {self.passed} of {len(self.rows)} cases hold, {self.seconds:.0f} s"
+        verdict.append(count, "not bold")
+        faults = [Text(f"does not hold: {line}", style="bold red") for line in self.faults]
+        return [*faults, verdict]
+
 
 def carry_out(
     command: str,
@@ -275,7 +295,6 @@ def carry_out(
     junit: Path | None,
     callback: ProgressCallback,
     concluded: Callable[[str, tuple[Row, ...], float], Campaign] = Campaign,
-    page: Callable[[Campaign], str] | None = None,
 ) -> Campaign:
     """Carry out all cases of a command, and leave <command>.json, and .html where there is a page,
     in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written.
@@ -287,8 +306,8 @@ def carry_out(
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     if is_first():
         files = {f"{command}.json": as_json(finite(campaign.as_dict()))}
-        if page is not None:
-            files[f"{command}.html"] = page(campaign)
+        if (page := campaign.page()) is not None:
+            files[f"{command}.html"] = page
         publish(out, files)
         write_junit(junit, junit_of(campaign))
     kept.discard()
@@ -338,14 +357,3 @@ def rows_table(rows: Sequence[Row]) -> "Table":
     for row in cells:
         table.add_row(*(row[k] for k in filled))
     return table
-
-
-def verdict_lines(campaign: Campaign) -> "RenderableType":
-    from rich.console import Group
-    from rich.text import Text
-
-    verdict = Text("HOLDS" if campaign.holds else "DOES NOT HOLD", style="bold")
-    count = f"  {campaign.passed} of {len(campaign.rows)} cases hold, {campaign.seconds:.0f} s"
-    verdict.append(count, "not bold")
-    faults = [Text(f"does not hold: {line}", style="bold red") for line in campaign.faults]
-    return Group(*faults, verdict)

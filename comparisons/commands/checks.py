@@ -17,14 +17,13 @@ def stability(
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> int:
     """Solve the stiff and extreme cases; end with 0 only if every one holds."""
-    from comparisons.campaigns.cases import carry_out, rows_table, verdict_lines
+    from comparisons.campaigns.cases import carry_out
     from comparisons.campaigns.robustness import all_cases
 
     directory = out or RESULTS / "stability"
     with progress() as callback:
         campaign = carry_out("stability", all_cases(), directory, junit, callback)
-    tables = (lambda: rows_table(campaign.rows), lambda: verdict_lines(campaign))
-    show_written(as_json, directory / "stability.json", *tables)
+    show_written(as_json, directory / "stability.json", lambda: campaign.summary())
     return campaign.exit_status
 
 
@@ -55,10 +54,9 @@ def verify(
         show_either(as_json, judged.as_dict(), lambda: form_table(judged))
         return judged.exit_status
     from comparisons.campaigns.verify.run import verify as verify_all
-    from comparisons.campaigns.verify.run import verify_summary
 
     directory = out or RESULTS / "verify"
     with progress() as callback:
         verification = verify_all(directory, junit, callback)
-    show_written(as_json, directory / "verify.json", lambda: verify_summary(verification))
+    show_written(as_json, directory / "verify.json", lambda: verification.summary())
     return verification.exit_status

@@ -13,8 +13,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
+from operator import methodcaller
 from pathlib import Path
-from types import ModuleType
 
 from comparisons.campaigns.paper import book
 from comparisons.campaigns.paper.readings import SLIDING, LevelView
@@ -45,7 +45,8 @@ IN_JSON = ("key", "figure", "title", "text", "measure", "scene")  # fields of a 
 NOT_CONVERGED = "not converged"  # note of a number
 
 Bounds = tuple[float, float]
-Reading = Callable[[LevelView | None], float]  # None: of a theory, which has no level
+# By one of the view's methods; None: of a theory, which has no level.
+Reading = Callable[[LevelView | None], float]
 
 
 @dataclass(frozen=True)
@@ -133,41 +134,37 @@ class JudgedClaim:
 def claims() -> tuple[Claim, ...]:
     """The paper's, in the order of its figures."""
     tables = _tables("claims.toml")
-    listed = [_claim(table, LevelView) for table in tables["claim"]]
+    listed = [_claim(table, methodcaller) for table in tables["claim"]]
     for scene in (UNRUN, RUN_IN, POLISHED):
         short = scene.removeprefix("ground-")
         words = {"figure": FIGURES[scene], "surface": SURFACES[scene], "short": short}
         words["words"] = short.replace("-", " ")
         for table in tables["rough_surface"]:
             texts = {n: text.format(**words) for n, text in table.items() if isinstance(text, str)}
-            listed.append(_claim(table | texts | {"scene": scene}, LevelView))
+            listed.append(_claim(table | texts | {"scene": scene}, methodcaller))
     return tuple(sorted(listed, key=lambda claim: int(claim.figure.partition("(")[0])))
 
 
 def book_claims() -> tuple[Claim, ...]:
     """Seireg's, whose numbers are of the theory alone."""
     by_theory = {"scene": "", "models": [THEORY], "exact": True}
-    return tuple(_claim(table | by_theory, book) for table in _tables("book.toml")["claim"])
+    return tuple(_claim(table | by_theory, _theory) for table in _tables("book.toml")["claim"])
 
 
 def _tables(name: str) -> dict:
     return tomllib.loads(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
-def _claim(table: dict, source: type[LevelView] | ModuleType) -> Claim:
-    """A claim by its table, with readings that are functions of a source."""
+def _claim(table: dict, reading: Callable[..., Reading]) -> Claim:
+    """A claim by its table; `reading` of a name and arguments."""
     fields = {name: tuple(v) if isinstance(v, list) else v for name, v in table.items()}
     besides = table.get("besides", {}).items()
-    fields["besides"] = tuple((words, _reading(source, *how)) for words, how in besides)
-    return Claim(**fields | {"reading": _reading(source, *table["reading"])})
+    fields["besides"] = tuple((words, reading(*how)) for words, how in besides)
+    return Claim(**fields | {"reading": reading(*table["reading"])})
 
 
-def _reading(source: type[LevelView] | ModuleType, name: str, *arguments: float | str) -> Reading:
-    """A function of a view and arguments; of a theory of the arguments alone."""
-    function = getattr(source, name)
-    if source is book:
-        return lambda _: function(*arguments)
-    return lambda view: function(view, *arguments)
+def _theory(name: str, *arguments: float | str) -> Reading:
+    return lambda _: getattr(book, name)(*arguments)
 
 
 def judge(claim: Claim, run: Run | None) -> JudgedClaim:

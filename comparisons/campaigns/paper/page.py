@@ -66,7 +66,7 @@ Section = tuple[str, str, list[tuple[str, Sequence[Picture], list[dict]]]]  # nu
 
 
 def paper_page(paper: "Paper", callback: ProgressCallback) -> str:
-    problem = paper.outcomes[SMOOTH].problem
+    problem = paper.runs[SMOOTH].problem
     return rendered(
         Path(__file__).parent / "paper.html.j2",
         policy=STYLES,
@@ -174,7 +174,7 @@ def sections_of(paper: "Paper", callback: ProgressCallback) -> list[Section]:
     """Every section, its pictures drawn."""
     sections = []
     with drawing():
-        for number, title, blocks in _planned(paper.outcomes):
+        for number, title, blocks in _planned(paper.runs):
             drawn = "Seireg's figures" if number.startswith(BOOK) else f"figure {number}"
             callback(f"drawing {drawn}")
             rows = [
@@ -185,15 +185,15 @@ def sections_of(paper: "Paper", callback: ProgressCallback) -> list[Section]:
     return sections
 
 
-def _planned(outcomes: dict[str, Run]) -> Iterator[tuple[str, str, Iterable[Block]]]:
+def _planned(runs: dict[str, Run]) -> Iterator[tuple[str, str, Iterable[Block]]]:
     """Number, title and blocks of each section; its pictures are drawn as the blocks are read."""
-    scales = pictures.scales_of(outcomes)
-    yield "1", "Figure 1: pressure on a ground surface", _trace(outcomes[UNRUN], scales)
-    yield "5", "Figure 5: right down to the surface", _axis(outcomes[SMOOTH])
+    scales = pictures.scales_of(runs.values())
+    yield "1", "Figure 1: pressure on a ground surface", _trace(runs[UNRUN], scales)
+    yield "5", "Figure 5: right down to the surface", _axis(runs[SMOOTH])
     for scene in SCENES:
         number, surface = FIGURES[scene], SURFACES[scene]
-        yield number, f"Figure {number}: {surface}", _surface(outcomes[scene], scales, scene)
-    yield "11", "Figure 11: principal shear over depth", _depths(outcomes)
+        yield number, f"Figure {number}: {surface}", _surface(runs[scene], scales, scene)
+    yield "11", "Figure 11: principal shear over depth", _depths(runs)
     yield BOOK, "Seireg, chapter 4: rough contact", _rough_spheres()
     heat = "Short formulas, and the partition", ("5.2", "5.3", "5.5", "ch. 5"), ()
     yield f"{BOOK}-heat", "Seireg, chapter 5: heat", [heat]
@@ -221,14 +221,14 @@ def _surface(run: Run, scales: pictures.Scales, scene: str) -> Iterator[Block]:
         yield heading, panels, [pictures.contour_picture(run, component, scales, surface)]
 
 
-def _depths(outcomes: dict[str, Run]) -> Iterator[Block]:
+def _depths(runs: dict[str, Run]) -> Iterator[Block]:
     """Principal shear over depth on the verticals that a report shows."""
     panels = {"(a): below the peak asperities": (UNRUN, POLISHED)}
     panels["(b): below the edge of the contact"] = SMOOTH, UNRUN
     for place, (words, scenes) in enumerate(panels.items()):
         drawn = []
         for scene in scenes:
-            picture, of = section_pictures(outcomes[scene])[place], SURFACES[scene].capitalize()
+            picture, of = section_pictures(runs[scene])[place], SURFACES[scene].capitalize()
             texts = f"{of}. {picture.alternative}", f"{of}. {picture.caption}"
             drawn.append(replace(picture, alternative=texts[0], caption=texts[1]))
         yield f"Figure 11{words}", (f"11{words[:3]}",), drawn
@@ -242,7 +242,7 @@ def _rough_spheres() -> Iterator[Block]:
 
 def _models(paper: "Paper") -> TextTable:
     rows = []
-    for name, run in paper.outcomes.items():
+    for name, run in paper.runs.items():
         for friction in run.problem.scene.load.friction:
             compared = run.figures.of(study="comparison", friction=friction)
             differences = {figure.quantity: _difference(figure) for figure in compared}
@@ -264,7 +264,7 @@ def _difference(figure: Figure) -> str:
 
 def _surfaces(paper: "Paper") -> TextTable:
     rows = []
-    for name, run in paper.outcomes.items():
+    for name, run in paper.runs.items():
         info, profile = run.problem.surface.info, (UNKNOWN,) * 4
         half_plane, finite_element = (of_model.finest for of_model in run.runs.values())
         if info is not None:

@@ -4,6 +4,7 @@ The paper's: pressures over the surfaces under load (figure 1, and (a) of 6 and 
 stresses on the axis (5), contours of the shear stresses, which it also shows as landscapes. Of
 Seireg's book: rough spheres (4.5 and 4.6). Lengths are over a, stresses over p0."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -54,8 +55,8 @@ class Scales:
     relief: float  # height of the surfaces' axes [m]
 
 
-def scales_of(outcomes: dict[str, Run]) -> Scales:
-    bands, runs = {}, outcomes.values()
+def scales_of(runs: Collection[Run]) -> Scales:
+    bands = {}
     for component in COMPONENTS:
         fields = [
             values_of(run, component, "half_plane", friction)

@@ -51,7 +51,7 @@ FINE = {"stress.points": (600, 120)}  # columns and rows of the fields
 class Paper:
     """The paper computed anew."""
 
-    outcomes: dict[str, Run]  # of every surface, by its scene's name
+    runs: dict[str, Run]  # of every surface, by its scene's name
     judged: tuple[JudgedClaim, ...]  # in the order of the figures, and Seireg's after
     seconds: float  # that it took, without drawing
     directory: Path  # where the files are
@@ -59,12 +59,12 @@ class Paper:
     @property
     def exit_status(self) -> ExitStatus:
         """3 where a contact did not converge; a denied claim is no error."""
-        converged = all(run.converged for run in self.outcomes.values())
+        converged = all(run.converged for run in self.runs.values())
         return ExitStatus.DONE if converged else ExitStatus.NOT_CONVERGED
 
     def as_dict(self) -> dict:
         """The content of paper.json: SI units, but for claims, which state their unit."""
-        hertz = self.outcomes[SMOOTH].problem.hertz
+        hertz = self.runs[SMOOTH].problem.hertz
         counts = Counter(judged.outcome for judged in self.judged)
         return {
             "schema": SCHEMA,
@@ -74,7 +74,7 @@ class Paper:
             "outcomes": {kind: counts[kind] for kind in OUTCOMES},
             "surfaces": {
                 name: {"surface": SURFACES[name], "figures": _shown(run)}
-                for name, run in self.outcomes.items()
+                for name, run in self.runs.items()
             },
             "seconds": self.seconds,
             "versions": versions(),
@@ -103,10 +103,10 @@ def paper(
         raise InputError("paper: runs in several processes; allowed is one, without mpirun")
     check_writable(out, (PAGE, NUMBERS))
     start = perf_counter()
-    outcomes = solve_surfaces(fields, within(callback, 0.0, SOLVING), effects)
+    runs = solve_surfaces(fields, within(callback, 0.0, SOLVING), effects)
     callback(Step("measuring the claims", SOLVING))
-    judged = tuple(judge(claim, outcomes.get(claim.scene)) for claim in (*claims(), *book_claims()))
-    result = Paper(outcomes, judged, perf_counter() - start, out)
+    judged = tuple(judge(claim, runs.get(claim.scene)) for claim in (*claims(), *book_claims()))
+    result = Paper(runs, judged, perf_counter() - start, out)
     page = paper_page(result, callback)
     callback("writing files")
     publish(out, {PAGE: page, NUMBERS: as_json(result.as_dict())})

@@ -222,18 +222,15 @@ def solution_figures(
     return *figures, *residual_figures(solution), limit, *costs(solution, steps / ordinary)
 
 
-def changed(tables: Tables) -> Tables:
-    """The ordinary scene with other fields."""
-    return ORDINARY | {name: ORDINARY.get(name, {}) | fields for name, fields in tables.items()}
+def problem_with(tables: Tables) -> Problem:
+    """Of the ordinary scene with other fields."""
+    changed = {name: ORDINARY.get(name, {}) | fields for name, fields in tables.items()}
+    return problem_of(Scene.of(ORDINARY | changed, Origin("stability", source="stability")))
 
 
-def problem_from(tables: Tables) -> Problem:
-    return problem_of(Scene.of(tables, Origin("stability", source="stability")))
-
-
-def finite_element_solution(tables: Tables, refinement: int = 0) -> tuple[Problem, Level]:
-    """A scene solved on the coarsest level, or on one `refinement` levels finer."""
-    problem = problem_from(tables)
+def solved(tables: Tables, refinement: int = 0) -> tuple[Problem, Level]:
+    """The same on the coarsest level, or on one `refinement` levels finer."""
+    problem = problem_with(tables)
     plan = make_plan(problem, ("finite_element",))
     pitch = problem.pitches[0] / 2.0**refinement
     window = None if problem.scene.stress is None else window_of(problem)
@@ -242,7 +239,7 @@ def finite_element_solution(tables: Tables, refinement: int = 0) -> tuple[Proble
 
 @lru_cache
 def ordinary_level() -> Level:
-    return finite_element_solution(ORDINARY)[1]
+    return solved({})[1]
 
 
 def level_figures(level: Level, *figures: Figure, most: int = MOST_STEPS) -> CaseFigures:
@@ -253,13 +250,13 @@ def level_figures(level: Level, *figures: Figure, most: int = MOST_STEPS) -> Cas
 
 def hertz_figures(peak: float = PEAK, **tables: dict) -> CaseFigures:
     """Of the ordinary scene with other fields; `peak`, what its relative error may be."""
-    problem, level = finite_element_solution(changed(tables))
+    problem, level = solved(tables)
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
     return level_figures(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
 
 
 def shear_figures(**tables: dict) -> CaseFigures:
-    problem, level = finite_element_solution(changed(tables | {"stress": {"points": [40, 20]}}))
+    problem, level = solved(tables | {"stress": {"points": [40, 20]}})
     hertz, largest = problem.hertz, level.stresses[0].extremes["tau1"]
     depth, reference = hertz.tau1_max_depth, "Hertz, exact"
     return level_figures(
@@ -271,7 +268,7 @@ def shear_figures(**tables: dict) -> CaseFigures:
 
 def sliding_figures(**tables: dict) -> CaseFigures:
     """A rigid roller that slides, its traction moving the surface."""
-    problem, level = finite_element_solution(changed(tables))
+    problem, level = solved(tables)
     hertz, (friction,) = problem.hertz, problem.scene.load.friction
     beta = dundurs_constants(problem.scene.body.material, None)[1]
     exact = sliding_from_load(hertz.load_per_length, hertz.radius, problem.modulus, friction, beta)
@@ -289,7 +286,7 @@ def hardness_figures(share: float) -> CaseFigures:
     hardness = share * float(ordinary_level().solution.pressure.max())
     if share >= 1.0:
         return hertz_figures(body={"hardness": hardness})
-    problem, level = finite_element_solution(changed({"body": {"hardness": hardness}}))
+    problem, level = solved({"body": {"hardness": hardness}})
     hertz = problem.hertz
     exact = flattened_cylinder(hertz.load_per_length, hertz.radius, problem.modulus, hardness)
     length, reference = 0.5 * level.contact_length, "flattened cylinder, exact"
@@ -302,10 +299,10 @@ def hardness_figures(share: float) -> CaseFigures:
 
 
 def in_units(metre: float, pascal: float) -> Tables:
-    """The ordinary scene with all lengths times `metre` and all stresses times `pascal`."""
+    """Fields of the ordinary scene with all lengths times `metre`, all stresses times `pascal`."""
     return {
-        "roller": {**RIGID, "radius": RIGID["radius"] * metre},
-        "body": {**STEEL, "youngs_modulus": STEEL["youngs_modulus"] * pascal},
+        "roller": {"radius": RIGID["radius"] * metre},
+        "body": {"youngs_modulus": STEEL["youngs_modulus"] * pascal},
         "load": {"per_length": LOAD["per_length"] * metre * pascal},
     }
 
@@ -313,7 +310,7 @@ def in_units(metre: float, pascal: float) -> Tables:
 def unit_figures(metre: float, pascal: float) -> CaseFigures:
     """In other units the same triangles and the same figures."""
     usual = ordinary_level()
-    _, level = finite_element_solution(in_units(metre, pascal))
+    _, level = solved(in_units(metre, pascal))
     length = level.contact_length / usual.contact_length
     pressure, expected = level.solution.pressure / pascal, usual.solution.pressure
     unknowns = level.unknowns / usual.unknowns
@@ -327,7 +324,7 @@ def unit_figures(metre: float, pascal: float) -> CaseFigures:
 
 def layer_figures(a_over_t: float, high: float = THICK, **tables: dict) -> CaseFigures:
     """A layer of thickness t on a rigid base against the analytic one on the same hats."""
-    thickness = problem_from(ORDINARY).hertz.half_width / a_over_t
+    thickness = problem_with({}).hertz.half_width / a_over_t
     body = tables.get("body", {}) | {"thickness": thickness}
     return analytic_figures(tables | {"body": body}, high)
 
@@ -335,12 +332,12 @@ def layer_figures(a_over_t: float, high: float = THICK, **tables: dict) -> CaseF
 def coating_figures(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> CaseFigures:
     """A coating against the analytic one on the same hats."""
     coating = {"youngs_modulus": times_as_stiff * STEEL["youngs_modulus"], "poissons_ratio": 0.25}
-    coating["thickness"] = problem_from(ORDINARY).hertz.half_width / a_over_t
+    coating["thickness"] = problem_with({}).hertz.half_width / a_over_t
     return analytic_figures({"coating": coating}, THICK, refinement)
 
 
 def analytic_figures(tables: Tables, high: float, refinement: int = 0) -> CaseFigures:
-    problem, level = finite_element_solution(changed(tables), refinement)
+    problem, level = solved(tables, refinement)
     grid, pressure = level.grid, level.solution.pressure
     expected = solve_contact(
         nearest_operator(problem.scene, grid),

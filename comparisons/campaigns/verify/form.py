@@ -20,7 +20,7 @@ import numpy as np
 
 from analytic.exact.cases import ExactContact, exact_contacts
 from comparisons.campaigns.verify.coverage import EXACT
-from comparisons.campaigns.verify.rough import FEW, LAYERED, RoughBody, rough_contact, rough_scene
+from comparisons.campaigns.verify.rough import FEW, HALF_PLANE, LAYERED, rough_contact, rough_scene
 from comparisons.campaigns.verify.scenes import ExactScene, gallery_scenes, layer_scenes
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import publish
@@ -102,12 +102,12 @@ def is_covered(figure: Figure) -> bool:
 @cache
 def form_cases() -> tuple[FormCase, ...]:
     """Hertz at rest and sliding, layers, rough contacts made from pressures, waves, punches."""
-    bodies = [(seed, RoughBody("half-plane")) for seed in HALF_PLANES]
+    bodies = [(seed, HALF_PLANE) for seed in HALF_PLANES]
     bodies += [(2 * k, body) for k, body in enumerate(LAYERED)]  # at rest: friction moves layers
     scenes = [scene for scene in gallery_scenes() if scene.kind != "hardness"]
     scenes += layer_scenes()
     for seed, body in bodies:
-        name = f"rough {body.name} {seed}"
+        name = f"rough {body} {seed}"
         rough = rough_scene(name, rough_contact(seed, body, FEW), ELEMENTS, {})
         scenes.append(replace(rough, name=name))
     others = [case for case in exact_contacts() if case.period is not None or case.knots]

@@ -26,6 +26,8 @@ from comparisons.campaigns.verify.scenes import (
     LAYER_SOURCE,
     LAYER_THICKNESS,
     NEARLY_INCOMPRESSIBLE,
+    RESOLUTIONS,
+    spread,
 )
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure
@@ -64,8 +66,10 @@ def operator_contacts() -> tuple[OperatorContact, ...]:
     return (*contacts, *layers)
 
 
-def operator_cases(contacts: Sequence[OperatorContact], resolutions: Sequence[float]) -> list[Case]:
-    """Each contact with its own number of elements on the third level."""
+def operator_cases(
+    contacts: Sequence[OperatorContact], ends: tuple[float, float] = RESOLUTIONS
+) -> list[Case]:
+    """Each contact with its own number of elements on the third level, between the ends."""
     return [
         Case(
             contact.kind,
@@ -73,7 +77,7 @@ def operator_cases(contacts: Sequence[OperatorContact], resolutions: Sequence[fl
             contact.model,
             partial(operator_figures, contact, elements),
         )
-        for contact, elements in zip(contacts, resolutions, strict=True)
+        for contact, elements in zip(contacts, spread(len(contacts), ends), strict=True)
     ]
 
 

@@ -8,6 +8,7 @@ orders (`coverage`); manufactured solutions (`manufactured`); the contact by PET
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,6 @@ from comparisons.campaigns.cases import (
     carry_out,
     holds,
     rows_table,
-    verdict_lines,
 )
 from comparisons.campaigns.verify.coverage import (
     FEWEST,
@@ -37,11 +37,11 @@ from comparisons.campaigns.verify.coverage import (
 )
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
 from comparisons.campaigns.verify.rough import rough_cases
-from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases, spread
+from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases
 from comparisons.common.errors import InputError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.figures.figure import grouped
+from comparisons.figures.figure import Figure, grouped
 from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.terminal import plain_table
 
@@ -77,11 +77,8 @@ class Verification(Campaign):
         return f"coverage {np.floor(100.0 * share + 1e-9) if np.isfinite(share) else 0.0:.0f} %"
 
     def groups(self, *names: str) -> dict[tuple[str, ...], Coverage]:
-        """Coverage by the named fields of the pairs, in order of appearance."""
-
-        def key(pair: Pair) -> tuple[str, ...]:
-            return tuple(getattr(pair, name) for name in names)
-
+        """Coverage by two or more fields of the pairs, in order of appearance."""
+        key = attrgetter(*names)
         return {key(pairs[0]): coverage(pairs) for pairs in grouped(self.pairs, key)}
 
     def as_dict(self) -> dict:
@@ -95,16 +92,72 @@ class Verification(Campaign):
             "pairs": [pair.as_dict() for pair in self.pairs],
         }
 
+    def summary(self) -> "RenderableType":
+        """Coverage by model, quantity and kind; rows without pairs or that do not hold; verdict."""
+        from rich.console import Group
+
+        tables = []
+        for names in GROUPS:
+            table = plain_table(*names, numbers=COLUMNS)
+            for row in self._coverage_cells(names):
+                table.add_row(*row)
+            tables += [table, ""]
+        shown = [row for row in self.rows if not (row.holds and pairs_of(row))]
+        return Group(*tables, rows_table(shown), *self.verdict_lines(), self.coverage_line)
+
+    def page(self) -> str:
+        unpaired = [row for row in self.rows if not pairs_of(row)]
+        figures = [_figure_cells(row.case, f) for row in unpaired for f in row.judged]
+        tables = []
+        for names in GROUPS:
+            rows = self._coverage_cells(names)
+            tables.append((f"Coverage by {', '.join(names)}", (*names, *COLUMNS), rows))
+        tables.append((OTHERS, OTHER_COLUMNS, figures))
+        tables.append(("Figures", PAIR_COLUMNS, map(_pair_cells, self.pairs)))
+        title = f"{'Holds' if self.holds else 'Does not hold'}: {self.coverage_line}"
+        template = Path(__file__).parent / "verify.html.j2"
+        return rendered(template, policy=STYLES, title=title, faults=self.faults, tables=tables)
+
+    def _coverage_cells(self, names: tuple[str, ...]) -> list[tuple[str, ...]]:
+        rows = []
+        for group, covered in self.groups(*names).items():
+            named = zip(names, group, strict=True)
+            words = (MODEL_LABELS[word] if name == "model" else word for name, word in named)
+            rows.append((*words, *_cells(covered)))
+        return [*rows, ("all", *[""] * (len(names) - 1), *_cells(self.coverage))]
+
+
+def _figure_cells(case: Case, figure: Figure) -> tuple[str, ...]:
+    numbers = f"{figure.value:.4g}", bounds_text(figure), _yes(holds(figure))
+    return (case.group, f"{case.name}: {figure.quantity}", *numbers)
+
+
+def _pair_cells(pair: Pair) -> tuple[str, ...]:
+    words = pair.table, MODEL_LABELS[pair.model], pair.case, pair.quantity
+    ratio = "" if pair.overestimation is None else f"{pair.overestimation:.2f}"
+    numbers = f"{pair.exact:.6g}", f"{pair.error:.2e}", f"{pair.figure.numerical:.2e}"
+    return (*words, *numbers, ratio, _yes(pair.covered))
+
+
+def _cells(group: Coverage) -> tuple[str, ...]:
+    if not group.informative:
+        return (str(group.count), "0", "", "", "")
+    ratios = group.median_overestimation, group.overestimation_quantile
+    covered = f"{100.0 * group.covered:.1f} %"
+    return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
+
+
+def _yes(true: bool) -> str:
+    return "yes" if true else "NO"
+
 
 def everything() -> Cases:
     from comparisons.campaigns.verify.independent_solver import independent_cases
     from comparisons.campaigns.verify.manufactured import BODIES, manufactured_cases
 
-    contacts = operator_contacts()
-    smooth = operator_cases(contacts, spread(len(contacts)))
-    exact = [*scene_cases(exact_scenes()), *smooth, *rough_cases()]
+    smooth = [*scene_cases(exact_scenes()), *operator_cases(operator_contacts())]
     bodies = [(kind, degree) for kind in BODIES for degree in DEGREES]
-    return exact, [*manufactured_cases(bodies), *independent_cases()]
+    return [*smooth, *rough_cases()], [*manufactured_cases(bodies), *independent_cases()]
 
 
 def verify(
@@ -127,74 +180,10 @@ def verify(
         rows = (*rows[: len(exact)], *order_rows(rows), *rows[len(exact) :])
         return verification(rows, seconds, fewest)
 
-    return carry_out("verify", (*exact, *others), out, junit, callback, concluded, verify_page)
+    return carry_out("verify", (*exact, *others), out, junit, callback, concluded)
 
 
 def verification(rows: Sequence[Row], seconds: float, fewest: tuple[int, int]) -> Verification:
     """All rows, with those of the coverage by the stated uncertainties."""
     pairs = [pair for row in rows for pair in pairs_of(row)]
     return Verification("verify", (*rows, *coverage_rows(pairs, *fewest)), seconds)
-
-
-def verify_summary(verification: Verification) -> "RenderableType":
-    """Coverage by model, quantity and kind, rows without pairs or that do not hold, the verdict."""
-    from rich.console import Group
-
-    tables = []
-    for names in GROUPS:
-        table = plain_table(*names, numbers=COLUMNS)
-        for row in _coverage_cells(verification, names):
-            table.add_row(*row)
-        tables += [table, ""]
-    shown = [row for row in verification.rows if not (row.holds and pairs_of(row))]
-    lines = verdict_lines(verification), verification.coverage_line
-    return Group(*tables, rows_table(shown), *lines)
-
-
-def verify_page(verification: Verification) -> str:
-    figures = [
-        [
-            *(row.case.group, f"{row.case.name}: {f.quantity}"),
-            *(f"{f.value:.4g}", bounds_text(f), _yes(holds(f))),
-        ]
-        for row in verification.rows
-        if not pairs_of(row)
-        for f in row.judged
-    ]
-    tables = []
-    for names in GROUPS:
-        rows = _coverage_cells(verification, names)
-        tables.append((f"Coverage by {', '.join(names)}", (*names, *COLUMNS), rows))
-    tables.append((OTHERS, OTHER_COLUMNS, figures))
-    tables.append(("Figures", PAIR_COLUMNS, map(_pair_cells, verification.pairs)))
-    title = f"{'Holds' if verification.holds else 'Does not hold'}: {verification.coverage_line}"
-    template = Path(__file__).parent / "verify.html.j2"
-    return rendered(template, policy=STYLES, title=title, faults=verification.faults, tables=tables)
-
-
-def _pair_cells(pair: Pair) -> tuple[str, ...]:
-    words = pair.table, MODEL_LABELS[pair.model], pair.case, pair.quantity
-    ratio = "" if pair.overestimation is None else f"{pair.overestimation:.2f}"
-    numbers = f"{pair.exact:.6g}", f"{pair.error:.2e}", f"{pair.figure.numerical:.2e}"
-    return (*words, *numbers, ratio, _yes(pair.covered))
-
-
-def _coverage_cells(verification: Verification, names: tuple[str, ...]) -> list[tuple[str, ...]]:
-    rows = []
-    for group, covered in verification.groups(*names).items():
-        named = zip(names, group, strict=True)
-        words = (MODEL_LABELS[word] if name == "model" else word for name, word in named)
-        rows.append((*words, *_cells(covered)))
-    return [*rows, ("all", *[""] * (len(names) - 1), *_cells(verification.coverage))]
-
-
-def _cells(group: Coverage) -> tuple[str, ...]:
-    if not group.informative:
-        return (str(group.count), "0", "", "", "")
-    ratios = group.median_overestimation, group.overestimation_quantile
-    covered = f"{100.0 * group.covered:.1f} %"
-    return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
-
-
-def _yes(true: bool) -> str:
-    return "yes" if true else "NO"

@@ -78,32 +78,19 @@ class TestZones:
         assert zone(field, 5.0, (0, 0)).tolist() == [[True, False], [False, True]]
 
 
-def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
-    """Hertz's pressure on hats; `fields` by friction, of any shear field [p0] (m, k).
-
-    wave  relative, from one hat to the next of the pressure
-    """
+def hertz_level(pitch: float, fields: dict, wave: float = 0.0) -> Level:
+    """Hertz's pressure on hats, with a `wave`, relative, from one hat to the next; `fields` by
+    friction, stresses [Pa] or a shear field [p0] (m, k)."""
     grid = HatGrid.within(-1.5 * A, 1.5 * A, pitch)
     pressure = HERTZ.pressure(grid.x) * (1.0 + wave * (-1.0) ** np.arange(grid.count))
-    solution = ContactSolution(
-        pressure=pressure,
-        gap=np.where(pressure > 0.0, 0.0, 1e-6),
-        approach=0.0,
-        load=HERTZ.load_per_length,
-        residuals=Residuals(0.0, 0.0, 0.0, 0.0, 0.0),
-        converged=True,
-        iterations={},
-    )
-    stresses = tuple(
-        StressResult(
-            mu,
-            {"tau1": Extremum(-0.4 * P0, 0.1 * A, 0.6 * A)},
-            field
-            if isinstance(field, StressState)
-            else StressState(np.zeros_like(field), np.zeros_like(field), field * P0),
-        )
-        for mu, field in fields.items()
-    )
+    gap, nothing = np.where(pressure > 0.0, 0.0, 1e-6), Residuals(0.0, 0.0, 0.0, 0.0, 0.0)
+    solution = ContactSolution(pressure, gap, 0.0, HERTZ.load_per_length, nothing, {}, True)
+    stresses = []
+    for friction, field in fields.items():
+        if not isinstance(field, StressState):
+            field = StressState(np.zeros_like(field), np.zeros_like(field), field * P0)
+        extremes = {"tau1": Extremum(-0.4 * P0, 0.1 * A, 0.6 * A)}
+        stresses.append(StressResult(friction, extremes, field))
     return Level(
         grid=grid,
         solution=solution,
@@ -111,7 +98,7 @@ def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
         patches=np.array([[-A, A]]),
         seconds={},
         unknowns=grid.count,
-        stresses=stresses,
+        stresses=tuple(stresses),
     )
 
 
@@ -148,9 +135,9 @@ class TestReadings:
     @pytest.mark.parametrize("depth", [0.05, 0.3, 0.7])
     def test_a_hill_moves_the_depth_of_agreement_below_itself(self, depth):
         view = view_of({0.0: smooth_tau1() + asperity(0.2, depth, 0.4)})
-        found = view.depth_of_agreement()
-        assert depth < found < 2.5 * depth + 0.02
-        assert (found <= 0.5) == (depth < 0.2)
+        agrees = view.depth_of_agreement()
+        assert depth < agrees < 2.5 * depth + 0.02
+        assert (agrees <= 0.5) == (depth < 0.2)
 
     def test_hills_count_where_they_exceed_twice_the_maximum(self):
         view = view_of({0.0: np.maximum(smooth_tau1(), asperity(0.2, 0.0196, 0.7))})
@@ -189,10 +176,9 @@ class TestReadings:
         window = window_of(posed)
         level = half_plane_level(posed, posed.pitches[0], window, Stages())
         view = r.LevelView("half_plane", posed, level, window)
-        found = [view.bridging_wavelength(mu) for mu in (0.0, 0.1, 0.3)]
-        assert found[0] == pytest.approx(0.362, abs=0.01)
-        assert found[1] == pytest.approx(0.342, abs=0.01)
-        assert found[2] == r.WAVES[0]  # every wave
+        waves = [view.bridging_wavelength(mu) for mu in (0.0, 0.1, 0.3)]
+        assert waves[:2] == pytest.approx([0.362, 0.342], abs=0.01)
+        assert waves[2] == r.WAVES[0]  # every wave
 
     def test_edge_ratio_follows_the_shear_there(self):
         view = view_of({0.0: smooth_tau1(), 0.1: 1.25 * smooth_tau1()})
@@ -233,9 +219,9 @@ class TestErrors:
     """Errors against exact stresses are none on those, and what was put into them elsewhere."""
 
     def exact(self, x: float = 0.0, shift: float = 0.0, z: float = 0.25) -> StressState:
-        found = hertz_stress(HERTZ, WINDOW.x, WINDOW.z[:, None])
+        exact = hertz_stress(HERTZ, WINDOW.x, WINDOW.z[:, None])
         here = (np.abs(WINDOW.x / A - x) < 0.01) & (np.abs(WINDOW.z[:, None] / A - z) < 1e-4)
-        return StressState(found.sx + shift * P0 * here, found.sz, found.txz)
+        return StressState(exact.sx + shift * P0 * here, exact.sz, exact.txz)
 
     def test_on_the_axis(self):
         assert view_of({0.0: self.exact()}).axis_error() == pytest.approx(0.0, abs=1e-12)

@@ -15,7 +15,7 @@ from comparisons.campaigns.verify.coverage import (
     observed_order,
     pairs_of,
 )
-from comparisons.campaigns.verify.run import Verification, verification, verify_page
+from comparisons.campaigns.verify.run import Verification, verification
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure
@@ -70,9 +70,9 @@ def test_an_error_within_the_uncertainty_is_covered():
 def test_an_error_of_rounding_is_not_informative():
     rounded = pair(1e-14, 0.0)
     assert rounded.covered and not rounded.informative and rounded.overestimation is None
-    found = coverage([rounded, pair(), pair(stated=0.5e-3)])
-    assert (found.count, found.informative, found.covered) == (3, 2, 0.5)
-    assert found.median_overestimation == pytest.approx(1.25)
+    shown = coverage([rounded, pair(), pair(stated=0.5e-3)])
+    assert (shown.count, shown.informative, shown.covered) == (3, 2, 0.5)
+    assert shown.median_overestimation == pytest.approx(1.25)
 
 
 def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
@@ -113,7 +113,7 @@ def test_all_must_hold(rows, error):
     assert broken.exit_status == ExitStatus.OUTSIDE_TOLERANCE
     [suite] = ElementTree.fromstring(junit_of(broken).encode())
     assert suite.get("failures") == str(len(suite.findall("testcase/failure"))) == "1"
-    assert "Does not hold" in verify_page(broken)
+    assert "Does not hold" in broken.page()
 
 
 def test_one_miss_among_many_is_reported_but_does_not_fail():
@@ -121,7 +121,7 @@ def test_one_miss_among_many_is_reported_but_does_not_fail():
     [suite] = ElementTree.fromstring(junit_of(missed).encode())
     assert missed.holds and suite.get("failures") == "0"
     assert "NOT covered" in suite[200].find("system-out").text
-    assert "case &lt;&amp;&gt;" in verify_page(missed)
+    assert "case &lt;&amp;&gt;" in missed.page()
 
 
 def test_rough_contacts_have_demands_of_their_own():
@@ -136,12 +136,12 @@ def test_rough_contacts_have_demands_of_their_own():
 
 def test_coverage_is_shown_by_table_model_quantity_and_kind():
     error = row(kind="layer", study=MODEL_ERROR, quantity="peak_pressure")
-    found = whole([*ENOUGH, row(kind="rough"), error])
-    assert found.groups("table", "kind")["model error", "layer"].count == 1
-    assert found.groups("table", "kind")["figure", "rough"].count == 1
-    assert found.groups("kind")["Hertz",].count == 200
+    verified = whole([*ENOUGH, row(kind="rough"), error])
+    groups = verified.groups("table", "kind")
+    assert groups["model error", "layer"].count == groups["figure", "rough"].count == 1
+    assert groups["figure", "Hertz"].count == 200
     assert [figure.quantity for figure in error.judged] == ["model error, peak_pressure"]
-    page = verify_page(found)
+    page = verified.page()
     assert "Coverage by table, kind" in page and "<td>model error</td>" in page
 
 
