@@ -20,7 +20,7 @@ from comparisons.common.mpi import is_first
 from comparisons.common.numbers import finite
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, key_of, machine, program_code, versions
-from comparisons.common.tasks import Here, ProcessEnded, tasks_here
+from comparisons.common.tasks import ProcessEnded, called, tasks_here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS
 from comparisons.figures.uncertainty import Uncertainty
@@ -29,6 +29,7 @@ from comparisons.output.junit import JunitCase, check_place, junit_xml, write_ju
 if TYPE_CHECKING:
     from rich.console import RenderableType
     from rich.table import Table
+    from rich.text import Text
 
 SCHEMA = 2
 CASE, CONDITION, COST = "case", "condition", "cost"  # studies of what cases yield
@@ -180,13 +181,17 @@ class Row:
         }
 
 
+def summary_row(group: str, name: str, model: str, *figures: Figure) -> Row:
+    """A row that follows from others."""
+    return Row(Case(group, name, model, tuple), figures, None, 0.0)
+
+
 def carried_out(case: Case) -> Row:
-    return Row(case, *_solved(None, case.solve))
+    return Row(case, *_solved(case.solve))
 
 
-def _solved(
-    here: Here | None, solve: Callable[[], Iterable[Figure]]
-) -> tuple[CaseFigures, str | None, float]:
+def _solved(solve: Callable[[], Iterable[Figure]]) -> tuple[CaseFigures, str | None, float]:
+    """Figures, the message of what was raised, and seconds of the processor."""
     start, figures, error = process_time(), (), None
     try:
         with warnings.catch_warnings():
@@ -202,17 +207,18 @@ def rows_of(
 ) -> tuple[Row, ...]:
     """The rows of all cases, which processes share where that pays (`comparisons.common.tasks`):
     what solves a case can be pickled then."""
-    cases, rows = tuple(cases), []
+    named, rows = {str(number): case for number, case in enumerate(cases, start=1)}, []
     with tasks_here(kept=kept) as tasks:
-        for number, case in enumerate(cases, start=1):
-            tasks.add(str(number), _solved, case.solve, seconds=USUAL_SECONDS.get(case.model, 0.0))
-        for number, case in enumerate(cases, start=1):
+        for key, case in named.items():
+            seconds = USUAL_SECONDS.get(case.model, 0.0)
+            tasks.add(key, called, _solved, case.solve, seconds=seconds)
+        for key, case in named.items():
             failed = sum(not row.holds for row in rows)
-            name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
-            name += f"{case.model}: {case.group}: {case.name}"
-            callback(Step(name, (number - 1) / len(cases)))
+            failures = f", {failed} failed" if failed else ""
+            name = f"{key} of {len(named)}{failures}: {case.model}: {case.group}: {case.name}"
+            callback(Step(name, len(rows) / len(named)))
             try:
-                rows.append(Row(case, *tasks.result(str(number))))
+                rows.append(Row(case, *tasks.result(key)))
             except ProcessEnded:
                 rows.append(Row(case, (), ENDED, 0.0))
     return tuple(rows)
@@ -221,8 +227,7 @@ def rows_of(
 def answers_of(out: Path, cases: Iterable[Case]) -> Cache:
     """Answers of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
-    code = program_code("analytic", "comparisons", "fem", "meshes")
-    key = key_of(names, versions(), code)
+    key = key_of(names, versions(), program_code("analytic", "comparisons", "fem", "meshes"))
     return Cache(unfinished(out), key, kinds_of(Figure), by_all=True)
 
 
@@ -263,6 +268,25 @@ class Campaign:
             "machine": machine(),
         }
 
+    def page(self) -> str | None:
+        """HTML, of a campaign that has a page."""
+        return None
+
+    def summary(self) -> "RenderableType":
+        """For the terminal: all rows and the verdict."""
+        from rich.console import Group
+
+        return Group(rows_table(self.rows), *self.verdict_lines())
+
+    def verdict_lines(self) -> "list[Text]":
+        from rich.text import Text
+
+        verdict = Text("HOLDS" if self.holds else "DOES NOT HOLD", style="bold")
+        count = f"  {self.passed} of {len(self.rows)} cases hold, {self.seconds:.0f} s"
+        verdict.append(count, "not bold")
+        faults = [Text(f"does not hold: {line}", style="bold red") for line in self.faults]
+        return [*faults, verdict]
+
 
 def carry_out(
     command: str,
@@ -271,7 +295,6 @@ def carry_out(
     junit: Path | None,
     callback: ProgressCallback,
     concluded: Callable[[str, tuple[Row, ...], float], Campaign] = Campaign,
-    page: Callable[[Campaign], str] | None = None,
 ) -> Campaign:
     """Carry out all cases of a command, and leave <command>.json, and .html where there is a page,
     in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written.
@@ -280,12 +303,11 @@ def carry_out(
     check_writable(out, (f"{command}.json", f"{command}.html"))
     check_place(junit)
     start, kept = perf_counter(), answers_of(out, cases)
-    rows = rows_of(cases, callback, kept)
-    campaign = concluded(command, rows, perf_counter() - start)
+    campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     if is_first():
         files = {f"{command}.json": as_json(finite(campaign.as_dict()))}
-        if page is not None:
-            files[f"{command}.html"] = page(campaign)
+        if (page := campaign.page()) is not None:
+            files[f"{command}.html"] = page
         publish(out, files)
         write_junit(junit, junit_of(campaign))
     kept.discard()
@@ -335,14 +357,3 @@ def rows_table(rows: Sequence[Row]) -> "Table":
     for row in cells:
         table.add_row(*(row[k] for k in filled))
     return table
-
-
-def verdict_lines(campaign: Campaign) -> "RenderableType":
-    from rich.console import Group
-    from rich.text import Text
-
-    verdict = Text("HOLDS" if campaign.holds else "DOES NOT HOLD", style="bold")
-    count = f"  {campaign.passed} of {len(campaign.rows)} cases hold, {campaign.seconds:.0f} s"
-    verdict.append(count, "not bold")
-    faults = [Text(f"does not hold: {line}", style="bold red") for line in campaign.faults]
-    return Group(*faults, verdict)

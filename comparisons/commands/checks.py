@@ -17,15 +17,14 @@ def stability(
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> int:
     """Solve the stiff and extreme cases; end with 0 only if every one holds."""
-    from comparisons.campaigns.cases import rows_table, verdict_lines
-    from comparisons.campaigns.robustness.run import run_robustness
+    from comparisons.campaigns.cases import carry_out
+    from comparisons.campaigns.robustness import all_cases
 
     directory = out or RESULTS / "stability"
     with progress() as callback:
-        study = run_robustness(directory, junit, callback)
-    tables = (lambda: rows_table(study.rows), lambda: verdict_lines(study))
-    show_written(as_json, directory / "stability.json", *tables)
-    return study.exit_status
+        campaign = carry_out("stability", all_cases(), directory, junit, callback)
+    show_written(as_json, directory / "stability.json", lambda: campaign.summary())
+    return campaign.exit_status
 
 
 @job
@@ -41,7 +40,7 @@ def verify(
     as_json: Annotated[bool, json_option("verify.json")] = False,
 ) -> int:
     """Hold both models to exact solutions, and stated uncertainties to true errors."""
-    if sum(given is not None for given in (export, answers, out or junit)) > 1:
+    if sum(option is not None for option in (export, answers, out or junit)) > 1:
         raise InputError("verify: allowed is one of --export, --answers, and --out with --junit")
     if export is not None:
         from comparisons.campaigns.verify.form import export_form
@@ -54,11 +53,10 @@ def verify(
         judged = judged_form(answers)
         show_either(as_json, judged.as_dict(), lambda: form_table(judged))
         return judged.exit_status
-    from comparisons.campaigns.verify.pages import verify_summary
     from comparisons.campaigns.verify.run import verify as verify_all
 
     directory = out or RESULTS / "verify"
     with progress() as callback:
-        found = verify_all(directory, junit, callback)
-    show_written(as_json, directory / "verify.json", lambda: verify_summary(found))
-    return found.exit_status
+        verification = verify_all(directory, junit, callback)
+    show_written(as_json, directory / "verify.json", lambda: verification.summary())
+    return verification.exit_status

@@ -146,7 +146,7 @@ def paper(
     as_json: Annotated[bool, json_option("paper.json")] = False,
 ) -> int:
     """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""
-    from comparisons.campaigns.paper.claim_table import paper_table
+    from comparisons.campaigns.paper.page import paper_table
     from comparisons.campaigns.paper.reproduce import paper as reproduced
 
     with progress() as callback:

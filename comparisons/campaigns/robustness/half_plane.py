@@ -1,4 +1,4 @@
-"""The half-plane's contacts at their extremes: smooth, rough, sliding, coated.
+"""The half-plane's contacts at their extremes: smooth, rough, sliding, coated; and its algebra.
 
 Smooth cylinders: stiffness, size, load, hardness and grids. In half-widths and peak pressures every
 Hertz contact is the same, so each row states its distance from the exact contact, and from the
@@ -6,9 +6,12 @@ ordinary case, which is rounding. Rough lines: one node, plateaus, spikes, steep
 units, against a load over one node's weight, bounded least squares, the contact conditions on a
 dense matrix, the same profile in other units. Sliding, up to a friction of 1 where the bodies
 differ most, against the exact sliding cylinder. Coatings, contrasts of 1e6: where coating or base
-does not matter the contact is that of a half-plane (limits of layers are held by `verify`)."""
+does not matter the contact is that of a half-plane (limits of layers are held by `verify`).
+Algebra, direct solvers and FFT products: backward errors for the ordinary grid and for the matrices
+of worst condition, of many nodes, incompressible layers, coatings of high contrast."""
 
-from functools import cache
+from collections.abc import Callable, Sequence
+from functools import cache, partial
 
 import numpy as np
 
@@ -19,24 +22,27 @@ from analytic.exact.sliding import sliding_from_load
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material, combined_modulus, dundurs_constants
+from analytic.operators.convolution import Convolution
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
 from analytic.surface.synthetic import self_affine
-from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
-from comparisons.campaigns.robustness.loaded_contact import (
-    HATS_PER_HALF_WIDTH,
+from comparisons.campaigns.cases import CONDITION, CaseFigures, account, bounded, relative_error
+from comparisons.campaigns.robustness.measures import (
     SAME,
+    THRESHOLD,
     Constants,
     LoadedContact,
+    backward_ratio,
     dense_violation,
     deviation,
+    flowed_figure,
     least_squares_deviation,
     load_cylinder,
     load_line,
     peak_and_length,
 )
-from comparisons.figures.figure import Figure
 
+HATS_PER_HALF_WIDTH = 77.3  # as on the third level of a scene; no edge falls on a node
 CYLINDER_COUNT = 2 * int(1.5 * HATS_PER_HALF_WIDTH) + 1  # hats on 1.5 half-widths to either side
 STEEL = (207e9, 0.3)
 HIGHS = 5e-5, 5e-4  # error of Hertz's peak and length by the grid, three times over
@@ -50,6 +56,14 @@ BY_GRID = 1e-4  # of the peak and of the load's place: error by the grid
 SOFT = (1e5, 0.0)  # of the largest Dundurs' constant under a rigid roller
 COATED_RADIUS = 50.0  # [m]
 PITCH = 1.0 / HATS_PER_HALF_WIDTH  # [m]
+ELASTOMER = LayeredBody(Material(1.0, 0.5 - 1e-9), 0.02, "bonded")
+COATED = LayeredBody(Material(1e6, 0.3), 1.0, Material(1.0, 0.3))
+OPERATORS: dict[str, Callable[[int], Convolution]] = {
+    "half-plane": partial(HalfPlane, pitch=1.0, modulus=1.0),
+    "elastomer": partial(LayeredSurface, pitch=0.05, body=ELASTOMER),
+    "stiff coating": partial(LayeredSurface, pitch=1e-3, body=COATED),
+    "sliding": partial(CoupledHalfPlane, pitch=1.0, modulus=1.0, friction_dundurs=1.0),
+}
 
 
 def smooth_contact(
@@ -105,8 +119,7 @@ def sized_figures(points: int) -> CaseFigures:
 
 def hardness_figures(over_peak: float) -> CaseFigures:
     """Hardness just above or below the peak: 1 + `over_peak` of the highest pressure found."""
-    pitch = 1.0 / HATS_PER_HALF_WIDTH
-    operator = HalfPlane(CYLINDER_COUNT, pitch, 1.0)
+    operator = HalfPlane(CYLINDER_COUNT, PITCH, 1.0)
     load = hertz_from_peak_pressure(1.0, 0.5, 1.0).load_per_length
     plain = load_cylinder(operator, 0.5, Constraints(load=load))
     hardness = float(plain.pressure.max()) * (1.0 + over_peak)
@@ -116,18 +129,12 @@ def hardness_figures(over_peak: float) -> CaseFigures:
         reference = "flattened cylinder, exact"
         return capped.figures(
             relative_error("contact length", length, exact.contact, HIGHS[1], reference),
-            flowed_figure(capped.pressure >= hardness, pitch, exact.flowed),
+            flowed_figure(capped.pressure >= hardness, PITCH, exact.flowed),
         )
     # the cap takes off `over_peak` of the peak, over a share of the contact: no more may change
     high = SAME if over_peak > 0.0 else max(SAME, 3.0 * abs(over_peak))
     reference = "the uncapped contact"
     return capped.figures(deviation(capped.pressure, plain.pressure, "pressure", high, reference))
-
-
-def flowed_figure(flowed: np.ndarray, pitch: float, half_width: float) -> Figure:
-    """Length of the hats at the hardness (n,) against 2 `half_width` [m], in hats."""
-    off = abs(np.count_nonzero(flowed) * pitch - 2.0 * half_width) / pitch
-    return bounded("flowed length", off, 2.0, "flattened cylinder, exact, in hats")
 
 
 def rough(count: int, rms_slope: float = SLOPE) -> np.ndarray:
@@ -246,3 +253,33 @@ def coated_figures(
     plain = load_cylinder(HalfPlane(CYLINDER_COUNT, PITCH, modulus), *under_load).pressure
     reference = "the equivalent half-plane"
     return contact.figures(deviation(contact.pressure, plain, "pressure", high, reference))
+
+
+def direct_figures(operator: str, count: int, nodes: Sequence[int] | None = None) -> CaseFigures:
+    """Nodes from the first to the second of `nodes`, or 120 scattered ones."""
+    made, rng = OPERATORS[operator](count), np.random.default_rng(1)
+    scattered = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
+    nodes = np.arange(*nodes) if nodes else scattered
+    right = rng.standard_normal((len(nodes), 2)) * made.column[0]
+    matrix = made.block(nodes)
+    solution = made.solve(nodes, right)
+    ratio = np.inf if solution is None else backward_ratio(matrix, solution, right)
+    figure = bounded("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
+    return figure, account(CONDITION, "dense", np.linalg.cond(matrix))
+
+
+def product_figures(operator: str, count: int, single: bool = False) -> CaseFigures:
+    """A product by FFT against one in longer numbers, row by row; `single` with 32-bit pressures.
+    The ratio grows like log n at most, which THRESHOLD leaves room for."""
+    made = OPERATORS[operator](count)
+    kind = np.float32 if single else float
+    pressure = np.random.default_rng(2).uniform(0.0, 1.0, count).astype(kind)
+    rows = np.unique(np.linspace(0, count - 1, 64).astype(int))
+    distance = rows[:, None] - np.arange(count)
+    matrix = np.where(distance >= 0, made.column[abs(distance)], made.row[abs(distance)])
+    exact = matrix.astype(np.longdouble) @ pressure.astype(np.longdouble)
+    norm = float(np.abs(matrix).sum(axis=1).max())
+    error = np.abs(made.apply(pressure)[rows] - exact).max()
+    ratio = float(error / (norm * np.abs(pressure).max() * float(np.finfo(kind).eps)))
+    reference = "LAPACK's test ratio, 32 bits" if single else "LAPACK's test ratio"
+    return (bounded("error of the product", ratio, THRESHOLD, reference),)

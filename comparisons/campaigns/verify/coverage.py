@@ -1,29 +1,28 @@
 """Figures with an exact answer: coverage of their stated uncertainties, and orders of convergence.
 
-In: rows of cases that yield a figure, its exact value, and whether both are close (`compared`).
-Out: cases of what must hold of all of them together, and the verification.
+In: rows of cases that yield figures with exact values, and whether both are close (`compared`).
+Out: rows of what must hold of all of them together.
 
 Of one contact the error varies with where the edge falls between two nodes; the root mean square
 over contacts with different numbers of elements falls like a power of the element size."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import cached_property, partial
+import tomllib
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from comparisons.campaigns.cases import (
-    Campaign,
-    Case,
     CaseFigures,
     Row,
     bounded,
-    carried_out,
     holds,
     order_figure,
+    summary_row,
 )
-from comparisons.figures.figure import Figure, grouped
-from comparisons.figures.uncertainty import COVERAGE, Uncertainty
+from comparisons.figures.figure import Figure, Part
+from comparisons.figures.uncertainty import COVERAGE
 from comparisons.studies import contact
 from comparisons.studies.study import MODEL_ERROR
 
@@ -33,38 +32,16 @@ LEAST_COVERAGE = COVERAGE
 MOST_OVERESTIMATION, MOST_ROUGH = 5.0, 15.0
 FEWEST, FEWEST_ROUGH = 400, 150  # informative figures, in all and of rough contacts
 ROUND_OFF = 1e-10  # relative; the tables of references have as many digits
-# Largest relative error of a figure on the third level, three to five times what is met.
-CEILINGS = {
-    "peak_pressure": 1e-3,
-    "contact_length": 5e-3,
-    "tau1_max": 1e-2,
-    "tau1_max_depth": 5e-2,
-    "txz_max_abs": 5e-3,
-    "mean_gap": 1e-3,
-}
+BOUNDS = tomllib.loads(Path(__file__).with_name("bounds.toml").read_text(encoding="utf-8"))
+CEILINGS: dict[str, float] = BOUNDS["ceilings"]
 # Times these: rough contacts have fewer elements to a patch; a model error is made of two figures.
 ROUGH_FACTOR, MODEL_ERROR_FACTOR = 4.0, 2.0
 PARTS = ("iteration", "discretisation", "domain")  # of an uncertainty
 EXACT = "exact"  # the source of exact values
 TABLES = {contact.NAME: "figure", MODEL_ERROR: "model error"}  # words for a run's two tables
 NOT_CONVERGED = "not converged"  # note of a figure: a level did not meet its contact conditions
-# Expected order and how far the observed one may lie from it, both ways. Hertz's contact: the
-# figures of smooth fields have order 2, of the edge's place 1, of the pressure in L2 1, by the
-# square root at the edge; of stresses the coarsest level is better than that, for next to the edge
-# they are those of a curve and not of hats (1.4 and 1.5 in 24 contacts). Another choice of 18
-# contacts was seen to change the orders by up to 0.4.
 PRESSURE = "pressure in L2"
-ORDERS = {
-    ("half_plane", "peak_pressure"): (2.0, 0.5),
-    ("half_plane", "contact_length"): (1.0, 0.4),
-    ("half_plane", "tau1_max"): (2.0, 0.7),
-    ("half_plane", "txz_max_abs"): (2.0, 0.7),
-    ("half_plane", PRESSURE): (1.0, 0.15),
-    ("finite_element", "peak_pressure"): (2.0, 0.5),
-    ("finite_element", "contact_length"): (1.0, 0.5),
-    ("finite_element", "txz_max_abs"): (2.0, 0.6),
-    ("finite_element", PRESSURE): (1.0, 0.2),
-}
+ORDERS = {(model, q): order for model, of in BOUNDS["orders"].items() for q, order in of.items()}
 # Fields of the pairs by which their coverage is shown.
 GROUPS = (("table", "model", "quantity"), ("table", "kind"))
 FEWEST_CONTACTS = 16  # for an observed order
@@ -73,16 +50,11 @@ FEWEST_CONTACTS = 16  # for an observed order
 def compared(
     figure: Figure, exact: float, reference: str, kind: str, converged: bool = True
 ) -> CaseFigures:
-    """The figure of a case of that kind, the exact value by a reference [SI], and the error, which
-    must be below a ceiling whatever uncertainty is stated; infinite if not converged."""
-    figure = replace(figure, notes=() if converged else (NOT_CONVERGED,))
-    value = Figure(
-        *(figure.study, figure.quantity, EXACT, float(exact)),
-        against=figure.against,
-        uncertainty=Uncertainty(),
-        notes=(reference,),
-    )
-    return figure, value, Pair(kind, "", figure, value).closeness
+    """The figure of a case of that kind, with its exact value by a reference [SI]; and its error,
+    which must be below a ceiling whatever uncertainty is stated, infinite if not converged."""
+    notes = (reference,) if converged else (reference, NOT_CONVERGED)
+    figure = replace(figure, parts=(Part(EXACT, float(exact)),), notes=notes)
+    return figure, Pair(kind, "", figure).closeness
 
 
 @dataclass(frozen=True)
@@ -92,8 +64,19 @@ class Pair:
     # kind, case: Hertz | surface | sliding | hardness | layer | wave | punch | rough, and its name
     kind: str
     case: str
-    figure: Figure  # with its levels, and its uncertainty as stated
-    exact: Figure
+    figure: Figure  # with its levels, its uncertainty as stated, and what `compared` adds
+
+    @property
+    def exact(self) -> float:
+        return self.figure.part(EXACT).value
+
+    @property
+    def reference(self) -> str:
+        return self.figure.notes[0]
+
+    @property
+    def converged(self) -> bool:
+        return NOT_CONVERGED not in self.figure.notes
 
     @property
     def model(self) -> str:
@@ -110,7 +93,7 @@ class Pair:
     @property
     def errors(self) -> list[float]:
         """True errors of all levels, relative to the figure's scale, with their signs."""
-        return [(value - self.exact.value) / self.figure.scale for value in self.figure.levels]
+        return [(value - self.exact) / self.figure.scale for value in self.figure.levels]
 
     @property
     def error(self) -> float:
@@ -139,28 +122,28 @@ class Pair:
         ceiling *= MODEL_ERROR_FACTOR if is_error else 1.0
         ratio = "rounding" if self.overestimation is None else f"{self.overestimation:.3g}"
         note = (
-            f"value {figure.value:.12g}, exact {self.exact.value:.12g}, relative error "
+            f"value {figure.value:.12g}, exact {self.exact:.12g}, relative error "
             f"{self.error:.3e}, stated uncertainty {figure.numerical:.3e}, "
             f"{'covered' if self.covered else 'NOT covered'}, overestimation ratio {ratio}, "
-            + (NOT_CONVERGED if figure.notes else figure.uncertainty.convergence.behaviour)
+            + (figure.uncertainty.convergence.behaviour if self.converged else NOT_CONVERGED)
         )
-        error = np.inf if figure.notes else abs(self.error)
+        error = abs(self.error) if self.converged else np.inf
         name = f"{self.table}, {self.quantity}" if is_error else self.quantity
-        return bounded(name, error, ceiling, self.exact.notes[0], note=note)
+        return bounded(name, error, ceiling, self.reference, note=note)
 
     def as_dict(self) -> dict:
         stated = self.figure.uncertainty
         return {
             "case": self.case,
-            "source": self.exact.notes[0],
+            "source": self.reference,
             "kind": self.kind,
             "model": self.model,
             "quantity": self.quantity,
             "levels": self.figure.levels,
-            "exact": self.exact.value,
+            "exact": self.exact,
             "scale": self.figure.scale,
             "uncertainty": {name: stated.parts[name] for name in PARTS} | {"total": stated.total},
-            "converged": not self.figure.notes,
+            "converged": self.converged,
             "table": self.table,
             "error": self.error,
             "covered": self.covered,
@@ -173,9 +156,8 @@ class Pair:
 
 def pairs_of(row: Row) -> list[Pair]:
     """The figures of a row that have an exact value."""
-    known = grouped(row.figures, lambda figure: (figure.study, figure.quantity))
     case = row.case.group, row.case.name
-    return [Pair(*case, *both) for both in known if both[-1].source == EXACT]
+    return [Pair(*case, figure) for figure in row.figures if figure.part(EXACT)]
 
 
 @dataclass(frozen=True)
@@ -200,28 +182,25 @@ def coverage(pairs: Iterable[Pair]) -> Coverage:
     return Coverage(len(pairs), len(informative), share, median, high)
 
 
-def coverage_cases(
-    pairs: Iterable[Pair], fewest: int = FEWEST, fewest_rough: int = FEWEST_ROUGH
-) -> list[Case]:
+def coverage_rows(
+    pairs: Sequence[Pair], fewest: int = FEWEST, fewest_rough: int = FEWEST_ROUGH
+) -> Iterator[Row]:
     """Enough informative figures, covered often enough, by uncertainties that are not too large:
     of all contacts, and of the rough ones."""
-    pairs = list(pairs)
-    groups = [("all figures", pairs, MOST_OVERESTIMATION, fewest)]
+    yield _coverage_row("all figures", pairs, MOST_OVERESTIMATION, fewest)
     rough = [pair for pair in pairs if pair.kind == "rough"]
     if rough or fewest_rough:
-        groups.append(("rough contacts", rough, MOST_ROUGH, fewest_rough))
-    return [
-        Case("coverage", name, "both", partial(_covered, coverage(group), most, least))
-        for name, group, most, least in groups
-    ]
+        yield _coverage_row("rough contacts", rough, MOST_ROUGH, fewest_rough)
 
 
-def _covered(shown: Coverage, most: float, fewest: int) -> CaseFigures:
-    ratio, uncertainties = shown.median_overestimation, "the stated uncertainties"
-    return (
-        bounded("share covered", shown.covered, 1.0, uncertainties, LEAST_COVERAGE),
-        bounded("median overestimation ratio", ratio, most, uncertainties),
-        bounded("informative figures", shown.informative, np.inf, "exact answers", fewest),
+def _coverage_row(name: str, pairs: Sequence[Pair], most: float, fewest: int) -> Row:
+    shown, stated = coverage(pairs), "the stated uncertainties"
+    ratio, count = shown.median_overestimation, shown.informative
+    return summary_row(
+        *("coverage", name, "both"),
+        bounded("share covered", shown.covered, 1.0, stated, LEAST_COVERAGE),
+        bounded("median overestimation ratio", ratio, most, stated),
+        bounded("informative figures", count, np.inf, "exact answers", fewest),
     )
 
 
@@ -231,7 +210,7 @@ def observed_order(errors: Sequence[Sequence[float]]) -> float:
     return float(np.log2(square[0] / square[-1]) / (len(square) - 1))
 
 
-def order_cases(rows: Iterable[Row]) -> list[Case]:
+def order_rows(rows: Iterable[Row]) -> Iterator[Row]:
     """Orders of the figures of Hertz's contact and of all pressures, where there are enough."""
     errors: dict[tuple[str, str], list[Sequence[float]]] = {key: [] for key in ORDERS}
     for row in rows:
@@ -241,52 +220,9 @@ def order_cases(rows: Iterable[Row]) -> list[Case]:
         for pair in pairs_of(row):
             if pair.kind == "Hertz" and (pair.model, pair.quantity) in ORDERS:
                 errors[pair.model, pair.quantity].append(pair.errors)
-    cases = []
-    for (model, name), of_contacts in errors.items():
+    for (model, quantity), of_contacts in errors.items():
         if len(of_contacts) >= FEWEST_CONTACTS:
-            order = observed_order(of_contacts), *ORDERS[model, name]
-            figures = (order_figure("observed order", *order, "the exact contacts"),)
-            words = f"{name}, {len(of_contacts)} contacts"
-            cases.append(Case("order", words, model, partial(tuple, figures)))
-    return cases
-
-
-@dataclass(frozen=True)
-class Verification(Campaign):
-    """The rows of `verify`, with the pairs of stated uncertainty and true error among them."""
-
-    @cached_property
-    def pairs(self) -> tuple[Pair, ...]:
-        return tuple(pair for row in self.rows for pair in pairs_of(row))
-
-    @cached_property
-    def coverage(self) -> Coverage:
-        return coverage(self.pairs)
-
-    def groups(self, *names: str) -> dict[tuple[str, ...], Coverage]:
-        """Coverage by the named fields of the pairs, in order of appearance."""
-
-        def key(pair: Pair) -> tuple[str, ...]:
-            return tuple(getattr(pair, name) for name in names)
-
-        return {key(pairs[0]): coverage(pairs) for pairs in grouped(self.pairs, key)}
-
-    def as_dict(self) -> dict:
-        return super().as_dict() | {
-            "coverage": asdict(self.coverage),
-            "groups": [
-                {**dict(zip(names, group, strict=True)), **asdict(covered)}
-                for names in GROUPS
-                for group, covered in self.groups(*names).items()
-            ],
-            "pairs": [pair.as_dict() for pair in self.pairs],
-        }
-
-
-def verification(
-    rows: tuple[Row, ...], seconds: float, fewest: int, fewest_rough: int
-) -> Verification:
-    """All rows, with those of the coverage by the stated uncertainties."""
-    pairs = [pair for row in rows for pair in pairs_of(row)]
-    covered = map(carried_out, coverage_cases(pairs, fewest, fewest_rough))
-    return Verification("verify", (*rows, *covered), seconds)
+            order = observed_order(of_contacts), *ORDERS[model, quantity]
+            figure = order_figure("observed order", *order, "the exact contacts")
+            name = f"{quantity}, {len(of_contacts)} contacts"
+            yield summary_row("order", name, model, figure)

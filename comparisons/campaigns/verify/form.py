@@ -20,7 +20,7 @@ import numpy as np
 
 from analytic.exact.cases import ExactContact, exact_contacts
 from comparisons.campaigns.verify.coverage import EXACT
-from comparisons.campaigns.verify.rough import FEW, LAYERED, RoughBody, rough_contact, rough_scene
+from comparisons.campaigns.verify.rough import FEW, HALF_PLANE, LAYERED, rough_contact, rough_scene
 from comparisons.campaigns.verify.scenes import ExactScene, gallery_scenes, layer_scenes
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import publish
@@ -47,11 +47,18 @@ class FormCase:
     """A case of the form."""
 
     name: str
-    title: str
     # by name, text: a scene with its trace, or the gap of a wave or a punch
     files: Mapping[str, str]
     exact: Mapping[str, float]  # figures [SI] by quantity
     about: str = ""  # what no scene says, in words
+
+    @property
+    def rows(self) -> list[tuple[object, ...]]:
+        """Of the form, to be filled in."""
+        return [
+            (self.name, quantity, unit_of(quantity), f"{value:.{DIGITS}g}", TOLERANCE, "", "")
+            for quantity, value in self.exact.items()
+        ]
 
 
 @dataclass(frozen=True)
@@ -95,16 +102,14 @@ def is_covered(figure: Figure) -> bool:
 @cache
 def form_cases() -> tuple[FormCase, ...]:
     """Hertz at rest and sliding, layers, rough contacts made from pressures, waves, punches."""
-    bodies = [(seed, RoughBody("half-plane")) for seed in HALF_PLANES]
+    bodies = [(seed, HALF_PLANE) for seed in HALF_PLANES]
     bodies += [(2 * k, body) for k, body in enumerate(LAYERED)]  # at rest: friction moves layers
-    contacts = [
-        (f"rough {body.name} {seed}", rough_contact(seed, body, FEW)) for seed, body in bodies
-    ]
     scenes = [scene for scene in gallery_scenes() if scene.kind != "hardness"]
     scenes += layer_scenes()
-    scenes += [
-        replace(rough_scene(name, contact, ELEMENTS, {}), name=name) for name, contact in contacts
-    ]
+    for seed, body in bodies:
+        name = f"rough {body} {seed}"
+        rough = rough_scene(name, rough_contact(seed, body, FEW), ELEMENTS, {})
+        scenes.append(replace(rough, name=name))
     others = [case for case in exact_contacts() if case.period is not None or case.knots]
     return (*map(_of_scene, scenes), *map(_of_gap, others))
 
@@ -113,10 +118,9 @@ def export_form(out: Path) -> int:
     """Write scenes, form and README to `out`; the number of cases. InputError if that fails."""
     cases = form_cases()
     files = {name: text for case in cases for name, text in case.files.items()}
-    files["form.csv"] = _form(cases)
-    files["README.md"] = rendered(
-        Path(__file__).parent / "verify.md.j2", cases=cases, tolerance=TOLERANCE
-    )
+    files["form.csv"] = csv_text([COLUMNS, *(row for case in cases for row in case.rows)])
+    template = Path(__file__).with_name("verify.md.j2")
+    files["README.md"] = rendered(template, cases=cases, tolerance=TOLERANCE)
     publish(out, files)
     return len(cases)
 
@@ -196,15 +200,6 @@ def _number(row: Mapping[str, str], column: str, where: str, least: float = -mat
     return value
 
 
-def _form(cases: tuple[FormCase, ...]) -> str:
-    rows = (
-        (case.name, quantity, unit_of(quantity), f"{value:.{DIGITS}g}", TOLERANCE, "", "")
-        for case in cases
-        for quantity, value in case.exact.items()
-    )
-    return csv_text([COLUMNS, *rows])
-
-
 def _of_scene(scene: ExactScene) -> FormCase:
     """What a user would write, without what only concerns the project's own models."""
     name = _slug(scene.name)
@@ -215,12 +210,13 @@ def _of_scene(scene: ExactScene) -> FormCase:
         trace = scene.trace.read.profile
         files[f"{name}.csv"] = _table("x [m],height [m]", trace.x, trace.height)
         tables["profile"] = {"file": f"{name}.csv", "form": "none", "x_unit": "m", "z_unit": "m"}
+    tables["budget"] = {"effects": False}
     lines = [f"title = {json.dumps(scene.name)}"]
     for section, fields in tables.items():
-        lines += ["", f"[{section}]", *(f"{key} = {_toml(value)}" for key, value in fields.items())]
-    lines += ["", "[budget]", "effects = false", ""]
-    files[f"{name}.toml"] = "\n".join(lines)
-    return FormCase(name, scene.name, files, {q: v for q, v in scene.exact.items() if v})
+        values = {key: json.dumps(value, default=float) for key, value in fields.items()}
+        lines += ["", f"[{section}]", *(f"{key} = {value}" for key, value in values.items())]
+    files[f"{name}.toml"] = "\n".join([*lines, ""])
+    return FormCase(name, files, {q: v for q, v in scene.exact.items() if v})
 
 
 def _of_gap(case: ExactContact) -> FormCase:
@@ -234,24 +230,18 @@ def _of_gap(case: ExactContact) -> FormCase:
         for m in (case.body, case.roller)
         if m is not None
     )
-    about = f"{case.load:.{DIGITS}g} N/m"
-    about += "" if case.period is None else f" on each period of {case.period:g} m"
-    about += f"; half-planes of {bodies}"
+    period = "" if case.period is None else f" on each period of {case.period:g} m"
+    about = f"{case.load:.{DIGITS}g} N/m{period}; half-planes of {bodies}"
     about += " under a rigid one" if case.roller is None else ""
     wanted = ("peak_pressure", "contact_length", "mean_gap")
     exact = {q: case.quantities[q] for q in wanted if case.quantities.get(q)}
     files = {f"{name}.csv": _table("x [m],gap [m]", x, case.gap(x))}
-    return FormCase(name, case.name, files, exact, about)
+    return FormCase(name, files, exact, about)
 
 
 def _table(head: str, *columns: np.ndarray) -> str:
     rows = (",".join(f"{value:.15g}" for value in row) for row in zip(*columns, strict=True))
     return "\n".join([head, *rows, ""])
-
-
-def _toml(value: object) -> str:
-    """Of a string, a number, a truth, or a list of such: as in JSON."""
-    return json.dumps(value, default=float)
 
 
 def _slug(text: str) -> str:

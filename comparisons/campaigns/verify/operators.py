@@ -23,8 +23,11 @@ from comparisons.campaigns.verify.coverage import compared
 from comparisons.campaigns.verify.scenes import (
     LAYER_MODULUS,
     LAYER_RADIUS,
+    LAYER_SOURCE,
     LAYER_THICKNESS,
     NEARLY_INCOMPRESSIBLE,
+    RESOLUTIONS,
+    spread,
 )
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure
@@ -48,11 +51,11 @@ class OperatorContact:
     model: str  # half_plane | layer
     make: Callable[[int, float], ModelOperator]  # operator of a grid's count and pitch [m]
     gap: Callable[[np.ndarray], np.ndarray]  # g0(x) [m], smooth but for `knots` [m]
-    knots: tuple[float, ...]
-    load: float
+    load: float  # [N/m]
     span: tuple[float, float]  # (2,) ends of the grid [m]; a period's where it is periodic
     scale: float  # [m] of which the pitch is a part: half of the contact, or its rounded corner
-    exact: dict[str, float]
+    exact: dict[str, float]  # figures [SI] by quantity
+    knots: tuple[float, ...] = ()
     periodic: bool = False
     patches: int = 1  # of contact, a period's
 
@@ -63,8 +66,10 @@ def operator_contacts() -> tuple[OperatorContact, ...]:
     return (*contacts, *layers)
 
 
-def operator_cases(contacts: Sequence[OperatorContact], resolutions: Sequence[float]) -> list[Case]:
-    """Each contact with its own number of elements on the third level."""
+def operator_cases(
+    contacts: Sequence[OperatorContact], ends: tuple[float, float] = RESOLUTIONS
+) -> list[Case]:
+    """Each contact with its own number of elements on the third level, between the ends."""
     return [
         Case(
             contact.kind,
@@ -72,7 +77,7 @@ def operator_cases(contacts: Sequence[OperatorContact], resolutions: Sequence[fl
             contact.model,
             partial(operator_figures, contact, elements),
         )
-        for contact, elements in zip(contacts, resolutions, strict=True)
+        for contact, elements in zip(contacts, spread(len(contacts), ends), strict=True)
     ]
 
 
@@ -128,23 +133,20 @@ def _contact(case: ExactContact) -> OperatorContact:
     exact = {name: case.quantities[name] for name in names if name in case.quantities}
     half_width = 0.5 * case.quantities["contact_length"]
     if case.period is None:
-        kind, reach = HalfPlane, (1.0 + MARGIN) * half_width
+        kind, operator, reach = "punch", HalfPlane, (1.0 + MARGIN) * half_width
     else:
-        kind, reach = PeriodicHalfPlane, 0.5 * case.period
+        kind, operator, reach = "wave", PeriodicHalfPlane, 0.5 * case.period
         if half_width > FULL * reach:
             exact = {"peak_pressure": exact["peak_pressure"]}  # no edge, no gap
     return OperatorContact(
-        name=case.name,
-        source=case.source,
-        kind="punch" if case.period is None else "wave",
-        model="half_plane",
-        make=partial(kind, modulus=case.combined_modulus),
+        *(case.name, case.source, kind, "half_plane"),
+        make=partial(operator, modulus=case.combined_modulus),
         gap=case.gap,
-        knots=case.knots,
         load=case.load,
         span=(-reach, reach),
         scale=half_width - max(case.knots, default=0.0),
         exact=exact,
+        knots=case.knots,
         periodic=case.period is not None,
     )
 
@@ -155,14 +157,11 @@ def _layer(reference: LayerReference, nu: float) -> OperatorContact:
     unit = material.plane_strain_modulus * LAYER_THICKNESS / LAYER_RADIUS
     half_width = reference.half_width * LAYER_THICKNESS
     reach = (1.0 + MARGIN) * half_width
+    name = f"analytic layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t"
     return OperatorContact(
-        name=f"analytic layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t",
-        source="slope equation by collocation, analytic/exact/layer_contact.json",
-        kind="layer",
-        model="layer",
+        *(name, LAYER_SOURCE, "layer", "layer"),
         make=partial(LayeredSurface, body=body),
         gap=roller_gap(LAYER_RADIUS),
-        knots=(),
         load=reference.load * unit * LAYER_THICKNESS,
         span=(-reach, reach),
         scale=half_width,

@@ -6,14 +6,14 @@ is what the gap lies below a roller's parabola, sampled so densely that its spli
 below any stated uncertainty."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from analytic.exact.cases import ALUMINIUM, CERAMIC, STEEL
 from analytic.exact.manufactured import ManufacturedContact, random_patches
-from analytic.layers.layered import Base, LayeredBody
+from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.profile import Profile
@@ -43,46 +43,31 @@ PRESSURE = 2e9  # [Pa] of the highest asperities
 SAMPLES, BEYOND = 4001, 0.6  # of the trace, and its length beside the contact over REACH
 DEPTH = 0.4  # of REACH: depth of the window, within every layer and coating
 SOURCE = "displacement of the chosen pressures, analytic/exact/manufactured.py"
-
-
-@dataclass(frozen=True)
-class RoughBody:
-    """What is pressed: `material` at the surface, of a `thickness` over REACH on a `base`."""
-
-    name: str
-    material: Material = STEEL
-    thickness: float | None = None
-    base: Base | Material | None = None
-
-
-HALF_PLANE = RoughBody("half-plane")
-LAYERED = (
-    RoughBody("bonded layer", thickness=0.8, base="bonded"),
-    RoughBody("hard coating", CERAMIC, 0.4, ALUMINIUM),
-    RoughBody("frictionless layer", thickness=1.5, base="frictionless"),
-    RoughBody("soft coating", ALUMINIUM, 0.5, STEEL),
-    RoughBody("nearly incompressible layer", Material(207e9, 0.45), 1.0, "bonded"),
-)
+HALF_PLANE = "half-plane"
+# What is pressed: steel, or a layer or coating with its thickness and base.
+BODIES: dict[str, LayeredBody | None] = {
+    HALF_PLANE: None,
+    "bonded layer": LayeredBody(STEEL, 0.8 * REACH, "bonded"),
+    "hard coating": LayeredBody(CERAMIC, 0.4 * REACH, ALUMINIUM),
+    "frictionless layer": LayeredBody(STEEL, 1.5 * REACH, "frictionless"),
+    "soft coating": LayeredBody(ALUMINIUM, 0.5 * REACH, STEEL),
+    "nearly incompressible layer": LayeredBody(Material(207e9, 0.45), 1.0 * REACH, "bonded"),
+}
+LAYERED = [name for name in BODIES if name != HALF_PLANE]
 
 
 def rough_contact(
-    seed: int, body: RoughBody = HALF_PLANE, counts: tuple[int, ...] = MANY
+    seed: int, body: str = HALF_PLANE, counts: tuple[int, ...] = MANY
 ) -> ManufacturedContact:
-    """Patches drawn from the seed, on a body; on a layer or a coating under a rigid roller."""
+    """Patches drawn from the seed, on one of BODIES; what is layered is under a rigid roller."""
     patches = random_patches(seed, counts[seed % len(counts)], REACH, PRESSURE)
-    friction = FRICTIONS[seed % len(FRICTIONS)]
-    if body.thickness is None:
-        return ManufacturedContact(patches, body.material, body.material, None, friction)
-    layer = LayeredBody(body.material, body.thickness * REACH, body.base)
-    return ManufacturedContact(patches, body.material, None, layer, friction)
+    friction, layer = FRICTIONS[seed % len(FRICTIONS)], BODIES[body]
+    material, roller = (STEEL, STEEL) if layer is None else (layer.material, None)
+    return ManufacturedContact(patches, material, roller, layer, friction)
 
 
 def rough_cases() -> list[Case]:
-    contacts = rough_operator_contacts()
-    return [
-        *scene_cases(rough_scenes()),
-        *operator_cases(contacts, spread(len(contacts), *ELEMENTS)),
-    ]
+    return [*scene_cases(rough_scenes()), *operator_cases(rough_operator_contacts(), ELEMENTS)]
 
 
 def rough_scenes(
@@ -90,15 +75,15 @@ def rough_scenes(
 ) -> tuple[ExactScene, ...]:
     """So many half-planes for the half-plane and for the finite elements, and bodies of LAYERED for
     the finite elements; with the model error where there are finite elements."""
-    bodies = [HALF_PLANE] * (half_planes + finite_elements) + list(LAYERED[:layers])
-    resolutions = spread(half_planes, *ELEMENTS) + spread(len(bodies) - half_planes, *MESHED)
+    bodies = [HALF_PLANE] * (half_planes + finite_elements) + LAYERED[:layers]
+    resolutions = spread(half_planes, ELEMENTS) + spread(len(bodies) - half_planes, MESHED)
     scenes = []
     for seed, (body, elements) in enumerate(zip(bodies, resolutions, strict=True)):
-        held = seed % 2 or body.base is not None
+        held = seed % 2 or body != HALF_PLANE
         settings = {} if held else {"far_field": "half-plane"}
         contact = rough_contact(seed, body, MANY if seed < half_planes else FEW)
         scene = rough_scene(_name(seed, body, contact), contact, elements, settings)
-        reference = partial(_no_error, scene) if body.base is None else fine_half_plane
+        reference = partial(_no_error, scene) if body == HALF_PLANE else fine_half_plane
         asked = {"models": ("half_plane",)} if seed < half_planes else {"half_plane": reference}
         scenes.append(replace(scene, **asked))
     return tuple(scenes)
@@ -113,13 +98,16 @@ def rough_scene(
         "body": elastic_table(contact.body),
         "profile": {"file": "manufactured", "form": "none"},
         "load": {"per_length": contact.load, "friction": contact.friction, "coupled": False},
-        "stress": {"half_range": f"{1.1 * REACH} m", "depth": f"{DEPTH * REACH} m"},
+        "stress": {
+            "half_range": f"{1.1 * REACH} m",
+            "depth": f"{DEPTH * REACH} m",
+            "points": [60, 20],
+        },
         "resolution": {"pitch": 4.0 * _half_patch(contact) / elements},
         "finite_element": dict(finite_element),
         "tolerance": LOOSE | LOOSE_STRESS,
         "budget": {"effects": False},
     }
-    tables["stress"]["points"] = [60, 20]
     layer = contact.layer
     if layer is not None and layer.rigid:
         tables["body"] |= {"thickness": layer.thickness, "base": layer.base}
@@ -144,13 +132,12 @@ def rough_operator_contacts() -> tuple[OperatorContact, ...]:
     return tuple(_operator_contact(seed, body) for seed, body in enumerate(LAYERED * 2))
 
 
-def _operator_contact(seed: int, body: RoughBody) -> OperatorContact:
+def _operator_contact(seed: int, body: str) -> OperatorContact:
     contact, margin = rough_contact(seed, body), 0.5 * REACH
     return OperatorContact(
         *(_name(seed, body, contact), SOURCE, "rough", "layer"),
         make=partial(LayeredSurface, body=contact.layer),
         gap=contact.gap,
-        knots=(),
         load=contact.load,
         span=(contact.ends[0] - margin, contact.ends[1] + margin),
         scale=_half_patch(contact),
@@ -180,7 +167,5 @@ def _half_patch(contact: ManufacturedContact) -> float:
     return 0.5 * contact.contact_length / len(contact.patches)
 
 
-def _name(seed: int, body: RoughBody, contact: ManufacturedContact) -> str:
-    return (
-        f"rough {body.name} {seed}, {len(contact.patches)} patches, friction {contact.friction:g}"
-    )
+def _name(seed: int, body: str, contact: ManufacturedContact) -> str:
+    return f"rough {body} {seed}, {len(contact.patches)} patches, friction {contact.friction:g}"

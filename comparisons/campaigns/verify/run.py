@@ -1,72 +1,189 @@
-"""Both models against everything whose exact answer is known.
+"""Both models against everything whose exact answer is known: carried out, and shown.
 
 Figures and model errors with their stated uncertainties, of scenes solved as `run` does (`scenes`)
 and of contacts on the library's operators (`operators`), smooth and rough (`rough`); observed
 orders (`coverage`); manufactured solutions (`manufactured`); the contact by PETSc's own solver
-(`independent_solver`)."""
+(`independent_solver`). Out: JSON, JUnit, a page of its own, the terminal's tables."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from operator import attrgetter
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from comparisons.campaigns.cases import Case, Row, carried_out, carry_out
+import numpy as np
+
+from comparisons.campaigns.cases import (
+    MODEL_LABELS,
+    Campaign,
+    Case,
+    Row,
+    bounds_text,
+    carry_out,
+    holds,
+    rows_table,
+)
 from comparisons.campaigns.verify.coverage import (
     FEWEST,
     FEWEST_ROUGH,
-    Verification,
-    order_cases,
-    verification,
+    GROUPS,
+    Coverage,
+    Pair,
+    coverage,
+    coverage_rows,
+    order_rows,
+    pairs_of,
 )
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
-from comparisons.campaigns.verify.pages import verify_page
-from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases, spread
+from comparisons.campaigns.verify.rough import rough_cases
+from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases
 from comparisons.common.errors import InputError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.figures.figure import Figure, grouped
+from comparisons.output.page.html import STYLES, rendered
+from comparisons.output.terminal import plain_table
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
 
 DEGREES = (1, 2, 3)
+COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
+OTHERS = "Orders, manufactured solutions, independent solver"
+OTHER_COLUMNS = ("group", "measured", "value", "bound", "holds")
+PAIR_COLUMNS = ("table", "model", "case", "quantity", "exact", "error")
+PAIR_COLUMNS += ("uncertainty", "ratio", "covered")
+
+Cases = tuple[Sequence[Case], Sequence[Case]]  # of figures with exact values, and others
 
 
 @dataclass(frozen=True)
-class Scope:
-    """What to verify."""
+class Verification(Campaign):
+    """The rows of `verify`, with the pairs of stated uncertainty and true error among them."""
 
-    exact: tuple[Case, ...]  # cases that yield figures with exact values
-    others: tuple[Case, ...] = ()  # cases of the finite elements
-    # fewest, fewest_rough: informative figures that there must be, in all and of rough contacts
-    fewest: int = FEWEST
-    fewest_rough: int = FEWEST_ROUGH
+    @cached_property
+    def pairs(self) -> tuple[Pair, ...]:
+        return tuple(pair for row in self.rows for pair in pairs_of(row))
+
+    @cached_property
+    def coverage(self) -> Coverage:
+        return coverage(self.pairs)
+
+    @property
+    def coverage_line(self) -> str:
+        """The line that scripts look for; rounded down, so that 95 means at least 95."""
+        share = self.coverage.covered
+        return f"coverage {np.floor(100.0 * share + 1e-9) if np.isfinite(share) else 0.0:.0f} %"
+
+    def groups(self, *names: str) -> dict[tuple[str, ...], Coverage]:
+        """Coverage by two or more fields of the pairs, in order of appearance."""
+        key = attrgetter(*names)
+        return {key(pairs[0]): coverage(pairs) for pairs in grouped(self.pairs, key)}
+
+    def as_dict(self) -> dict:
+        return super().as_dict() | {
+            "coverage": asdict(self.coverage),
+            "groups": [
+                {**dict(zip(names, group, strict=True)), **asdict(covered)}
+                for names in GROUPS
+                for group, covered in self.groups(*names).items()
+            ],
+            "pairs": [pair.as_dict() for pair in self.pairs],
+        }
+
+    def summary(self) -> "RenderableType":
+        """Coverage by model, quantity and kind; rows without pairs or that do not hold; verdict."""
+        from rich.console import Group
+
+        tables = []
+        for names in GROUPS:
+            table = plain_table(*names, numbers=COLUMNS)
+            for row in self._coverage_cells(names):
+                table.add_row(*row)
+            tables += [table, ""]
+        shown = [row for row in self.rows if not (row.holds and pairs_of(row))]
+        return Group(*tables, rows_table(shown), *self.verdict_lines(), self.coverage_line)
+
+    def page(self) -> str:
+        unpaired = [row for row in self.rows if not pairs_of(row)]
+        figures = [_figure_cells(row.case, f) for row in unpaired for f in row.judged]
+        tables = []
+        for names in GROUPS:
+            rows = self._coverage_cells(names)
+            tables.append((f"Coverage by {', '.join(names)}", (*names, *COLUMNS), rows))
+        tables.append((OTHERS, OTHER_COLUMNS, figures))
+        tables.append(("Figures", PAIR_COLUMNS, map(_pair_cells, self.pairs)))
+        title = f"{'Holds' if self.holds else 'Does not hold'}: {self.coverage_line}"
+        template = Path(__file__).parent / "verify.html.j2"
+        return rendered(template, policy=STYLES, title=title, faults=self.faults, tables=tables)
+
+    def _coverage_cells(self, names: tuple[str, ...]) -> list[tuple[str, ...]]:
+        rows = []
+        for group, covered in self.groups(*names).items():
+            named = zip(names, group, strict=True)
+            words = (MODEL_LABELS[word] if name == "model" else word for name, word in named)
+            rows.append((*words, *_cells(covered)))
+        return [*rows, ("all", *[""] * (len(names) - 1), *_cells(self.coverage))]
 
 
-def everything() -> Scope:
+def _figure_cells(case: Case, figure: Figure) -> tuple[str, ...]:
+    numbers = f"{figure.value:.4g}", bounds_text(figure), _yes(holds(figure))
+    return (case.group, f"{case.name}: {figure.quantity}", *numbers)
+
+
+def _pair_cells(pair: Pair) -> tuple[str, ...]:
+    words = pair.table, MODEL_LABELS[pair.model], pair.case, pair.quantity
+    ratio = "" if pair.overestimation is None else f"{pair.overestimation:.2f}"
+    numbers = f"{pair.exact:.6g}", f"{pair.error:.2e}", f"{pair.figure.numerical:.2e}"
+    return (*words, *numbers, ratio, _yes(pair.covered))
+
+
+def _cells(group: Coverage) -> tuple[str, ...]:
+    if not group.informative:
+        return (str(group.count), "0", "", "", "")
+    ratios = group.median_overestimation, group.overestimation_quantile
+    covered = f"{100.0 * group.covered:.1f} %"
+    return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
+
+
+def _yes(true: bool) -> str:
+    return "yes" if true else "NO"
+
+
+def everything() -> Cases:
     from comparisons.campaigns.verify.independent_solver import independent_cases
     from comparisons.campaigns.verify.manufactured import BODIES, manufactured_cases
-    from comparisons.campaigns.verify.rough import rough_cases
 
-    contacts = operator_contacts()
-    smooth = operator_cases(contacts, spread(len(contacts)))
+    smooth = [*scene_cases(exact_scenes()), *operator_cases(operator_contacts())]
     bodies = [(kind, degree) for kind in BODIES for degree in DEGREES]
-    return Scope(
-        (*scene_cases(exact_scenes()), *smooth, *rough_cases()),
-        (*manufactured_cases(bodies), *independent_cases()),
-    )
+    return [*smooth, *rough_cases()], [*manufactured_cases(bodies), *independent_cases()]
 
 
 def verify(
     out: Path,
     junit: Path | None = None,
     callback: ProgressCallback = no_progress,
-    scope: Scope | None = None,
+    cases: Cases | None = None,
+    fewest: tuple[int, int] = (FEWEST, FEWEST_ROUGH),
 ) -> Verification:
     """Verify; leave verify.json and verify.html in `out`, JUnit XML in the file `junit`. Raises
-    InputError where those cannot be written, and under mpirun."""
+    InputError where those cannot be written, and under mpirun.
+
+    cases   None is everything
+    fewest  informative figures that there must be, in all and of rough contacts"""
     if is_several():
         raise InputError("verify: runs in several processes; allowed is one, without mpirun")
-    scope = scope or everything()
+    exact, others = cases or everything()
 
     def concluded(command: str, rows: tuple[Row, ...], seconds: float) -> Verification:
-        exact, others = rows[: len(scope.exact)], rows[len(scope.exact) :]
-        rows = (*exact, *map(carried_out, order_cases(exact)), *others)
-        return verification(rows, seconds, scope.fewest, scope.fewest_rough)
+        rows = (*rows[: len(exact)], *order_rows(rows), *rows[len(exact) :])
+        return verification(rows, seconds, fewest)
 
-    cases = (*scope.exact, *scope.others)
-    return carry_out("verify", cases, out, junit, callback, concluded, verify_page)
+    return carry_out("verify", (*exact, *others), out, junit, callback, concluded)
+
+
+def verification(rows: Sequence[Row], seconds: float, fewest: tuple[int, int]) -> Verification:
+    """All rows, with those of the coverage by the stated uncertainties."""
+    pairs = [pair for row in rows for pair in pairs_of(row)]
+    return Verification("verify", (*rows, *coverage_rows(pairs, *fewest)), seconds)

@@ -8,7 +8,7 @@ nodes, so each case has its own number of pressure elements on a half-width.
 Nomenclature: a half-width [m], h pitch of the pressure elements [m], R radius [m], p0 peak
 pressure [Pa], mu friction coefficient."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from itertools import product
@@ -51,12 +51,13 @@ FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface s
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
 SHARES = (0.95, 0.8, 0.6)  # of the peak pressure that a hardness leaves
 # a/h of the third level. With fewer the first level has too few open nodes to find an edge from.
-FEWEST_ELEMENTS, MOST_ELEMENTS = 55.0, 130.0
+RESOLUTIONS = 55.0, 130.0
 HALF_PLANE_ROUNDS = 6
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 # Extremes are searched in the window of the field.
 WINDOW = {"half_range": 1.5, "depth": 1.5, "points": [60, 20]}
 LAYER_RADIUS, LAYER_THICKNESS, LAYER_MODULUS = 0.1, 1e-3, 200e9
+LAYER_SOURCE = "slope equation by collocation, analytic/exact/layer_contact.json"
 FINER = 8.0
 NEARLY_INCOMPRESSIBLE = 0.4999  # beside 0.3, where any Poisson's ratio gives the same
 
@@ -99,41 +100,45 @@ def gallery_scenes() -> tuple[ExactScene, ...]:
 def half_plane_scenes(rounds: int = HALF_PLANE_ROUNDS) -> tuple[ExactScene, ...]:
     """Many resolutions, which are cheap for the half-plane."""
     cases = rollers(FRICTIONS, SLIDING_FRICTIONS, SHARES)
-    return tuple(
-        replace(scene_of(case, elements), models=("half_plane",))
-        for case, elements in zip(cases * rounds, spread(len(cases) * rounds), strict=True)
-    )
+    return _resolved("half_plane", [(None, case) for case in cases * rounds])
 
 
 def finite_element_scenes() -> tuple[ExactScene, ...]:
     """Fewer, with other far boundaries, sizes, growths and degrees of the finite elements."""
-    settings = (
+    near, *others = (
         {"far_field": "half-plane"},
         {"far_field": "half-plane", "element": "P3"},
         {"block": 200.0, "growth": 0.1},
     )
-    fewer = rollers(FRICTIONS[::2], (0.5,), (0.8,))
-    asked = [(settings[0], case) for case in rollers(FRICTIONS, (0.5,), (0.8,))]
-    asked += product(settings[1:], fewer)
+    asked = product([near], rollers(FRICTIONS, (0.5,), (0.8,)))
+    fewer = product(others, rollers(FRICTIONS[::2], (0.5,), (0.8,)))
+    return _resolved("finite_element", [*asked, *fewer])
+
+
+def _resolved(
+    model: str, asked: Sequence[tuple[Mapping[str, object] | None, ExactContact]]
+) -> tuple[ExactScene, ...]:
+    """Scenes of contacts by their settings of the finite elements, each with its own resolution."""
     return tuple(
-        replace(scene_of(case, elements, setting), models=("finite_element",))
+        replace(scene_of(case, elements, setting), models=(model,))
         for (setting, case), elements in zip(asked, spread(len(asked)), strict=True)
     )
 
 
-def spread(count: int, fewest: float = FEWEST_ELEMENTS, most: float = MOST_ELEMENTS) -> list[float]:
-    """Numbers between the two, even on a logarithmic scale, in steps of the golden ratio."""
-    ratio = most / fewest
-    return [round(fewest * ratio ** (k * GOLDEN % 1.0), 1) for k in range(1, count + 1)]
+def spread(count: int, ends: tuple[float, float] = RESOLUTIONS) -> list[float]:
+    """Numbers between the ends, even on a logarithmic scale, in steps of the golden ratio."""
+    low, ratio = ends[0], ends[1] / ends[0]
+    return [round(low * ratio ** (k * GOLDEN % 1.0), 1) for k in range(1, count + 1)]
 
 
 def layer_scenes() -> tuple[ExactScene, ...]:
     """Rigid cylinders on layers, for the finite elements alone."""
-    scenes = []
-    for reference in layer_references():
-        nu = reference.poissons_ratio
-        ratios = (0.3, NEARLY_INCOMPRESSIBLE) if nu is None else (nu,)
-        scenes += [layer_scene(reference, ratio) for ratio in ratios]
+    any_ratio = 0.3, NEARLY_INCOMPRESSIBLE
+    scenes = [
+        layer_scene(reference, nu)
+        for reference in layer_references()
+        for nu in (any_ratio if reference.poissons_ratio is None else [reference.poissons_ratio])
+    ]
     # every other one's model error: with both models it takes twice the time
     return tuple(
         replace(scene, half_plane=smooth_half_plane) if number % 2 else scene
@@ -215,8 +220,7 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
         "contact_length": 2.0 * reference.half_width * LAYER_THICKNESS,
     }
     name = f"layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t"
-    source = "slope equation by collocation, analytic/exact/layer_contact.json"
-    return ExactScene(name, source, "layer", tables, exact, models=("finite_element",))
+    return ExactScene(name, LAYER_SOURCE, "layer", tables, exact, models=("finite_element",))
 
 
 def scene_cases(scenes: Iterable[ExactScene]) -> list[Case]:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from comparisons.campaigns import robustness
 from comparisons.campaigns.cases import (
     ENDED,
     Case,
@@ -17,18 +18,16 @@ from comparisons.campaigns.cases import (
     answers_of,
     bounded,
     carried_out,
+    carry_out,
     junit_of,
     order_figure,
     relative_error,
     rows_of,
-    rows_table,
-    verdict_lines,
 )
-from comparisons.campaigns.robustness import run as robustness
-from comparisons.campaigns.robustness.run import all_cases, run_robustness
 from comparisons.cli import main
 from comparisons.common import tasks
 from comparisons.common.errors import ExitStatus
+from comparisons.common.progress import no_progress
 from comparisons.figures.figure import Figure
 
 
@@ -72,10 +71,8 @@ def test_orders_and_errors_count_on_both_sides():
     assert relative_error("", 0.75, 1.0, 1.0, "").value == 0.25
 
 
-def test_a_row_without_a_figure_or_with_an_error_fails_and_says_why():
+def test_a_row_without_a_figure_fails_and_says_why():
     assert not row().holds and row().faults == ["half_plane, tests, made: no figures"]
-    raised = carried_out(RAISES)
-    assert not raised.holds and raised.error == "ArithmeticError: no solution [bold]"
 
 
 def test_an_interrupt_is_no_row():
@@ -112,48 +109,43 @@ def test_the_decisive_figure_is_the_first_or_the_one_that_fails_by_most():
 
 @pytest.fixture
 def written(tmp_path):
-    """A study of three rows, its folder and what was announced."""
+    """A campaign of three rows, its folder and what was announced."""
     (tmp_path / "result.json").write_text("a run's own")
     announced = []
     cases = case(figure(np.inf)), RAISES, case(figure(0.1), name="good")
     junit = tmp_path / "ci" / "rows.xml"
-    return run_robustness(tmp_path, junit, announced.append, lambda: cases), tmp_path, announced
+    return carry_out("stability", cases, tmp_path, junit, announced.append), tmp_path, announced
 
 
 def test_one_bad_row_does_not_end_the_others_and_the_table_shows_all(written):
-    study, _, announced = written
-    assert study.exit_status == ExitStatus.OUTSIDE_TOLERANCE
-    assert [row.holds for row in study.rows] == [False, False, True]
+    campaign, _, announced = written
+    assert campaign.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+    assert [row.holds for row in campaign.rows] == [False, False, True]
     assert announced[-1] == "3 of 3, 2 failed: half_plane: tests: good"
     console = Console(width=160, file=io.StringIO())
-    console.print(rows_table(study.rows), verdict_lines(study))
+    console.print(campaign.summary())
     text = console.file.getvalue()
     assert "1 of 3 cases hold" in text and "[bold]" in text and "DOES NOT HOLD" in text
 
 
 def test_json_holds_all_rows_beside_the_other_files_of_the_folder(written):
-    study, folder, _ = written
+    campaign, folder, _ = written
     content = json.loads((folder / "stability.json").read_text())
     assert (content["passed"], content["failed"], content["holds"]) == (1, 2, False)
-    assert content["faults"] == study.faults
-    assert content["rows"][0]["figures"][0]["value"] is None
-    assert content["rows"][1]["error"] == "ArithmeticError: no solution [bold]"
-    assert content["rows"][2]["figures"][0] == {
-        "name": "error",
-        "value": 0.1,
-        "high": 1.0,
-        "low": 0.0,
-        "reference": "the exact one",
-        "holds": True,
-    }
+    assert content["faults"] == campaign.faults
+    infinite, raised, good = content["rows"]
+    assert infinite["figures"][0]["value"] is None
+    assert raised["error"] == "ArithmeticError: no solution [bold]"
+    bounds = {"value": 0.1, "high": 1.0, "low": 0.0, "reference": "the exact one"}
+    assert good["figures"] == [{"name": "error", **bounds, "holds": True}]
     names = sorted(path.name for path in folder.iterdir())
     assert names == ["ci", "result.json", "stability.json"]
 
 
 def test_junit_has_a_testcase_for_each_figure_and_error(written):
-    study, folder, _ = written
+    campaign, folder, _ = written
     text = (folder / "ci" / "rows.xml").read_text()
-    assert text == junit_of(study)
+    assert text == junit_of(campaign)
     [suite] = ElementTree.fromstring(text.encode())
     assert (suite.get("tests"), suite.get("failures")) == ("3", "2")
     first, raised, good = suite
@@ -165,14 +157,14 @@ def test_junit_has_a_testcase_for_each_figure_and_error(written):
 
 
 def test_no_rows_are_no_success(tmp_path):
-    assert run_robustness(tmp_path, cases=tuple).exit_status == ExitStatus.OUTSIDE_TOLERANCE
+    empty = carry_out("stability", (), tmp_path, None, no_progress)
+    assert empty.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 
 @pytest.mark.parametrize(("value", "status"), [(0.5, 0), (2.0, 1)])
 def test_the_command_ends_with_what_the_rows_say(tmp_path, monkeypatch, capsys, value, status):
     monkeypatch.chdir(tmp_path)
-    short = partial(run_robustness, cases=lambda: [case(figure(value))])
-    monkeypatch.setattr(robustness, "run_robustness", short)
+    monkeypatch.setattr(robustness, "all_cases", lambda: [case(figure(value))])
     assert main(["stability", "--junit", "ci.xml"]) == status
     out, err = capsys.readouterr()
     assert f"{1 - status} of 1 cases hold" in out and err == ""
@@ -187,14 +179,14 @@ def test_places_that_cannot_be_written_are_refused_first(tmp_path, capsys, comma
     (tmp_path / "file").write_text("")
     assert main([command, "--out", str(tmp_path / "file")]) == ExitStatus.BAD_INPUT
     assert "is not a folder" in capsys.readouterr().err
-    given = [command, "--out", str(tmp_path / "out"), "--junit", str(tmp_path)]
-    assert main(given) == ExitStatus.BAD_INPUT
+    arguments = ["--out", str(tmp_path / "out"), "--junit", str(tmp_path)]
+    assert main([command, *arguments]) == ExitStatus.BAD_INPUT
     assert "allowed is a file" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
 def test_each_case_has_a_name_of_its_own_and_both_models_have_many():
-    cases = all_cases()
+    cases = robustness.all_cases()
     names = [(case.model, case.group, case.name) for case in cases]
     assert len(set(names)) == len(names) >= 105
     assert sum(case.model == "finite_element" for case in cases) >= 50

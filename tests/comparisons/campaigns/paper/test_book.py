@@ -8,21 +8,21 @@ from scenes import DATA
 
 from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.rough_bodies import bearing_of
-from comparisons.campaigns.paper.claims import book
-from comparisons.campaigns.paper.claims.claim_list import book_claims
-from comparisons.campaigns.paper.claims.judgement import CONFIRMED, DENIED, THEORY, judge
+from comparisons.campaigns.paper import book
+from comparisons.campaigns.paper.claims import CONFIRMED, DENIED, THEORY, book_claims, judge
 
 JUDGED = {claim.key: judge(claim, None) for claim in book_claims()}
 REFERENCE = json.loads((DATA / "g_greenwood.json").read_text())["GT"]
 
 
 def test_outcomes_are_those_of_the_numbers():
-    denied = {key for key, each in JUDGED.items() if each.outcome == DENIED}
-    assert denied == {"rough-constant", "penetration-coefficient"} | {
-        f"seireg-{name}" for name in ("bottom", "fifteen", "partition")
-    }
-    assert {each.outcome for each in JUDGED.values()} == {CONFIRMED, DENIED}
-    assert len(JUDGED) == 13
+    confirmed, denied = (
+        {key for key, judged in JUDGED.items() if judged.outcome == kind}
+        for kind in (CONFIRMED, DENIED)
+    )
+    heat = {f"seireg-{name}" for name in ("bottom", "fifteen", "partition")}
+    assert denied == {"rough-constant", "penetration-coefficient"} | heat
+    assert len(confirmed) + len(denied) == len(JUDGED) == 13
 
 
 def test_heat_against_reference_values():
@@ -31,7 +31,7 @@ def test_heat_against_reference_values():
     fifteen = JUDGED["seireg-fifteen"]
     exact = float(reference["bottom_deviation_at_15_tL_exact"])
     assert fifteen.numbers[THEORY].value == pytest.approx(exact, rel=1e-12)
-    mean, short, _ = (each[THEORY] for each in fifteen.besides.values())
+    mean, short, _ = (numbers[THEORY] for numbers in fifteen.besides.values())
     assert mean == pytest.approx(float(reference["mean_deviation_at_15_tL_exact"]), rel=1e-10)
     exact = float(reference["bottom_deviation_at_15_tL_seed_formula"])
     assert short == pytest.approx(exact, rel=1e-12)
@@ -59,10 +59,10 @@ def test_sets_b_and_c_have_the_same_bearing():
 def test_every_direction_of_the_third_conclusion_is_the_other_one():
     """More pressure, and so less area, by roughness, by fewer and by sharper asperities."""
     base = {"density": 500e6, "radius": 0.2e-3, "deviation": 0.5e-6}
-    own = book.real_pressure(Summits(**base), 10.0)
+    pressure = book.real_pressure(Summits(**base), 10.0)
     for name, factor in (("deviation", 1.5), ("density", 0.7), ("radius", 0.7)):
         rougher = Summits(**base | {name: factor * base[name]})
-        assert book.real_pressure(rougher, 10.0) > 1.02 * own
+        assert book.real_pressure(rougher, 10.0) > 1.02 * pressure
 
 
 def test_light_and_heavy_loads_bracket_the_reference():

@@ -2,7 +2,7 @@
 
 import json
 import re
-from html.parser import HTMLParser
+from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -10,101 +10,79 @@ import numpy as np
 import pytest
 
 from comparisons import cli
-from comparisons.campaigns.paper import reproduce
-from comparisons.campaigns.paper.claims.claim_list import FIGURES, SCENES, book_claims, claims
-from comparisons.campaigns.paper.claims.judgement import OUTCOMES
-from comparisons.campaigns.paper.claims.readings import SLIDING
-from comparisons.campaigns.paper.pictures import pressure as pressure_pictures
-from comparisons.campaigns.paper.pictures import stresses as stress_pictures
-from comparisons.campaigns.paper.reproduce import FRICTIONS, Fineness
+from comparisons.campaigns.paper import pictures, reproduce
+from comparisons.campaigns.paper.claims import OUTCOMES, SCENES, book_claims, claims
+from comparisons.campaigns.paper.readings import SLIDING
+from comparisons.campaigns.paper.reproduce import FRICTIONS
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.figures.quantity import LABELS, MODELS
 
-COARSE = Fineness(pitch=80e-6, points=(40, 20))
+COARSE = {"resolution.pitch": 80e-6, "stress.points": (40, 20)}
 PICTURES = 1 + 2 + 3 * len(SCENES) + 4 + 2
-DRAWING = (pressure_pictures, stress_pictures)
-
-
-class Page(HTMLParser):
-    """Pictures, places, links and text of a page."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.images, self.places, self.links, self.words = [], [], [], []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        named = dict(attributes)
-        if "id" in named:
-            self.places.append(named["id"])
-        if tag == "img":
-            self.images.append(named)
-        for name in ("src", "href", "srcset"):
-            if name in named:
-                self.links.append(named[name])
-
-    def handle_data(self, data):
-        self.words.append(data)
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """The finished paper, its folder, and every figure by the module that drew it."""
-    figures: dict[str, list] = {}
+    """The finished paper, its folder, and its figures in the order of the page."""
+    figures, real = [], pictures._picture
     with pytest.MonkeyPatch.context() as patch:
-        for module in DRAWING:
-            name, real = module.__name__.rpartition(".")[2], module.data_uri
 
-            def keep(drawn, name=name, real=real):
-                figures.setdefault(name, []).append(drawn)
-                return real(drawn)
+        def keep(drawn, *texts, **look):
+            figures.append(drawn)
+            return real(drawn, *texts, **look)
 
-            patch.setattr(module, "data_uri", keep)
+        patch.setattr(pictures, "_picture", keep)
         out = tmp_path_factory.mktemp("paper") / "out"
-        stages = []
-        found = reproduce.paper(out, COARSE, stages.append)
-    return SimpleNamespace(paper=found, out=out, figures=figures, stages=stages)
+        paper = reproduce.paper(out, COARSE, lambda stage: None)
+    return SimpleNamespace(paper=paper, out=out, figures=figures)
 
 
 @pytest.fixture(scope="module")
-def page(made):
-    return Page((made.out / "paper.html").read_text(encoding="utf-8"))
+def page(made) -> str:
+    return (made.out / "paper.html").read_text(encoding="utf-8")
 
 
-def test_the_page_holds_every_figure(page):
-    assert len(page.images) == PICTURES == 21
-    for image in page.images:
-        assert image["src"].startswith("data:image/svg+xml;base64,")
-        assert len(image["alt"]) > 40
-    assert len({image["alt"] for image in page.images}) == PICTURES
-    sections = [place for place in page.places if place.startswith("figure-")]
-    assert sections == [
-        f"figure-{n}" for n in ("1", "5", "6", "8", "9", "10", "11", "seireg", "seireg-heat")
-    ]
+def attributes(name: str, page: str) -> list[str]:
+    """Values of all attributes of a name, such as "id"."""
+    return re.findall(rf' {name}="([^"]*)"', page)
+
+
+def words_of(page: str) -> str:
+    """The text that a reader sees, with plain blanks."""
+    text = unescape(re.sub(r"<[^>]*>", " ", page))
+    return " ".join(text.split()).replace("\u00a0", " ").replace("\u2060", "")
+
+
+def test_the_page_holds_every_figure_and_needs_no_network(page):
+    sources, alternatives = attributes("src", page), attributes("alt", page)
+    assert len(sources) == len(set(alternatives)) == PICTURES == 21
+    assert all(source.startswith("data:image/svg+xml;base64,") for source in sources)
+    assert min(map(len, alternatives)) > 40
+    sections = [place for place in attributes("id", page) if place.startswith("figure-")]
+    numbers = ("1", "5", "6", "8", "9", "10", "11", "seireg", "seireg-heat")
+    assert sections == [f"figure-{number}" for number in numbers]
+    links = attributes("href", page) + attributes("srcset", page)
+    assert links and all(link.startswith(("#", "data:")) for link in links)
 
 
 def test_the_page_holds_every_claim_with_its_outcome(made, page):
-    text = " ".join(" ".join(page.words).split()).replace("\u00a0", " ").replace("\u2060", "")
-    for each in made.paper.judged:
-        assert page.places.count(f"claim-{each.claim.key}") == 1
-        assert f"#claim-{each.claim.key}" in page.links
-        for said in (each.claim.text, each.claim.measure, each.claim.criterion, each.why or ""):
-            assert " ".join(said.split()) in text
+    text, places = words_of(page), attributes("id", page)
+    assert len(places) == len(set(places))
+    for judged in made.paper.judged:
+        claim = judged.claim
+        assert f"claim-{claim.key}" in places
+        assert f"#claim-{claim.key}" in attributes("href", page)
+        for words in (claim.text, claim.measure, claim.criterion, judged.why or ""):
+            assert " ".join(words.split()) in text
     assert len(made.paper.judged) == len(claims()) + len(book_claims())
-    assert len(page.places) == len(set(page.places))
 
 
-def test_on_a_telephone_each_number_of_a_claim_has_its_name(made):
-    source = (made.out / "paper.html").read_text(encoding="utf-8")
-    table = source[source.index('<table class="claims') : source.index("</table>")]
+def test_on_a_telephone_each_number_of_a_claim_has_its_name(page):
+    table = page[page.index('<table class="claims') : page.index("</table>")]
     heads = re.findall(r"<th scope=\"col\">(.*?)</th>", table)
     for row in table.split("<tr ")[1:]:
-        assert re.findall(r"<td data-name=\"(.*?)\"", row) == heads[1:]
+        assert attributes("data-name", row) == heads[1:]
         assert row.count("<td") == len(heads) - 1
-
-
-def test_the_page_needs_no_network(page):
-    assert all(link.startswith(("#", "data:")) for link in page.links)
 
 
 def test_numbers_hold_what_the_page_says(made):
@@ -123,42 +101,40 @@ def test_numbers_hold_what_the_page_says(made):
 
 
 def test_exact_figures_are_met_even_so_coarsely(made):
-    numbers = {each.claim.key: each for each in made.paper.judged}
+    numbers = {judged.claim.key: judged.numbers for judged in made.paper.judged}
     for key, exact in (("smooth-tau1", 0.300283), ("smooth-txz", 0.25), ("smooth-depth", 0.786151)):
-        for number in numbers[key].numbers.values():
+        for number in numbers[key].values():
             assert abs(number.value - exact) <= max(number.numerical, 2e-3)
-    assert numbers["load"].numbers["half_plane"].value == pytest.approx(1.0, abs=1e-8)
-    assert numbers["edge-friction"].numbers["finite_element"].value > 1.05
+    assert numbers["load"]["half_plane"].value == pytest.approx(1.0, abs=1e-8)
+    assert numbers["edge-friction"]["finite_element"].value > 1.05
 
 
 class TestPictures:
     def test_pressures_share_one_scale_and_are_over_hertz(self, made):
-        trace, *panels = made.figures["pressure"]
-        assert len(panels) == len(SCENES)
+        trace, panels = made.figures[0], made.figures[3:15:3]
         limits = {axes.get_ylim() for figure in (trace, *panels) for axes in figure.axes[:1]}
         assert len(limits) == 1
         assert len({figure.axes[1].get_ylim() for figure in panels}) == 1
         for figure, name in zip(panels, SCENES, strict=True):
-            run = made.paper.outcomes[name].runs["half_plane"].finest
-            p0 = made.paper.outcomes[name].problem.hertz.peak_pressure
-            lines = {line.get_label(): line.get_ydata() for line in figure.axes[0].lines}
+            run = made.paper.runs[name].runs["half_plane"].finest
+            p0 = made.paper.runs[name].problem.hertz.peak_pressure
+            above, below = figure.axes
+            lines = {line.get_label(): line.get_ydata() for line in above.lines}
             assert {LABELS[name] for name in MODELS} <= set(lines)
             assert max(lines["half-plane"]) == run.solution.pressure.max() / p0
-            assert max(lines["half-plane"]) < figure.axes[0].get_ylim()[1]
-            assert figure.axes[0].get_ylabel() == "p/p₀"
-            assert [axes.get_xlabel() for axes in figure.axes] == ["", "x/a"]
-            assert figure.axes[1].get_ylabel() == "height [µm]"
+            assert max(lines["half-plane"]) < above.get_ylim()[1]
+            assert (above.get_xlabel(), above.get_ylabel()) == ("", "p/p₀")
+            assert (below.get_xlabel(), below.get_ylabel()) == ("x/a", "height [µm]")
 
     def test_the_trace_has_the_papers_axis(self, made):
-        axes = made.figures["pressure"][0].axes[1]
+        axes = made.figures[0].axes[1]
         np.testing.assert_allclose(axes.get_xticks(), [0, 559, 1118, 1677, 2236], atol=1e-6)
         assert "µm" in axes.get_xlabel()
         assert "25 µm" in [text.get_text() for text in axes.texts]
 
     def test_shear_has_one_scale_for_all_surfaces(self, made):
-        _, _, *drawn = made.figures["stresses"]
-        assert len(drawn) == 2 * len(SCENES)
-        for contours in (drawn[::2], drawn[1::2]):  # orthogonal, principal
+        for contours in (made.figures[4:15:3], made.figures[5:15:3]):  # orthogonal, principal
+            assert len(contours) == len(SCENES)
             bars = [figure.axes[-1] for figure in contours]
             assert len({(bar.get_xlim(), tuple(bar.get_xticks())) for bar in bars}) == 1
             for figure in contours:
@@ -168,7 +144,7 @@ class TestPictures:
                 assert any(t.get_text().endswith("/p₀") for t in figure.axes[-1].texts)
 
 
-@pytest.mark.parametrize("step", ["solve_surfaces", "sections_of"])
+@pytest.mark.parametrize("step", ["solve_surfaces", "paper_page"])
 def test_an_interrupt_leaves_nothing(monkeypatch, tmp_path, capsys, step):
     def stopped(*_, **__):
         raise KeyboardInterrupt
@@ -197,11 +173,10 @@ def test_the_model_error_stands_beside_each_claim_of_a_real_contact(made, page):
         assert (error is None) == (claim.quantity is None)
         if error is not None:
             friction = SLIDING if claim.slides else 0.0
-            found = (
-                made.paper.outcomes[claim.scene].data("model_error").of(claim.quantity, friction)
-            )
-            assert error["quantity"] == claim.quantity and error["value"] == found.value
-    text = " ".join("".join(page.words).split()).replace("\u00a0", " ").replace("\u2060", "")
+            errors = made.paper.runs[claim.scene].data("model_error")
+            assert error["quantity"] == claim.quantity
+            assert error["value"] == errors.of(claim.quantity, friction).value
+    text = words_of(page)
     assert text.count("Model error of the half-plane in this figure:") == sum(
         claim.quantity is not None for claim in claims()
     )
@@ -227,9 +202,6 @@ def test_the_command_prints_the_claims(made, monkeypatch, capsys, arguments):
     if arguments:
         assert json.loads(out) == made.paper.as_dict()
     else:
-        assert all(
-            each.claim.title.split(",")[0].replace("₀", "0") in out.replace("₀", "0")
-            for each in made.paper.judged
-        )
+        titles = (judged.claim.title.split(",")[0] for judged in made.paper.judged)
+        assert all(title.replace("₀", "0") in out.replace("₀", "0") for title in titles)
         assert "inconclusive" in out and "paper.html" in out
-    assert set(FIGURES) == set(SCENES)

@@ -12,8 +12,8 @@ from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.grid import HatGrid
 from analytic.stress.points import stress_at
 from analytic.stress_state import Extremum, StressState
-from comparisons.campaigns.paper.claims import readings as r
-from comparisons.campaigns.paper.claims.zones import (
+from comparisons.campaigns.paper import readings as r
+from comparisons.campaigns.paper.readings import (
     agreement_depth,
     joining_level,
     share_joined,
@@ -78,32 +78,19 @@ class TestZones:
         assert zone(field, 5.0, (0, 0)).tolist() == [[True, False], [False, True]]
 
 
-def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
-    """Hertz's pressure on hats; `fields` by friction, of any shear field [p0] (m, k).
-
-    wave  relative, from one hat to the next of the pressure
-    """
+def hertz_level(pitch: float, fields: dict, wave: float = 0.0) -> Level:
+    """Hertz's pressure on hats, with a `wave`, relative, from one hat to the next; `fields` by
+    friction, stresses [Pa] or a shear field [p0] (m, k)."""
     grid = HatGrid.within(-1.5 * A, 1.5 * A, pitch)
     pressure = HERTZ.pressure(grid.x) * (1.0 + wave * (-1.0) ** np.arange(grid.count))
-    solution = ContactSolution(
-        pressure=pressure,
-        gap=np.where(pressure > 0.0, 0.0, 1e-6),
-        approach=0.0,
-        load=HERTZ.load_per_length,
-        residuals=Residuals(0.0, 0.0, 0.0, 0.0, 0.0),
-        converged=True,
-        iterations={},
-    )
-    stresses = tuple(
-        StressResult(
-            mu,
-            {"tau1": Extremum(-0.4 * P0, 0.1 * A, 0.6 * A)},
-            field
-            if isinstance(field, StressState)
-            else StressState(np.zeros_like(field), np.zeros_like(field), field * P0),
-        )
-        for mu, field in fields.items()
-    )
+    gap, nothing = np.where(pressure > 0.0, 0.0, 1e-6), Residuals(0.0, 0.0, 0.0, 0.0, 0.0)
+    solution = ContactSolution(pressure, gap, 0.0, HERTZ.load_per_length, nothing, {}, True)
+    stresses = []
+    for friction, field in fields.items():
+        if not isinstance(field, StressState):
+            field = StressState(np.zeros_like(field), np.zeros_like(field), field * P0)
+        extremes = {"tau1": Extremum(-0.4 * P0, 0.1 * A, 0.6 * A)}
+        stresses.append(StressResult(friction, extremes, field))
     return Level(
         grid=grid,
         solution=solution,
@@ -111,7 +98,7 @@ def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
         patches=np.array([[-A, A]]),
         seconds={},
         unknowns=grid.count,
-        stresses=stresses,
+        stresses=tuple(stresses),
     )
 
 
@@ -139,49 +126,49 @@ class TestReadings:
 
     def test_smooth_field_agrees_everywhere_and_is_quiet_at_the_surface(self):
         view = view_of({0.0: smooth_tau1()})
-        assert r.depth_of_agreement(view) == 0.0
-        assert r.reach_against_smooth(view, r.HALF) == pytest.approx(0.0, abs=1e-12)
-        assert r.open_to_surface(view, 0.0) == pytest.approx(0.0, abs=1e-9)
-        assert r.contact_ratio(view) == pytest.approx(1.0)
-        assert r.carried_load(view) == pytest.approx(1.0, abs=2e-3)
+        assert view.depth_of_agreement() == 0.0
+        assert view.reach_against_smooth(r.HALF) == pytest.approx(0.0, abs=1e-12)
+        assert view.open_to_surface(0.0) == pytest.approx(0.0, abs=1e-9)
+        assert view.contact_ratio() == pytest.approx(1.0)
+        assert view.carried_load() == pytest.approx(1.0, abs=2e-3)
 
     @pytest.mark.parametrize("depth", [0.05, 0.3, 0.7])
     def test_a_hill_moves_the_depth_of_agreement_below_itself(self, depth):
         view = view_of({0.0: smooth_tau1() + asperity(0.2, depth, 0.4)})
-        found = r.depth_of_agreement(view)
-        assert depth < found < 2.5 * depth + 0.02
-        assert (found <= 0.5) == (depth < 0.2)
+        agrees = view.depth_of_agreement()
+        assert depth < agrees < 2.5 * depth + 0.02
+        assert (agrees <= 0.5) == (depth < 0.2)
 
     def test_hills_count_where_they_exceed_twice_the_maximum(self):
         view = view_of({0.0: np.maximum(smooth_tau1(), asperity(0.2, 0.0196, 0.7))})
-        assert r.largest_near(view) == pytest.approx(0.7 / view.smooth_maximum, rel=2e-2)
-        assert r.depth_of_largest_near(view) == pytest.approx(0.0196, abs=1e-9)
-        assert r.sheared_beyond(view, 2.0) == 1.0
-        assert r.sheared_beyond(view, 2.5) == 0.0
-        assert view.x[r.peak_column(view)] == pytest.approx(0.2, abs=0.02)
+        assert view.largest_near() == pytest.approx(0.7 / view.smooth_maximum, rel=2e-2)
+        assert view.depth_of_largest_near() == pytest.approx(0.0196, abs=1e-9)
+        assert view.sheared_beyond(2.0) == 1.0
+        assert view.sheared_beyond(2.5) == 0.0
+        assert view.x[view._asperity()[1]] == pytest.approx(0.2, abs=0.02)
 
     def test_a_ridge_draws_the_hertz_zone_to_the_surface(self):
         ridge = np.where(np.abs(WINDOW.x / A) < 0.1, 0.2, 0.0) * np.ones((len(WINDOW.z), 1))
         ridge[WINDOW.z < 0.01 * A] = 0.0
         view = view_of({0.0: np.maximum(smooth_tau1(), ridge)})
-        assert r.reach_against_smooth(view, r.HALF) > 0.05
-        assert r.reach_against_smooth(view, r.CORE) == pytest.approx(0.0, abs=1e-12)
+        assert view.reach_against_smooth(r.HALF) > 0.05
+        assert view.reach_against_smooth(0.8) == pytest.approx(0.0, abs=1e-12)
 
     def test_zones_open_and_merge_where_a_ridge_joins_them(self):
         apart = np.maximum(smooth_tau1(), asperity(0.2, 0.01, 0.5, 0.2))
         ridge = np.where(np.abs(WINDOW.x / A - 0.2) < 0.05, 0.2, 0.0) * np.ones((len(WINDOW.z), 1))
         view = view_of({0.0: apart, 0.1: np.maximum(apart, ridge)})
-        assert r.joined_share(view, 0.1) == pytest.approx(1.0)
-        assert r.joined_share(view, 0.0) < 0.7
-        assert r.open_to_surface(view, 0.1) == pytest.approx(0.2 / view.smooth_maximum)
-        assert r.open_to_surface(view, 0.0) < 0.5
-        assert r.low_layer(view) < 0.5
+        assert view.joined_share(0.1) == pytest.approx(1.0)
+        assert view.joined_share(0.0) < 0.7
+        assert view.open_to_surface(0.1) == pytest.approx(0.2 / view.smooth_maximum)
+        assert view.open_to_surface(0.0) < 0.5
+        assert view.low_layer() < 0.5
 
     def test_a_sheared_layer_has_a_zone_below_it_until_the_shear_reaches_down(self):
         layer = 0.3 * np.exp(-((WINDOW.z / (0.02 * A)) ** 2))[:, None] + 0.0 * WINDOW.x
         view = view_of({0.0: np.maximum(smooth_tau1(), layer), 0.1: smooth_tau1() + 0.5})
-        assert r.zone_ratio(view, 0.0) < 0.4 and r.zone_ratio(view, 0.1) > 0.9
-        assert 0.0 < r.zone_end(view, "start") < 0.04 < r.zone_end(view, "stop") < 0.6
+        assert view.zone_ratio(0.0) < 0.4 and view.zone_ratio(0.1) > 0.9
+        assert 0.0 < view.zone_end("start") < 0.04 < view.zone_end("stop") < 0.6
 
     def test_long_waves_bridge_the_zone_and_friction_shorter_ones(self):
         """As the map of the quiescent zone in docs/figures.md shows of rough scenes."""
@@ -189,19 +176,18 @@ class TestReadings:
         window = window_of(posed)
         level = half_plane_level(posed, posed.pitches[0], window, Stages())
         view = r.LevelView("half_plane", posed, level, window)
-        found = [r.bridging_wavelength(view, mu) for mu in (0.0, 0.1, 0.3)]
-        assert found[0] == pytest.approx(0.362, abs=0.01)
-        assert found[1] == pytest.approx(0.342, abs=0.01)
-        assert found[2] == r.WAVES[0]  # every wave
+        waves = [view.bridging_wavelength(mu) for mu in (0.0, 0.1, 0.3)]
+        assert waves[:2] == pytest.approx([0.362, 0.342], abs=0.01)
+        assert waves[2] == r.WAVES[0]  # every wave
 
     def test_edge_ratio_follows_the_shear_there(self):
         view = view_of({0.0: smooth_tau1(), 0.1: 1.25 * smooth_tau1()})
-        assert r.edge_ratio(view) == pytest.approx(1.25)
+        assert view.edge_ratio() == pytest.approx(1.25)
 
     def test_pressures_beyond_a_limit(self):
         view = view_of({0.0: smooth_tau1()})
-        assert r.peak_pressure(view) == pytest.approx(1.0)
-        assert (r.pressed_beyond(view, 0.9), r.pressed_beyond(view, 1.1)) == (1.0, 0.0)
+        assert view.peak_pressure() == pytest.approx(1.0)
+        assert (view.pressed_beyond(0.9), view.pressed_beyond(1.1)) == (1.0, 0.0)
 
     def test_every_second_point_keeps_the_middle(self):
         view = view_of({0.0: smooth_tau1()}, every=2)
@@ -210,66 +196,65 @@ class TestReadings:
 
     def test_extremes_are_in_units_of_the_smooth_contact(self):
         view = view_of({0.0: smooth_tau1()})
-        assert r.largest(view, "tau1") == pytest.approx(0.4)
-        assert r.largest_over_smooth(view) == pytest.approx(0.4 / 0.300283, rel=1e-5)
-        assert r.depth_of_largest(view) == pytest.approx(0.6)
+        assert view.largest("tau1") == pytest.approx(0.4)
+        assert view.largest_over_smooth() == pytest.approx(0.4 / 0.300283, rel=1e-5)
+        assert view.depth_of_largest() == pytest.approx(0.6)
 
     def test_section_agreement_looks_below_the_peak_alone(self):
         hills = asperity(0.2, 0.02, 0.7) + asperity(-0.8, 0.6, 0.4)
         view = view_of({0.0: smooth_tau1() + hills})
-        assert 0.02 < r.section_agreement(view) < 0.1
-        assert r.depth_of_agreement(view) > 0.6
+        assert 0.02 < view.section_agreement() < 0.1
+        assert view.depth_of_agreement() > 0.6
 
     def test_contact_ratio_adds_the_patches_and_the_load_the_pressures(self):
         view = view_of()
         two = replace(view.level, patches=np.array([[-0.5 * A, 0.0], [0.25 * A, 0.5 * A]]))
-        assert r.contact_ratio(replace(view, level=two)) == pytest.approx(0.375)
+        assert replace(view, level=two).contact_ratio() == pytest.approx(0.375)
         solution = replace(view.level.solution, pressure=1.02 * view.level.solution.pressure)
-        assert r.carried_load(
-            replace(view, level=replace(two, solution=solution))
-        ) == pytest.approx(1.02, abs=3e-3)
+        loaded = replace(view, level=replace(two, solution=solution))
+        assert loaded.carried_load() == pytest.approx(1.02, abs=3e-3)
 
 
 class TestErrors:
     """Errors against exact stresses are none on those, and what was put into them elsewhere."""
 
     def exact(self, x: float = 0.0, shift: float = 0.0, z: float = 0.25) -> StressState:
-        found = hertz_stress(HERTZ, WINDOW.x, WINDOW.z[:, None])
+        exact = hertz_stress(HERTZ, WINDOW.x, WINDOW.z[:, None])
         here = (np.abs(WINDOW.x / A - x) < 0.01) & (np.abs(WINDOW.z[:, None] / A - z) < 1e-4)
-        return StressState(found.sx + shift * P0 * here, found.sz, found.txz)
+        return StressState(exact.sx + shift * P0 * here, exact.sz, exact.txz)
 
     def test_on_the_axis(self):
-        assert r.axis_error(view_of({0.0: self.exact()})) == pytest.approx(0.0, abs=1e-12)
-        assert r.axis_error(view_of({0.0: self.exact(0.0, 0.03)})) == pytest.approx(0.03)
-        assert r.axis_error(view_of({0.0: self.exact(0.5, 0.03)})) == pytest.approx(0.0, abs=1e-12)
+        assert view_of({0.0: self.exact()}).axis_error() == pytest.approx(0.0, abs=1e-12)
+        assert view_of({0.0: self.exact(0.0, 0.03)}).axis_error() == pytest.approx(0.03)
+        assert view_of({0.0: self.exact(0.5, 0.03)}).axis_error() == pytest.approx(0.0, abs=1e-12)
 
     def test_below_the_sampling_interval_only_what_lies_there_counts(self):
         for z in (0.0225, 0.25):
             view = view_of({0.0: self.exact(0.0, 0.03, z)}, model="finite_element")
-            assert r.axis_error(view) == pytest.approx(0.03)
-            assert r.error_below_sampling(view) == pytest.approx(0.0, abs=1e-12)
+            assert view.axis_error() == pytest.approx(0.03)
+            assert view.error_below_sampling() == pytest.approx(0.0, abs=1e-12)
         shallow = self.exact()
         shallow.sz[1] += 0.02 * P0
         view = view_of({0.0: shallow}, model="finite_element")
-        assert r.error_below_sampling(view) == pytest.approx(0.02)
+        assert view.error_below_sampling() == pytest.approx(0.02)
 
     def test_strips_are_right_on_the_axis_of_smooth_pressures_alone(self):
         smooth, rough = view_of(), view_of(wave=0.1)
-        assert r.error_below_sampling(smooth) < 1e-3
+        assert smooth.error_below_sampling() < 1e-3
         grid, z = rough.level.grid, np.geomspace(0.02, 1.0, 8) * A / 64.0
         strips = stress_at(grid.x, rough.level.solution.pressure, 0.0, 0.0, z, "strip")
         exact = hertz_stress(HERTZ, 0.0, z)
         worst = max(np.abs(strips.sx - exact.sx).max(), np.abs(strips.sz - exact.sz).max())
-        assert r.error_below_sampling(rough) == pytest.approx(worst / P0, rel=1e-9)
+        assert rough.error_below_sampling() == pytest.approx(worst / P0, rel=1e-9)
         assert worst > 0.05 * P0
 
     def test_strips_on_sampled_pressures(self):
         """Next to their edges half the step from one to the next."""
         smooth = view_of()
-        largest, mean = (r.error_on_rough_surface(smooth, "strip", size) for size in (True, False))
+        largest, mean = (smooth.error_on_rough_surface("strip", size) for size in (True, False))
         step = np.diff(HERTZ.pressure(np.arange(0.0, r.EDGE, 1.0 / 16.0) * A)) / P0
         assert largest == pytest.approx(0.5 * np.abs(step).max(), rel=0.25)
         assert mean < 0.3 * largest
-        assert r.error_on_rough_surface(smooth, "hat", True) < 0.3 * largest
+        assert smooth.error_on_rough_surface("hat", True) < 0.3 * largest
         # sampled each fourth, the wave looks like a larger pressure: that is what is seen
-        assert r.error_on_rough_surface(view_of(wave=0.2), "hat", True) > 0.15
+        assert view_of(wave=0.2).error_on_rough_surface("hat", True) > 0.15

@@ -9,15 +9,13 @@ import pytest
 from comparisons.campaigns.cases import Case, Row, holds, junit_of
 from comparisons.campaigns.verify.coverage import (
     Pair,
-    Verification,
     compared,
     coverage,
-    coverage_cases,
+    coverage_rows,
     observed_order,
     pairs_of,
-    verification,
 )
-from comparisons.campaigns.verify.pages import coverage_line, verify_page
+from comparisons.campaigns.verify.run import Verification, verification
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure
@@ -55,7 +53,7 @@ def whole(rows: Iterable[Row], error: str | None = None) -> Verification:
     """The verification of some rows, the first of which raised `error`."""
     first, *others = rows
     first = replace(first, error=error)
-    return verification((first, *others), 0.0, 200, 0)
+    return verification((first, *others), 0.0, (200, 0))
 
 
 ENOUGH = [row()] * 200
@@ -72,9 +70,9 @@ def test_an_error_within_the_uncertainty_is_covered():
 def test_an_error_of_rounding_is_not_informative():
     rounded = pair(1e-14, 0.0)
     assert rounded.covered and not rounded.informative and rounded.overestimation is None
-    found = coverage([rounded, pair(), pair(stated=0.5e-3)])
-    assert (found.count, found.informative, found.covered) == (3, 2, 0.5)
-    assert found.median_overestimation == pytest.approx(1.25)
+    shown = coverage([rounded, pair(), pair(stated=0.5e-3)])
+    assert (shown.count, shown.informative, shown.covered) == (3, 2, 0.5)
+    assert shown.median_overestimation == pytest.approx(1.25)
 
 
 def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
@@ -94,8 +92,8 @@ def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
     ],
 )
 def test_coverage_needs_both_a_share_and_a_ratio(pairs, expected):
-    [case] = coverage_cases(pairs, fewest=0, fewest_rough=0)
-    assert all(map(holds, case.solve())) is expected
+    [row] = coverage_rows(pairs, fewest=0, fewest_rough=0)
+    assert row.holds is expected
 
 
 @pytest.mark.parametrize(
@@ -115,7 +113,7 @@ def test_all_must_hold(rows, error):
     assert broken.exit_status == ExitStatus.OUTSIDE_TOLERANCE
     [suite] = ElementTree.fromstring(junit_of(broken).encode())
     assert suite.get("failures") == str(len(suite.findall("testcase/failure"))) == "1"
-    assert "Does not hold" in verify_page(broken)
+    assert "Does not hold" in broken.page()
 
 
 def test_one_miss_among_many_is_reported_but_does_not_fail():
@@ -123,35 +121,35 @@ def test_one_miss_among_many_is_reported_but_does_not_fail():
     [suite] = ElementTree.fromstring(junit_of(missed).encode())
     assert missed.holds and suite.get("failures") == "0"
     assert "NOT covered" in suite[200].find("system-out").text
-    assert "case &lt;&amp;&gt;" in verify_page(missed)
+    assert "case &lt;&amp;&gt;" in missed.page()
 
 
 def test_rough_contacts_have_demands_of_their_own():
     smooth = [pair()] * 200
     rough = [pair(kind="rough")] * 94 + [pair(kind="rough", stated=0.0)] * 6
-    every, of_rough = coverage_cases([*smooth, *rough], 200, 100)
-    assert all(map(holds, every.solve()))
-    assert [*map(holds, of_rough.solve())] == [False, True, True]
-    _, absent = coverage_cases(smooth, 200, 1)
-    assert not any(map(holds, absent.solve()))
+    every, of_rough = coverage_rows([*smooth, *rough], 200, 100)
+    assert every.holds
+    assert [*map(holds, of_rough.figures)] == [False, True, True]
+    _, absent = coverage_rows(smooth, 200, 1)
+    assert not any(map(holds, absent.figures))
 
 
 def test_coverage_is_shown_by_table_model_quantity_and_kind():
     error = row(kind="layer", study=MODEL_ERROR, quantity="peak_pressure")
-    found = whole([*ENOUGH, row(kind="rough"), error])
-    assert found.groups("table", "kind")["model error", "layer"].count == 1
-    assert found.groups("table", "kind")["figure", "rough"].count == 1
-    assert found.groups("kind")["Hertz",].count == 200
+    verified = whole([*ENOUGH, row(kind="rough"), error])
+    groups = verified.groups("table", "kind")
+    assert groups["model error", "layer"].count == groups["figure", "rough"].count == 1
+    assert groups["figure", "Hertz"].count == 200
     assert [figure.quantity for figure in error.judged] == ["model error, peak_pressure"]
-    page = verify_page(found)
+    page = verified.page()
     assert "Coverage by table, kind" in page and "<td>model error</td>" in page
 
 
 def test_coverage_is_rounded_down():
-    assert coverage_line(whole([row()] * 1999 + [row(stated=0.0)])) == "coverage 99 %"
-    assert coverage_line(whole(ENOUGH)) == "coverage 100 %"
+    assert whole([row()] * 1999 + [row(stated=0.0)]).coverage_line == "coverage 99 %"
+    assert whole(ENOUGH).coverage_line == "coverage 100 %"
     unsolved = replace(row(), figures=(), error="no solution")
-    assert coverage_line(whole([unsolved])) == "coverage 0 %"
+    assert whole([unsolved]).coverage_line == "coverage 0 %"
 
 
 def test_an_observed_order_is_of_the_root_mean_square():

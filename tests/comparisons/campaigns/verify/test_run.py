@@ -4,6 +4,7 @@ import json
 import pickle
 import re
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -11,20 +12,18 @@ import pytest
 
 from analytic.exact.layers import layer_references
 from comparisons import cli
-from comparisons.campaigns.cases import carried_out
 from comparisons.campaigns.verify import run
 from comparisons.campaigns.verify.coverage import (
     FEWEST_ROUGH,
     LEAST_COVERAGE,
     PRESSURE,
-    Verification,
     pairs_of,
 )
 from comparisons.campaigns.verify.independent_solver import independent_cases
 from comparisons.campaigns.verify.manufactured import manufactured_cases
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
 from comparisons.campaigns.verify.rough import rough_operator_contacts, rough_scenes
-from comparisons.campaigns.verify.run import Scope, verify
+from comparisons.campaigns.verify.run import Cases, Verification, verify
 from comparisons.campaigns.verify.scenes import (
     COMPARED,
     exact_scenes,
@@ -33,7 +32,6 @@ from comparisons.campaigns.verify.scenes import (
     half_plane_scenes,
     layer_scenes,
     scene_cases,
-    spread,
 )
 from comparisons.common.errors import ExitStatus
 from comparisons.figures import convergence
@@ -53,37 +51,31 @@ def quick(tmp_path_factory) -> tuple[Verification, Path]:
         *rough_scenes(half_planes=3, finite_elements=1, layers=1),
     )
     contacts = (*operator_contacts()[:12], *rough_operator_contacts()[:2])
-    scope = Scope(
-        (*scene_cases(scenes), *operator_cases(contacts, spread(len(contacts)))),
-        (*manufactured_cases([("flat", 2)]), *independent_cases(["smooth"])),
-        fewest=60,
-        fewest_rough=10,
+    cases = (
+        [*scene_cases(scenes), *operator_cases(contacts)],
+        [*manufactured_cases([("flat", 2)]), *independent_cases(["smooth"])],
     )
-    return verify(folder / "out", folder / "ci" / "verify.xml", scope=scope), folder
+    junit = folder / "ci" / "verify.xml"
+    return verify(folder / "out", junit, cases=cases, fewest=(60, 10)), folder
 
 
-def half_plane_scope(count: int | None = None) -> Scope:
-    return Scope(tuple(scene_cases(half_plane_scenes(rounds=1)[:count])), fewest=0, fewest_rough=0)
+def half_plane_cases(count: int | None = None) -> Cases:
+    return scene_cases(half_plane_scenes(rounds=1)[:count]), []
 
 
 class TestCases:
-    def test_there_are_enough_of_each_kind(self):
-        scenes = exact_scenes()
-        assert len({scene.name for scene in scenes}) == len(scenes)
-        for model in ("half_plane", "finite_element"):
-            kinds = {scene.kind for scene in scenes if model in scene.models}
-            assert kinds >= {"Hertz", "surface", "sliding", "hardness"}
-        figures = sum(len(scene.exact) * len(scene.models) for scene in scenes)
-        contacts, rough = operator_contacts(), rough_operator_contacts()
-        assert figures + sum(len(c.exact) for c in contacts) >= 550
-        rough_ones = rough_scenes()
-        cases = scene_cases((*scenes, *rough_ones))
-        cases += operator_cases((*contacts, *rough), spread(len(contacts) + len(rough)))
+    def test_there_are_enough_of_each_kind_with_names_of_their_own(self):
+        exact, others = run.everything()
+        cases = [*exact, *others]
+        assert len({(case.model, case.group, case.name) for case in cases}) == len(cases)
         assert pickle.dumps([case.solve for case in cases])  # for other processes
-        rough = (*rough_ones, *rough)
-        assert sum(len(case.exact) for case in rough) >= FEWEST_ROUGH
-        assert len({case.name for case in rough}) == len(rough)
-        assert {contact.kind for contact in operator_contacts()} == {"wave", "punch", "layer"}
+        kinds = {"Hertz", "surface", "sliding", "hardness", "rough"}
+        assert kinds <= {case.group for case in exact if case.model == "finite_element"}
+        kinds |= {"wave", "punch"}
+        assert kinds <= {case.group for case in exact if case.model == "half_plane"}
+        figures = [(case.group, len(case.solve.args[0].exact)) for case in exact]
+        assert sum(count for group, count in figures if group != "rough") >= 550
+        assert sum(count for group, count in figures if group == "rough") >= FEWEST_ROUGH
 
     def test_no_two_cases_put_the_edge_at_the_same_place(self):
         tables = [scene.tables for scene in half_plane_scenes()]
@@ -103,68 +95,64 @@ class TestCases:
         load = reference.load * modulus * 1e-6 / 0.1
         assert scene.tables["load"]["per_length"] == pytest.approx(load)
 
-    def test_a_scene_is_solved_as_a_run_is(self):
-        scene = half_plane_scenes()[0]
-        row = carried_out(scene_cases([scene])[0])
-        assert [pair.quantity for pair in pairs_of(row)] == list(scene.exact)
-        assert row.holds and all(len(pair.figure.levels) == 3 for pair in pairs_of(row))
-        (pressure,) = (f.levels for f in row.figures if f.quantity == PRESSURE)
-        assert pressure[-1] < 0.02 and len(pressure) == 3
-
 
 class TestWhole:
     def test_a_part_of_it_holds(self, quick):
-        found, _ = quick
-        assert found.faults == []
-        assert found.exit_status == ExitStatus.DONE
-        assert found.coverage.covered >= LEAST_COVERAGE
-        groups = [row.case.group for row in found.rows]
-        assert {"order", "manufactured", "independent solver", "coverage"} <= set(groups)
+        verified, _ = quick
+        assert verified.faults == []
+        assert verified.exit_status == ExitStatus.DONE
+        assert verified.coverage.covered >= LEAST_COVERAGE
+        groups = [row.case.group for row in verified.rows]
+        assert {"manufactured", "independent solver", "coverage"} <= set(groups)
         assert groups.count("order") >= 5
-        tables = found.groups("table", "kind")
+        first = verified.rows[0]
+        (pressure,) = (figure for figure in first.figures if figure.quantity == PRESSURE)
+        assert pressure.value < 0.02 and len(pressure.levels) == 3
+        assert all(len(pair.figure.levels) == 3 for pair in pairs_of(first))
+        tables = verified.groups("table", "kind")
         assert all(tables["model error", kind].count >= 2 for kind in ("layer", "rough"))
 
     def test_files_say_the_same(self, quick):
-        found, folder = quick
+        verified, folder = quick
         content = json.loads((folder / "out" / "verify.json").read_text())
         assert content["holds"] is True
-        assert content["coverage"]["covered"] == found.coverage.covered
-        assert [pair["error"] for pair in content["pairs"]] == [p.error for p in found.pairs]
+        assert content["coverage"]["covered"] == verified.coverage.covered
+        assert [pair["error"] for pair in content["pairs"]] == [p.error for p in verified.pairs]
         page = (folder / "out" / "verify.html").read_text()
-        assert "src=" not in page and page.count("<tr>") > len(found.pairs)
+        assert "src=" not in page and page.count("<tr>") > len(verified.pairs)
         assert sorted(p.name for p in (folder / "out").iterdir()) == ["verify.html", "verify.json"]
 
     def test_junit_names_each_figure_once(self, quick):
-        found, folder = quick
+        verified, folder = quick
         [suite] = ElementTree.parse(folder / "ci" / "verify.xml").getroot()
         names = {(case.get("classname"), case.get("name")) for case in suite}
-        assert len(names) == len(suite) == sum(len(row.judged) for row in found.rows)
-        assert all("relative error" in c.find("system-out").text for c in suite[: len(found.pairs)])
+        assert len(names) == len(suite) == sum(len(row.judged) for row in verified.rows)
+        figures = suite[: len(verified.pairs)]
+        assert all("relative error" in case.find("system-out").text for case in figures)
 
     def test_a_stated_uncertainty_that_is_too_small_is_seen(self, monkeypatch, tmp_path):
         monkeypatch.setattr(convergence, "REGULAR", 0.0)
-        found = verify(tmp_path / "out", scope=half_plane_scope())
-        assert not found.holds
-        assert any("share covered: 0." in line for line in found.faults)
+        verified = verify(tmp_path / "out", cases=half_plane_cases(), fewest=(0, 0))
+        assert not verified.holds
+        assert any("share covered: 0." in line for line in verified.faults)
 
     def test_a_case_that_cannot_be_solved_is_a_fault_and_not_the_end(self, tmp_path):
         scene = half_plane_scenes()[0]
         impossible = replace(scene, tables=scene.tables | {"resolution": {"pitch": 1.0}})
-        scope = Scope(tuple(scene_cases((impossible, scene))), fewest=0, fewest_rough=0)
-        found = verify(tmp_path, scope=scope)
-        assert found.rows[0].error is not None and len(found.pairs) == len(scene.exact)
-        assert found.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+        cases = scene_cases((impossible, scene)), []
+        verified = verify(tmp_path, cases=cases, fewest=(0, 0))
+        assert verified.rows[0].error is not None and len(verified.pairs) == len(scene.exact)
+        assert verified.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 
 def test_the_command_prints_the_coverage_and_ends_with_the_verdict(monkeypatch, capsys, tmp_path):
-    scope = half_plane_scope(4)
-    monkeypatch.setattr(run, "everything", lambda: scope)
+    monkeypatch.setattr(run, "verify", partial(verify, cases=half_plane_cases(4), fewest=(0, 0)))
     monkeypatch.chdir(tmp_path)
     assert cli.main(["verify", "--junit", "ci.xml"]) == ExitStatus.DONE
     shown = capsys.readouterr().out
     assert re.search(r"^coverage (9[5-9]|100) %\s*$", shown, re.MULTILINE)
     assert (tmp_path / "results" / "verify" / "verify.json").is_file()
     assert (tmp_path / "ci.xml").is_file()
-    monkeypatch.setattr(run, "everything", lambda: replace(scope, fewest=1000))
+    monkeypatch.setattr(run, "verify", partial(verify, cases=half_plane_cases(4), fewest=(1000, 0)))
     assert cli.main(["verify", "--out", "other"]) == ExitStatus.OUTSIDE_TOLERANCE
     assert "informative figures: 20, expected at least 1000" in capsys.readouterr().out

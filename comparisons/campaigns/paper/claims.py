@@ -1,16 +1,23 @@
-"""What the paper claims, and how a number judges it: confirmed, denied, or inconclusive.
+"""What the sources claim, and how a number judges it: confirmed, denied, or inconclusive.
+
+In: claims.toml, the paper's claims, and book.toml, Seireg's; runs of the scenes that stand for the
+paper's surfaces. Out: claims with their numbers and outcomes.
 
 A number confirms a claim where its whole uncertainty lies inside the claim's bounds, and denies it
 where it lies outside of them (of wider bounds where the paper gives words and no number). The
 outcome is inconclusive unless all models that can measure the claim say the same, and wherever the
 stand-in profile was made to show what the claim says."""
 
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
+from operator import methodcaller
+from pathlib import Path
 
-from comparisons.campaigns.paper.claims.readings import SLIDING, LevelView
+from comparisons.campaigns.paper import book
+from comparisons.campaigns.paper.readings import SLIDING, LevelView
 from comparisons.common.numbers import finite, plain
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, is_within
@@ -19,17 +26,26 @@ from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.studies.contact import by_repetition
 from comparisons.studies.study import MODEL_ERROR, Run
 
+# The scenes that stand for the paper's surfaces, its figures of them, and their names.
+SMOOTH, UNRUN, RUN_IN, POLISHED = "smooth", "ground-unrun", "ground-run-in", "ground-polished"
+SCENES = (SMOOTH, UNRUN, RUN_IN, POLISHED)
+FIGURES = {SMOOTH: "6", UNRUN: "8", RUN_IN: "9", POLISHED: "10"}
+SURFACES = {
+    SMOOTH: "smooth surface",
+    UNRUN: "unrun ground surface",
+    RUN_IN: "run-in ground surface",
+    POLISHED: "polished ground surface",
+}
 CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
-OUTCOMES = (CONFIRMED, DENIED, INCONCLUSIVE)
+OUTCOMES = {CONFIRMED: "agree", DENIED: "differ", INCONCLUSIVE: "inconclusive"}  # their colours
 THEORY = "theory"  # what judges a claim that neither model solves
 ORDER = 1.0  # formal, of what is read: with it a regular sequence gets the widest margin
-
-PLAIN = ("key", "figure", "title", "text", "measure", "scene")  # fields of a claim in paper.json
-
+IN_JSON = ("key", "figure", "title", "text", "measure", "scene")  # fields of a claim, as they are
 NOT_CONVERGED = "not converged"  # note of a number
 
 Bounds = tuple[float, float]
-Reading = Callable[[LevelView | None], float]  # None: of a theory, which has no level
+# By one of the view's methods; None: of a theory, which has no level.
+Reading = Callable[[LevelView | None], float]
 
 
 @dataclass(frozen=True)
@@ -65,6 +81,13 @@ class Claim:
         return f"{confirmed}, denied unless {_range(self.allows, self.unit)}."
 
 
+def _range(bounds: Bounds, unit: str) -> str:
+    low, high = bounds
+    if high == inf:
+        return f"from {plain(low)} {unit}".rstrip() + " on"
+    return f"from {plain(low)} to {plain(high)} {unit}".rstrip()
+
+
 @dataclass(frozen=True)
 class JudgedClaim:
     """A claim with its outcome."""
@@ -80,8 +103,7 @@ class JudgedClaim:
     def as_dict(self) -> dict:
         """For paper.json: None stands for what is infinite."""
         claim, error = self.claim, self.model_error
-        content = {
-            **{name: getattr(claim, name) for name in PLAIN},
+        content = {name: getattr(claim, name) for name in IN_JSON} | {
             "unit": {"p₀": "p0"}.get(claim.unit, claim.unit),
             "confirmed_within": claim.confirms,
             "denied_outside": claim.allows or claim.confirms,
@@ -106,6 +128,42 @@ class JudgedClaim:
             },
         }
         return finite(content)
+
+
+def claims() -> tuple[Claim, ...]:
+    """The paper's, in the order of its figures."""
+    tables = _tables("claims.toml")
+    listed = [_claim(table, methodcaller) for table in tables["claim"]]
+    for scene in (UNRUN, RUN_IN, POLISHED):
+        short = scene.removeprefix("ground-")
+        words = {"figure": FIGURES[scene], "surface": SURFACES[scene], "short": short}
+        words["words"] = short.replace("-", " ")
+        for table in tables["rough_surface"]:
+            texts = {n: text.format(**words) for n, text in table.items() if isinstance(text, str)}
+            listed.append(_claim(table | texts | {"scene": scene}, methodcaller))
+    return tuple(sorted(listed, key=lambda claim: int(claim.figure.partition("(")[0])))
+
+
+def book_claims() -> tuple[Claim, ...]:
+    """Seireg's, whose numbers are of the theory alone."""
+    by_theory = {"scene": "", "models": [THEORY], "exact": True}
+    return tuple(_claim(table | by_theory, _theory) for table in _tables("book.toml")["claim"])
+
+
+def _tables(name: str) -> dict:
+    return tomllib.loads(Path(__file__).with_name(name).read_text(encoding="utf-8"))
+
+
+def _claim(table: dict, reading: Callable[..., Reading]) -> Claim:
+    """A claim by its table; `reading` of a name and arguments."""
+    fields = {name: tuple(v) if isinstance(v, list) else v for name, v in table.items()}
+    besides = table.get("besides", {}).items()
+    fields["besides"] = tuple((words, reading(*how)) for words, how in besides)
+    return Claim(**fields | {"reading": reading(*table["reading"])})
+
+
+def _theory(name: str, *arguments: float | str) -> Reading:
+    return lambda _: getattr(book, name)(*arguments)
 
 
 def judge(claim: Claim, run: Run | None) -> JudgedClaim:
@@ -156,15 +214,18 @@ def measured(claim: Claim, run: Run | None, model: str) -> Figure:
 
 def judgement(claim: Claim, numbers: Mapping[str, Figure]) -> tuple[str, str | None]:
     """Outcome by the numbers of each model, and why it is inconclusive."""
-    unsolved = [LABELS[model] for model, n in numbers.items() if NOT_CONVERGED in n.notes]
+
+    def named(*models: str) -> str:
+        return " and the ".join(LABELS[model] for model in models)
+
+    unsolved = [model for model, number in numbers.items() if NOT_CONVERGED in number.notes]
     if unsolved:
-        return INCONCLUSIVE, f"the contact of the {' and the '.join(unsolved)} did not converge"
+        return INCONCLUSIVE, f"the contact of the {named(*unsolved)} did not converge"
     places = {model: _place(claim, number) for model, number in numbers.items()}
-    unclear = [LABELS[model] for model, place in places.items() if place == "on a bound"]
+    unclear = [model for model, place in places.items() if place == "on a bound"]
     if unclear:
-        return INCONCLUSIVE, (
-            f"the numerical uncertainty of the {' and the '.join(unclear)} reaches over a bound"
-        )
+        why = f"the numerical uncertainty of the {named(*unclear)} reaches over a bound"
+        return INCONCLUSIVE, why
     if len(set(places.values())) > 1:
         return INCONCLUSIVE, "the two models do not say the same"
     (place,) = set(places.values())
@@ -173,10 +234,8 @@ def judgement(claim: Claim, numbers: Mapping[str, Figure]) -> tuple[str, str | N
     if place == "outside":
         return DENIED, None
     if claim.tuned:
-        return INCONCLUSIVE, (
-            f"the stand-in profile was made to show {claim.tuned}, so that the number is met "
-            "proves nothing"
-        )
+        made = f"the stand-in profile was made to show {claim.tuned}"
+        return INCONCLUSIVE, f"{made}, so that the number is met proves nothing"
     return CONFIRMED, None
 
 
@@ -191,10 +250,3 @@ def _place(claim: Claim, number: Figure) -> str:
     if outer is False:
         return "outside"
     return "between" if outer and inner is False else "on a bound"
-
-
-def _range(bounds: Bounds, unit: str) -> str:
-    low, high = bounds
-    if high == inf:
-        return f"from {plain(low)} {unit}".rstrip() + " on"
-    return f"from {plain(low)} to {plain(high)} {unit}".rstrip()

@@ -1,1 +1,0 @@
-"""The paper's claims, and the numbers that judge them."""
