@@ -66,17 +66,17 @@ def init(
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
     """Look at a measured profile and write a commented scene for it."""
-    from comparisons.campaigns.init.first_scene import given_sections, write_first_scene
+    from comparisons.campaigns.init.first_scene import sections_of_options, write_first_scene
 
     options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
     options |= {"channel": channel, "columns": columns, "radius": radius, "friction": friction}
     options |= {"load": load, "peak_pressure": peak_pressure, "hardness": hardness}
     options |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
-    made = write_first_scene(profile, out, given_sections(options), force, picture)
+    made = write_first_scene(profile, out, sections_of_options(options), force, picture)
     if as_json:
         show_json(made.as_dict())
         return ExitStatus.DONE
-    from comparisons.campaigns.init.profile_view import init_table
+    from comparisons.campaigns.init.show import init_table
     from comparisons.campaigns.maps.place import first_answer
     from comparisons.models.problem import problem_of
     from comparisons.output.terminal import PLAIN

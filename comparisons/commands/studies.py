@@ -82,10 +82,17 @@ def map_of(
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""
-    from comparisons.campaigns.maps.content import map_table
-    from comparisons.campaigns.maps.make import exit_status, make_map, show_finished
-    from comparisons.campaigns.maps.place import finished_map, finished_names, problem_named
-    from comparisons.campaigns.maps.request import SIZE, request_of
+    from comparisons.campaigns.maps.map import (
+        SIZE,
+        exit_status,
+        finished_map,
+        finished_names,
+        make_map,
+        map_table,
+        request_of,
+        show_finished,
+    )
+    from comparisons.campaigns.maps.place import problem_named
 
     marked = mark and from_first(lambda: problem_named(mark))
     is_own = again or any(given is not None for given in (points, x, y, workers))
@@ -121,8 +128,7 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve a scene at many values of its fields: one placement is not a surface."""
-    from comparisons.campaigns.sweep.request import sweep_request
-    from comparisons.campaigns.sweep.study import make_sweep, sweep_table
+    from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request, sweep_table
     from comparisons.figures.quantity import models_named
     from comparisons.scenes.scene import Scene
 

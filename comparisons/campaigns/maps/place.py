@@ -10,14 +10,13 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.maps.content import differences, places, read_map, scaled, unscaled
-from comparisons.campaigns.maps.groups import GROUPS
-from comparisons.campaigns.maps.picture import Mark
-from comparisons.campaigns.maps.request import FINISHED
+from comparisons.campaigns.maps.content import differences, places, scaled, unscaled
+from comparisons.campaigns.maps.groups import GROUPS, STUDIES
+from comparisons.campaigns.maps.map import finished_map, finished_names
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
 from comparisons.common.progress import Stages, no_progress
-from comparisons.figures.quantity import HEAT_QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.scene import Scene
@@ -53,14 +52,6 @@ class Place:
         )
 
 
-def finished_names() -> tuple[str, ...]:
-    return tuple(sorted(path.stem for path in FINISHED.glob("*.json")))
-
-
-def finished_map(name: str) -> dict:
-    return read_map(FINISHED / f"{name}.json")
-
-
 def problem_named(name: str) -> Problem:
     """The problem of a scene that is to be marked, under the load of its approach where that is
     prescribed. Raises InputError where it cannot be solved."""
@@ -80,12 +71,8 @@ def place_on(name: str, problem: Problem) -> Place | None:
     content = finished_map(name)
     if ("profile" in content["scene"]) != (problem.scene.profile is not None):
         return None
-    heat, of_map = problem.scene.heat, content["scene"].get("heat")
-    if of_map and heat:
-        base = heat.base or "held"
-        other_base = problem.scene.body.thickness and base != of_map.get("base", base)
-        if other_base or heat.slide_to_roll != of_map["slide_to_roll"]:
-            return None
+    if not all(study.is_alike(problem.scene, content["scene"]) for study in STUDIES):
+        return None
     groups, shown = [], []
     for axis in (content["x"], content["y"]):
         group = GROUPS[axis["group"]]
@@ -96,9 +83,9 @@ def place_on(name: str, problem: Problem) -> Place | None:
             return None
         groups.append(value)
         shown.append(max(value, axis["values"][0]))
-    wanted = (*problem.scene.tolerances, *(HEAT_QUANTITIES if of_map else ()))
-    errors = {q: interpolated(content, q, *shown) for q in wanted}
-    errors = {quantity: error for quantity, error in errors.items() if np.isfinite(error)}
+    names = *problem.scene.tolerances, *(name for study in STUDIES for name in study.QUANTITIES)
+    errors = {name: interpolated(content, name, *shown) for name in names}
+    errors = {name: error for name, error in errors.items() if np.isfinite(error)}
     return Place(name, tuple(groups), tuple(shown), errors) if errors else None
 
 
@@ -119,27 +106,14 @@ def places_of(problem: Problem) -> tuple[Place, ...]:
     covered: set[tuple[bool, str]] = set()
     for place in known:
         content = finished_map(place.name)
-        heats = content["quantity"] in HEAT_QUANTITIES
+        kind = content["quantity"] in QUANTITIES  # of the contact, or of another study
         groups = {
-            (heats, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
+            (kind, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
         }
         if groups - covered or not (groups or chosen):
             chosen.append(place)
             covered |= groups
     return tuple(chosen)
-
-
-def mark_of(content: dict, problem: Problem) -> Mark:
-    """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
-    where a group has no value for a scene."""
-    values = []
-    for axis in (content["x"], content["y"]):
-        value_of = GROUPS[axis["group"]].value_of
-        smooth = axis["group"] == "wavelength_over_a" and problem.scene.profile is None
-        if value_of is None or smooth:
-            raise InputError(f"--mark: {problem.scene.name} has no {axis['group']} to be marked at")
-        values.append(value_of(problem))
-    return problem.scene.name, (values[0], values[1])
 
 
 def first_answer(problem: Problem) -> list[str]:

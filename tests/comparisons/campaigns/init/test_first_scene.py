@@ -11,9 +11,8 @@ import pytest
 from scenes import PROFILES
 
 from comparisons.campaigns.init import first_scene
-from comparisons.campaigns.init.first_scene import write_first_scene
-from comparisons.campaigns.init.picture import picture
-from comparisons.campaigns.init.scene_text import FIELDS, scene_text
+from comparisons.campaigns.init.first_scene import FIELDS, scene_text, write_first_scene
+from comparisons.campaigns.init.show import picture
 from comparisons.cli import main
 from comparisons.scenes.fields import field_type
 from comparisons.scenes.profile import VARIETIES
@@ -98,7 +97,7 @@ def test_a_shipped_profile_makes_a_scene_that_loads_as_it_was_read(path, tmp_pat
     surface = surface_of(Scene.read(tmp_path / "mine.toml"))
     assert surface.info.roughness == made.surface.info.roughness
     assert surface.info.path.samefile(path)
-    assert made.profile.fields == {"x_unit": '"um"', "z_unit": '"um"', "form": '"line"'}
+    assert made.profile.fields == {"x_unit": "um", "z_unit": "um", "form": "line"}
     assert all("x_um,height_um" in made.profile.reasons[name] for name in ("x_unit", "z_unit"))
     given = np.loadtxt(path, delimiter=",", skiprows=3)
     np.testing.assert_allclose(surface.info.trace.height, 1e-6 * given[:, 1], rtol=1e-12)
@@ -256,7 +255,7 @@ def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
     (folder / "map.sdf").write_text(f"{head}{body}\n*\n")
     made = write_first_scene(Path("map.sdf"))
     name = "column" if turned else "row"
-    assert made.profile.fields[name] == "35"
+    assert made.profile.fields[name] == 35
     assert made.profile.reasons[name] == (
         f"the middle one of 70, across the lay: slopes along {name}s are all that there are, none "
         "the other way"
@@ -282,7 +281,7 @@ def test_a_short_trace_gets_a_small_roller(folder):
 def test_the_form_of_a_round_specimen_is_an_arc(folder):
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z - (X - 200.0) ** 2 / 1e4))
     made = write_first_scene(Path("trace.csv"))
-    assert made.profile.fields["form"] == '"arc"'
+    assert made.profile.fields["form"] == "arc"
     assert made.surface.info.form.radius == pytest.approx(5e-3, rel=0.01)
 
 
@@ -364,9 +363,9 @@ def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
 
 def test_unused_sections_come_alive_when_their_signs_are_taken_away():
     values = {
-        "roller": {"radius": '"10 mm"', "rigid": "true"},
-        "body": {"youngs_modulus": '"3 MPa"', "poissons_ratio": "0.3"},
-        "load": {"per_length": '"1 N/mm"'},
+        "roller": {"radius": "10 mm", "rigid": True},
+        "body": {"youngs_modulus": "3 MPa", "poissons_ratio": 0.3},
+        "load": {"per_length": "1 N/mm"},
     }
     text = scene_text("A title", values, {})
     lines = [line for line in text.splitlines() if not line.startswith("# ")]
