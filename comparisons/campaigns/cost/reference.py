@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic.exact.hertz import HertzExtremes, hertz_extremes, hertz_stress
+from analytic.exact.hertz import hertz_extremes, hertz_stress
 from comparisons.campaigns.cost.measure import OK, CostRow, MeasuredRun
 from comparisons.campaigns.cost.methods import FINEST, Values, is_half_plane_problem
 from comparisons.figures.figure import Figure
@@ -132,12 +132,18 @@ def _curve(level: Level) -> tuple[np.ndarray, np.ndarray]:
 def _exact(problem: Problem, window: Window | None) -> Reference:
     hertz, frictions = problem.hertz, problem.scene.load.friction
     contact = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
-    values, tau1 = ({**contact, "contact_ratio": 1.0},) * len(frictions), ()
-    norms = {"pressure_l2"}
+    contact["contact_ratio"] = 1.0
+    values, tau1, norms = (contact,) * len(frictions), (), {"pressure_l2"}
     if window is not None:
+        known = [hertz_extremes(hertz, friction) for friction in frictions]
         values = tuple(
-            bare | _exact_stresses(hertz_extremes(hertz, friction))
-            for bare, friction in zip(values, frictions, strict=True)
+            {
+                **contact,
+                "tau1_max": extremes.tau1.value,
+                "tau1_max_depth": extremes.tau1.z,
+                "txz_max_abs": max(abs(extremes.txz_max.value), abs(extremes.txz_min.value)),
+            }
+            for extremes in known
         )
         z = window.z[:, None]
         tau1 = tuple(hertz_stress(hertz, window.x, z, friction).tau1 for friction in frictions)
@@ -146,12 +152,6 @@ def _exact(problem: Problem, window: Window | None) -> Reference:
     x = np.linspace(*problem.extent, EXACT_POINTS)
     curve = x, hertz.pressure(x)
     return Reference("exact (Hertz)", problem, window, floors, values, *curve, tau1)
-
-
-def _exact_stresses(extremes: HertzExtremes) -> dict[str, float]:
-    orthogonal = max(abs(extremes.txz_max.value), abs(extremes.txz_min.value))
-    largest = {"tau1_max": extremes.tau1.value, "tau1_max_depth": extremes.tau1.z}
-    return largest | {"txz_max_abs": orthogonal}
 
 
 def _finest(problem: Problem, rows: list[CostRow], window: Window | None) -> Reference:

@@ -10,12 +10,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.campaigns.cost.measure import FAILED, OK, CostRow
 from comparisons.campaigns.cost.methods import METHODS
-from comparisons.campaigns.cost.recommend import (
-    Cost,
-    Recommendation,
-    needs_stress,
-    scene_sections,
-)
+from comparisons.campaigns.cost.recommend import Cost, needs_stress, scene_sections
 from comparisons.common.numbers import given_percent, integer, percent, with_unit
 from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, drawing, figure
 from comparisons.figures.quantity import QUANTITIES, label
@@ -160,15 +155,18 @@ class WhatFits:
 
 def cost_page(cost: Cost) -> str:
     names = shown(cost)
+    recommendations = []
+    for chosen in cost.recommendations:
+        rows = filter(None, (chosen.half_plane, chosen.finite_element))
+        settings = [_toml(scene_sections(row, cost.problem)) for row in rows]
+        recommendations.append((chosen.sentence, settings))
     with drawing():
         pictures = [cost_picture(cost, name) for name in cost.references if name not in REDUNDANT]
     return rendered(
         Path(__file__).parent / "cost.html.j2",
         policy=POLICY,
         title=f"Cost: {cost.problem.scene.title}",
-        recommendations=[
-            (chosen.sentence, _settings(cost, chosen)) for chosen in cost.recommendations
-        ],
+        recommendations=recommendations,
         pictures=pictures,
         head=(*HEAD, *map(label, names)),
         rows=[(row.status, cells(cost, row, names)) for row in cost.rows],
@@ -177,13 +175,9 @@ def cost_page(cost: Cost) -> str:
     )
 
 
-def _settings(cost: Cost, recommendation: Recommendation) -> list[str]:
-    """What to write into the scene, as TOML: a line a model."""
-    rows = (recommendation.half_plane, recommendation.finite_element)
-    return [_toml(scene_sections(row, cost.problem)) for row in rows if row is not None]
-
-
 def _toml(sections: dict[str, dict]) -> str:
+    """What to write into the scene, as TOML on one line."""
+
     def written(name: str, value: object) -> str:
         if name == "pitch":
             value = with_unit(value, "m", 3).translate(PLAIN)  # as the setting is named

@@ -13,7 +13,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.init.guess import ProfileFields, fields_of_profile
+from comparisons.campaigns.init.guess import ProfileFields, fields_of_profile, option_of
 from comparisons.campaigns.init.show import FirstScene, picture
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
@@ -66,17 +66,13 @@ def sections_of_options(options: Mapping[str, str | int | None]) -> Sections:
             try:
                 field_type(kinds[section], field).read(value)
             except ValueError as error:
-                raise InputError(f"{_option(name)}: {error}") from error
+                raise InputError(f"{option_of(name)}: {error}") from error
             sections.setdefault(section, {})[field] = value
     for first, second in EXCLUSIVE:
         if first in chosen and second in chosen:
-            message = f"is given beside {_option(first)}; allowed is one of them"
-            raise InputError(f"{_option(second)}: {message}")
+            message = f"is given beside {option_of(first)}; allowed is one of them"
+            raise InputError(f"{option_of(second)}: {message}")
     return sections
-
-
-def _option(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
 
 
 def _number(text: str) -> float | str:

@@ -246,11 +246,15 @@ def _check_units(path: Path, units: Guesses) -> None:
         try:
             _in_metres(unit)
         except UnitError:
-            option = f"--{name.replace('_', '-')}"
             raise InputError(
                 f'{path}: "{unit}" is no known unit of length ({because}); known are '
-                f"{known_units(LENGTH)}; allowed is {option}"
+                f"{known_units(LENGTH)}; allowed is {option_of(name)}"
             ) from None
+
+
+def option_of(field: str) -> str:
+    """The option of `crosscheck init` for a field of [profile]."""
+    return f"--{field.replace('_', '-')}"
 
 
 def _short(line: str) -> str:

@@ -52,8 +52,8 @@ class Group:
 
     # which fields give a scene a value of the group
     set_to: Callable[[Scene, float], Changes]
-    # the group's value of a scene, where it says how large an effect is
-    value_of: Callable[[Problem], float | None] | None
+    # the group's value of a scene, where it says how large an effect is, and the scene has one
+    value_of: Callable[[Problem], float | None]
     # symbol, label: for axes, short and in words
     symbol: str
     label: str
@@ -139,12 +139,12 @@ def _slope(problem: Problem) -> float:
     return 0.0 if info is None else info.roughness.rms_slope
 
 
-def _wavelength(problem: Problem) -> float:
+def _wavelength(problem: Problem) -> float | None:
     profile = problem.scene.profile
-    if profile is not None and profile.kind in WAVES:
-        shortest = _shortest(profile)
-    else:
-        shortest = shortest_wavelength(problem.surface.profile)
+    if profile is None:
+        return None
+    made = profile.kind in WAVES
+    shortest = _shortest(profile) if made else shortest_wavelength(problem.surface.profile)
     return shortest / problem.hertz.half_width
 
 
@@ -232,23 +232,31 @@ def _set_slope(scene: Scene, value: float) -> Changes:
     return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 
-# How each group is set, and how large it is in a scene where it says how large an effect is.
-FUNCTIONS = {
+def _set_peclet(scene: Scene, value: float) -> Changes:
+    return heat.set_peclet(scene, value, _half_width(scene))
+
+
+def _set_coating(scene: Scene, value: float) -> Changes:
+    return {"coating.thickness": value * _half_width(scene)}
+
+
+def _none(problem: Problem) -> None:
+    """A group's that says nothing of how large an effect is."""
+
+
+FUNCTIONS = {  # set_to, value_of
     "a_over_thickness": (partial(_set_size, "thickness"), partial(_size, "thickness")),
     "a_over_width": (partial(_set_size, "width"), partial(_size, "width")),
     "a_over_radius": (_set_radius, _radius),
     "rms_slope": (_set_slope, _slope),
     "wavelength_over_a": (_set_wavelength, _wavelength),
     "friction_dundurs": (_set_friction, _friction),
-    "peak_pressure_over_hardness": (_set_hardness, None),
-    "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, None),
-    "modulus_ratio": (_set_modulus_ratio, None),
-    "peclet": (lambda *at: heat.set_peclet(*at, _half_width(at[0])), heat.peclet),
-    "coating_over_a": (
-        lambda scene, value: {"coating.thickness": value * _half_width(scene)},
-        None,
-    ),
-    "conductivity_ratio": (heat.set_conductivity, None),
+    "peak_pressure_over_hardness": (_set_hardness, _none),
+    "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, _none),
+    "modulus_ratio": (_set_modulus_ratio, _none),
+    "peclet": (_set_peclet, heat.peclet),
+    "coating_over_a": (_set_coating, _none),
+    "conductivity_ratio": (heat.set_conductivity, _none),
 }
 GROUPS = {
     name: Group(*FUNCTIONS[name], **fields)

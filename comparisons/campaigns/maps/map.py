@@ -172,12 +172,11 @@ def mark_of(content: dict, problem: Problem) -> tuple[str, tuple[float, float]]:
     """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
     where a group has no value for a scene."""
     values = []
-    for axis in (content["x"], content["y"]):
-        value_of = GROUPS[axis["group"]].value_of
-        smooth = axis["group"] == "wavelength_over_a" and problem.scene.profile is None
-        if value_of is None or smooth:
-            raise InputError(f"--mark: {problem.scene.name} has no {axis['group']} to be marked at")
-        values.append(value_of(problem))
+    for name in (content["x"]["group"], content["y"]["group"]):
+        value = GROUPS[name].value_of(problem)
+        if value is None:
+            raise InputError(f"--mark: {problem.scene.name} has no {name} to be marked at")
+        values.append(value)
     return problem.scene.name, (values[0], values[1])
 
 

@@ -76,7 +76,7 @@ def place_on(name: str, problem: Problem) -> Place | None:
     groups, shown = [], []
     for axis in (content["x"], content["y"]):
         group = GROUPS[axis["group"]]
-        value = None if group.value_of is None else group.value_of(problem)
+        value = group.value_of(problem)
         if value is None or value > axis["values"][-1]:
             return None
         if value < axis["values"][0] and not group.vanishes:

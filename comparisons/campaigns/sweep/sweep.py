@@ -233,20 +233,23 @@ def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
     ]
     groups = grouped(known, itemgetter(slice(3)))
     groups.sort(key=lambda group: (order.get(group[0][0], len(order)), group[0][1] or 0.0))
-    return [_spread(*group[0][:3], [value for *_, value in group]) for group in groups]
-
-
-def _spread(quantity: str, friction: float | None, figure: str, values: list[float]) -> dict:
-    return {
-        "quantity": quantity,
-        "friction": friction,
-        "figure": figure,
-        "count": len(values),
-        "mean": float(np.mean(values)),
-        "standard_deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
-        "smallest": min(values),
-        "largest": max(values),
-    }
+    spreads = []
+    for group in groups:
+        (quantity, friction, figure, _), values = group[0], [value for *_, value in group]
+        deviation = float(np.std(values, ddof=1)) if len(values) > 1 else None
+        spreads.append(
+            {
+                "quantity": quantity,
+                "friction": friction,
+                "figure": figure,
+                "count": len(values),
+                "mean": float(np.mean(values)),
+                "standard_deviation": deviation,
+                "smallest": min(values),
+                "largest": max(values),
+            }
+        )
+    return spreads
 
 
 def sweep_csv(content: dict) -> str:

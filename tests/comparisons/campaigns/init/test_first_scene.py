@@ -33,14 +33,12 @@ def heights(z) -> str:
     return "".join(f"{value:.6g}\n" for value in z)
 
 
-def sdf(z) -> str:
-    head = (
-        "aISO-1.0\nNumPoints = 801\nNumProfiles = 5\nXscale = 0.5e-6\nYscale = 1e-6\n"
-        "Zscale = 1e-6\nDataType = 7\n*\n"
-    )
-    line = " ".join(f"{value:.6g}" for value in z)
-    flat = " ".join(["0"] * len(z))
-    return f"{head}{flat}\n{flat}\n{line}\n{flat}\n{flat}\n*\n"
+def sdf(heights: np.ndarray, spacing: float, unit: float) -> str:
+    """A map, a row of the heights (rows, columns) [`unit` m] a line."""
+    profiles, points = heights.shape
+    head = f"aISO-1.0\nNumPoints = {points}\nNumProfiles = {profiles}\nXscale = {spacing}\n"
+    head += f"Yscale = 1e-6\nZscale = {unit}\nDataType = 7\n*\n"
+    return head + "\n".join(" ".join(f"{z:.6g}" for z in row) for row in heights) + "\n*\n"
 
 
 FILES = {
@@ -61,7 +59,7 @@ FILES = {
     ).encode(),
     "packed": gzip.compress(("x_um,z_um\n" + rows(X, Z)).encode()),
     "heights with their spacing": ("# step = 0,5 um\n# z in nm\n" + heights(1e3 * Z)).encode(),
-    "a map": sdf(Z).encode(),
+    "a map": sdf(np.outer([0, 0, 1, 0, 0], Z), 0.5e-6, 1e-6).encode(),
     "lost samples": ("x_um,z_um\n" + rows(X, Z).replace("100,", "100,NaN #", 1)).encode(),
 }
 
@@ -248,11 +246,7 @@ def test_a_small_map_gets_a_load_that_fits_it(folder):
 def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
     lay = np.outer(np.sin(np.arange(90) / 2.0), np.ones(70))
     lay = lay if turned else lay.T
-    count, profiles = lay.shape[1], lay.shape[0]
-    head = f"aISO-1.0\nNumPoints = {count}\nNumProfiles = {profiles}\nXscale = 1e-6\n"
-    head += "Yscale = 1e-6\nZscale = 1e-7\nDataType = 7\n*\n"
-    body = "\n".join(" ".join(f"{value:.6g}" for value in row) for row in lay)
-    (folder / "map.sdf").write_text(f"{head}{body}\n*\n")
+    (folder / "map.sdf").write_text(sdf(lay, 1e-6, 1e-7))
     made = write_first_scene(Path("map.sdf"))
     name = "column" if turned else "row"
     assert made.profile.fields[name] == 35
