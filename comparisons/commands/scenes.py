@@ -99,13 +99,14 @@ def deck(
     as_json: Annotated[bool, json_option("folder, files and sizes as JSON")] = False,
 ) -> int:
     """Write a scene as a complete input of another code, and how to bring its answer back."""
-    from comparisons.campaigns.decks.write import write_deck
+    from comparisons.campaigns.decks.write import account_of, write_deck
     from comparisons.scenes.scene import Scene
 
-    resolved = Scene.read(scene)
-    written = write_deck(resolved, code, out or RESULTS / f"{resolved.name}-{code}", level)
+    asked = Scene.read(scene)
+    folder = out or RESULTS / f"{asked.name}-{code}"
+    written = write_deck(asked, code, folder, level)
     if as_json:
-        show_json(written.as_dict())
+        show_json(account_of(written, code, folder))
         return ExitStatus.DONE
-    print(f"{written.nodes} nodes; {written.folder / 'README.md'} says how to solve it")
+    print(f"{written.nodes} nodes; {folder / 'README.md'} says how to solve it")
     return ExitStatus.DONE

@@ -85,6 +85,10 @@ class DeckProblem:
     def bodies(self) -> dict[str, DeckBody]:
         return {"ROUGH": self.rough, "ROLLER": self.roller}
 
+    @property
+    def nodes(self) -> int:
+        return len(self.rough.points) + len(self.roller.points)
+
 
 def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     """The deck of a problem with elements of `pitch` [m] on the contact, in meshes like those of

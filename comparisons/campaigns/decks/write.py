@@ -7,7 +7,6 @@ mesh and gap that it reads."""
 
 import io
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -41,30 +40,7 @@ GAP_POINTS = 8  # an edge, of the sampled gap
 SAME = 1e-6  # of an edge: places that are one
 
 
-@dataclass(frozen=True)
-class WrittenDeck:
-    """Where a deck is, and how large it is."""
-
-    folder: Path
-    code: str
-    deck: DeckProblem
-
-    @property
-    def nodes(self) -> int:
-        return sum(len(body.points) for body in self.deck.bodies.values())
-
-    def as_dict(self) -> dict:
-        """For JSON; lengths [m]."""
-        return {
-            "folder": str(self.folder),
-            "code": self.code,
-            "nodes": self.nodes,
-            "files": sorted(name for name in FILES if (self.folder / name).exists()),
-            "edge": self.deck.edge / MM,
-        }
-
-
-def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> WrittenDeck:
+def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProblem:
     """Write the deck of a scene for one of CODES to the folder `out`.
 
     level  of the scene's own refinement, from 1, whose elements the contact gets
@@ -87,7 +63,18 @@ def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> WrittenDec
     for name in ("README.md", "answer.toml"):
         files[name] = rendered(TEMPLATES / f"{name}.j2", **values)
     publish(out, files, FILES)
-    return WrittenDeck(out, code, deck)
+    return deck
+
+
+def account_of(deck: DeckProblem, code: str, folder: Path) -> dict:
+    """Where a written deck is and how large, for JSON; lengths [m]."""
+    return {
+        "folder": str(folder),
+        "code": code,
+        "nodes": deck.nodes,
+        "files": sorted(name for name in FILES if (folder / name).exists()),
+        "edge": deck.edge / MM,
+    }
 
 
 def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:

@@ -47,9 +47,9 @@ def _values(content: dict, quantity: str, name: str) -> np.ndarray:
     return values.reshape(len(content["y"]["values"]), len(content["x"]["values"]))
 
 
-def places(axis: dict) -> np.ndarray:
-    """Where an axis's values lie: their logarithms on a logarithmic axis."""
-    values = np.array(axis["values"])
+def places(axis: dict, *values: float) -> np.ndarray:
+    """Where values lie on an axis, its own by default: their logarithms on a logarithmic axis."""
+    values = np.array(values or axis["values"])
     return np.log10(values) if axis["logarithmic"] else values
 
 

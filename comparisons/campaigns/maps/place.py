@@ -91,11 +91,10 @@ def place_on(name: str, problem: Problem) -> Place | None:
 
 def interpolated(content: dict, quantity: str, x: float, y: float) -> float:
     """Relative model error between a map's points; nan where a neighbour's is unknown."""
-    axes = content["y"], content["x"]
+    across, up = content["x"], content["y"]
     values = scaled(differences(content, quantity))
-    between = RegularGridInterpolator([places(axis) for axis in axes], values)
-    at = [places(axis | {"values": [v]})[0] for axis, v in zip(axes, (y, x), strict=True)]
-    return float(unscaled(between(at)[0]))
+    between = RegularGridInterpolator([places(up), places(across)], values)
+    return float(unscaled(between([places(up, y)[0], places(across, x)[0]])[0]))
 
 
 def places_of(problem: Problem) -> tuple[Place, ...]:
