@@ -227,7 +227,7 @@ class CostStudy(Printed):
 
     def plot(self, quantity: str = "peak_pressure") -> "list[Axes]":
         """The diagram of a quantity."""
-        from comparisons.campaigns.cost.picture import cost_picture
+        from comparisons.campaigns.cost.show import cost_picture
         from comparisons.drawing.style import collected_figures
 
         if quantity not in self.study.references:
@@ -259,7 +259,7 @@ class Map(Printed):
             return map_figure(self.content).axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.maps.content import map_table
+        from comparisons.campaigns.maps.map import map_table
 
         return map_table(self.content, self.folder)
 
@@ -290,7 +290,7 @@ class Sweep(Printed):
             return sweep_figure(self.content).axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.sweep.study import sweep_table
+        from comparisons.campaigns.sweep.sweep import sweep_table
 
         return sweep_table(self.content, self.folder)
 
@@ -391,8 +391,7 @@ def map(
     x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
     workers  processes, one a core by default, or a Dask scheduler's address
     It takes minutes. `out` keeps each point, and goes on from there."""
-    from comparisons.campaigns.maps.make import make_map
-    from comparisons.campaigns.maps.request import request_of
+    from comparisons.campaigns.maps.map import make_map, request_of
 
     scene = os.fspath(scene) if isinstance(scene, os.PathLike) else scene
     texts = {"scene": scene, "points": points, "x": x, "y": y, "quantity": quantity}
@@ -426,8 +425,7 @@ def sweep(
     >>> peaks = [row["half_plane"] for row in loads.rows if row["quantity"] == "peak_pressure"]
     >>> round(peaks[1] / peaks[0], 4)
     2.0"""
-    from comparisons.campaigns.sweep.request import sweep_request
-    from comparisons.campaigns.sweep.study import make_sweep
+    from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request
 
     if isinstance(over, Mapping):
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]

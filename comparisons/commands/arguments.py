@@ -49,7 +49,7 @@ def complete_scenes(incomplete: str) -> list[str]:
 
 def complete_maps(incomplete: str) -> list[str]:
     """The same with the names of finished maps."""
-    from comparisons.campaigns.maps.request import FINISHED
+    from comparisons.campaigns.maps.map import FINISHED
 
     names = sorted(path.stem for path in FINISHED.glob("*.toml"))
     return [*_beginning(names, incomplete), *complete_scenes(incomplete)]

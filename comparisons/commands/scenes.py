@@ -66,17 +66,17 @@ def init(
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
     """Look at a measured profile and write a commented scene for it."""
-    from comparisons.campaigns.init.first_scene import given_sections, write_first_scene
+    from comparisons.campaigns.init.first_scene import sections_of_options, write_first_scene
 
     options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
     options |= {"channel": channel, "columns": columns, "radius": radius, "friction": friction}
     options |= {"load": load, "peak_pressure": peak_pressure, "hardness": hardness}
     options |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
-    made = write_first_scene(profile, out, given_sections(options), force, picture)
+    made = write_first_scene(profile, out, sections_of_options(options), force, picture)
     if as_json:
         show_json(made.as_dict())
         return ExitStatus.DONE
-    from comparisons.campaigns.init.profile_view import init_table
+    from comparisons.campaigns.init.show import init_table
     from comparisons.campaigns.maps.place import first_answer
     from comparisons.models.problem import problem_of
     from comparisons.output.terminal import PLAIN
@@ -99,13 +99,14 @@ def deck(
     as_json: Annotated[bool, json_option("folder, files and sizes as JSON")] = False,
 ) -> int:
     """Write a scene as a complete input of another code, and how to bring its answer back."""
-    from comparisons.campaigns.decks.write import write_deck
+    from comparisons.campaigns.decks.write import account_of, write_deck
     from comparisons.scenes.scene import Scene
 
-    resolved = Scene.read(scene)
-    written = write_deck(resolved, code, out or RESULTS / f"{resolved.name}-{code}", level)
+    asked = Scene.read(scene)
+    folder = out or RESULTS / f"{asked.name}-{code}"
+    written = write_deck(asked, code, folder, level)
     if as_json:
-        show_json(written.as_dict())
+        show_json(account_of(written, code, folder))
         return ExitStatus.DONE
-    print(f"{written.nodes} nodes; {written.folder / 'README.md'} says how to solve it")
+    print(f"{written.nodes} nodes; {folder / 'README.md'} says how to solve it")
     return ExitStatus.DONE

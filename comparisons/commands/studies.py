@@ -49,9 +49,9 @@ def cost(
     asked = Scene.read(scene)
     directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
-        found = measured_cost(asked, directory, repeats, callback)
+        study = measured_cost(asked, directory, repeats, callback)
     path = directory / "cost.json"
-    show_written(as_json, path, lambda: cost_table(found))
+    show_written(as_json, path, lambda: cost_table(study))
     if not as_json:
         print(f"diagrams {directory / 'cost.html'}, figures {path}")
     return ExitStatus.DONE
@@ -82,16 +82,23 @@ def map_of(
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""
-    from comparisons.campaigns.maps.content import map_table
-    from comparisons.campaigns.maps.make import exit_status, make_map, show_finished
-    from comparisons.campaigns.maps.place import finished_map, finished_names, problem_named
-    from comparisons.campaigns.maps.request import SIZE, request_of
+    from comparisons.campaigns.maps.map import (
+        SIZE,
+        exit_status,
+        finished_map,
+        finished_names,
+        make_map,
+        map_table,
+        request_of,
+        show_finished,
+    )
+    from comparisons.campaigns.maps.place import problem_named
 
     marked = mark and from_first(lambda: problem_named(mark))
-    is_own = again or any(given is not None for given in (points, x, y, workers))
+    solves = again or any(option is not None for option in (points, x, y, workers))
     finished = scene in finished_names()
     quantity = quantity or (finished_map(scene)["quantity"] if finished else "peak_pressure")
-    if finished and not is_own:
+    if finished and not solves:
         directory = out or RESULTS / scene
         content = from_first(lambda: show_finished(scene, quantity, marked, directory))
     else:
@@ -121,8 +128,7 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve a scene at many values of its fields: one placement is not a surface."""
-    from comparisons.campaigns.sweep.request import sweep_request
-    from comparisons.campaigns.sweep.study import make_sweep, sweep_table
+    from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request, sweep_table
     from comparisons.figures.quantity import models_named
     from comparisons.scenes.scene import Scene
 
@@ -150,6 +156,6 @@ def paper(
     from comparisons.campaigns.paper.reproduce import paper as reproduced
 
     with progress() as callback:
-        found = reproduced(out or RESULTS / "paper", callback=callback, effects=effects)
-    show_either(as_json, found.as_dict(), lambda: paper_table(found))
-    return found.exit_status
+        claims = reproduced(out or RESULTS / "paper", callback=callback, effects=effects)
+    show_either(as_json, claims.as_dict(), lambda: paper_table(claims))
+    return claims.exit_status

@@ -10,7 +10,7 @@ import pytest
 from scenes import PROJECT, STEEL
 
 import comparisons as crosscheck
-from comparisons.campaigns.maps.content import read_map
+from comparisons.campaigns.maps.map import finished_map
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import models_named
@@ -242,7 +242,7 @@ def test_report_is_written_where_it_is_asked_for(finished, tmp_path, monkeypatch
 
 
 def test_a_finished_map_prints_and_draws(pyplot):
-    content = read_map(PROJECT / "comparisons/campaigns/maps/finished/thickness-friction.json")
+    content = finished_map("thickness-friction")
     shown = Map(content, None)
     assert "points" in repr(shown) and "map.json" not in repr(shown)
     assert "Model error of the half-plane" in shown.plot()[0].get_title(loc="left")

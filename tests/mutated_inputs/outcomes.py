@@ -13,7 +13,7 @@ import numpy as np
 from rich.console import Console
 
 from comparisons.campaigns.init.first_scene import write_first_scene
-from comparisons.campaigns.init.profile_view import init_table
+from comparisons.campaigns.init.show import init_table
 from comparisons.campaigns.maps.place import first_answer
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.progress import no_progress

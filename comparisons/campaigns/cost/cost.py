@@ -3,10 +3,10 @@
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
+from comparisons.campaigns.cost.measure import cost_cache, measured_study
 from comparisons.campaigns.cost.methods import METHODS, SolutionMethod
 from comparisons.campaigns.cost.recommend import Cost, assess
 from comparisons.campaigns.cost.show import content_of, cost_page
-from comparisons.campaigns.cost.study import cost_cache, measured_study
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.files import check_writable, publish
@@ -33,7 +33,7 @@ def cost(
     methods: tuple[SolutionMethod, ...] = METHODS,
 ) -> Cost:
     """Measure, assess, and write cost.json and cost.html in `out`, whole or not at all. What was
-    measured stays beside them (`comparisons.campaigns.cost.study`): the same study goes on from
+    measured stays beside them (`comparisons.campaigns.cost.measure`): the same study goes on from
     there. Raises InputError for a scene that cannot be solved or a folder that cannot be written,
     KeyboardInterrupt with how to go on."""
     if is_several():

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from itertools import takewhile
 from operator import itemgetter
 
+from comparisons.campaigns.cost.measure import OK, CostRow, measuring_machine
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.reference import Reference, errors_of, references
-from comparisons.campaigns.cost.study import OK, CostRow, measuring_machine
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import given_percent, integer, percent, with_unit
 from comparisons.common.provenance import versions
@@ -60,8 +60,8 @@ def assess(problem: Problem, measured: list[CostRow]) -> Cost:
     if not known:
         failed = next((row.because for row in measured if row.because), "nothing was solved")
         raise SceneError(f"{scene.source}: there is no reference for errors: {failed}")
-    rows = [replace(row, errors=errors_of(row, known, problem, window)) for row in measured]
-    floors = {name: reference.floor for name, reference in known.items()}
+    rows = [replace(row, errors=errors_of(row, known)) for row in measured]
+    floors = {name: reference.floors[name] for name, reference in known.items()}
     return Cost(
         problem=problem,
         rows=rows,

@@ -14,9 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analytic.exact.hertz import hertz_extremes, hertz_stress
-from comparisons.campaigns.cost.measure import MeasuredRun
-from comparisons.campaigns.cost.methods import FINEST, is_half_plane_problem
-from comparisons.campaigns.cost.study import OK, CostRow
+from comparisons.campaigns.cost.measure import OK, CostRow, MeasuredRun
+from comparisons.campaigns.cost.methods import FINEST, Values, is_half_plane_problem
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import Uncertainty
@@ -33,16 +32,18 @@ FLOOR = 1e-12  # of exact values: rounding
 
 @dataclass(frozen=True)
 class Reference:
-    """The best known value of one quantity."""
+    """The best known solution, for some quantities."""
 
     source: str  # in words
-    floor: float  # its relative uncertainty, the largest of any friction coefficient
-    values: tuple[float, ...]  # one a friction coefficient, SI; empty for a norm
+    problem: Problem
+    window: Window | None  # of the fields, None without stresses
+    floors: dict[str, float]  # relative uncertainty, the largest of any friction, by quantity
+    values: Values  # without norms
     # x, pressure: (n,) [m], [Pa] nodes of the pressure
     x: np.ndarray
     pressure: np.ndarray
     tau1: tuple[np.ndarray, ...]  # (m, k) [Pa] on the window, one a friction coefficient
-    row: CostRow | None  # that it is, None where it is exact
+    row: CostRow | None = None  # that it is, None where it is exact
 
 
 def references(
@@ -50,12 +51,17 @@ def references(
 ) -> dict[str, Reference]:
     """By quantity; without those that no solved row has."""
     if is_exact(problem):
-        return _exact(problem, window)
+        exact = _exact(problem, window)
+        return dict.fromkeys(exact.floors, exact)
     names = [FINEST.name] if is_half_plane_problem(problem) else ["P1", "P2", "P3"]
     best: dict[str, Reference] = {}
     for name in names:
-        for quantity, reference in _finest(problem, rows, name, window).items():
-            if quantity not in best or reference.floor < best[quantity].floor:
+        solved = [row for row in rows if row.method.name == name and row.status == OK]
+        if len(solved) < 3:  # their levels show no uncertainty
+            continue
+        reference = _finest(problem, solved, window)
+        for quantity, floor in reference.floors.items():
+            if quantity not in best or floor < best[quantity].floors[quantity]:
                 best[quantity] = reference
     return best
 
@@ -67,18 +73,16 @@ def is_exact(problem: Problem) -> bool:
     return smooth and is_half_plane_problem(problem)
 
 
-def errors_of(
-    row: CostRow, known: dict[str, Reference], problem: Problem, window: Window | None
-) -> dict[str, Figure]:
+def errors_of(row: CostRow, known: dict[str, Reference]) -> dict[str, Figure]:
     """A row's largest error of any friction coefficient in each quantity, judged by the scene's
     tolerance; without those that it has not, or is itself the reference of."""
     errors = {}
     for name, reference in known.items():
         if row.measured is None or row is reference.row:
             continue
-        error = error_of(row.measured, name, reference, problem, window)
+        error = error_of(row.measured, name, reference)
         if error is not None:
-            tolerance = problem.scene.tolerances.get(name)
+            tolerance = reference.problem.scene.tolerances.get(name)
             errors[name] = Figure(
                 study=NAME,
                 quantity=name,
@@ -86,32 +90,27 @@ def errors_of(
                 value=error,
                 at={"pitch": row.setting},
                 against=reference.source,
-                uncertainty=Uncertainty({"reference": reference.floor}),
+                uncertainty=Uncertainty({"reference": reference.floors[name]}),
                 bounds=None if tolerance is None else (-tolerance, tolerance),
             )
     return errors
 
 
-def error_of(
-    measured: MeasuredRun,
-    quantity: str,
-    reference: Reference,
-    problem: Problem,
-    window: Window | None,
-) -> float | None:
+def error_of(measured: MeasuredRun, quantity: str, reference: Reference) -> float | None:
     """Largest relative error of any friction coefficient; None where the solution has none."""
     if QUANTITIES[quantity].of_pair:
-        return _norms(measured.level, reference, problem, window).get(quantity)
+        return _norms(measured.level, reference).get(quantity)
     if any(quantity not in values for values in measured.values):
         return None
-    pairs = zip(measured.values, reference.values, strict=True)
-    scale = QUANTITIES[quantity].scale(problem.hertz)
-    return max(abs(values[quantity] - value) / (abs(value) or scale) for values, value in pairs)
+    scale = QUANTITIES[quantity].scale(reference.problem.hertz)
+    pairs = [
+        (values[quantity], best[quantity])
+        for values, best in zip(measured.values, reference.values, strict=True)
+    ]
+    return max(abs(value - best) / (abs(best) or scale) for value, best in pairs)
 
 
-def _norms(
-    level: Level, reference: Reference, problem: Problem, window: Window | None
-) -> dict[str, float]:
+def _norms(level: Level, reference: Reference) -> dict[str, float]:
     """Relative L2 errors of the curve of pressure and of the fields, by quantity."""
     pressure = np.interp(reference.x, *_curve(level), left=0.0, right=0.0)
     fields = [(None, None)]
@@ -119,7 +118,7 @@ def _norms(
         tau1 = (stress.field.tau1 for stress in level.stresses)
         fields = list(zip(tau1, reference.tau1, strict=True))
     pressures = pressure, reference.pressure
-    norms = [pair_norms(pressures, pair, problem, window) for pair in fields]
+    norms = [pair_norms(pressures, pair, reference.problem, reference.window) for pair in fields]
     return {name: max(norm[name] for norm in norms) for name in norms[0]}
 
 
@@ -130,51 +129,41 @@ def _curve(level: Level) -> tuple[np.ndarray, np.ndarray]:
     return x, np.concatenate([[0.0], level.solution.pressure, [0.0]])
 
 
-def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
+def _exact(problem: Problem, window: Window | None) -> Reference:
     hertz, frictions = problem.hertz, problem.scene.load.friction
-    x = np.linspace(*problem.extent, EXACT_POINTS)
-    single = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
-    single["contact_ratio"] = 1.0
-    values = {name: (value,) * len(frictions) for name, value in single.items()}
-    values["pressure_l2"] = ()
-    tau1: tuple[np.ndarray, ...] = ()
+    contact = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
+    contact["contact_ratio"] = 1.0
+    values, tau1, norms = (contact,) * len(frictions), (), {"pressure_l2"}
     if window is not None:
         known = [hertz_extremes(hertz, friction) for friction in frictions]
-        values["tau1_max"] = tuple(extremes.tau1.value for extremes in known)
-        values["tau1_max_depth"] = tuple(extremes.tau1.z for extremes in known)
-        values["txz_max_abs"] = tuple(
-            max(abs(extremes.txz_max.value), abs(extremes.txz_min.value)) for extremes in known
+        values = tuple(
+            {
+                **contact,
+                "tau1_max": extremes.tau1.value,
+                "tau1_max_depth": extremes.tau1.z,
+                "txz_max_abs": max(abs(extremes.txz_max.value), abs(extremes.txz_min.value)),
+            }
+            for extremes in known
         )
         z = window.z[:, None]
         tau1 = tuple(hertz_stress(hertz, window.x, z, friction).tau1 for friction in frictions)
-        values |= dict.fromkeys(field_norms(tau1[0], tau1[0], problem, window), ())
-    pressure = hertz.pressure(x)
-    return {
-        name: Reference("exact (Hertz)", FLOOR, by_friction, x, pressure, tau1, None)
-        for name, by_friction in values.items()
-    }
+        norms |= field_norms(tau1[0], tau1[0], problem, window).keys()
+    floors = {name: FLOOR for name in QUANTITIES if name in values[0] or name in norms}
+    x = np.linspace(*problem.extent, EXACT_POINTS)
+    curve = x, hertz.pressure(x)
+    return Reference("exact (Hertz)", problem, window, floors, values, *curve, tau1)
 
 
-def _finest(
-    problem: Problem, measured: list[CostRow], name: str, window: Window | None
-) -> dict[str, Reference]:
-    """References by the finest row of a method, with the uncertainty that its levels show."""
-    rows = [row for row in measured if row.method.name == name and row.status == OK]
-    if len(rows) < 3:
-        return {}
-    row, before = rows[-1], rows[-2]
-    check = rows[0].far_boundary_check
-    levels = tuple(known.measured.level for known in rows)
+def _finest(problem: Problem, rows: list[CostRow], window: Window | None) -> Reference:
+    """The finest of a method's rows, with the uncertainty that its levels show."""
+    row, before, check = rows[-1], rows[-2], rows[0].far_boundary_check
+    levels = tuple(solved.measured.level for solved in rows)
     run = ModelRun(row.method.model, levels, None if check is None else check.level)
-    known = [uncertainties(run, problem, friction) for friction in problem.scene.load.friction]
+    stated = [uncertainties(run, problem, friction) for friction in problem.scene.load.friction]
+    values = row.measured.values
+    floors = {name: float(max(by_name[name].total for by_name in stated)) for name in values[0]}
     tau1 = tuple(stress.field.tau1 for stress in run.finest.stresses)
-    bare = Reference(f"{name} at {row.label}", 0.0, (), *_curve(run.finest), tau1, row)
-    finest = {}
-    for quantity in row.measured.values[0]:
-        floor = float(max(stated[quantity].total for stated in known))
-        values = tuple(by_name[quantity] for by_name in row.measured.values)
-        finest[quantity] = replace(bare, floor=floor, values=values)
+    source, curve = f"{row.method.name} at {row.label}", _curve(run.finest)
+    reference = Reference(source, problem, window, floors, values, *curve, tau1, row)
     # norms are of first order: the finest row errs by its distance from the one before
-    for quantity, floor in _norms(before.measured.level, bare, problem, window).items():
-        finest[quantity] = replace(bare, floor=floor)
-    return finest
+    return replace(reference, floors=floors | _norms(before.measured.level, reference))

@@ -1,17 +1,18 @@
-"""A cost study for its reader: cost.json, a table for the terminal, and cost.html.
+"""A cost study for its reader: cost.json, a table for the terminal, and cost.html with diagrams.
 
-In: a finished study. Out: what to take, every row with its errors, diagrams."""
+In: a finished study. Out: what to take, every row with its errors, error against time."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.campaigns.cost.picture import cost_picture
-from comparisons.campaigns.cost.recommend import Cost, Recommendation, scene_sections
-from comparisons.campaigns.cost.study import FAILED, OK, CostRow
-from comparisons.common.numbers import integer, percent, with_unit
-from comparisons.drawing.style import drawing
+from comparisons.campaigns.cost.measure import FAILED, OK, CostRow
+from comparisons.campaigns.cost.methods import METHODS
+from comparisons.campaigns.cost.recommend import Cost, needs_stress, scene_sections
+from comparisons.common.numbers import given_percent, integer, percent, with_unit
+from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, drawing, figure
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.html import STYLES as POLICY
 from comparisons.output.page.html import rendered
@@ -24,18 +25,35 @@ SCHEMA = 2
 SHOWN = ("peak_pressure", "contact_length", "pressure_l2", "tau1_max", "tau1_max_depth")
 REDUNDANT = ("contact_ratio",)  # the contact length over a constant
 MARK = " *"  # on the Pareto front
+HEAD = ("method", "setting", "unknowns", "contact", "with stresses", "memory")
 ERRORS = 5  # columns of errors in a narrow terminal
+# Okabe and Ito's colours, a line style and a mark of its own for each.
+DASHED = (0, (4, 1.6))
+LOOKS = {
+    "strips, FFT": ("#56B4E9", "-", "s"),
+    "hats, FFT": ("#0072B2", "-", "o"),
+    "P1": ("#CC79A7", DASHED, "^"),
+    "P2": ("#D55E00", DASHED, "o"),
+    "P3": ("#009E73", DASHED, "s"),
+}
+SMALL = {"textcoords": "offset points", "fontsize": 8.0}
+HEIGHT = 3.9  # inches, of a diagram
+LEAST = 1e-7  # smaller errors are drawn there
 
 
 def content_of(cost: Cost) -> dict:
     """The content of cost.json: SI units, errors relative, None for what is unknown."""
-    names = [name for name in QUANTITIES if name in cost.references]
     return {
         "schema": SCHEMA,
         "scene": cost.problem.surface.as_dict(cost.problem.scene),
         "reference": {
-            name: {"source": r.source, "values": list(r.values), "uncertainty": r.floor}
-            for name, r in ((name, cost.references[name]) for name in names)
+            name: {
+                "source": best.source,
+                "values": [values[name] for values in best.values if name in values],
+                "uncertainty": best.floors[name],
+            }
+            for name in QUANTITIES
+            if (best := cost.references.get(name))
         },
         "rows": [_row(cost, row) for row in cost.rows],
         "recommendations": [
@@ -90,13 +108,13 @@ def _taken(cost: Cost, row: CostRow | None, scene: bool = True) -> dict | None:
 
 
 def cost_table(cost: Cost) -> "RenderableType":
+    """All rows, beside each other or, in a narrow terminal, in parts; then what to take."""
     from rich.console import Group
     from rich.table import Table
     from rich.text import Text
 
     names = shown(cost)
-    heads = ("method", "setting", "unknowns", "contact", "with\nstresses", "memory")
-    heads += tuple(SHORT[name].replace(" ", "\n") for name in names)
+    heads = [head.replace(" ", "\n") for head in (*HEAD, *(SHORT[name] for name in names))]
     styles = {OK: "", FAILED: STYLES["differ"]}
 
     def table(*columns: int) -> Table:
@@ -107,9 +125,9 @@ def cost_table(cost: Cost) -> "RenderableType":
             made.add_row(*(Text(texts[k].translate(PLAIN), style=style) for k in columns))
         return made
 
-    errors = range(6, len(heads))
+    errors = range(len(HEAD), len(heads))
     several = [table(0, 1, *errors[k : k + ERRORS]) for k in range(0, len(errors), ERRORS)]
-    parts = [part for rows in (table(*range(6)), *several) for part in (rows, "")][:-1]
+    parts = [part for rows in (table(*range(len(HEAD))), *several) for part in (rows, "")][:-1]
     rows = WhatFits(table(*range(len(heads))), tuple(parts))
     lines = [Text(chosen.sentence.translate(PLAIN)) for chosen in cost.recommendations]
     small = [*refusals(cost), *notes_of(cost)]
@@ -137,31 +155,29 @@ class WhatFits:
 
 def cost_page(cost: Cost) -> str:
     names = shown(cost)
-    head = ("method", "setting", "unknowns", "contact", "with stresses", "memory")
+    recommendations = []
+    for chosen in cost.recommendations:
+        rows = filter(None, (chosen.half_plane, chosen.finite_element))
+        settings = [_toml(scene_sections(row, cost.problem)) for row in rows]
+        recommendations.append((chosen.sentence, settings))
     with drawing():
         pictures = [cost_picture(cost, name) for name in cost.references if name not in REDUNDANT]
     return rendered(
         Path(__file__).parent / "cost.html.j2",
         policy=POLICY,
         title=f"Cost: {cost.problem.scene.title}",
-        recommendations=[
-            (chosen.sentence, _settings(cost, chosen)) for chosen in cost.recommendations
-        ],
+        recommendations=recommendations,
         pictures=pictures,
-        head=(*head, *map(label, names)),
+        head=(*HEAD, *map(label, names)),
         rows=[(row.status, cells(cost, row, names)) for row in cost.rows],
         refusals=refusals(cost),
         notes=notes_of(cost),
     )
 
 
-def _settings(cost: Cost, recommendation: Recommendation) -> list[str]:
-    """What to write into the scene, as TOML: a line a model."""
-    rows = (recommendation.half_plane, recommendation.finite_element)
-    return [_toml(scene_sections(row, cost.problem)) for row in rows if row is not None]
-
-
 def _toml(sections: dict[str, dict]) -> str:
+    """What to write into the scene, as TOML on one line."""
+
     def written(name: str, value: object) -> str:
         if name == "pitch":
             value = with_unit(value, "m", 3).translate(PLAIN)  # as the setting is named
@@ -175,12 +191,12 @@ def _toml(sections: dict[str, dict]) -> str:
 
 def shown(cost: Cost) -> list[str]:
     """Quantities with a column: the usual ones, and those that the scene judges."""
-    judged = cost.problem.scene.tolerances
-    names = (*SHOWN, *(name for name in judged if name not in SHOWN))
+    names = dict.fromkeys((*SHOWN, *cost.problem.scene.tolerances))
     return [name for name in names if name in cost.references and name not in REDUNDANT]
 
 
 def cells(cost: Cost, row: CostRow, names: list[str]) -> tuple[str, ...]:
+    """A row's texts under HEAD and the quantities' names."""
     measured = row.measured
     if measured is None:
         return (row.method.name, row.label, row.status, *[""] * (3 + len(names)))
@@ -218,12 +234,13 @@ def refusals(cost: Cost) -> list[str]:
 
 
 def notes_of(cost: Cost) -> list[str]:
+    """What errors are measured by, how seconds are, and where."""
     by_source: dict[str, list[str]] = {}
     for name, reference in cost.references.items():
-        if name in REDUNDANT:
-            continue
-        floor = "" if reference.row is None else f" (known to {percent(reference.floor)})"
-        by_source.setdefault(reference.source, []).append(SHORT[name] + floor)
+        if name not in REDUNDANT:
+            floor = percent(reference.floors[name])
+            known = "" if reference.row is None else f" (known to {floor})"
+            by_source.setdefault(reference.source, []).append(SHORT[name] + known)
     sources = "; ".join(f"{source}: {', '.join(names)}" for source, names in by_source.items())
     repeats = max((r.measured.repeats for r in cost.rows if r.measured), default=0)
     versions = ", ".join(f"{k} {v}" for k, v in cost.versions.items() if v is not None)
@@ -236,3 +253,51 @@ def notes_of(cost: Cost) -> list[str]:
         f"Machine: {machine}.",
         f"Versions: {versions}.",
     ]
+
+
+def cost_picture(cost: Cost, quantity: str) -> Picture:
+    """Error against time: methods as lines, the reference's uncertainty, the Pareto front."""
+    stresses, reference = needs_stress([quantity]), cost.references[quantity]
+    drawn = figure(COLUMN, HEIGHT)
+    axes = drawn.add_axes((0.125, 0.115, 0.855, 0.735))
+    floor = max(reference.floors[quantity], LEAST)
+
+    def points(rows: list[CostRow], least: float) -> list[tuple[float, float]]:
+        return [(row.seconds(stresses), max(row.errors[quantity].value, least)) for row in rows]
+
+    known = [row for row in cost.rows if row.status == OK and quantity in row.errors]
+    for method in METHODS:
+        line = points([row for row in known if row.method == method], LEAST)
+        if line:
+            colour, dashes, mark = LOOKS[method.name]
+            look = {"color": colour, "linestyle": dashes, "marker": mark, "markersize": 4.5}
+            axes.plot(*zip(*line, strict=True), linewidth=1.1, label=method.name, **look)
+    if front := points(cost.fronts[quantity], floor):
+        look = {"linestyle": "none", "marker": "o", "markersize": 10.0, "markerfacecolor": "none"}
+        look |= {"markeredgecolor": "#222222", "markeredgewidth": 0.9}
+        axes.plot(*zip(*front, strict=True), label="Pareto front", **look)
+    axes.set(xscale="log", yscale="log")
+    first, last = axes.get_xlim()
+    if reference.row is not None and math.isfinite(floor):
+        low = min(axes.get_ylim()[0], 0.5 * floor)
+        axes.axhspan(low, floor, facecolor="#eceff1", zorder=0)
+        axes.set_ylim(bottom=low)
+        look = {"ha": "right", "va": "top", "color": "#555555", **SMALL}
+        axes.annotate(f"reference uncertain to {percent(floor)}", (last, floor), (-3, -3), **look)
+    tolerance = cost.problem.scene.tolerances.get(quantity)
+    if tolerance is not None:
+        axes.axhline(tolerance, **REFERENCE)
+        axes.annotate(f"tolerance {given_percent(tolerance)}", (first, tolerance), (3, 3), **SMALL)
+    part = "stresses included" if stresses else "contact alone"
+    axes.set(xlim=(first, last), xlabel=f"processor time [s], {part}", ylabel="relative error")
+    drawn.legend(loc="upper left", ncol=4, bbox_to_anchor=(0.1, 1.0), columnspacing=1.2)
+    best = "; ".join(
+        f"{row.method.name} {row.label} {percent(row.errors[quantity].value)} in "
+        f"{with_unit(row.seconds(stresses), 's', 2)}"
+        for row in cost.fronts[quantity]
+    )
+    return Picture(
+        source=data_uri(drawn),
+        alternative=f"Error of the {label(quantity)} over time. Pareto front: {best}.",
+        caption=f"{label(quantity).capitalize()}: error against {reference.source}, over time.",
+    )

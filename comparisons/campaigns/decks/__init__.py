@@ -1,5 +1,1 @@
 """Scenes as complete inputs of other codes."""
-
-from pathlib import Path
-
-TEMPLATES = Path(__file__).parent / "templates"

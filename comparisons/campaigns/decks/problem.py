@@ -85,17 +85,23 @@ class DeckProblem:
     def bodies(self) -> dict[str, DeckBody]:
         return {"ROUGH": self.rough, "ROLLER": self.roller}
 
+    @property
+    def nodes(self) -> int:
+        return len(self.rough.points) + len(self.roller.points)
+
 
 def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     """The deck of a problem with elements of `pitch` [m] on the contact, in meshes like those of
     the finite elements' level. Raises SceneError for what decks do not describe."""
     scene, settings = problem.scene, problem.scene.finite_element
-    refuse_undescribed(problem)
+    if settings.plastic or scene.body.hardness is not None:
+        field = "finite_element.plastic" if settings.plastic else "body.hardness"
+        raise SceneError(f"{scene.source}: {field}: is given; allowed in a deck are elastic bodies")
     grid = problem.grid(pitch)
     weighted = grid.hat_integrals(problem.finite_element_gap, problem.knots)
     operator = nearest_operator(scene, grid)
-    found = solve_on(operator, weighted, grid.weights, problem.constraints())
-    patches = contact_patches(grid.x, found.pressure, found.gap)
+    solution = solve_on(operator, weighted, grid.weights, problem.constraints())
+    patches = contact_patches(grid.x, solution.pressure, solution.gap)
     wider = patches + WIDER * np.diff(patches, axis=1) * [-1.0, 1.0]
     spec = block_spec(problem, Refinement(pitch), np.clip(wider, *problem.extent))
     finite = settings.deformation == "finite"
@@ -107,7 +113,11 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     flat = build_block(spec)
     sides = "free" if scene.body.width is not None else UNBOUNDED_SIDES
     support = Support(scene.body.base or "bonded", sides)
-    rough = _body(problem, rough_mesh(problem, flat), support, flatter)
+    materials = [scene.body.material]
+    if scene.coating is not None:
+        materials.append(scene.coating.material)
+    mesh = rough_mesh(problem, flat)
+    rough = _deck_body(problem, mesh, materials, support, flatter, turned=True)
     if not shaped:
         top = flat.points[:, 1] == 0.0
         reach = np.clip(flat.points[top, 0], *problem.extent)
@@ -125,25 +135,6 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
         ranges=spec.intervals * MM,
         overlap=float(gaps[int(touching * (TOUCH_POINTS - 1))] - first) * MM / flatter,
     )
-
-
-def refuse_undescribed(problem: Problem) -> None:
-    """Raise SceneError for what no deck has."""
-    scene = problem.scene
-    if scene.finite_element.plastic or scene.body.hardness is not None:
-        field = "finite_element.plastic" if scene.finite_element.plastic else "body.hardness"
-        raise SceneError(f"{scene.source}: {field}: is given; allowed in a deck are elastic bodies")
-
-
-def _body(problem: Problem, mesh: BlockMesh, support: Support, flatter: float) -> DeckBody:
-    """The rough body: y = -z, which turns the triangles over."""
-    scene, coated = problem.scene, np.zeros(len(mesh.triangles), dtype=bool)
-    materials = [scene.body.material]
-    if scene.coating is not None:
-        coated = mesh.points[mesh.triangles[:, :3], 1].mean(axis=1) < scene.coating.thickness
-        materials.append(scene.coating.material)
-    points, triangles = real_points(mesh) * [MM, -MM], mesh.triangles[:, [0, 2, 1, 5, 4, 3]]
-    return _deck_body(problem, mesh, _Cells(points, triangles, coated, materials), support, flatter)
 
 
 def _roller(
@@ -171,34 +162,35 @@ def _roller(
             support = Support("bonded", "free")
         elif shaped:
             mesh = roughen(mesh, levelled(roller_of(problem), reach))
-    triangles, coated = mesh.triangles, np.zeros(len(mesh.triangles), dtype=bool)
-    cells = _Cells(real_points(mesh) * MM, triangles, coated, [material])
-    return _deck_body(problem, mesh, cells, support, flatter)
-
-
-@dataclass(frozen=True)
-class _Cells:
-    """Points, triangles and materials of a body, as `DeckBody` has them; moduli as the scene's."""
-
-    points: np.ndarray
-    triangles: np.ndarray
-    coated: np.ndarray
-    materials: list[Material]
+    return _deck_body(problem, mesh, [material], support, flatter)
 
 
 def _deck_body(
-    problem: Problem, mesh: BlockMesh, cells: _Cells, support: Support, flatter: float
+    problem: Problem,
+    mesh: BlockMesh,
+    materials: list[Material],  # moduli as the scene's
+    support: Support,
+    flatter: float,
+    turned: bool = False,
 ) -> DeckBody:
+    """A body on a mesh; `turned` the one below, whose y = -z turns the triangles over."""
+    points, triangles = real_points(mesh) * MM, mesh.triangles
+    coated = np.zeros(len(triangles), dtype=bool)
+    if len(materials) > 1:
+        depth = mesh.points[triangles[:, :3], 1].mean(axis=1)
+        coated = depth < problem.scene.coating.thickness
+    if turned:
+        points, triangles = points * [1.0, -1.0], triangles[:, [0, 2, 1, 5, 4, 3]]
     sides, beside = boundary_points(mesh.points, mesh.spec), mesh.spec.surface_size
     start, stop = problem.extent
-    top = np.zeros(len(cells.points), dtype=bool)
+    top = np.zeros(len(points), dtype=bool)
     top[sides.top] = True
     top &= (mesh.points[:, 0] > start - beside) & (mesh.points[:, 0] < stop + beside)
     return DeckBody(
-        cells.points,
-        cells.triangles,
-        cells.coated,
-        tuple(replace(m, youngs_modulus=flatter * m.youngs_modulus) for m in cells.materials),
+        points,
+        triangles,
+        coated,
+        tuple(replace(m, youngs_modulus=flatter * m.youngs_modulus) for m in materials),
         held_components(mesh.points, support, sides),
-        np.argwhere(top[cells.triangles[:, EDGES]].all(axis=2)),
+        np.argwhere(top[triangles[:, EDGES]].all(axis=2)),
     )

@@ -1,41 +1,46 @@
-"""A scene as a folder that another code solves, with how to run it and bring the answer back."""
+"""A scene as a folder that another code solves, with how to run it and bring the answer back.
 
-from dataclasses import dataclass
+For Abaqus and CalculiX, which share a keyword format, the job and the mesh that it reads: the rough
+body's top is the slave surface, the roller's the master, and the load acts on a reference node,
+with which the roller's far boundary moves as one. For FEniCSx a script of plain dolfinx, and the
+mesh and gap that it reads."""
+
+import io
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from comparisons.campaigns.decks import TEMPLATES
-from comparisons.campaigns.decks.problem import MM, DeckProblem, deck_problem
-from comparisons.common.errors import InputError
+import numpy as np
+
+from analytic.material import Material
+from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem, deck_problem
+from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import check_writable, publish
-from comparisons.models.problem import Problem, problem_of
+from comparisons.common.progress import no_progress
+from comparisons.models.problem import problem_of
 from comparisons.output.page.html import rendered
 from comparisons.scenes.scene import Scene
 
+TEMPLATES = Path(__file__).parent / "templates"
 FILES = ("README.md", "answer.toml", "job.inp", "mesh.inp", "solve.py", "mesh.npz")
 CODES = {"calculix": "CalculiX", "abaqus": "Abaqus", "fenicsx": "FEniCSx"}
 MOST_LEVEL = 8
+AXES = ((0, "X"), (1, "Y"))
+# CalculiX: pressure over penetration, in E over an edge, so that finer meshes penetrate less. Of
+# Hertz's peak pressure it takes 1e-4 at twenty edges to a half-width.
+STIFFNESS = 50.0
+STICK = 0.1  # of that: tangential stiffness before the surfaces slide
+SLIDE = 12.0  # mu P / E: bodies with 400 half-widths to their far boundaries shear by less
+# What a code has for the laws of elasticity at finite strain.
+HYPERELASTIC, ELASTIC = "*HYPERELASTIC, NEO HOOKE", "*ELASTIC"
+LAWS = {
+    "calculix": {"neo-hookean": HYPERELASTIC, "st-venant-kirchhoff": ELASTIC},
+    "abaqus": {"neo-hookean": HYPERELASTIC, "hencky": ELASTIC},
+}
+GAP_POINTS = 8  # an edge, of the sampled gap
+SAME = 1e-6  # of an edge: places that are one
 
 
-@dataclass(frozen=True)
-class WrittenDeck:
-    """Where a deck is, and how large it is."""
-
-    folder: Path
-    code: str
-    deck: DeckProblem
-
-    @property
-    def nodes(self) -> int:
-        return sum(len(body.points) for body in self.deck.bodies.values())
-
-    def as_dict(self) -> dict:
-        """For JSON; lengths [m]."""
-        found = {"folder": str(self.folder), "code": self.code, "nodes": self.nodes}
-        files = sorted(name for name in FILES if (self.folder / name).exists())
-        return found | {"files": files, "edge": self.deck.edge / MM}
-
-
-def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> WrittenDeck:
+def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProblem:
     """Write the deck of a scene for one of CODES to the folder `out`.
 
     level  of the scene's own refinement, from 1, whose elements the contact gets
@@ -46,28 +51,165 @@ def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> WrittenDec
     if not 1 <= level <= MOST_LEVEL:
         raise InputError(f"--level: is {level}; allowed is 1 to {MOST_LEVEL}")
     check_writable(out, FILES)
-    problem = _problem(scene)
+    if scene.load.kind == "approach":
+        from comparisons.models.finite_element.level import problem_of_approach
+
+        problem = problem_of_approach(scene, no_progress)
+    else:
+        problem = problem_of(scene)
     deck = deck_problem(problem, problem.pitches[0] / 2.0 ** (level - 1))
-    given = {"code": code, "name": CODES[code], "deck": deck, "scene": scene, "folder": out}
-    words = {n: rendered(TEMPLATES / f"{n}.j2", **given) for n in ("README.md", "answer.toml")}
-    publish(out, _files(deck, code) | words, FILES)
-    return WrittenDeck(out, code, deck)
+    files = fenicsx_files(deck) if code == "fenicsx" else keyword_files(deck, code)
+    values = {"code": code, "name": CODES[code], "deck": deck, "scene": scene, "folder": out}
+    for name in ("README.md", "answer.toml"):
+        files[name] = rendered(TEMPLATES / f"{name}.j2", **values)
+    publish(out, files, FILES)
+    return deck
 
 
-def _files(deck: DeckProblem, code: str) -> dict[str, str | bytes]:
-    if code == "fenicsx":
-        from comparisons.campaigns.decks.fenicsx import fenicsx_files
+def account_of(deck: DeckProblem, code: str, folder: Path) -> dict:
+    """Where a written deck is and how large, for JSON; lengths [m]."""
+    return {
+        "folder": str(folder),
+        "code": code,
+        "nodes": deck.nodes,
+        "files": sorted(name for name in FILES if (folder / name).exists()),
+        "edge": deck.edge / MM,
+    }
 
-        return fenicsx_files(deck)
-    from comparisons.campaigns.decks.keywords import keyword_files
 
-    return keyword_files(deck, code)
+def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
+    """job.inp and mesh.inp of "calculix" or "abaqus". SceneError for a law that the code lacks."""
+    scene = deck.problem.scene
+    modulus = max(material.youngs_modulus for material in deck.rough.materials) * MPA
+    stiffness = STIFFNESS * modulus / deck.edge
+    job = rendered(
+        TEMPLATES / "job.inp.j2",
+        code=code,
+        deck=deck,
+        scene=scene,
+        materials=dict(_materials(deck, code)),
+        stiffness=stiffness,
+        stick=STICK * stiffness,
+        sliding=[(mu, SLIDE * mu * deck.load / modulus) for mu in scene.load.friction if mu],
+    )
+    return {"job.inp": job, "mesh.inp": "\n".join(_mesh(deck, code)) + "\n"}
 
 
-def _problem(scene: Scene) -> Problem:
-    if scene.load.kind != "approach":
-        return problem_of(scene)
-    from comparisons.common.progress import no_progress
-    from comparisons.models.finite_element.level import problem_of_approach
+def _materials(deck: DeckProblem, code: str) -> Iterator[tuple[str, tuple[str, str]]]:
+    scene = deck.problem.scene
+    for name, body in deck.bodies.items():
+        for material, part in zip(body.materials, ("", "_COATING"), strict=False):
+            keyword = LAWS[code].get(material.law.name) if deck.finite else ELASTIC
+            if name == "ROLLER" and scene.roller.rigid:
+                keyword = ELASTIC  # nothing in it deforms
+            if keyword is None:
+                section = "body" if name == "ROUGH" else "roller"
+                allowed = " or ".join(f'"{law}"' for law in LAWS[code])
+                raise SceneError(
+                    f'{scene.source}: {section}.law: is "{material.law.name}"; '
+                    f"allowed in a deck for {code} is {allowed}"
+                )
+            yield name + part, (keyword, _constants(material, keyword))
 
-    return problem_of_approach(scene, no_progress)
+
+def _constants(material: Material, keyword: str) -> str:
+    modulus, nu = material.youngs_modulus * MPA, material.poissons_ratio
+    if keyword == ELASTIC:
+        return f"{modulus:.12g}, {nu:.12g}"
+    # C10 = mu/2, D1 = 2/K
+    return f"{0.5 * material.shear_modulus * MPA:.12g}, {6.0 * (1.0 - 2.0 * nu) / modulus:.12g}"
+
+
+def _mesh(deck: DeckProblem, code: str) -> Iterator[str]:
+    """Nodes, elements, surfaces and sets of both bodies, the reference node and its equations."""
+    nodes = elements = 0
+    for name, body in deck.bodies.items():
+        # there is no contact to begin with, but for CalculiX, which has no step that makes some
+        lower = deck.overlap if (code, name) == ("calculix", "ROLLER") else 0.0
+        yield f"*NODE, NSET={name}_NODES"
+        for number, (x, y) in enumerate(body.points, nodes + 1):
+            yield f"{number}, {x:.12g}, {y - lower:.12g}"
+        for part, chosen in (("", ~body.coated), ("_COATING", body.coated)):
+            if chosen.any():
+                yield f"*ELEMENT, TYPE=CPE6, ELSET={name}{part}"
+            for k in np.flatnonzero(chosen):
+                yield ", ".join(map(str, (elements + k + 1, *(nodes + body.triangles[k] + 1))))
+        yield f"*SURFACE, NAME={name}_TOP, TYPE=ELEMENT"
+        yield from (f"{elements + triangle + 1}, S{edge + 1}" for triangle, edge in body.faces)
+        sets = {f"{name}_TOP_NODES": body.surface}
+        sets |= {f"{name}_HELD_{axis}": np.flatnonzero(body.held[:, k]) for k, axis in AXES}
+        for label, members in sets.items():
+            yield f"*NSET, NSET={label}"
+            yield from _lines(nodes + 1 + members)
+        nodes, elements = nodes + len(body.points), elements + len(body.triangles)
+    yield "*NODE, NSET=REFERENCE"
+    yield f"{nodes + 1}, 0., {deck.roller.points[:, 1].max():.12g}"
+    for node in nodes - len(deck.roller.points) + 1 + np.flatnonzero(deck.roller.held[:, 1]):
+        yield from ("*EQUATION", "2", f"{node}, 2, 1., {nodes + 1}, 2, -1.")
+
+
+def _lines(numbers: Iterable[int], a_line: int = 12) -> Iterator[str]:
+    listed = list(map(str, numbers))
+    return (", ".join(listed[k : k + a_line]) for k in range(0, len(listed), a_line))
+
+
+def fenicsx_files(deck: DeckProblem) -> dict[str, str | bytes]:
+    """solve.py and mesh.npz. Raises SceneError for what the script does not solve: finite
+    deformation, bodies of their own shapes, a block that nothing holds sideways."""
+    problem, scene = deck.problem, deck.problem.scene
+    source = f"{scene.source}: finite_element"
+    if deck.flatter == 1.0:
+        raise SceneError(
+            f"{source}: asks for bodies of their own shapes; allowed in a deck for fenicsx are "
+            "flat ones at small deformation"
+        )
+    if scene.body.width is not None and scene.body.base == "frictionless":
+        raise SceneError(f'{scene.source}: body.base: allowed in a deck for fenicsx is "bonded"')
+    bodies = [deck.rough] if scene.roller.rigid else [deck.rough, deck.roller]
+    points, triangles = zip(*(_corners(body) for body in bodies), strict=True)
+    lowest = deck.rough.points[deck.rough.surface, 1].min()
+    points[0][points[0][:, 1] >= lowest, 1] = 0.0  # the gap is apart from the mesh
+    if len(points) > 1:
+        points[1][:, 1] += deck.edge  # no node of one body stands where one of the other does
+    low, high = np.array(problem.extent) * MM
+    x = np.linspace(low, high, int(np.ceil((high - low) / deck.edge * GAP_POINTS)) + 1)
+    file = io.BytesIO()
+    np.savez_compressed(
+        file,
+        points=np.concatenate(points),
+        triangles=np.concatenate([triangles[0], *(t + len(points[0]) for t in triangles[1:])]),
+        part=np.concatenate([2 * k + body.coated for k, body in enumerate(bodies)]),
+        hats=_hats(deck, [np.sort(p[p[:, 1] == deck.edge * k, 0]) for k, p in enumerate(points)]),
+        gap=np.column_stack([x, problem.finite_element_gap(x / MM) * MM]),
+    )
+    coating = scene.coating and scene.coating.material
+    constants = {
+        number: (material.youngs_modulus * MPA, material.poissons_ratio)
+        for number, material in enumerate((scene.body.material, coating, scene.roller.material))
+        if material is not None
+    }
+    widths = {
+        f"{name.lower()}_half_width": float(abs(body.points[:, 0]).max())
+        for name, body in deck.bodies.items()
+    }
+    values = widths | {"deck": deck, "scene": scene, "materials": constants}
+    script = rendered(TEMPLATES / "solve.py.j2", **values)
+    return {"solve.py": script, "mesh.npz": file.getvalue()}
+
+
+def _corners(body: DeckBody) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 2) [mm] and triangles (m, 3) without the midpoints of edges."""
+    used, corners = np.unique(body.triangles[:, :3], return_inverse=True)
+    return body.points[used], corners.reshape(-1, 3)
+
+
+def _hats(deck: DeckProblem, tops: list[np.ndarray]) -> np.ndarray:
+    """Places (n,) [mm] of the pressures: vertices on the tops of all bodies, well inside the
+    refined ranges, where their neighbours are the same on all."""
+    x = tops[0]
+    inside = np.zeros(len(x), dtype=bool)
+    for low, high in deck.ranges:
+        inside |= (x > low + 0.5 * deck.edge) & (x < high - 0.5 * deck.edge)
+    for top in tops[1:]:
+        inside &= np.abs(top - x[:, None]).min(axis=1) < SAME * deck.edge
+    return x[inside]

@@ -1,25 +1,29 @@
-"""From a measured profile to a scene file that `crosscheck run` takes as it is."""
+"""From a measured profile to a scene file that `crosscheck run` takes as it is.
 
+The file has every field of a measured profile's scene in it, each explained. Meanings and examples
+are those of `fields.toml`; what a field may hold is said by `comparisons.scenes.fields.allowed`, as
+in error messages."""
+
+import json
 import os
+import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from textwrap import wrap
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.init.guess import ProfileFields, fields_of_profile
-from comparisons.campaigns.init.picture import picture
-from comparisons.campaigns.init.scene_text import scene_text, toml, value_of
+from comparisons.campaigns.init.guess import ProfileFields, fields_of_profile, option_of
+from comparisons.campaigns.init.show import FirstScene, picture
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
 from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.fields import field_type
+from comparisons.scenes.fields import allowed, field_type
 from comparisons.scenes.scene import Origin, Scene, sections_of
-from comparisons.scenes.surface import SceneSurface
 
 # Options of `crosscheck init` by the fields that they are, both bodies' for moduli; others are
 # fields of [profile] by the same name.
-FIELDS = {
+OPTIONS = {
     "radius": (("roller", "radius"),),
     "load": (("load", "per_length"),),
     "peak_pressure": (("load", "hertz_peak_pressure"),),
@@ -29,34 +33,46 @@ FIELDS = {
     "hardness": (("body", "hardness"),),
 }
 EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"), ("load", "peak_pressure"))
-Sections = dict[str, dict[str, str]]
+STEEL = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}
+# Of the roller, largest first: the contact must stay on the trace.
+RADII = (
+    "10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um",
+    "5 um", "2 um", "1 um", "500 nm", "200 nm", "100 nm", "50 nm", "20 nm", "10 nm"
+)  # fmt: skip
+PEAK = "1 GPa"
+FIELDS = Path(__file__).with_name("fields.toml")
+WIDTH = 96
+NO_BREAK = "\N{NO-BREAK SPACE}"
+HEAD = """\
+# A scene for crosscheck, as TOML. Numbers are in SI; text has a unit: "8.2 mm", "207 GPa".
+# Lines that start with "#" and a blank explain the line below them; those that start with "#"
+# alone are fields that are not used: take the sign away to use them.
+"""
+
+Sections = dict[str, dict[str, object]]  # values of fields by section
 
 
-def given_sections(options: Mapping[str, str | int | None]) -> Sections:
-    """Fields as TOML by section; raises InputError for an option that is wrong."""
-    found: Sections = {}
-    given = {name: value for name, value in options.items() if value is not None}
+def sections_of_options(options: Mapping[str, str | int | None]) -> Sections:
+    """The fields that options set; raises InputError for an option that is wrong."""
+    sections: Sections = {}
+    chosen = {name: value for name, value in options.items() if value is not None}
     kinds = sections_of(Scene)
-    for name, value in given.items():
-        if name in FIELDS:
+    for name, value in chosen.items():
+        if name in OPTIONS:
             value = _number(value)
         elif name == "columns":
             value = [int(w) if w.isdecimal() else w for w in map(str.strip, value.split(","))]
-        for section, field in FIELDS.get(name, (("profile", name),)):
+        for section, field in OPTIONS.get(name, (("profile", name),)):
             try:
                 field_type(kinds[section], field).read(value)
             except ValueError as error:
-                raise InputError(f"{_option(name)}: {error}") from error
-            found.setdefault(section, {})[field] = toml(value)
+                raise InputError(f"{option_of(name)}: {error}") from error
+            sections.setdefault(section, {})[field] = value
     for first, second in EXCLUSIVE:
-        if first in given and second in given:
-            message = f"is given beside {_option(first)}; allowed is one of them"
-            raise InputError(f"{_option(second)}: {message}")
-    return found
-
-
-def _option(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
+        if first in chosen and second in chosen:
+            message = f"is given beside {option_of(first)}; allowed is one of them"
+            raise InputError(f"{option_of(second)}: {message}")
+    return sections
 
 
 def _number(text: str) -> float | str:
@@ -64,41 +80,6 @@ def _number(text: str) -> float | str:
         return float(text)
     except ValueError:
         return text
-
-
-STEEL = {"youngs_modulus": '"210 GPa"', "poissons_ratio": "0.3"}
-# Of the roller, largest first: the contact must stay on the trace.
-RADII = (
-    "10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um",
-    "5 um", "2 um", "1 um", "500 nm", "200 nm", "100 nm", "50 nm", "20 nm", "10 nm"
-)  # fmt: skip
-PEAK = '"1 GPa"'
-
-
-@dataclass(frozen=True)
-class FirstScene:
-    """A scene file that was written, what it says, how its profile is read, a picture."""
-
-    path: Path
-    picture: Path | None
-    scene: Scene
-    surface: SceneSurface
-    profile: ProfileFields
-
-    def as_dict(self) -> dict:
-        """For JSON, SI units."""
-        info = self.surface.info
-        trace = ("source", "format", "place", "samples", "length", "spacing", "bridged", "trimmed")
-        plain = info.as_dict()
-        return {
-            "scene": str(self.path),
-            "picture": None if self.picture is None else str(self.picture),
-            "profile": {name: plain[name] for name in (*trace, "form")},
-            "fields": {name: value_of(text) for name, text in self.profile.fields.items()},
-            "guesses": self.profile.reasons,
-            "surface": info.surface(),
-            "roller_radius": self.scene.roller.radius,
-        }
 
 
 def write_first_scene(
@@ -110,23 +91,22 @@ def write_first_scene(
 ) -> FirstScene:
     """Write a commented scene for the profile in a file.
 
-    out     the scene's file; by default beside the profile, with the suffix .toml
-    sections  fields as TOML, of [profile] not to be guessed, of others in place of the examples
-    force   replace the scene's file, and the picture's
-    draw    a picture of the trace beside the scene, as SVG
+    out       the scene's file; by default beside the profile, with the suffix .toml
+    sections  fields of [profile] not to be guessed, of others in place of the examples
+    force     replace the scene's file, and the picture's
+    draw      a picture of the trace beside the scene, as SVG
     Raises InputError, and writes nothing, where profile or place for the scene cannot be used."""
     out = profile.with_suffix(".toml") if out is None else out
     drawn = out.with_suffix(".svg") if draw else None
-    _check_place(profile, out, force)
-    if drawn is not None:
-        _check_place(profile, drawn, force)
+    for place in filter(None, (out, drawn)):
+        _check_place(profile, place, force)
     others = dict(sections or {})
-    found = fields_of_profile(profile, others.pop("profile", {}))
-    text, problem = _fitting(profile, out, found, others)
+    fields = fields_of_profile(profile, others.pop("profile", {}))
+    text, problem = _fitting(profile, out, fields, others)
     write_whole(out, text)
     if drawn is not None:
         write_whole(drawn, picture(problem.surface))
-    return FirstScene(out, drawn, problem.scene, problem.surface, found)
+    return FirstScene(out, drawn, problem.scene, problem.surface, fields)
 
 
 def _check_place(profile: Path, out: Path, force: bool) -> None:
@@ -142,13 +122,13 @@ def _check_place(profile: Path, out: Path, force: bool) -> None:
 
 
 def _fitting(
-    profile: Path, out: Path, found: ProfileFields, sections: Sections
+    profile: Path, out: Path, fields: ProfileFields, sections: Sections
 ) -> tuple[str, Problem]:
-    """The scene with the given roller, or the largest whose contact stays on the trace."""
-    refusal = None
-    given = sections.get("roller", {}).get("radius")
-    for radius in RADII if given is None else (value_of(given),):
-        text = _text(profile, out, found, toml(radius), sections)
+    """The scene with the roller that is asked for, or the largest whose contact stays on the
+    trace."""
+    refusal, asked = None, sections.get("roller", {}).get("radius")
+    for radius in RADII if asked is None else (asked,):
+        text = _text(profile, out, fields, radius, sections)
         try:
             scene = Scene.of(tomllib.loads(text), Origin(out.stem, out.parent, str(out)))
             return text, problem_of(scene)
@@ -161,22 +141,60 @@ def _fitting(
     raise InputError(str(refusal).replace(str(out), str(profile), 1))
 
 
-def _text(profile: Path, out: Path, found: ProfileFields, radius: str, sections: Sections) -> str:
-    loaded = sections.get("load", {})
-    load = {} if "per_length" in loaded else {"hertz_peak_pressure": PEAK}
+def _text(
+    profile: Path, out: Path, fields: ProfileFields, radius: object, sections: Sections
+) -> str:
+    load = sections.get("load", {})
+    example_load = {} if "per_length" in load else {"hertz_peak_pressure": PEAK}
     values = {
         "roller": {"radius": radius, **STEEL},
         "body": STEEL,
-        "profile": {"file": toml(os.path.relpath(profile, out.parent)), **found.fields},
-        "load": {**load, "friction": "[0.0, 0.1]"},
-        "stress": {"depth": "1.0", "half_range": "1.5", "points": "[300, 100]"},
-        "tolerance": dict.fromkeys(("peak_pressure", "contact_length", "tau1_max"), "0.02"),
+        "profile": {"file": os.path.relpath(profile, out.parent), **fields.fields},
+        "load": {**example_load, "friction": [0.0, 0.1]},
+        "stress": {"depth": 1.0, "half_range": 1.5, "points": [300, 100]},
+        "tolerance": dict.fromkeys(("peak_pressure", "contact_length", "tau1_max"), 0.02),
     }
     example = "an example: put in yours"
     notes = {
         "roller": {} if "radius" in sections.get("roller", {}) else {"radius": example},
-        "load": {} if load.keys() <= loaded.keys() else {"hertz_peak_pressure": example},
-        "profile": found.reasons,
+        "load": {} if example_load.keys() <= load.keys() else {"hertz_peak_pressure": example},
+        "profile": fields.reasons,
     }
-    values |= {name: values[name] | fields for name, fields in sections.items()}
+    values |= {name: values[name] | others for name, others in sections.items()}
     return scene_text(f"{profile.stem} under a smooth roller", values, notes)
+
+
+def scene_text(
+    title: str,
+    values: Mapping[str, Mapping[str, object]],
+    notes: Mapping[str, Mapping[str, str]],
+) -> str:
+    """The text of a scene file.
+
+    values  by section and field: what it is set to; other fields stand there unused
+    notes   by section and field: a remark"""
+    sections, kinds = tomllib.loads(FIELDS.read_text(encoding="utf-8")), sections_of(Scene)
+    heading = f"{sections.pop('title')}; allowed is {allowed(Scene, 'title')}"
+    lines = [HEAD, *_comment(heading), f"title = {_toml(title)}"]
+    for section, fields in sections.items():
+        used = values.get(section, {})
+        lines += ["", *_comment(fields.pop("section")), f"{'' if used else '#'}[{section}]"]
+        for name, (meaning, example) in fields.items():
+            said = f"{meaning}; allowed is {allowed(kinds[section], name)}"
+            note = notes.get(section, {}).get(name)
+            lines += _comment(f"{said} ({note})" if note else said)
+            lines.append(
+                f"{name} = {_toml(used[name])}" if name in used else f"#{name} = {example}"
+            )
+    return "\n".join(lines) + "\n"
+
+
+def _toml(value: object) -> str:
+    """Text, numbers, truths and lists of them as TOML."""
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _comment(text: str) -> list[str]:
+    whole = re.sub(r'"[^"]*"', lambda quoted: quoted[0].replace(" ", NO_BREAK), text)
+    lines = wrap(whole, WIDTH, break_long_words=False, break_on_hyphens=False)
+    return [f"# {line}".replace(NO_BREAK, " ") for line in lines]

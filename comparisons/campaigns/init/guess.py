@@ -6,7 +6,7 @@ one. Every guess comes with its reason."""
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,6 @@ from analytic.surface.readers.files import (
 from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_columns
 from analytic.surface.readers.topography import MapLine, Topography, UnchosenLineError
-from comparisons.campaigns.init.scene_text import toml, value_of
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import with_unit
 from comparisons.common.units import (
@@ -63,171 +62,88 @@ SPACINGS = [
 ]
 TYPICAL_SPACING, TYPICAL_HEIGHT = 1e-6, 0.5e-6  # [m]
 BY_SIZE = {"x_unit": ("mm", "um", "nm", "m"), "z_unit": ("um", "nm", "mm", "m")}
-
-
-@dataclass(frozen=True)
-class Guess:
-    """A value of a field of [profile], as TOML, and the reason for it."""
-
-    value: str
-    because: str
-
-
-def units_in(line: str) -> list[str]:
-    """Units of columns that a line of text names, in its order. Those in brackets need not be
-    known: they come out as they stand, unless they are in round ones and no unit at all."""
-    found = {match.start(): unit for pattern, unit in UNITS for match in pattern.finditer(line)}
-    for match in BRACKETED.finditer(line):
-        group = 1 if match[1] else 2
-        if match.start(group) not in found and (group == 1 or _measures(match[group])):
-            found[match.start(group)] = match[group]
-    return [found[start] for start in sorted(found)]
-
-
-def _measures(word: str) -> bool:
-    """Whether a word of two letters or more is a unit, of whatever dimension."""
-    try:
-        unit_in_si(word, LENGTH)
-    except UnknownUnitError:
-        return False
-    except UnitError:
-        return len(word) > 1
-    return True
-
-
-def units_of_head(head: list[str], columns: int) -> dict[str, Guess]:
-    """x_unit and z_unit by the lines above a table of one or two columns; {} where they name none.
-    The line that is nearest to the numbers counts; one that names a single unit means both."""
-    for line in reversed(head):
-        named = units_in(line)
-        if not named:
-            continue
-        because = f'by "{_short(line)}" in the file'
-        z_unit = Guess(toml(named[min(columns, len(named)) - 1]), because)
-        return {"x_unit": Guess(toml(named[0]), because), "z_unit": z_unit}
-    return {}
-
-
-def spacing_of_head(head: list[str]) -> Guess | None:
-    """Sample spacing by the lines above a column of heights, None where they state none."""
-    for line in head:
-        for pattern in SPACINGS:
-            if match := pattern.search(line):
-                (unit,) = units_in(f"({match[2].lower()})")
-                number = match[1].replace(",", ".")
-                return Guess(f'"{number} {unit}"', f'by "{_short(line)}" in the file')
-    return None
-
-
-def units_by_size(x: np.ndarray, height: np.ndarray) -> dict[str, Guess]:
-    """x_unit and z_unit that bring spacing and roughness nearest to what is usual."""
-    rough = height - np.polyval(np.polyfit(x - x.mean(), height, 1), x - x.mean())
-    found = {}
-    for name, size, typical in (
-        ("x_unit", np.median(np.diff(x)), TYPICAL_SPACING),
-        ("z_unit", np.std(rough), TYPICAL_HEIGHT),
-    ):
-        sizes = [max(size, 1e-300) * unit_in_si(unit, LENGTH) for unit in BY_SIZE[name]]
-        unit = BY_SIZE[name][int(np.argmin([abs(np.log10(size / typical)) for size in sizes]))]
-        found[name] = Guess(f'"{unit}"', "guessed by size alone, the file names none: check it")
-    return found
-
-
-def in_metres(quantity: str) -> float:
-    """A unit, or a number with one, as a scene has it in quotes [m]."""
-    text = quantity.strip('"')
-    try:
-        return unit_in_si(text, LENGTH)
-    except UnitError:
-        return to_si(text, LENGTH)
-
-
-def _short(line: str) -> str:
-    line = line.strip(" #%;/\t").replace('"', "'")
-    return line if len(line) <= 40 else f"{line[:37]}..."
-
-
 LAY = 1.3  # ratio of slopes above which one way is across the lay
 FEWEST_ACROSS = 64  # samples of a column that is suggested
 ROUNDING = 1e-9  # of the largest height: an rms below is rounding
 ARC = 0.5  # an arc is the form where less than this share of the rms beside a line is left
 
+Guesses = dict[str, tuple[object, str]]  # by field of [profile]: its value, and the reason for it
+Opened = ProfileTable | Topography
+
 
 @dataclass(frozen=True)
 class ProfileFields:
-    """The fields of [profile] that read a file."""
+    """The fields of [profile] that read a file, without `file`: those that are set, and guesses."""
 
-    fields: dict[str, str]  # as TOML, without `file`
-    reasons: dict[str, str]  # of those that were guessed, by field
+    fields: dict[str, object]
+    reasons: dict[str, str] = field(default_factory=dict)  # of those that were guessed
+
+    def add(self, guesses: Guesses) -> None:
+        for name, (value, because) in guesses.items():
+            self.fields[name], self.reasons[name] = value, because
 
 
-def fields_of_profile(path: Path, given: Mapping[str, str]) -> ProfileFields:
-    """The fields that read the profile in a file, guessed where neither it nor `given` has them.
+def fields_of_profile(path: Path, fields: Mapping[str, object]) -> ProfileFields:
+    """The fields that read the profile in a file, guessed where neither it nor `fields` has them.
 
-    given   fields of [profile] as TOML: x_unit, z_unit, spacing, columns, channel, row, column
+    fields  of [profile]: x_unit, z_unit, spacing, columns, channel, row, column
     Raises InputError, one line, for a file that cannot be used, or where no guess is possible."""
+    chosen = ProfileFields(dict(fields))
     try:
-        found, read = _complete(path, dict(given))
+        measured = _completed(path, chosen)
     except (ProfileError, OSError) as error:
         raise InputError(str(error)) from error
-    if read.bridged or read.trimmed:
-        found["dropouts"] = Guess('"bridge"', "samples were lost")
-    form, because = _form(read.profile)
-    found["form"] = Guess(f'"{form}"', because)
-    fields = dict(given) | {name: guess.value for name, guess in found.items()}
-    return ProfileFields(fields, {name: guess.because for name, guess in found.items()})
+    if measured.bridged or measured.trimmed:
+        chosen.add({"dropouts": ("bridge", "samples were lost")})
+    chosen.add({"form": _form(measured.profile)})
+    return chosen
 
 
-def _complete(path: Path, given: dict[str, str]) -> tuple[dict[str, Guess], MeasuredProfile]:
-    """The guesses without which the file cannot be read, and the profile read with them."""
-    found: dict[str, Guess] = {}
-    opened = _opened(path, given, found)
+def _completed(path: Path, chosen: ProfileFields) -> MeasuredProfile:
+    """The profile, read with what was guessed because it could not be read without."""
+    fields = chosen.fields
+    opened = _opened(path, chosen)
     table = opened if isinstance(opened, ProfileTable) else None
-    columns = None if table is None else table.numbers.shape[1]
-    if columns == 1 and "x_unit" in given:
-        raise InputError(f"{path}: holds heights alone; allowed is --spacing instead of --x-unit")
-    if columns == 1 and "spacing" not in given:
-        spacing = spacing_of_head(list(table.head))
-        if spacing is None:
-            raise InputError(_no_spacing(path, "holds heights alone"))
-        found["spacing"] = spacing
+    if table is not None and table.numbers.shape[1] == 1:
+        if "x_unit" in fields:
+            what = "holds heights alone; allowed is --spacing instead of --x-unit"
+            raise InputError(f"{path}: {what}")
+        if "spacing" not in fields:
+            chosen.add(spacing_of_head(table.head))
+            if "spacing" not in fields:
+                raise InputError(_no_spacing(path, "holds heights alone"))
     while True:
-        fields = given | {name: guess.value for name, guess in found.items()}
         try:
-            return found, _profile(opened, fields)
+            return _profile(opened, fields)
         except UnchosenLineError:
-            found |= _line_of(opened)
+            chosen.add(_line_of(opened))
         except MissingUnitError as error:
             if error.field == "spacing":
                 raise InputError(_no_spacing(path, error.message)) from error
             units = {} if table is None else _units_of(table, "columns" in fields)
             units = units or _units_by_size(opened, fields)
-            if "spacing" in fields:
-                units.pop("x_unit")
-            units = {name: guess for name, guess in units.items() if name not in given}
-            for name, guess in units.items():
-                _check_unit(path, name, guess)
-            found |= units
+            needed = {"z_unit"} if "spacing" in fields else {"x_unit", "z_unit"}
+            units = {name: units[name] for name in units if name in needed - fields.keys()}
+            _check_units(path, units)
+            chosen.add(units)
 
 
-def _opened(
-    path: Path, given: Mapping[str, str], found: dict[str, Guess]
-) -> ProfileTable | Topography:
-    """What the file holds; columns that are guessed are put into `found`."""
-    how = {name: value_of(given[name]) for name in ("columns", "channel") if name in given}
+def _opened(path: Path, chosen: ProfileFields) -> Opened:
+    """What the file holds, with guessed columns or channel where it has several."""
+    fields = chosen.fields
+    how = {name: fields[name] for name in ("columns", "channel") if name in fields}
     try:
-        opened = open_measured(path, **how, one_column="spacing" in given)
+        opened = open_measured(path, **how, one_column="spacing" in fields)
     except ColumnsError as error:
         columns = _columns_of(error.table)
         if columns is None:
             raise
         names = error.table.names or range(error.table.numbers.shape[1])
-        found["columns"] = Guess(toml(columns), f"of {', '.join(map(str, names))}")
+        chosen.add({"columns": (columns, f"of {', '.join(map(str, names))}")})
         return chosen_columns(error.table, columns)
-    if isinstance(opened, Topography) and len(opened.channels) > 1 and "channel" not in given:
-        found["channel"] = Guess(
-            toml(opened.channel), f"the default one of {', '.join(opened.channels)}"
-        )
+    if isinstance(opened, Topography) and len(opened.channels) > 1 and "channel" not in fields:
+        because = f"the default one of {', '.join(opened.channels)}"
+        chosen.add({"channel": (opened.channel, because)})
     return opened
 
 
@@ -245,22 +161,114 @@ def _columns_of(table: ProfileTable) -> list[int] | None:
     return [ordered[0], ordered[0] + 1]
 
 
-def _units_of(table: ProfileTable, chosen: bool) -> dict[str, Guess]:
-    """Units by the names of chosen columns where each names one, else by the lines above them."""
+def units_in(line: str) -> list[str]:
+    """Units of columns that a line of text names, in its order. Those in brackets need not be
+    known: they come out as they stand, unless they are in round ones and no unit at all."""
+    units = {match.start(): unit for pattern, unit in UNITS for match in pattern.finditer(line)}
+    for match in BRACKETED.finditer(line):
+        group = 1 if match[1] else 2
+        if match.start(group) not in units and (group == 1 or _measures(match[group])):
+            units[match.start(group)] = match[group]
+    return [units[start] for start in sorted(units)]
+
+
+def _measures(word: str) -> bool:
+    """Whether a word of two letters or more is a unit, of whatever dimension."""
+    try:
+        unit_in_si(word, LENGTH)
+    except UnknownUnitError:
+        return False
+    except UnitError:
+        return len(word) > 1
+    return True
+
+
+def _units_of(table: ProfileTable, chosen: bool) -> Guesses:
+    """Units by the names of chosen columns where each names one, else by the lines above a table
+    of one or two columns; {} where they name none. The line that is nearest to the numbers counts;
+    one that names a single unit means both."""
+    head, columns = table.head, table.numbers.shape[1]
     named = [units_in(name) for name in table.names]
     if chosen and named and all(len(units) == 1 for units in named):
-        head = [", ".join(table.names)]
-        return units_of_head(head, len(named))
-    return units_of_head(list(table.head), table.numbers.shape[1])
+        head, columns = [", ".join(table.names)], len(named)
+    for line in reversed(head):
+        if units := units_in(line):
+            because = f'by "{_short(line)}" in the file'
+            last = units[min(columns, len(units)) - 1]
+            return {"x_unit": (units[0], because), "z_unit": (last, because)}
+    return {}
 
 
-def _line_of(found: Topography) -> dict[str, Guess]:
+def spacing_of_head(head: list[str] | tuple[str, ...]) -> Guesses:
+    """Sample spacing by the lines above a column of heights, {} where they state none."""
+    for line in head:
+        for pattern in SPACINGS:
+            if match := pattern.search(line):
+                (unit,) = units_in(f"({match[2].lower()})")
+                number = match[1].replace(",", ".")
+                return {"spacing": (f"{number} {unit}", f'by "{_short(line)}" in the file')}
+    return {}
+
+
+def _units_by_size(opened: Opened, fields: Mapping[str, object]) -> Guesses:
+    """x_unit and z_unit that bring spacing and roughness nearest to what is usual."""
+    bare = {"x_unit": "m", "z_unit": "m"} | fields
+    if "spacing" in fields:
+        del bare["x_unit"]
+    try:
+        profile = _profile(opened, bare).profile
+    except UnchosenLineError:
+        line = {name: value for name, (value, _) in _line_of(opened).items()}
+        profile = _profile(opened, bare | line).profile
+    x, height = profile.x - profile.x.mean(), profile.height
+    rough = height - np.polyval(np.polyfit(x, height, 1), x)
+    guesses = {}
+    for name, size, typical in (
+        ("x_unit", np.median(np.diff(profile.x)), TYPICAL_SPACING),
+        ("z_unit", np.std(rough), TYPICAL_HEIGHT),
+    ):
+        sizes = [max(size, 1e-300) * unit_in_si(unit, LENGTH) for unit in BY_SIZE[name]]
+        unit = BY_SIZE[name][int(np.argmin([abs(np.log10(size / typical)) for size in sizes]))]
+        guesses[name] = unit, "guessed by size alone, the file names none: check it"
+    return guesses
+
+
+def _in_metres(quantity: str) -> float:
+    """A unit, or a number with one [m]."""
+    try:
+        return unit_in_si(quantity, LENGTH)
+    except UnitError:
+        return to_si(quantity, LENGTH)
+
+
+def _check_units(path: Path, units: Guesses) -> None:
+    for name, (unit, because) in units.items():
+        try:
+            _in_metres(unit)
+        except UnitError:
+            raise InputError(
+                f'{path}: "{unit}" is no known unit of length ({because}); known are '
+                f"{known_units(LENGTH)}; allowed is {option_of(name)}"
+            ) from None
+
+
+def option_of(field: str) -> str:
+    """The option of `crosscheck init` for a field of [profile]."""
+    return f"--{field.replace('_', '-')}"
+
+
+def _short(line: str) -> str:
+    line = line.strip(" #%;/\t").replace('"', "'")
+    return line if len(line) <= 40 else f"{line[:37]}..."
+
+
+def _line_of(topography: Topography) -> Guesses:
     """The middle row or column of a map, whichever runs across the lay: along the steeper way."""
-    rows, columns = found.heights.shape
-    along, across = found.pitch or (1.0, 1.0)
+    rows, columns = topography.heights.shape
+    along, across = topography.pitch or (1.0, 1.0)
     slopes = []
     for axis, pitch in ((1, along), (0, across)):
-        squares = np.diff(found.heights, axis=axis) ** 2
+        squares = np.diff(topography.heights, axis=axis) ** 2
         mean = squares[np.isfinite(squares)].mean() if np.any(np.isfinite(squares)) else 0.0
         slopes.append(float(np.sqrt(mean)) / pitch)
     by_row, by_column = slopes
@@ -269,17 +277,13 @@ def _line_of(found: Topography) -> dict[str, Guess]:
         why = "slopes are alike both ways, so there is no lay"
     else:
         ratio = f"{steep / gentle:.1f} times those" if gentle > 0.0 else "all that there are, none"
-        ratio += " the other way"
-        why = f"across the lay: slopes along {{}} are {ratio}"
+        why = f"across the lay: slopes along {{}} are {ratio} the other way"
     if by_column >= LAY * by_row and rows >= FEWEST_ACROSS:
-        return {"column": Guess(str(columns // 2), _middle(columns, why.format("columns")))}
+        because = f"the middle one of {columns}, {why.format('columns')}"
+        return {"column": (columns // 2, because)}
     if by_column >= LAY * by_row:
         why = f"along the lay: a column has {rows} samples only"
-    return {"row": Guess(str(rows // 2), _middle(rows, why.format("rows")))}
-
-
-def _middle(count: int, why: str) -> str:
-    return f"the middle one of {count}, {why}"
+    return {"row": (rows // 2, f"the middle one of {rows}, {why.format('rows')}")}
 
 
 def _no_spacing(path: Path, what: str) -> str:
@@ -289,44 +293,23 @@ def _no_spacing(path: Path, what: str) -> str:
     )
 
 
-def _check_unit(path: Path, name: str, guess: Guess) -> None:
-    try:
-        in_metres(guess.value)
-    except UnitError:
-        option = f"--{name.replace('_', '-')}"
-        raise InputError(
-            f"{path}: {guess.value} is no known unit of length ({guess.because}); known are "
-            f"{known_units(LENGTH)}; allowed is {option}"
-        ) from None
-
-
-def _units_by_size(opened: ProfileTable | Topography, fields: dict[str, str]) -> dict[str, Guess]:
-    bare = {"x_unit": '"m"', "z_unit": '"m"'} | fields
-    if "spacing" in fields:
-        del bare["x_unit"]
-    try:
-        profile = _profile(opened, bare).profile
-    except UnchosenLineError:
-        line = {name: guess.value for name, guess in _line_of(opened).items()}
-        profile = _profile(opened, bare | line).profile
-    return units_by_size(profile.x, profile.height)
-
-
-def _profile(opened: ProfileTable | Topography, fields: Mapping[str, str]) -> MeasuredProfile:
+def _profile(opened: Opened, fields: Mapping[str, object]) -> MeasuredProfile:
     """The profile as these fields of [profile] read it, lost samples bridged."""
-    scales = {name: in_metres(fields[name]) for name in ("x_unit", "z_unit") if name in fields}
-    chosen = {name: int(fields[name]) for name in ("row", "column") if name in fields}
+    lengths = ("x_unit", "z_unit", "spacing")
+    metres = {name: _in_metres(fields[name]) for name in lengths if name in fields}
+    line = {name: fields[name] for name in ("row", "column") if name in fields}
     return profile_of(
         opened,
-        x_scale=scales.get("x_unit"),
-        height_scale=scales.get("z_unit"),
-        spacing=in_metres(fields["spacing"]) if "spacing" in fields else None,
+        x_scale=metres.get("x_unit"),
+        height_scale=metres.get("z_unit"),
+        spacing=metres.get("spacing"),
         dropouts="bridge",
-        chosen=MapLine(**chosen) if chosen else None,
+        chosen=MapLine(**line) if line else None,
     )
 
 
 def _form(profile: Profile) -> tuple[str, str]:
+    """The kind of form to remove, and why."""
     straight, _ = remove_form(profile, "line")
     try:
         curved, removed = remove_form(profile, "arc")

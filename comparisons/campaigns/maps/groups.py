@@ -19,18 +19,19 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import InputError, SceneError
-from comparisons.figures.quantity import HEAT_QUANTITIES
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.fields import SceneSection, plain
+from comparisons.scenes.fields import plain
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.heat.half_space import peclet_numbers
+from comparisons.studies.heat import mapped as heat
 
 # Fields of made profiles that are lengths along x, and the one that heights are proportional to.
 WAVES = {
@@ -42,26 +43,38 @@ HEIGHTS = {"sinusoid": ("amplitude",), "self-affine": ("rms_height",), "ground":
 SHORTEST = 4.0  # samples of a profile's shortest wave, where it names none
 FILTERS = ("cutoff", "short_cutoff")
 
-
 Changes = dict[str, object]  # values of a scene's fields by their names
-SetTo = Callable[[Scene, float], Changes]
-ValueOf = Callable[[Problem], float]
 
 
 @dataclass(frozen=True)
 class Group:
     """A dimensionless group, one of groups.toml."""
 
-    set_to: SetTo  # which fields give a scene a value of the group
-    value_of: ValueOf | None  # the group's value of a scene, where it says how large an effect is
+    # which fields give a scene a value of the group
+    set_to: Callable[[Scene, float], Changes]
+    # the group's value of a scene, where it says how large an effect is, and the scene has one
+    value_of: Callable[[Problem], float | None]
     # symbol, label: for axes, short and in words
     symbol: str
     label: str
     span: tuple[float, float]  # its range unless another one is asked for
     # fields of [finite_element] that drop the assumption that the group is about
     finite_element: Mapping[str, object] = field(default_factory=dict)
+    section: str | None = None  # that a scene must have
     early: bool = False  # the group changes a
     vanishes: bool = True  # the effect goes to zero with the group
+
+
+# Beside the contact, what maps may show: modules, each with its QUANTITIES, the SECTION of a scene
+# that has them, `check`, which raises SceneError for what has no answer, `errors_of` both models'
+# runs, whether its section `is_alike` in a scene and in the tables of another, and `usual_axes`.
+STUDIES = (heat,)
+SHOWN = (*QUANTITIES, *(name for study in STUDIES for name in study.QUANTITIES))
+
+
+def study_of(quantity: str) -> ModuleType | None:
+    """The one of STUDIES that a quantity is of, None for one of the contact."""
+    return next((study for study in STUDIES if quantity in study.QUANTITIES), None)
 
 
 def smooth_problem(scene: Scene) -> Problem:
@@ -85,6 +98,10 @@ def scene_with(scene: Scene, values: Mapping[str, float]) -> Scene:
     what a group is about."""
     draft, changes = scene, {}
     for name in sorted(values, key=lambda name: not GROUPS[name].early):
+        section = GROUPS[name].section
+        if section is not None and getattr(scene, section) is None:
+            needed = f"is missing; allowed for its groups is [{section}]"
+            raise SceneError(f"{scene.source}: {section}: {needed}")
         fields = GROUPS[name].set_to(draft, values[name])
         draft, changes = draft.unchecked(fields), changes | fields
     return scene.changed(changes | {"finite_element": finite_elements(scene, values)})
@@ -122,12 +139,12 @@ def _slope(problem: Problem) -> float:
     return 0.0 if info is None else info.roughness.rms_slope
 
 
-def _wavelength(problem: Problem) -> float:
+def _wavelength(problem: Problem) -> float | None:
     profile = problem.scene.profile
-    if profile is not None and profile.kind in WAVES:
-        shortest = _shortest(profile)
-    else:
-        shortest = shortest_wavelength(problem.surface.profile)
+    if profile is None:
+        return None
+    made = profile.kind in WAVES
+    shortest = _shortest(profile) if made else shortest_wavelength(problem.surface.profile)
     return shortest / problem.hertz.half_width
 
 
@@ -178,48 +195,12 @@ def _set_hardness(scene: Scene, value: float) -> Changes:
     return {f"body.{name}": size * factor for name, size in sizes.items() if size is not None}
 
 
-def _set_poissons_ratio(scene: Scene, value: float) -> Changes:
-    return {"body.poissons_ratio": value}
-
-
 def _set_modulus_ratio(scene: Scene, value: float) -> Changes:
     if scene.roller.rigid:
         raise SceneError(
             f"{scene.source}: roller.rigid: is true; allowed with modulus_ratio is an elastic one"
         )
     return {"roller.youngs_modulus": value * scene.body.youngs_modulus}
-
-
-def _section(name: str, scene: Scene) -> SceneSection:
-    if getattr(scene, name) is None:
-        raise SceneError(f"{scene.source}: {name}: is missing; allowed for its groups is [{name}]")
-    return getattr(scene, name)
-
-
-def _peclet(problem: Problem) -> float | None:
-    return None if problem.scene.heat is None else peclet_numbers(problem)["body"]
-
-
-def _set_peclet(scene: Scene, value: float) -> Changes:
-    """By the speed."""
-    heat = _section("heat", scene)
-    share = 1.0 / heat.slide_to_roll + 0.5  # of the speed, at which the body moves
-    if share == 0.0:
-        raise SceneError(
-            f"{scene.source}: heat.slide_to_roll: is -2, at which the contact stays on the body; "
-            "allowed with peclet is any other one"
-        )
-    diffusivity = heat.body_conductivity / (heat.body_density * heat.body_specific_heat)
-    return {"heat.speed": 2.0 * diffusivity * value / (_half_width(scene) * abs(share))}
-
-
-def _set_coating(scene: Scene, value: float) -> Changes:
-    _section("coating", scene)
-    return {"coating.thickness": value * _half_width(scene)}
-
-
-def _set_conductivity(scene: Scene, value: float) -> Changes:
-    return {"heat.coating_conductivity": value * _section("heat", scene).body_conductivity}
 
 
 def _made_profile(scene: Scene, group: str) -> ProfileSection:
@@ -251,20 +232,31 @@ def _set_slope(scene: Scene, value: float) -> Changes:
     return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 
-# How each group is set, and how large it is in a scene where it says how large an effect is.
-FUNCTIONS: dict[str, tuple[SetTo, ValueOf | None]] = {
+def _set_peclet(scene: Scene, value: float) -> Changes:
+    return heat.set_peclet(scene, value, _half_width(scene))
+
+
+def _set_coating(scene: Scene, value: float) -> Changes:
+    return {"coating.thickness": value * _half_width(scene)}
+
+
+def _none(problem: Problem) -> None:
+    """A group's that says nothing of how large an effect is."""
+
+
+FUNCTIONS = {  # set_to, value_of
     "a_over_thickness": (partial(_set_size, "thickness"), partial(_size, "thickness")),
     "a_over_width": (partial(_set_size, "width"), partial(_size, "width")),
     "a_over_radius": (_set_radius, _radius),
     "rms_slope": (_set_slope, _slope),
     "wavelength_over_a": (_set_wavelength, _wavelength),
     "friction_dundurs": (_set_friction, _friction),
-    "peak_pressure_over_hardness": (_set_hardness, None),
-    "poissons_ratio": (_set_poissons_ratio, None),
-    "modulus_ratio": (_set_modulus_ratio, None),
-    "peclet": (_set_peclet, _peclet),
-    "coating_over_a": (_set_coating, None),
-    "conductivity_ratio": (_set_conductivity, None),
+    "peak_pressure_over_hardness": (_set_hardness, _none),
+    "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, _none),
+    "modulus_ratio": (_set_modulus_ratio, _none),
+    "peclet": (_set_peclet, heat.peclet),
+    "coating_over_a": (_set_coating, _none),
+    "conductivity_ratio": (heat.set_conductivity, _none),
 }
 GROUPS = {
     name: Group(*FUNCTIONS[name], **fields)
@@ -273,7 +265,7 @@ GROUPS = {
     ).items()
 }
 
-
+Axis = dict[str, object]  # of map.json: group, symbol, label, logarithmic, values
 FIGURES = 6  # significant, of the values: the same on every machine
 SPANS_DECADES = 3.0  # largest over smallest value from which an axis is logarithmic
 FEWEST, MOST = 2, 200  # values of an axis
@@ -281,33 +273,10 @@ _AXIS = re.compile(r"\s*([\w-]+)\s*(?:=\s*([^:\s]+)\s*:\s*([^:\s]+)\s*)?")
 _POINTS = re.compile(r"\s*(\d+)\s*[x×]\s*(\d+)\s*")
 
 
-@dataclass(frozen=True)
-class Axis:
-    """`count` values of a group from `low` to `high`."""
-
-    group: str
-    low: float
-    high: float
-    count: int
-
-    @property
-    def logarithmic(self) -> bool:
-        return self.low > 0.0 and self.high / self.low >= SPANS_DECADES
-
-    @property
-    def values(self) -> tuple[float, ...]:
-        """Ascending; of equal ratios on a logarithmic axis, else of equal differences."""
-        spaced = np.geomspace if self.logarithmic else np.linspace
-        values = spaced(self.low, self.high, self.count)
-        return tuple(float(f"{value:.{FIGURES}g}") for value in values)
-
-    def __str__(self) -> str:
-        return f"{self.group}={self.low:g}:{self.high:g}"
-
-
 def axis_of(text: str, count: int, option: str) -> Axis:
-    """The axis that "GROUP" or "GROUP=FROM:TO" means. Raises InputError, which names the `option`,
-    for anything else."""
+    """The axis that "GROUP" or "GROUP=FROM:TO" means: so many values of a group, ascending, of
+    equal ratios where it is logarithmic, else of equal differences. Raises InputError, which names
+    the `option`, for anything else."""
     parts = _AXIS.fullmatch(text)
     if not parts:
         raise InputError(f"{option}: is {text!r}; allowed is GROUP or GROUP=FROM:TO")
@@ -331,7 +300,15 @@ def axis_of(text: str, count: int, option: str) -> Axis:
             )
         if low == 0.0 and name != "poissons_ratio":
             raise InputError(f"{option}: {name} begins at 0; allowed is above 0")
-    return Axis(name, low, high, count)
+    logarithmic = low > 0.0 and high / low >= SPANS_DECADES
+    values = (np.geomspace if logarithmic else np.linspace)(low, high, count)
+    return {
+        "group": name,
+        "symbol": GROUPS[name].symbol,
+        "label": GROUPS[name].label,
+        "logarithmic": logarithmic,
+        "values": [float(f"{value:.{FIGURES}g}") for value in values],
+    }
 
 
 def counts_of(text: str) -> tuple[int, int]:
@@ -345,8 +322,8 @@ def counts_of(text: str) -> tuple[int, int]:
 
 
 def usual_axes(scene: Scene, quantity: str) -> tuple[str, str]:
-    if quantity in HEAT_QUANTITIES:
-        return "peclet", "a_over_thickness" if scene.coating is None else "coating_over_a"
+    if study := study_of(quantity):
+        return study.usual_axes(scene)
     if scene.profile is not None and scene.profile.kind in WAVES:
         return "wavelength_over_a", "rms_slope"
     if any(scene.load.friction) and scene.roller.rigid:

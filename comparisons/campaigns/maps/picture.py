@@ -68,7 +68,7 @@ def _marked(axes: "Axes", content: dict, mark: Mark | None) -> list[object]:
         return []
     name, values = mark
     at = [
-        np.clip(places(content[axis] | {"values": [value]})[0], *ends)
+        np.clip(places(content[axis], value)[0], *ends)
         for axis, value, ends in zip("xy", values, (axes.get_xlim(), axes.get_ylim()), strict=True)
     ]
     look = {"marker": "*", "markersize": 15.0, "color": "#E6007A", "markeredgecolor": "white"}

@@ -10,14 +10,13 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.maps.content import differences, places, read_map, scaled, unscaled
-from comparisons.campaigns.maps.groups import GROUPS
-from comparisons.campaigns.maps.picture import Mark
-from comparisons.campaigns.maps.request import FINISHED
+from comparisons.campaigns.maps.content import differences, places, scaled, unscaled
+from comparisons.campaigns.maps.groups import GROUPS, STUDIES
+from comparisons.campaigns.maps.map import finished_map, finished_names
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
 from comparisons.common.progress import Stages, no_progress
-from comparisons.figures.quantity import HEAT_QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.scene import Scene
@@ -53,14 +52,6 @@ class Place:
         )
 
 
-def finished_names() -> tuple[str, ...]:
-    return tuple(sorted(path.stem for path in FINISHED.glob("*.json")))
-
-
-def finished_map(name: str) -> dict:
-    return read_map(FINISHED / f"{name}.json")
-
-
 def problem_named(name: str) -> Problem:
     """The problem of a scene that is to be marked, under the load of its approach where that is
     prescribed. Raises InputError where it cannot be solved."""
@@ -80,35 +71,30 @@ def place_on(name: str, problem: Problem) -> Place | None:
     content = finished_map(name)
     if ("profile" in content["scene"]) != (problem.scene.profile is not None):
         return None
-    heat, of_map = problem.scene.heat, content["scene"].get("heat")
-    if of_map and heat:
-        base = heat.base or "held"
-        other_base = problem.scene.body.thickness and base != of_map.get("base", base)
-        if other_base or heat.slide_to_roll != of_map["slide_to_roll"]:
-            return None
+    if not all(study.is_alike(problem.scene, content["scene"]) for study in STUDIES):
+        return None
     groups, shown = [], []
     for axis in (content["x"], content["y"]):
         group = GROUPS[axis["group"]]
-        value = None if group.value_of is None else group.value_of(problem)
+        value = group.value_of(problem)
         if value is None or value > axis["values"][-1]:
             return None
         if value < axis["values"][0] and not group.vanishes:
             return None
         groups.append(value)
         shown.append(max(value, axis["values"][0]))
-    wanted = (*problem.scene.tolerances, *(HEAT_QUANTITIES if of_map else ()))
-    errors = {q: interpolated(content, q, *shown) for q in wanted}
-    errors = {quantity: error for quantity, error in errors.items() if np.isfinite(error)}
+    names = *problem.scene.tolerances, *(name for study in STUDIES for name in study.QUANTITIES)
+    errors = {name: interpolated(content, name, *shown) for name in names}
+    errors = {name: error for name, error in errors.items() if np.isfinite(error)}
     return Place(name, tuple(groups), tuple(shown), errors) if errors else None
 
 
 def interpolated(content: dict, quantity: str, x: float, y: float) -> float:
     """Relative model error between a map's points; nan where a neighbour's is unknown."""
-    axes = content["y"], content["x"]
+    across, up = content["x"], content["y"]
     values = scaled(differences(content, quantity))
-    between = RegularGridInterpolator([places(axis) for axis in axes], values)
-    at = [places(axis | {"values": [v]})[0] for axis, v in zip(axes, (y, x), strict=True)]
-    return float(unscaled(between(at)[0]))
+    between = RegularGridInterpolator([places(up), places(across)], values)
+    return float(unscaled(between([places(up, y)[0], places(across, x)[0]])[0]))
 
 
 def places_of(problem: Problem) -> tuple[Place, ...]:
@@ -119,27 +105,14 @@ def places_of(problem: Problem) -> tuple[Place, ...]:
     covered: set[tuple[bool, str]] = set()
     for place in known:
         content = finished_map(place.name)
-        heats = content["quantity"] in HEAT_QUANTITIES
+        kind = content["quantity"] in QUANTITIES  # of the contact, or of another study
         groups = {
-            (heats, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
+            (kind, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
         }
         if groups - covered or not (groups or chosen):
             chosen.append(place)
             covered |= groups
     return tuple(chosen)
-
-
-def mark_of(content: dict, problem: Problem) -> Mark:
-    """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
-    where a group has no value for a scene."""
-    values = []
-    for axis in (content["x"], content["y"]):
-        value_of = GROUPS[axis["group"]].value_of
-        smooth = axis["group"] == "wavelength_over_a" and problem.scene.profile is None
-        if value_of is None or smooth:
-            raise InputError(f"--mark: {problem.scene.name} has no {axis['group']} to be marked at")
-        values.append(value_of(problem))
-    return problem.scene.name, (values[0], values[1])
 
 
 def first_answer(problem: Problem) -> list[str]:

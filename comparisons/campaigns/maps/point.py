@@ -1,12 +1,8 @@
 """One point of a map, solved by both models: what a worker does.
 
 Both models are refined until the model error of the half-plane is well above its numerical
-uncertainty, never by the clock, so that a point has the same answer wherever it is computed.
-
-The uncertainty is that of a run's comparison. For temperatures both models have the half-plane's
-pressures: the error is the half-space's for heat alone, and the roller a disc where the finite
-elements have its circle.
-"""
+uncertainty, never by the clock, so that a point has the same answer wherever it is computed. The
+uncertainty is that of a run's comparison."""
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
@@ -14,19 +10,19 @@ from functools import lru_cache
 import numpy as np
 
 from comparisons.campaigns.grid import SOLVED, Point, failed
+from comparisons.campaigns.maps.groups import study_of
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure, Figures
-from comparisons.figures.quantity import HEAT_QUANTITIES, MODELS
+from comparisons.figures.quantity import MODELS
+from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import values_of
-from comparisons.studies.heat.half_space import check_heat
 from meshes.block import MeshError
 
-NAME = "map"
 NOT_CONVERGED = "the contact did not converge"
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows
 SHARE = 1.0 / 3.0  # of an error, or of the first tolerance, that may be numerical
@@ -46,15 +42,18 @@ def solve_point(point: Point) -> dict:
     """What is found at a point of a map: the model error of the half-plane in each quantity, and
     both models' values, in the digits that do not depend on the machine."""
     problem = problem_of(point.scene)
-    plan, heats = make_plan(problem, MODELS), point.asked in HEAT_QUANTITIES
-    window = window_of(problem) if plan.stress and not heats else None
-    if heats:
-        check_heat(problem)
-    for runs in _refined(problem, plan, window, heats):
+    plan, study = make_plan(problem, MODELS), study_of(point.asked)
+    if study is not None:
+        study.check(problem)
+    window = window_of(problem) if plan.stress and study is None else None
+    for runs in _refined(problem, plan, window, same_pressures=study is not None):
         for run in runs.values():
             if not run.finest.solution.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
-        errors, values = heat_errors(problem, runs) if heats else errors_of(problem, runs, window)
+        if study is None:
+            errors, values = errors_of(problem, runs, window)
+        else:
+            errors, values = study.errors_of(problem, runs)
         if not is_open(errors.one(quantity=point.asked)):
             break
     finest = runs["finite_element"].finest
@@ -82,20 +81,6 @@ def errors_of(problem: Problem, runs: Runs, window: Window | None) -> tuple[Figu
     return Figures(errors.values()), values
 
 
-def heat_errors(problem: Problem, runs: Runs) -> tuple[Figures, Values]:
-    """The same in temperatures."""
-    from comparisons.studies.heat.study import heat_figures
-
-    without = set() if problem.scene.finite_element.roller_shape == "circle" else {"roller"}
-    figures, _ = heat_figures(problem, runs, without)
-    known = Figures(figures)
-    values = {
-        name: {each.quantity: each.value for each in known.of(source=name, against=None)}
-        for name in runs
-    }
-    return known.of(against="finite_element"), values
-
-
 def _entry(error: Figure, values: Values) -> dict[str, float | None]:
     """Values by model, None of a norm of both; and the difference, of unknown uncertainty None."""
     known = np.isfinite(error.numerical)
@@ -109,16 +94,17 @@ def _significant(value: float | None) -> float | None:
     return None if value is None else float(f"{value:.{FIGURES}g}")
 
 
-def _refined(problem: Problem, plan: Plan, window: Window | None, heats: bool) -> Iterator[Runs]:
-    """Both models on the first levels, then with one more each time, while there may be; of heat
-    both with the half-plane's pressures."""
+def _refined(
+    problem: Problem, plan: Plan, window: Window | None, same_pressures: bool
+) -> Iterator[Runs]:
+    """Both models on the first levels, then with one more each time, while there may be; with the
+    same pressures, those of the half-plane, nothing is solved by finite elements."""
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
-    from comparisons.models.half_plane import half_plane_level
 
     def solved(pitch: float, half_block: bool = False) -> Level:
-        if heats:
+        if same_pressures:
             return half_plane_level(problem, pitch, window, Stages())
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
         return finite_element_level(

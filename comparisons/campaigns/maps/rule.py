@@ -17,6 +17,8 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from comparisons.campaigns.maps.content import errors
+
 Range = tuple[float, float]
 STEP = 0.05  # of exponents
 FEWEST_ENDS = 3  # inside the map that an exponent is fitted through
@@ -57,21 +59,6 @@ def rule_of(content: dict, tolerance: float) -> Rule:
     whole = {axis["group"]: (axis["values"][0], axis["values"][-1]) for axis in (x, y)}
     # of equals one with all lines: its bound is found between points
     return max(candidates, key=lambda r: (r.points_inside, r.other_range == whole[r.other_group]))
-
-
-def values_of(content: dict, quantity: str, name: str) -> np.ndarray:
-    """(ny, nx) what is called so of a quantity's errors, nan where it is unknown."""
-    entries = (point.get("quantities", {}).get(quantity) or {} for point in content["points"])
-    values = np.array([entry.get(name) for entry in entries], dtype=float)
-    return values.reshape(len(content["y"]["values"]), len(content["x"]["values"]))
-
-
-def errors(content: dict) -> tuple[np.ndarray, np.ndarray]:
-    """(ny, nx) size of the model error, and with its uncertainty added; infinite where unknown."""
-    names = "difference", "uncertainty"
-    signed, unsure = (values_of(content, content["quantity"], name) for name in names)
-    error = np.where(np.isfinite(unsure), np.abs(signed), np.inf)
-    return error, np.where(np.isfinite(unsure), error + unsure, np.inf)
 
 
 def _rule(

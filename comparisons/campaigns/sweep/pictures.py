@@ -2,25 +2,25 @@
 
 In: the content of sweep.json. Out: SVG, the same for the same content."""
 
-from collections.abc import Callable
-from functools import wraps
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.sweep.request import POSITION
 from comparisons.common.numbers import plain, scale_of
 from comparisons.common.units import DIMENSIONS, UnitError, to_si
 from comparisons.drawing import style
 from comparisons.drawing.curves import over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
-from comparisons.studies.quiescent_zone import BRIDGED, NAME, QUIESCENT, SMOOTH, UNCLEAR
+from comparisons.studies import bulge, quiescent_zone
+from comparisons.studies.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-FRICTION = "load.friction"
+PICTURE = "sweep.svg"
+PICTURES = {quiescent_zone.NAME: "quiescent_zone.svg", bulge.NAME: "bulge.svg"}  # by study
+POSITION, FRICTION = "load.position", "load.friction"
 MARKERS = "os^Dv<>"
 WIDTH, TALL, ABOVE, FOOT, LEFT = 7.2, 1.75, 0.35, 0.8, 0.9  # inches, of the sweep's own picture
 DRAWN = ("peak_pressure", "contact_length", "tau1_max")
@@ -36,13 +36,13 @@ CELL, LEAST_WIDE = (0.5, 0.24), 5.0  # inches, of the zones' map
 SQUARE = (-0.5, 0.5, 0.5, -0.5), (-0.5, -0.5, 0.5, 0.5)
 
 
-def _as_svg(draw: "Callable[[dict], Figure]") -> Callable[[dict], str]:
-    @wraps(draw)
-    def drawn(content: dict) -> str:
-        with style.drawing():
-            return style.svg(draw(content))
-
-    return drawn
+def drawn(content: dict) -> dict[str, str]:
+    """SVG by file: the sweep, and what its points have of quiescent zones and bulges."""
+    has = {name for point in content["points"] for name in PICTURES if name in point}
+    draws = {PICTURE: sweep_figure}
+    draws |= {PICTURES[name]: DRAWS[name] for name in DRAWS if name in has}
+    with style.drawing():
+        return {file: style.svg(draw(content)) for file, draw in draws.items()}
 
 
 def sweep_figure(content: dict) -> "Figure":
@@ -112,7 +112,7 @@ def _draw_figures(axes: "Axes", content: dict, name: str) -> None:
 def bulge_figure(content: dict) -> "Figure":
     """What sliding raises ahead of the contact: its height, extent and elastic energy against the
     relative penetration, a line for each friction."""
-    entries = [entry for point in content["points"] for entry in point.get("bulge", ())]
+    entries = [entry for point in content["points"] for entry in point.get(bulge.NAME, ())]
     entries.sort(key=lambda entry: entry[DEPTH])
     drawn, stack = panels(style.COLUMN, [(0.2, 1.5)] * len(PANELS), 0.85, foot=0.75)
     for (name, (unsure, unit, words)), axes in zip(PANELS.items(), stack, strict=True):
@@ -139,7 +139,7 @@ def zone_map_figure(content: dict) -> "Figure":
     by_friction: dict[float, dict[tuple, dict]] = {}  # then by values of the other fields
     for point in content["points"]:
         values = tuple(v for n, v in zip(names, point["values"], strict=True) if n != FRICTION)
-        for entry in point.get(NAME, {}).get(model, ()):
+        for entry in point.get(quiescent_zone.NAME, {}).get(model, ()):
             by_friction.setdefault(entry["friction"], {})[values] = entry
     first, *others = fields or [""]
     columns = list(fields.get(first, [""]))
@@ -172,4 +172,4 @@ def _draw_zones(axes: "Axes", entries: dict[tuple, dict], columns: list, rows: l
     axes.grid(False)
 
 
-sweep_picture, zone_map, bulge_curve = map(_as_svg, (sweep_figure, zone_map_figure, bulge_figure))
+DRAWS = {quiescent_zone.NAME: zone_map_figure, bulge.NAME: bulge_figure}

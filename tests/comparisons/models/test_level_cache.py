@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scenes import SMOOTH, problem
 
-from comparisons.campaigns.cost import study as cost_study
-from comparisons.campaigns.maps import request as map_request
+from comparisons.campaigns.cost import measure as cost_measure
+from comparisons.campaigns.maps import map as map_of_groups
 from comparisons.common import provenance
 from comparisons.models.level_cache import CODE, level_cache
 from comparisons.models.plan import make_plan
@@ -34,8 +34,8 @@ def project(tmp_path, monkeypatch):
     """A project with one function in every place that shapes a cached result, and in two more."""
     places = {
         *CODE,
-        *cost_study.CODE,
-        *map_request.CODE,
+        *cost_measure.CODE,
+        *map_of_groups.CODE,
         "comparisons/output",
         "comparisons/cli.py",
     }
@@ -57,7 +57,7 @@ def keys() -> tuple[str, str, str]:
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
     levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key
-    cost, points = (provenance.program_code(*each.CODE) for each in (cost_study, map_request))
+    cost, points = (provenance.program_code(*each.CODE) for each in (cost_measure, map_of_groups))
     return levels, cost, points
 
 
@@ -82,5 +82,5 @@ def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, pla
 
 
 def test_every_place_that_shapes_a_result_is_there():
-    for place in {*CODE, *cost_study.CODE, *map_request.CODE}:
+    for place in {*CODE, *cost_measure.CODE, *map_of_groups.CODE}:
         assert (provenance.PROJECT / place).exists(), place

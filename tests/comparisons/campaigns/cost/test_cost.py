@@ -11,10 +11,10 @@ from scenes import SMOOTH, changed, resolved
 from analytic.exact.hertz import hertz_from_load
 from comparisons.campaigns.cost import methods as cost_methods
 from comparisons.campaigns.cost.cost import cost
+from comparisons.campaigns.cost.measure import FOLDER, OK
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.recommend import scene_sections
 from comparisons.campaigns.cost.show import cells, content_of, cost_table, shown
-from comparisons.campaigns.cost.study import FOLDER, OK
 from comparisons.cli import main
 from comparisons.output.terminal import PLAIN
 from comparisons.runs.run import run

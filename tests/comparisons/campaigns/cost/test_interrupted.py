@@ -7,16 +7,14 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from scenes import SMOOTH, STEEL, changed, problem, resolved
 
+from comparisons.campaigns.cost import measure as cost_measure
 from comparisons.campaigns.cost import methods as cost_methods
-from comparisons.campaigns.cost import study as cost_study
 from comparisons.campaigns.cost.cost import GOES_ON, _problem, cost
-from comparisons.campaigns.cost.measure import CostTask, MeasuredRun, measure
+from comparisons.campaigns.cost.measure import FOLDER, CostTask, MeasuredRun, cost_cache, measure
 from comparisons.campaigns.cost.methods import FINEST, METHODS
-from comparisons.campaigns.cost.study import FOLDER, cost_cache
 from comparisons.common.progress import no_progress
 from comparisons.models.finite_element.level import problem_of_approach
 
@@ -61,8 +59,8 @@ def here(monkeypatch) -> Here:
     found = Here()
     monkeypatch.setattr(cost_methods, "HALF_PLANE_PITCHES", (2.0, 1.0, 0.5))
     monkeypatch.setattr(cost_methods, "FINITE_ELEMENT_PITCHES", (2.0,))
-    monkeypatch.setattr(cost_study, "ProcessWorker", None)
-    monkeypatch.setattr(cost_study, "measure", found.measure)
+    monkeypatch.setattr(cost_measure, "ProcessWorker", None)
+    monkeypatch.setattr(cost_measure, "measure", found.measure)
     monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda found: "")
     return found
 
@@ -76,21 +74,6 @@ def measured() -> tuple[CostTask, MeasuredRun]:
 
 
 class TestStore:
-    def test_what_comes_back_is_what_was_measured(self, measured, tmp_path):
-        task, found = measured
-        cache = cost_cache(tmp_path, task.problem.scene, 2)
-        assert cache.load(task.name) is None
-        cache.save(task.name, found)
-        again = cache.load(task.name)
-        for name in ("seconds", "total", "wall", "spread", "repeats", "memory", "spent"):
-            assert getattr(again, name) == getattr(found, name)
-        assert again.values == found.values
-        assert np.array_equal(again.level.solution.pressure, found.level.solution.pressure)
-        for one, other in zip(again.level.stresses, found.level.stresses, strict=True):
-            assert one.extremes == other.extremes
-            assert np.array_equal(one.field.sx, other.field.sx)
-        assert again.level.solution.residuals == found.level.solution.residuals
-
     def test_settings_are_told_apart(self, measured, tmp_path):
         task, found = measured
         cache = cost_cache(tmp_path, task.problem.scene, 2)
@@ -109,7 +92,7 @@ class TestStore:
     ):
         task, found = measured
         cost_cache(tmp_path, task.problem.scene, 2).save(task.name, found)
-        monkeypatch.setattr(cost_study, name, lambda *places: other)
+        monkeypatch.setattr(cost_measure, name, lambda *places: other)
         assert cost_cache(tmp_path, task.problem.scene, 2).load(task.name) is None
 
     def test_so_does_another_scene_or_number_of_repeats(self, measured, tmp_path):
@@ -148,12 +131,12 @@ class TestGoesOn:
 
         def failing(task):
             tried.append(task.method.name)
-            raise cost_study.RefusedError("MeshError: no mesh", skipped=False)
+            raise cost_measure.RefusedError(cost_measure.FAILED, "MeshError: no mesh")
 
         cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
         for path in (tmp_path / FOLDER).glob("P2*"):
             path.unlink()
-        monkeypatch.setattr(cost_study, "measure", failing)
+        monkeypatch.setattr(cost_measure, "measure", failing)
         for _ in range(2):
             found = cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
             assert found.rows[-1].because == "MeshError: no mesh"

@@ -9,7 +9,14 @@ from scenes import SMOOTH, changed, problem
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.campaigns.cost import measure as cost_measure
-from comparisons.campaigns.cost.measure import CostTask, ProcessorStages, RefusedError, measure
+from comparisons.campaigns.cost.measure import (
+    OK,
+    CostRow,
+    CostTask,
+    ProcessorStages,
+    RefusedError,
+    measure,
+)
 from comparisons.campaigns.cost.methods import (
     FINEST,
     METHODS,
@@ -20,7 +27,6 @@ from comparisons.campaigns.cost.methods import (
 from comparisons.campaigns.cost.recommend import assess
 from comparisons.campaigns.cost.reference import error_of, is_exact, references
 from comparisons.campaigns.cost.show import cells, shown
-from comparisons.campaigns.cost.study import OK, CostRow
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
 
@@ -100,11 +106,11 @@ class TestReference:
         last = rows[-1]
         for name, reference in found.items():
             assert reference.row is last and reference.source.startswith("hats, FFT at ")
-            assert 0.0 < reference.floor < 0.05, name
+            assert 0.0 < reference.floors[name] < 0.05, name
         finer = measure(CostTask(made, FINEST, 0.25 * last.setting))
         for name in ("peak_pressure", "contact_length"):
-            true = error_of(finer, name, found[name], made, None)
-            assert true <= found[name].floor
+            true = error_of(finer, name, found[name])
+            assert true <= found[name].floors[name]
 
     def test_errors_fall_towards_it(self, study):
         made, rows = study
@@ -153,11 +159,14 @@ class TestMeasure:
         task = CostTask(problem(SMOOTH), FINEST, 1e-5)
         with pytest.raises(RefusedError) as refused:
             measure(task)
-        assert refused.value.args == ("made.toml: budget.memory: is too small", True)
+        assert refused.value.args == (
+            cost_measure.SKIPPED,
+            "made.toml: budget.memory: is too small",
+        )
         monkeypatch.setattr(cost_measure, "solved", lambda *a, **b: 1 / 0)
         with pytest.raises(RefusedError) as failed:
             measure(task)
-        assert failed.value.args == ("ZeroDivisionError: division by zero", False)
+        assert failed.value.args == (cost_measure.FAILED, "ZeroDivisionError: division by zero")
 
     def test_seconds_are_processor_time(self):
         stages = ProcessorStages()

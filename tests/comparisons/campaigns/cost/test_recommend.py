@@ -8,7 +8,15 @@ import pytest
 from scenes import SMOOTH, changed, problem
 
 from analytic.grid import HatGrid
-from comparisons.campaigns.cost.measure import MeasuredRun, RefusedError
+from comparisons.campaigns.cost.measure import (
+    FAILED,
+    OK,
+    SKIPPED,
+    CostRow,
+    MeasuredRun,
+    RefusedError,
+    _series,
+)
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.recommend import assess, pareto, recommendations
 from comparisons.campaigns.cost.show import (
@@ -19,7 +27,6 @@ from comparisons.campaigns.cost.show import (
     refusals,
     shown,
 )
-from comparisons.campaigns.cost.study import FAILED, OK, SKIPPED, CostRow, _series
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
 from comparisons.common.tasks import ProcessEnded
@@ -88,8 +95,8 @@ class TestRows:
         good = row("P2", 1.0, 1.0, 0.0).measured
         unsolved = replace(good.level, solution=types.SimpleNamespace(converged=False))
         wild = replace(good, level=unsolved)
-        refused = RefusedError("budget.memory", skipped=True)
-        failed = RefusedError("MeshError: no mesh", skipped=False)
+        refused = RefusedError(SKIPPED, "budget.memory")
+        failed = RefusedError(FAILED, "MeshError: no mesh")
         found, _ = self.rows(good, failed, wild, refused)
         assert [r.status for r in found] == [OK, FAILED, FAILED, SKIPPED]
         assert found[1].because == "MeshError: no mesh" and found[2].because == "did not converge"

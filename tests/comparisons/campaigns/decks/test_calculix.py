@@ -47,7 +47,7 @@ COARSER = 2.0  # elements of the coarse deck over those of the scene's first lev
 
 def solved(folder: Path, tables: dict, level: int, old: str = "", new: str = "") -> np.ndarray:
     """x [m] and pressure [Pa] (n, 2) of a deck's last step, after a change of its text."""
-    deck = write_deck(scenes.resolved(tables), "calculix", folder, level).deck
+    deck = write_deck(scenes.resolved(tables), "calculix", folder, level)
     if old:
         text = (folder / "job.inp").read_text()
         assert old in text

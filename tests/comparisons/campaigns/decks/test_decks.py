@@ -49,7 +49,7 @@ def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
 @pytest.mark.parametrize("scene", ["layer", "finite-strain", SLIDING])
 def test_a_deck_is_complete(tmp_path, scene, code):
     resolved = scene_of(scene)
-    deck = write_deck(resolved, code, tmp_path).deck
+    deck = write_deck(resolved, code, tmp_path)
     found = blocks(tmp_path)
     assert {keyword for keyword, *_ in found} <= KNOWN | (CALCULIX if code == "calculix" else set())
     nodes, elements, sets, surfaces, materials = {}, {}, {}, {}, set()
@@ -76,7 +76,7 @@ def test_a_deck_is_complete(tmp_path, scene, code):
         elif keyword == "EQUATION":
             assert data[0] == ["2"] and int(data[1][3]) == max(nodes) and data[1][4] == "2"
             assert int(data[1][0]) in sets["ROLLER_HELD_Y"]
-    assert len(nodes) == sum(len(body.points) for body in deck.bodies.values()) + 1
+    assert len(nodes) == deck.nodes + 1
     assert set(np.ravel(list(elements.values()))) == set(nodes) - set(sets["REFERENCE"])
     for row in elements.values():  # anticlockwise, with midpoints between their corners
         x, y = np.array([nodes[n] for n in row]).T

@@ -11,9 +11,8 @@ import pytest
 from scenes import PROFILES
 
 from comparisons.campaigns.init import first_scene
-from comparisons.campaigns.init.first_scene import write_first_scene
-from comparisons.campaigns.init.picture import picture
-from comparisons.campaigns.init.scene_text import FIELDS, scene_text
+from comparisons.campaigns.init.first_scene import FIELDS, scene_text, write_first_scene
+from comparisons.campaigns.init.show import picture
 from comparisons.cli import main
 from comparisons.scenes.fields import field_type, file_fields
 from comparisons.scenes.profile import VARIETIES
@@ -34,14 +33,12 @@ def heights(z) -> str:
     return "".join(f"{value:.6g}\n" for value in z)
 
 
-def sdf(z) -> str:
-    head = (
-        "aISO-1.0\nNumPoints = 801\nNumProfiles = 5\nXscale = 0.5e-6\nYscale = 1e-6\n"
-        "Zscale = 1e-6\nDataType = 7\n*\n"
-    )
-    line = " ".join(f"{value:.6g}" for value in z)
-    flat = " ".join(["0"] * len(z))
-    return f"{head}{flat}\n{flat}\n{line}\n{flat}\n{flat}\n*\n"
+def sdf(heights: np.ndarray, spacing: float, unit: float) -> str:
+    """A map, a row of the heights (rows, columns) [`unit` m] a line."""
+    profiles, points = heights.shape
+    head = f"aISO-1.0\nNumPoints = {points}\nNumProfiles = {profiles}\nXscale = {spacing}\n"
+    head += f"Yscale = 1e-6\nZscale = {unit}\nDataType = 7\n*\n"
+    return head + "\n".join(" ".join(f"{z:.6g}" for z in row) for row in heights) + "\n*\n"
 
 
 FILES = {
@@ -62,7 +59,7 @@ FILES = {
     ).encode(),
     "packed": gzip.compress(("x_um,z_um\n" + rows(X, Z)).encode()),
     "heights with their spacing": ("# step = 0,5 um\n# z in nm\n" + heights(1e3 * Z)).encode(),
-    "a map": sdf(Z).encode(),
+    "a map": sdf(np.outer([0, 0, 1, 0, 0], Z), 0.5e-6, 1e-6).encode(),
     "lost samples": ("x_um,z_um\n" + rows(X, Z).replace("100,", "100,NaN #", 1)).encode(),
 }
 
@@ -98,7 +95,7 @@ def test_a_shipped_profile_makes_a_scene_that_loads_as_it_was_read(path, tmp_pat
     surface = surface_of(Scene.read(tmp_path / "mine.toml"))
     assert surface.info.roughness == made.surface.info.roughness
     assert surface.info.path.samefile(path)
-    assert made.profile.fields == {"x_unit": '"um"', "z_unit": '"um"', "form": '"line"'}
+    assert made.profile.fields == {"x_unit": "um", "z_unit": "um", "form": "line"}
     assert all("x_um,height_um" in made.profile.reasons[name] for name in ("x_unit", "z_unit"))
     given = np.loadtxt(path, delimiter=",", skiprows=3)
     np.testing.assert_allclose(surface.info.trace.height, 1e-6 * given[:, 1], rtol=1e-12)
@@ -238,25 +235,28 @@ def test_a_picture_stands_beside_the_scene(folder, capsys, monkeypatch):
     assert Path("mine.svg").read_text() == "mine"
 
 
-def test_a_small_map_gets_a_load_that_fits_it(folder):
-    """As an atomic force microscope has it: 100 nm long, some tenths of a nanometre rough."""
-    (folder / "trace.csv").write_text("x_nm,z_nm\n" + rows(X / 4.0, Z))
-    assert main(["init", "trace.csv"]) == 0
-    assert 0.0 < Scene.read("trace.toml").roller.radius < 10e-6
+@pytest.mark.parametrize(
+    ("text", "least", "most"),
+    [
+        # as an atomic force microscope has it: 100 nm long, some tenths of a nanometre rough
+        ("x_nm,z_nm\n" + rows(X / 4.0, Z), 10e-9, 5e-6),
+        ("x_um,z_um\n" + rows(0.1 * X, 0.01 * Z), 10e-6, 1e-3),
+    ],
+    ids=["100 nm", "40 um"],
+)
+def test_a_short_trace_gets_a_small_roller(folder, text, least, most):
+    (folder / "trace.csv").write_text(text)
+    assert least <= write_first_scene(Path("trace.csv")).scene.roller.radius <= most
 
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
     lay = np.outer(np.sin(np.arange(90) / 2.0), np.ones(70))
     lay = lay if turned else lay.T
-    count, profiles = lay.shape[1], lay.shape[0]
-    head = f"aISO-1.0\nNumPoints = {count}\nNumProfiles = {profiles}\nXscale = 1e-6\n"
-    head += "Yscale = 1e-6\nZscale = 1e-7\nDataType = 7\n*\n"
-    body = "\n".join(" ".join(f"{value:.6g}" for value in row) for row in lay)
-    (folder / "map.sdf").write_text(f"{head}{body}\n*\n")
+    (folder / "map.sdf").write_text(sdf(lay, 1e-6, 1e-7))
     made = write_first_scene(Path("map.sdf"))
     name = "column" if turned else "row"
-    assert made.profile.fields[name] == "35"
+    assert made.profile.fields[name] == 35
     assert made.profile.reasons[name] == (
         f"the middle one of 70, across the lay: slopes along {name}s are all that there are, none "
         "the other way"
@@ -273,16 +273,10 @@ def test_the_scene_runs_unchanged(folder, monkeypatch):
     assert (scene["title"], scene["roller"]["radius"]) == ("trace under a smooth roller", 0.01)
 
 
-def test_a_short_trace_gets_a_small_roller(folder):
-    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(0.1 * X, 0.01 * Z))
-    radius = write_first_scene(Path("trace.csv")).scene.roller.radius
-    assert 1e-5 <= radius <= 1e-3
-
-
 def test_the_form_of_a_round_specimen_is_an_arc(folder):
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z - (X - 200.0) ** 2 / 1e4))
     made = write_first_scene(Path("trace.csv"))
-    assert made.profile.fields["form"] == '"arc"'
+    assert made.profile.fields["form"] == "arc"
     assert made.surface.info.form.radius == pytest.approx(5e-3, rel=0.01)
 
 
@@ -364,9 +358,9 @@ def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
 
 def test_unused_sections_come_alive_when_their_signs_are_taken_away():
     values = {
-        "roller": {"radius": '"10 mm"', "rigid": "true"},
-        "body": {"youngs_modulus": '"3 MPa"', "poissons_ratio": "0.3"},
-        "load": {"per_length": '"1 N/mm"'},
+        "roller": {"radius": "10 mm", "rigid": True},
+        "body": {"youngs_modulus": "3 MPa", "poissons_ratio": 0.3},
+        "load": {"per_length": "1 N/mm"},
     }
     text = scene_text("A title", values, {})
     lines = [line for line in text.splitlines() if not line.startswith("# ")]

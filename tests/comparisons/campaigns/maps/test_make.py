@@ -12,10 +12,16 @@ from unittest.mock import patch
 import pytest
 from rich.console import Console
 
-from comparisons.campaigns.maps.content import MAP, PICTURE, map_table
-from comparisons.campaigns.maps.make import TIMES, exit_status, make_map
+from comparisons.campaigns.maps.map import (
+    MAP,
+    PICTURE,
+    TIMES,
+    exit_status,
+    make_map,
+    map_table,
+    request_of,
+)
 from comparisons.campaigns.maps.point import NOT_CONVERGED
-from comparisons.campaigns.maps.request import request_of
 from comparisons.cli import main
 from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import ExitStatus
@@ -149,7 +155,7 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     request = request_of(str(scene), "2x2", "a_over_width=0.3:3", "poissons_ratio=0.2:0.6")
     assert [point.why is None for point in request.points] == [True, True, False, False]
     answer = {"status": "failed", "why": "no"}
-    monkeypatch.setattr("comparisons.campaigns.maps.make.solve_point", lambda point: answer)
+    monkeypatch.setattr("comparisons.campaigns.maps.map.solve_point", lambda point: answer)
     monkeypatch.setattr(
         "comparisons.campaigns.grid.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
     )
@@ -166,7 +172,7 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
 def test_without_a_folder_it_is_named_after_the_scene(scene, monkeypatch, capsys):
     asked = []
     monkeypatch.setattr(
-        "comparisons.campaigns.maps.make.make_map", lambda request, out, *more: asked.append(out)
+        "comparisons.campaigns.maps.map.make_map", lambda request, out, *more: asked.append(out)
     )
     assert main(["map", str(scene), *ASKED]) == 0
     assert asked == [Path("results/small")]

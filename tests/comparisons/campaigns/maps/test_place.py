@@ -8,17 +8,14 @@ import pytest
 
 from comparisons.campaigns.maps.content import differences, places, scaled, unscaled
 from comparisons.campaigns.maps.groups import GROUPS
+from comparisons.campaigns.maps.map import finished_map, finished_names, mark_of, request_of
 from comparisons.campaigns.maps.place import (
-    finished_map,
-    finished_names,
     first_answer,
     interpolated,
-    mark_of,
     place_on,
     places_of,
     problem_named,
 )
-from comparisons.campaigns.maps.request import request_of
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
@@ -122,7 +119,7 @@ def test_a_scene_on_no_map_gets_bounds_by_estimates():
 
 
 def test_a_finished_map_is_shown_and_not_solved(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.campaigns.maps.make.solved_in", None)
+    monkeypatch.setattr("comparisons.campaigns.maps.map.solved_in", None)
     out = tmp_path / "map"
     asked = ["map", "curvature-thickness", "--quantity", "contact_length", "--out", str(out)]
     assert main([*asked, "--mark", "smooth"]) == 0
@@ -147,8 +144,9 @@ def test_what_a_map_does_not_have_is_refused(tmp_path, capsys):
     asked = ["map", "curvature-thickness", "--out", out]
     assert main([*asked, "--quantity", "mean_gap"]) == 2
     assert "--quantity: mean_gap is not on this map" in capsys.readouterr().err
-    assert main(["map", "slope-wavelength", "--out", out, "--mark", "smooth"]) == 2
-    assert "--mark: smooth has no wavelength_over_a" in capsys.readouterr().err
+    for name, group in (("slope-wavelength", "wavelength_over_a"), ("peclet-radius", "peclet")):
+        assert main(["map", name, "--out", out, "--mark", "smooth"]) == 2
+        assert f"--mark: smooth has no {group} to be marked at" in capsys.readouterr().err
     assert main([*asked, "--mark", "nowhere"]) == 2
     assert not (tmp_path / "map").exists()
 

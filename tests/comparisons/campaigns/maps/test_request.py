@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.campaigns.maps.request import request_of
+from comparisons.campaigns.maps.map import request_of
 from comparisons.common.errors import InputError, SceneError
 from comparisons.scenes.files import SCENES
 
@@ -10,10 +10,10 @@ from comparisons.scenes.files import SCENES
 class TestRequest:
     def test_usual_axes_are_what_the_scene_has(self):
         request = request_of("sinusoid", "2x2")
-        assert (request.x.group, request.y.group) == ("wavelength_over_a", "rms_slope")
+        assert (request.x["group"], request.y["group"]) == ("wavelength_over_a", "rms_slope")
 
         request = request_of("frictional-heat", "2x2", quantity="flash_temperature")
-        assert (request.x.group, request.y.group) == ("peclet", "a_over_thickness")
+        assert (request.x["group"], request.y["group"]) == ("peclet", "a_over_thickness")
 
     @pytest.mark.parametrize(
         ("arguments", "what"),

@@ -5,6 +5,7 @@ import pytest
 
 from comparisons.campaigns.grid import FAILED, SOLVED
 from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
+from comparisons.campaigns.maps.groups import axis_of
 from comparisons.campaigns.maps.picture import map_figure, map_picture
 from comparisons.campaigns.maps.rule import rule_of
 from comparisons.drawing.style import drawing
@@ -20,38 +21,21 @@ def smooth_map():
     """smooth_map(error): the content of a map with that error, of x and y."""
 
     def content(error, uncertainty: float = 1e-4) -> dict:
-        axes = {
-            "x": ("a_over_thickness", "a/t", np.geomspace(0.03, 3.0, 9)),
-            "y": ("friction_dundurs", "μβ", np.geomspace(0.01, 1.0, 7)),
-        }
-        points = [
-            {
-                "x": x,
-                "y": y,
-                "status": SOLVED,
-                "error": SIGNIFICANT,
-                "quantities": {
-                    "peak_pressure": {"difference": error(x, y), "uncertainty": uncertainty}
-                },
-            }
-            for y in axes["y"][2]
-            for x in axes["x"][2]
-        ]
+        x = axis_of("a_over_thickness=0.03:3", 9, "--x")
+        y = axis_of("friction_dundurs=0.01:1", 7, "--y")
+
+        def point(x: float, y: float) -> dict:
+            figures = {"difference": error(x, y), "uncertainty": uncertainty}
+            place = {"x": x, "y": y, "status": SOLVED, "error": SIGNIFICANT}
+            return place | {"quantities": {"peak_pressure": figures}}
+
         return {
             "quantity": "peak_pressure",
             "scene": {"title": "Made"},
-            **{
-                name: {
-                    "group": group,
-                    "symbol": symbol,
-                    "label": "",
-                    "logarithmic": True,
-                    "values": values.tolist(),
-                }
-                for name, (group, symbol, values) in axes.items()
-            },
+            "x": x,
+            "y": y,
             "tolerances": [0.01, 0.02, 0.05, 0.1],
-            "points": points,
+            "points": [point(u, v) for v in y["values"] for u in x["values"]],
         }
 
     return content

@@ -9,8 +9,7 @@ from scenes import STEEL
 
 import comparisons as crosscheck
 from comparisons.campaigns.sweep.pictures import zone_map_figure
-from comparisons.campaigns.sweep.request import MARGIN, sweep_request
-from comparisons.campaigns.sweep.study import scatter
+from comparisons.campaigns.sweep.sweep import MARGIN, scatter, sweep_request
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.drawing import style

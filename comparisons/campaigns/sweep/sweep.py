@@ -1,8 +1,11 @@
-"""A sweep from its request to its files: every point solved, the figures, and how they scatter.
+"""A sweep: the values that a user asks for, every point solved, the figures, and how they scatter.
 
-In: a request. Out: sweep.json, a table, pictures; and the scatter for the terminal."""
+In: a scene, and "FIELD=…" as `crosscheck sweep` takes them. Out: sweep.json, a table, pictures; and
+the scatter for the terminal."""
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from math import isfinite
 from operator import itemgetter
 from pathlib import Path
@@ -10,28 +13,131 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.grid import SOLVED, Point, failures, solved_in
-from comparisons.campaigns.sweep.request import SweepRequest
+from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
+from comparisons.campaigns.sweep.pictures import FRICTION, PICTURE, PICTURES, POSITION, drawn
 from comparisons.common.errors import InputError
 from comparisons.common.files import publish
 from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.provenance import as_json, versions
+from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.figure import Figure, Findings, grouped
 from comparisons.figures.quantity import QUANTITIES
+from comparisons.models.problem import problem_of
 from comparisons.output.flat_csv import COLUMNS, csv_text, harmless, rows_of
 from comparisons.output.result_json import result_of
+from comparisons.scenes.scene import Scene
 from comparisons.studies import bulge, quiescent_zone
 
 if TYPE_CHECKING:
     from rich.console import Group
 
-SWEEP, TABLE, PICTURE = "sweep.json", "sweep.csv", "sweep.svg"
-PICTURES = {quiescent_zone.NAME: "quiescent_zone.svg", bulge.NAME: "bulge.svg"}  # by study
+SWEEP, TABLE = "sweep.json", "sweep.csv"
 FILES = (SWEEP, TABLE, PICTURE, *PICTURES.values())
 SCHEMA = 1
+SHORT = {"position": POSITION, "friction": FRICTION}  # beside "load", whichever it is
+MOST = 10_000  # points
+MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
+# What shapes the answer at a point, beside versions of libraries.
+CODE = (*LEVEL_CODE, *(f"comparisons/{name}" for name in ("figures", "studies", "output")))
+CODE += tuple(f"comparisons/campaigns/{name}.py" for name in ("grid", "sweep/sweep"))
 SCATTERED = ("half_plane", "finite_element", "model_error")  # figures whose scatter is stated
 UNCERTAIN = {"height": "uncertainty", "end": "end_uncertainty", "energy": "energy_uncertainty"}
+_RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
+
+
+@dataclass(frozen=True)
+class SweepRequest:
+    """A sweep: every combination of the values, those of the last field inside."""
+
+    scene: Scene
+    models: tuple[str, ...]
+    fields: dict[str, tuple[Value, ...]]  # values by "table.field", as TOML would have them
+    points: tuple[Point, ...]
+
+    @property
+    def command(self) -> str:
+        values = (f"{name}={','.join(map(str, values))}" for name, values in self.fields.items())
+        over = " ".join(f"--over {text!r}" for text in values)
+        return f"crosscheck sweep {self.scene.source} {over}"
+
+
+def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) -> SweepRequest:
+    """The sweep that "FIELD=…" ask for.
+
+    over     "position=40" placements along the trace, "FIELD=FROM:TO:N" or "FIELD=A,B,C"
+    Raises InputError for anything that is wrong with them, or where no point has a scene."""
+    if not over:
+        raise InputError("--over: is missing; allowed is FIELD=A,B,C, FIELD=FROM:TO:N, position=N")
+    fields: dict[str, tuple[Value, ...]] = {}
+    for option in over:
+        name, values = _swept(option, scene)
+        if name in fields:
+            raise InputError(f"--over: {name} is given twice; allowed is every field once")
+        fields[name] = values
+    if (count := int(np.prod([len(values) for values in fields.values()]))) > MOST:
+        raise InputError(f"--over: asks for {count} scenes; allowed are {MOST}")
+    return SweepRequest(scene, models, fields, points_of(fields, scene.changed, models, CODE))
+
+
+def _swept(option: str, scene: Scene) -> tuple[str, tuple[Value, ...]]:
+    """Name of a field as "table.field", and its values."""
+    short, equals, text = option.partition("=")
+    name = SHORT.get(short.strip(), short.strip())
+    if name == "load":
+        name = f"load.{scene.load.kind}"
+    if not equals or not text.strip() or "." not in name:
+        raise InputError(
+            f"--over: is {option!r}; allowed is FIELD=A,B,C, FIELD=FROM:TO:N or position=N, with "
+            "FIELD as in body.youngs_modulus, or load, friction or position"
+        )
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) == 3:
+        return name, _between(option, *parts)
+    if name == POSITION and len(parts) == 1 and text.strip().isdigit():
+        return name, _placements(int(text), scene)
+    values = tuple(_number(part.strip()) for part in text.split(","))
+    if len(parts) != 1 or "" in values:
+        raise InputError(f"--over: is {option!r}; allowed is FIELD=A,B,C or FIELD=FROM:TO:N")
+    return name, values
+
+
+def _number(text: str) -> Value:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _between(option: str, first: str, last: str, count: str) -> tuple[Value, ...]:
+    ends = _RANGE.fullmatch(first), _RANGE.fullmatch(last)
+    units = {end[2] for end in ends if end} - {""}
+    if not all(ends) or len(units) > 1 or not count.isdigit() or not 2 <= int(count) <= MOST:
+        raise InputError(
+            f"--over: is {option!r}; allowed is FROM:TO:N, two numbers of one unit and how many "
+            f"values, from 2 to {MOST}"
+        )
+    values = np.linspace(float(ends[0][1]), float(ends[1][1]), int(count))
+    numbers = [float(f"{value:.10g}") for value in values]
+    unit = "".join(units)
+    return tuple(f"{value:.10g} {unit}" if unit else value for value in numbers)
+
+
+def _placements(count: int, scene: Scene) -> tuple[float, ...]:
+    """Positions [m] of the roller, evenly over those where the contact stays on the trace."""
+    if scene.profile is None:
+        raise InputError("--over: position: a smooth scene is the same everywhere; allowed is a "
+                         "scene with a profile")  # fmt: skip
+    if not 2 <= count <= MOST:
+        raise InputError(f"--over: position={count}; allowed are from 2 to {MOST} placements")
+    problem = problem_of(scene)
+    surface = problem.surface
+    ends = surface.position + surface.profile.x[0], surface.position + surface.profile.x[-1]
+    reach = np.multiply(MARGIN, problem.extent)
+    first, last = ends[0] - reach[0], ends[1] - reach[1]
+    if first >= last:
+        raise InputError("--over: position: the contact is as wide as the trace; allowed is a "
+                         "longer trace or a lighter load")  # fmt: skip
+    return tuple(float(f"{place:.10g}") for place in np.linspace(first, last, count))
 
 
 def make_sweep(
@@ -52,13 +158,8 @@ def make_sweep(
     whys = failures(content["points"])
     if whys.total() == len(content["points"]):
         raise InputError(next(iter(whys)))
-    from comparisons.campaigns.sweep.pictures import bulge_curve, sweep_picture, zone_map
-
-    files = {TABLE: sweep_csv(content), PICTURE: sweep_picture(content), SWEEP: as_json(content)}
-    for name, picture in ((quiescent_zone.NAME, zone_map), (bulge.NAME, bulge_curve)):
-        if any(name in point for point in content["points"]):
-            files[PICTURES[name]] = picture(content)
-    publish(out, files, FILES)
+    files = {TABLE: sweep_csv(content), SWEEP: as_json(content)}
+    publish(out, files | drawn(content), FILES)
     return content
 
 
@@ -114,7 +215,7 @@ def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
         "models": list(request.models),
         "over": [{"field": name, "values": list(values)} for name, values in fields],
         "points": points,
-        "scatter": scatter(points, "load.friction" in request.fields),
+        "scatter": scatter(points, FRICTION in request.fields),
         "versions": versions(),
     }
 
@@ -132,20 +233,23 @@ def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
     ]
     groups = grouped(known, itemgetter(slice(3)))
     groups.sort(key=lambda group: (order.get(group[0][0], len(order)), group[0][1] or 0.0))
-    return [_spread(*group[0][:3], [value for *_, value in group]) for group in groups]
-
-
-def _spread(quantity: str, friction: float | None, figure: str, values: list[float]) -> dict:
-    return {
-        "quantity": quantity,
-        "friction": friction,
-        "figure": figure,
-        "count": len(values),
-        "mean": float(np.mean(values)),
-        "standard_deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
-        "smallest": min(values),
-        "largest": max(values),
-    }
+    spreads = []
+    for group in groups:
+        (quantity, friction, figure, _), values = group[0], [value for *_, value in group]
+        deviation = float(np.std(values, ddof=1)) if len(values) > 1 else None
+        spreads.append(
+            {
+                "quantity": quantity,
+                "friction": friction,
+                "figure": figure,
+                "count": len(values),
+                "mean": float(np.mean(values)),
+                "standard_deviation": deviation,
+                "smallest": min(values),
+                "largest": max(values),
+            }
+        )
+    return spreads
 
 
 def sweep_csv(content: dict) -> str:

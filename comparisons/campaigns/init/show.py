@@ -1,0 +1,189 @@
+"""What `crosscheck init` has made, as JSON, as a table, and the trace in one picture."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from analytic.profile import Profile
+from analytic.surface.roughness import bearing_curve, power_spectrum
+from analytic.surface.roughness_standard import SECTIONS
+from comparisons.campaigns.init.guess import ProfileFields
+from comparisons.common.numbers import scale_of, significant, with_unit
+from comparisons.drawing.style import WIDE, drawing, figure, svg
+from comparisons.output.page.tables.problem import in_mm, sections_text, standard_text
+from comparisons.output.plausibility import warnings_about_surface
+from comparisons.output.terminal import PLAIN, plain_table
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import ProfileInfo, SceneSurface
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from rich.console import RenderableType
+
+TRACE = ("source", "format", "place", "samples", "length", "spacing", "bridged", "trimmed", "form")
+UNKNOWN = "-"
+UNEVEN = 0.01  # of the spacing: samples whose distances differ by more are not even
+# Name, of the trace as pressed and by the standard, and whether it is a length.
+ROUGHNESS = (
+    ("Ra", "ra", "ra", True),
+    ("Rq", "rq", "rq", True),
+    ("Rz", None, "rz", True),
+    ("Rt", "rt", "rt", True),
+    ("Rsk", "rsk", "rsk", False),
+    ("Rku", "rku", "rku", False),
+    ("Rdq, rms slope", "rms_slope", "rdq", False),
+    ("largest slope", "max_slope", None, False),
+    ("RSm", None, "rsm", True),
+    ("cut-off", None, "cutoff", True),
+    ("short cut-off", None, "short_cutoff", True),
+)
+HEIGHT = 5.2  # inches
+DECADES = 12  # of the spectrum below its largest value; what is lower is rounding
+POINTS = 4000  # of a drawn curve; more cannot be told apart
+
+
+@dataclass(frozen=True)
+class FirstScene:
+    """A scene file that was written, what it says, how its profile is read, a picture."""
+
+    path: Path
+    picture: Path | None
+    scene: Scene
+    surface: SceneSurface
+    profile: ProfileFields
+
+    def as_dict(self) -> dict:
+        """For JSON, SI units."""
+        info = self.surface.info
+        trace = info.as_dict()
+        return {
+            "scene": str(self.path),
+            "picture": None if self.picture is None else str(self.picture),
+            "profile": {name: trace[name] for name in TRACE},
+            "fields": self.profile.fields,
+            "guesses": self.profile.reasons,
+            "surface": info.surface(),
+            "roller_radius": self.scene.roller.radius,
+        }
+
+
+def init_table(made: FirstScene) -> "RenderableType":
+    """How the profile was read, its roughness, what is doubtful or guessed, and what to do next."""
+    from rich.console import Group
+    from rich.text import Text
+
+    info = made.surface.info
+    read = f"{info.source}: {info.format}, {info.samples} samples, "
+    read += f"{_length(info.length)} long, {_apart(info)} apart"
+    table = plain_table("roughness", numbers=("as pressed", "ISO 21920-2"))
+    for row in _rows(info):
+        table.add_row(*(cell.translate(PLAIN) for cell in row))
+    guesses = (
+        f"{name} = {json.dumps(made.profile.fields[name], ensure_ascii=False)}: {because}"
+        for name, because in made.profile.reasons.items()
+    )
+    ends = ["", f"scene   {made.path}"]
+    ends += [] if made.picture is None else [f"picture {made.picture}"]
+    warnings = (f"plausibility warning: {text}" for text in warnings_about_surface(info))
+    return Group(
+        Text(read.translate(PLAIN), style="bold"),
+        *([Text(info.place)] if info.place else []),
+        "",
+        table,
+        "",
+        *(Text(line.translate(PLAIN)) for line in _two_columns(info)),
+        "",
+        *(Text(line.translate(PLAIN)) for line in warnings),
+        *map(Text, (*guesses, *ends, f"next    crosscheck run {made.path}")),
+    )
+
+
+def _two_columns(info: ProfileInfo) -> list[str]:
+    off = "nothing" if info.form.kind == "none" else f"its {info.form.kind}"
+    pressed = f"as pressed: the whole trace without {off}"
+    if info.standard is None:
+        return [pressed, f"none by ISO 21920-2: {info.standard_why}"]
+    lines = [pressed, f"ISO 21920-2: {standard_text(info)}"]
+    few = info.standard.sections < SECTIONS
+    return lines + [f"section lengths: {sections_text(info.standard)}"] * few
+
+
+def _apart(info: ProfileInfo) -> str:
+    """The distance of samples, or from which to which it goes."""
+    steps = np.diff(info.trace.x)
+    least, most = float(steps.min()), float(steps.max())
+    even = most - least <= UNEVEN * info.spacing
+    return _length(info.spacing) if even else f"{_length(least)} to {_length(most)}"
+
+
+def _rows(info: ProfileInfo) -> list[tuple[str, str, str]]:
+    """Of ROUGHNESS, with what is known of it."""
+
+    def cell(source: object, field: str | None, is_length: bool) -> str:
+        value = getattr(source, field) if source and field else None
+        if value is None:
+            return UNKNOWN
+        if field == "cutoff":
+            return in_mm(value)
+        return _length(value) if is_length else significant(value, 3)
+
+    return [
+        (name, cell(info.roughness, pressed, is_length), cell(info.standard, standard, is_length))
+        for name, pressed, standard, is_length in ROUGHNESS
+    ]
+
+
+def _length(value: float) -> str:
+    return with_unit(value, "m")
+
+
+def picture(surface: SceneSurface) -> str:
+    """The trace of a surface, its heights as pressed, its x as on the trace, with its power
+    spectrum and bearing curve, as SVG."""
+    profile = Profile(surface.profile.x + surface.position, surface.profile.height)
+    with drawing():
+        drawn = figure(WIDE, HEIGHT)
+        grid = drawn.add_gridspec(
+            2, 2, hspace=0.5, wspace=0.2, left=0.07, right=0.99, top=0.94, bottom=0.1
+        )
+        _trace(drawn.add_subplot(grid[0, :]), profile)
+        _spectrum(drawn.add_subplot(grid[1, 0]), profile)
+        _bearing(drawn.add_subplot(grid[1, 1]), profile)
+        return svg(drawn)
+
+
+def _trace(axes: "Axes", profile: Profile) -> None:
+    x, height = profile.x, profile.height
+    along, across = scale_of(x, "m"), scale_of(height, "m")
+    # of each stretch its lowest and highest sample, so that no peak is lost
+    starts = np.unique(np.linspace(0, len(x), min(len(x), POINTS // 2), endpoint=False, dtype=int))
+    parts = np.split(np.arange(len(x)), starts[1:])
+    ends = [part[[np.argmin(height[part]), np.argmax(height[part])]] for part in parts]
+    kept = np.unique(np.concatenate([*ends, [0, len(x) - 1]]))
+    axes.plot(x[kept] / along.factor, height[kept] / across.factor, linewidth=0.8)
+    axes.set_title("the trace as pressed")
+    axes.set_xlabel(f"x on the trace [{along.name}]")
+    axes.set_ylabel(f"height [{across.name}]")
+
+
+def _spectrum(axes: "Axes", profile: Profile) -> None:
+    wavenumber, density = power_spectrum(profile)
+    axes.set_title("power spectral density")
+    axes.set_xlabel("wavelength [m]")
+    axes.set_ylabel("density [m³]")
+    if np.any(density > 0.0):
+        kept = density > 10.0**-DECADES * density.max()
+        axes.loglog(1.0 / wavenumber[kept], density[kept], linewidth=0.8)
+        axes.invert_xaxis()
+
+
+def _bearing(axes: "Axes", profile: Profile) -> None:
+    share, height = bearing_curve(profile)
+    across = scale_of(height, "m")
+    axes.plot(100.0 * share, height / across.factor)
+    axes.set_title("bearing curve")
+    axes.set_xlabel("share of the length that is as high [%]")
+    axes.set_ylabel(f"height [{across.name}]")

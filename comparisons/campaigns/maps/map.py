@@ -1,0 +1,255 @@
+"""A map: what is asked for, its points solved, and map.json, which holds all that a map shows.
+
+In: a scene, two axes and a quantity as `crosscheck map` takes them, or the name of a map that comes
+with the project. Out: map.json, which says nothing of when or where it was computed; its picture;
+a table."""
+
+import json
+from collections import Counter
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.campaigns.grid import FAILED, SOLVED, Point, failures, points_of, solved_in
+from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
+from comparisons.campaigns.maps.groups import (
+    GROUPS,
+    SHOWN,
+    Axis,
+    axis_of,
+    counts_of,
+    finite_elements,
+    scene_with,
+    study_of,
+    usual_axes,
+)
+from comparisons.campaigns.maps.point import NOT_CONVERGED, TOLERANCES, solve_point
+from comparisons.campaigns.maps.rule import rules_of
+from comparisons.common.errors import ExitStatus, InputError
+from comparisons.common.files import check_writable, publish
+from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.provenance import LEVEL_CODE, as_json, versions
+from comparisons.figures.quantity import QUANTITIES, label
+from comparisons.models.problem import Problem
+from comparisons.scenes.files import find_scene, name_of, read_toml
+from comparisons.scenes.scene import Origin, Scene
+
+if TYPE_CHECKING:
+    from rich.console import Group
+
+MAP, PICTURE, TIMES = "map.json", "map.svg", "map_times.json"
+SCHEMA = 2
+FINISHED = Path(__file__).parent / "finished"
+SIZE = "8x8"
+# What shapes the answer at a point, beside versions of libraries.
+CODE = (*LEVEL_CODE, "comparisons/figures", "comparisons/studies", "comparisons/campaigns/grid.py")
+CODE += tuple(f"comparisons/campaigns/maps/{n}" for n in ("groups.py", "groups.toml", "point.py"))
+
+
+@dataclass(frozen=True)
+class MapRequest:
+    """What a map is made of."""
+
+    scene: Scene
+    x: Axis
+    y: Axis
+    quantity: str  # of `comparisons.campaigns.maps.groups.SHOWN`, that the map shows
+
+    @property
+    def command(self) -> str:
+        axes = self.x, self.y
+        points = "x".join(str(len(axis["values"])) for axis in axes)
+        x, y = (f"{a['group']}={a['values'][0]:g}:{a['values'][-1]:g}" for a in axes)
+        asked = f"--points {points} --x {x} --y {y} --quantity {self.quantity}"
+        return f"crosscheck map {self.scene.source} {asked}"
+
+    @property
+    def finite_element(self) -> dict:
+        """[finite_element] of the points, with the assumptions of both groups dropped."""
+        return finite_elements(self.scene, (self.x["group"], self.y["group"]))
+
+    @property
+    def tables(self) -> dict:
+        """Of the scene, SI, without [budget], which limits runs alone; [finite_element] as the
+        scene gives it: what follows there changes with groups."""
+        tables = {name: table for name, table in self.scene.tables.items() if name != "budget"}
+        return tables | {"finite_element": self.scene.given.get("finite_element", {})}
+
+    @cached_property
+    def points(self) -> tuple[Point, ...]:
+        """Row by row: y outside, x inside. Raises SceneError where no point can be asked for, with
+        what is wrong at the first."""
+        x, y = self.x["group"], self.y["group"]
+        axes = {y: self.y["values"], x: self.x["values"]}
+        return points_of(
+            axes, lambda at: scene_with(self.scene, {x: at[x], y: at[y]}), self.quantity, CODE
+        )
+
+
+def request_of(
+    scene: str,
+    points: str = SIZE,
+    x: str | None = None,
+    y: str | None = None,
+    quantity: str = "peak_pressure",
+) -> MapRequest:
+    """The map that the arguments of `crosscheck map` ask for.
+
+    scene   of a finished map, or as for `crosscheck run`
+    points  "NxM"
+    x, y    "GROUP" or "GROUP=FROM:TO"
+    Raises InputError for anything that is wrong with them."""
+    counts = counts_of(points)
+    finished = FINISHED / f"{scene}.toml"
+    path = finished if finished.is_file() else find_scene(scene)
+    posed = Scene.of(read_toml(path), Origin(name_of(path), path.parent, scene))
+    if quantity not in SHOWN:
+        raise InputError(f"--quantity: there is no {quantity}; allowed are {', '.join(SHOWN)}")
+    if study := study_of(quantity):
+        needed = study.SECTION
+    else:
+        needed = "stress" if QUANTITIES[quantity].needs_stress else "load"
+    if getattr(posed, needed) is None:
+        raise InputError(f"--quantity: {quantity} needs a [{needed}] section in {scene}")
+    usual = usual_axes(posed, quantity)
+    across = axis_of(x or usual[0], counts[0], "--x")
+    up = axis_of(y or usual[1], counts[1], "--y")
+    if across["group"] == up["group"]:
+        raise InputError(f"--y: is {up['group']}, as --x; allowed are two groups")
+    return MapRequest(posed, across, up, quantity)
+
+
+def make_map(
+    request: MapRequest,
+    out: Path,
+    workers: int | str | None = None,
+    callback: ProgressCallback = no_progress,
+    marked: Problem | None = None,
+) -> dict | None:
+    """Compute the points that `out` does not have, write the map there, and return its content;
+    None in processes that only work for the first one under mpirun.
+
+    workers  as `tasks_by` takes them
+    marked   a scene of the user's on the picture
+    Raises InputError for what cannot be mapped or written."""
+    files = MAP, PICTURE, TIMES
+    answers = solved_in(out, files, request.points, solve_point, workers, callback)
+    if answers is None:
+        return None
+    content = map_content(request, [answer for answer, _ in answers])
+    callback("map: picture")
+    times = {"seconds": [seconds for _, seconds in answers]}
+    publish(out, _files(content, marked) | {TIMES: as_json(times)})
+    return content
+
+
+def finished_names() -> tuple[str, ...]:
+    return tuple(sorted(path.stem for path in FINISHED.glob("*.json")))
+
+
+def finished_map(name: str) -> dict:
+    return json.loads((FINISHED / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -> dict:
+    """Write a map that comes with the project to `out`, and return its content; nothing is solved.
+    Raises InputError for a quantity that it does not have, and what cannot be written."""
+    content = showing(finished_map(name), quantity)
+    check_writable(out, (PICTURE, MAP))
+    publish(out, _files(content, marked))
+    return content
+
+
+def _files(content: dict, marked: Problem | None) -> dict[str, str]:
+    from comparisons.campaigns.maps.picture import map_picture
+
+    mark = None if marked is None else mark_of(content, marked)
+    return {PICTURE: map_picture(content, mark), MAP: as_json(content)}
+
+
+def mark_of(content: dict, problem: Problem) -> tuple[str, tuple[float, float]]:
+    """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
+    where a group has no value for a scene."""
+    values = []
+    for name in (content["x"]["group"], content["y"]["group"]):
+        value = GROUPS[name].value_of(problem)
+        if value is None:
+            raise InputError(f"--mark: {problem.scene.name} has no {name} to be marked at")
+        values.append(value)
+    return problem.scene.name, (values[0], values[1])
+
+
+def exit_status(content: dict) -> ExitStatus:
+    """3 where a solver did not converge at a point."""
+    failed = any(NOT_CONVERGED in why for why in failures(content["points"]))
+    return ExitStatus.NOT_CONVERGED if failed else ExitStatus.DONE
+
+
+def map_content(request: MapRequest, answers: list[dict]) -> dict:
+    """map.json, with the answers at its points."""
+    points = [
+        {name: point.at[axis["group"]] for name, axis in (("x", request.x), ("y", request.y))}
+        | answer
+        | significance(answer, request.quantity)
+        for point, answer in zip(request.points, answers, strict=True)
+    ]
+    content = {
+        "schema": SCHEMA,
+        "command": request.command,
+        "scene": request.tables,
+        "finite_element": request.finite_element,
+        "quantity": request.quantity,
+        "x": request.x,
+        "y": request.y,
+        "tolerances": list(TOLERANCES),
+        "points": points,
+        "versions": versions(),
+    }
+    return content | {"rules": rules_of(content)}
+
+
+def showing(content: dict, quantity: str) -> dict:
+    """The same map of another quantity that its points have; refined for the first one. Raises
+    InputError where they do not have it."""
+    solved = [point for point in content["points"] if point["status"] == SOLVED]
+    allowed = [name for name in SHOWN if all(name in p["quantities"] for p in solved)]
+    if quantity not in allowed:
+        raise InputError(
+            f"--quantity: {quantity} is not on this map; allowed are {', '.join(allowed)}"
+        )
+    points = [point | significance(point, quantity) for point in content["points"]]
+    content = content | {"quantity": quantity, "points": points}
+    return content | {"rules": rules_of(content)}
+
+
+def map_table(content: dict, out: Path | None) -> "Group":
+    """The rules of thumb, and how many points are of which kind."""
+    from rich.console import Group
+    from rich.table import Table
+    from rich.text import Text
+
+    points = content["points"]
+    kinds = Counter(point.get("error", point["status"]) for point in points)
+    what = label(content["quantity"])
+    rules = Table(title=f"Where the half-plane's model error in the {what} stays small")
+    for name in ("tolerance", "rule", "its points", "largest error there", "all within"):
+        rules.add_column(name, justify="left" if name == "rule" else "right")
+    for rule in content["rules"]:
+        largest = "" if rule["largest_error"] is None else f"{100.0 * rule['largest_error']:.2g} %"
+        counts = str(rule["points_inside"]), largest, str(rule["points_within"])
+        rules.add_row(f"{100.0 * rule['tolerance']:g} %", rule["law"], *counts)
+    account = {
+        SIGNIFICANT: "with a larger error than its numerical uncertainty",
+        BELOW: "below the first tolerance",
+        INCONCLUSIVE: "inconclusive",
+        FAILED: "failed",
+    }
+    counts = ", ".join(f"{kinds[kind]} {words}" for kind, words in account.items() if kinds[kind])
+    return Group(
+        rules,
+        Text(f"{len(points)} points: {counts}"),
+        *(Text(f"failed, {count}: {why}") for why, count in failures(points).most_common()),
+        Text(f"made by: {content['command']}"),
+        *([] if out is None else [Text(f"map: {out / MAP}, {out / PICTURE}")]),
+    )
