@@ -218,12 +218,12 @@ def rows_of(
     return tuple(rows)
 
 
-def answers_of(out: Path, cases: Iterable[Case]) -> Cache:
+def answers_of(out: Path, command: str, cases: Iterable[Case]) -> Cache:
     """Answers of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
     code = program_code("analytic", "comparisons", "fem", "meshes")
     key = key_of(names, versions(), code)
-    return Cache(unfinished(out), key, kinds_of(Figure), by_all=True)
+    return Cache(unfinished(out, command), key, kinds_of(Figure), by_all=True)
 
 
 @dataclass(frozen=True)
@@ -279,7 +279,7 @@ def carry_out(
     concluded  the campaign of command, rows and seconds"""
     check_writable(out, (f"{command}.json", f"{command}.html"))
     check_place(junit)
-    start, kept = perf_counter(), answers_of(out, cases)
+    start, kept = perf_counter(), answers_of(out, command, cases)
     rows = rows_of(cases, callback, kept)
     campaign = concluded(command, rows, perf_counter() - start)
     if is_first():

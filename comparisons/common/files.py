@@ -38,10 +38,15 @@ PART = ".part"  # ends the name of a file that is not whole yet
 ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
 
 
-def unfinished(out: Path) -> Path:
-    """The folder of a run's finished levels while the run into `out` has not ended."""
+def unfinished(out: Path, command: str) -> Path:
+    """The folder for what a command into `out` has finished, while the command has not ended: its
+    own, so that another one's end leaves it alone."""
+    return _unfinished(out) / command
+
+
+def _unfinished(out: Path) -> Path:
     beside = out.parent / f".{out.name}.unfinished"
-    # that of a run which began before `out` was made is still good
+    # that of a command which began before `out` was made is still good
     return out / ".unfinished" if out.is_dir() and not beside.is_dir() else beside
 
 
@@ -97,7 +102,7 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
     _check_folder(out, place)
-    for folder in (unfinished(out), *(out / name for name in OWN_FOLDERS)):
+    for folder in (_unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)
     present = _present(out, own)

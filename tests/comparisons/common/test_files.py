@@ -139,19 +139,19 @@ def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
     unprivileged.chmod(0o500)
     check_writable(out)
     with published(out) as scratch:
-        assert scratch.parent == unfinished(out).parent == out
+        assert scratch.parent == unfinished(out, "run").parents[1] == out
         fill(scratch, ["result.json", "half_plane/contact.csv"])
     assert sorted(p.name for p in out.iterdir()) == ["half_plane", "result.json"]
 
 
-def test_where_unfinished_levels_are(tmp_path):
+def test_where_finished_levels_of_an_unfinished_run_are(tmp_path):
     out = tmp_path / "results"
     beside = tmp_path / ".results.unfinished"
-    assert unfinished(out) == beside
+    assert unfinished(out, "run") == beside / "run"
     out.mkdir()
-    assert unfinished(out) == out / ".unfinished"
+    assert unfinished(out, "run") == out / ".unfinished" / "run"
     beside.mkdir()
-    assert unfinished(out) == beside
+    assert unfinished(out, "run") == beside / "run"
 
 
 @pytest.mark.parametrize("name", ["half_plane", "finite_element", ".unfinished"])

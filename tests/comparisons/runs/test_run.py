@@ -14,13 +14,12 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.output.headline import verdict_of
 from comparisons.output.recorded_run import read_result
 from comparisons.output.result_json import content_of
-from comparisons.runs.run import run, solve
+from comparisons.runs.run import level_cache, run, solve
 from comparisons.scenes.scene import Scene
 from comparisons.studies.study import unsolved
 
@@ -258,7 +257,7 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert level_cache(tmp_path / "out", other, plan).load("level") is None
     whole = replace(plan, shared_factor=False)
     assert level_cache(tmp_path / "out", posed, whole).load("level") is None
-    path = tmp_path / ".out.unfinished" / "level.npz"
+    path = tmp_path / ".out.unfinished" / "run" / "level.npz"
     path.write_bytes(path.read_bytes()[:1000])
     assert kept.load("level") is None
     kept.discard()

@@ -12,14 +12,12 @@ from analytic.statistics.penetration import RIDGE
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels, problem_of
 from comparisons.output.recorded_run import read_result
-from comparisons.runs.run import Known, run
+from comparisons.runs.run import Known, level_cache, run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.statistics.figures import LoadRow
 from comparisons.studies.statistics.patches import patch_states
 from comparisons.studies.statistics.study import summit_rows
 
@@ -45,7 +43,7 @@ def test_loads_go_down_three_decades_from_the_scenes(loads):
 
 
 def test_a_run_that_goes_on_need_not_solve_them_again(tmp_path, outcome, loads):
-    cache = level_cache(tmp_path / "out", outcome.problem, outcome.plan, LoadRow)
+    cache = level_cache(tmp_path / "out", outcome.problem, outcome.plan)
     cache.save("statistics", loads)
     assert cache.load("statistics") == loads
 
