@@ -1,6 +1,6 @@
-"""A scene's surface after running-in, and the account of it."""
+"""A scene's surface after running-in, and what was assumed of it."""
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -77,28 +77,6 @@ def _pitch(profile: Profile, half_width: float) -> float:
 def _wanted(profile: Profile) -> float:
     """The pitch [m] that resolves the surface."""
     return min(shortest_wavelength(profile) / HATS_PER_WAVE, profile.spacing)
-
-
-def running_in_account(surface: SceneSurface) -> dict | None:
-    """What running-in did, for result.json; None without it."""
-    found = surface.run_in
-    if found is None:
-        return None
-    return {
-        "hardness": found.constraints.hardness,
-        "load_per_length": found.constraints.load,
-        "pitch": found.pitch,
-        "passes": len(found.passes),
-        "sweeps": found.sweeps,
-        "settled": found.status == "settled",
-        "converged": found.converged,
-        "volume_moved": found.volume,
-        "volume_by_pass": [one.volume for one in found.passes],
-        "largest_lowering": found.largest_lowering,
-        "at_ends_of_trace": ended(surface),
-        "roughness_before": asdict(roughness(found.before)),
-        "roughness_after": asdict(surface.info.roughness),
-    }
 
 
 def running_in_assumptions(scene: Scene, surface: SceneSurface) -> list[str]:
