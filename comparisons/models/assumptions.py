@@ -42,8 +42,8 @@ def without_law(scene: Scene) -> list[str]:
 def laws(scene: Scene) -> str:
     """The laws of elasticity of both bodies at finite strain, in words."""
     materials = [body.material for body in (scene.body, scene.roller) if body.material is not None]
-    found = {material.law.name: None for material in materials}
-    return " and ".join(LAW_NAMES[law] for law in found)
+    names = {material.law.name: None for material in materials}
+    return " and ".join(LAW_NAMES[law] for law in names)
 
 
 def _law(scene: Scene) -> str:

@@ -162,7 +162,7 @@ def solve(
     """Solve a scene by its plan and answer its studies, as `run` does; nothing is solved yet."""
     problem, plan = scene.problem, scene.plan
     cache = level_cache(out, problem, plan)
-    chosen = [each for each in STUDIES if each.applies(scene) and each.needs(scene) is None]
+    chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
     there = _for_finite_elements() if "finite_element" in plan.models else ()
     here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
     solving, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
@@ -175,13 +175,14 @@ def solve(
 
             begin(scene)
             solved = refined(scene, tasks, begin)
-            found = studied(STUDIES, solved, {}, tasks)
+            findings = studied(STUDIES, solved, {}, tasks)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
         cache.discard()
         raise
-    run = Run(solved, found, record_of(problem, solved.runs, _hashes(solved, found)), out)
+    record = record_of(problem, solved.runs, _hashes(solved, findings))
+    run = Run(solved, findings, record, out)
     try:
         if out is not None:
             write_files(run, within(callback, SOLVED, 1.0), fields)
@@ -202,7 +203,7 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
     return Cache(unfinished(out, "run"), key, kinds, by_all=True)
 
 
-def _hashes(solved: Solved, found: Mapping[str, Findings]) -> dict[str, object]:
+def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:
     """Of pressures, of the run-in surface, and of the files of answers."""
     hashes: dict[str, object] = {
         f"{name}_pressure": digest(run.finest.solution.pressure)
@@ -211,7 +212,7 @@ def _hashes(solved: Solved, found: Mapping[str, Findings]) -> dict[str, object]:
     run_in = solved.problem.surface.run_in
     if run_in is not None:
         hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
-    for files in found["answers"].series if "answers" in found else ():
+    for files in findings["answers"].series if "answers" in findings else ():
         if files.name == "files":
             hashes[f"answer_{files.source}"] = list(files.columns["sha256"].values)
     return hashes

@@ -113,12 +113,12 @@ class SceneSurface:
     def completed(self, tables: dict) -> dict:
         """The tables of the scene with the fields that follow from its surface: reading them
         again, in a folder that holds the profile's file, gives scene and surface."""
-        found = dict(tables) | {"load": tables["load"] | {"position": self.position}}
+        completed = dict(tables) | {"load": tables["load"] | {"position": self.position}}
         if self.profile is not None:
             follows = {"length": self.length, "cutoff": self.info.cutoff}
             known = {name: value for name, value in follows.items() if value is not None}
-            found["profile"] = tables["profile"] | known
-        return found
+            completed["profile"] = tables["profile"] | known
+        return completed
 
     def as_dict(self, scene: SceneBase) -> dict:
         """The scene for JSON: its completed tables, its name, what became of its profile."""
