@@ -1,7 +1,10 @@
 """Recorded runs repeated from their record alone: the same figures, and what is found if not."""
 
+import copy
+import functools
 import io
 import json
+import operator
 import re
 import shutil
 
@@ -12,8 +15,10 @@ from scenes import SMOOTH, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import InputError
+from comparisons.common.progress import no_progress
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
+from comparisons.output.page.redraw import draw_again
 from comparisons.output.recorded_run import read_result
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
@@ -295,6 +300,37 @@ def test_figures_that_no_run_writes_are_refused_before_anything_is_solved(own, a
     change(own / "result.json", alter)
     with pytest.raises(InputError, match=r"result.json: .*; allowed is "):
         rerun(own)
+
+
+def parts(table, way=()):
+    """Every entry below a table or list, by the way to it."""
+    pairs = table.items() if isinstance(table, dict) else enumerate(table)
+    for name, item in pairs:
+        yield (*way, name)
+        if isinstance(item, dict | list):
+            yield from parts(item, (*way, name))
+
+
+def test_report_npz_of_an_earlier_state_is_drawn_or_refused_in_one_line(own):
+    """With a part of it missing, or another one than is looked for."""
+    with np.load(own / "report.npz") as stored:
+        arrays = dict(stored)
+    outline, random, refused = json.loads(str(arrays["outline"])), np.random.default_rng(2), 0
+    ways = list(parts(outline))
+    for other in [None, "x", [], {}, -1.5] * 12:
+        spoilt = copy.deepcopy(outline)
+        *way, last = ways[random.integers(len(ways))]
+        table = functools.reduce(operator.getitem, way, spoilt)
+        if other == {}:
+            del table[last]
+        else:
+            table[last] = other
+        np.savez(own / "report.npz", **arrays | {"outline": np.array(json.dumps(spoilt))})
+        try:
+            draw_again([own], None, pdf=False, callback=no_progress, draws=False)
+        except InputError:
+            refused += 1
+    assert refused > 20
 
 
 @pytest.mark.parametrize("name", ["result.json", "record.json"])
