@@ -37,15 +37,15 @@ class Checked:
 VALUE = Some(np.linspace(0.0, 1.0, 50), 3, {"one": Part("a", (0.1, 2.0)), "two": Part("b", ())})
 
 
-def same(found: Some) -> bool:
-    return np.array_equal(found.x, VALUE.x) and (found.count, found.parts) == (3, VALUE.parts)
+def same(cached: Some) -> bool:
+    return np.array_equal(cached.x, VALUE.x) and (cached.count, cached.parts) == (3, VALUE.parts)
 
 
 @pytest.fixture
 def cache(tmp_path: Path) -> Cache:
-    found = Cache(tmp_path / "cache", "key", kinds_of(Some))
-    found.save("some", VALUE)
-    return found
+    cached = Cache(tmp_path / "cache", "key", kinds_of(Some))
+    cached.save("some", VALUE)
+    return cached
 
 
 def names(folder: Path) -> list[str]:
@@ -68,9 +68,9 @@ def test_a_wrong_bit_anywhere_is_harmless(cache):
         spoilt = bytearray(whole)
         spoilt[place] ^= 1 << bit
         path.write_bytes(spoilt)
-        found = cache.load("some")
-        refused += found is None
-        assert found is None or same(found)  # the bit was of no account
+        cached = cache.load("some")
+        refused += cached is None
+        assert cached is None or same(cached)  # the bit was of no account
     assert refused > 0.8 * FLIPS
 
 

@@ -240,7 +240,7 @@ def test_an_ignored_interrupt_stays_ignored(folder):
 def test_an_interrupted_command_says_what_it_keeps(
     tmp_path, monkeypatch, capsys, command, work, left
 ):
-    def interrupted(*given: object, **named: object) -> None:
+    def interrupted(*arguments: object, **named: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(f"comparisons.campaigns.{work}", interrupted)

@@ -75,7 +75,7 @@ def keys() -> tuple[str, str, str]:
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
     levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key
-    cost, points = (provenance.program_code(*each.CODE) for each in (cost_study, map_request))
+    cost, points = (provenance.program_code(*asked.CODE) for asked in (cost_study, map_request))
     return levels, cost, points
 
 

@@ -35,7 +35,7 @@ def figures(outcome) -> dict:
     """result.json without what may differ from run to run."""
     result = json.loads(json.dumps(content_of(outcome)))
     del result["record"]["made"]
-    result["series"] = [each for each in result["series"] if "is_account" not in each]
+    result["series"] = [series for series in result["series"] if "is_account" not in series]
     return result
 
 
@@ -63,13 +63,15 @@ class TestSmooth:
     )
     def test_meets_hertz(self, smooth, model, peak, half_width, tau1, depth):
         hertz = smooth.problem.hertz
-        found = values(smooth, model)
-        assert found["peak_pressure"] == pytest.approx(hertz.peak_pressure, rel=peak)
-        assert found["contact_length"] == pytest.approx(2 * hertz.half_width, rel=half_width)
-        assert found["contact_ratio"] == pytest.approx(1.0, rel=half_width)
-        assert found["tau1_max"] == pytest.approx(hertz.tau1_max, rel=tau1)
-        assert found["tau1_max_depth"] == pytest.approx(hertz.tau1_max_depth, rel=depth)
-        assert found["txz_max_abs"] == pytest.approx(0.25 * hertz.peak_pressure, rel=tau1)
+        figure_values = values(smooth, model)
+        assert figure_values["peak_pressure"] == pytest.approx(hertz.peak_pressure, rel=peak)
+        assert figure_values["contact_length"] == pytest.approx(
+            2 * hertz.half_width, rel=half_width
+        )
+        assert figure_values["contact_ratio"] == pytest.approx(1.0, rel=half_width)
+        assert figure_values["tau1_max"] == pytest.approx(hertz.tau1_max, rel=tau1)
+        assert figure_values["tau1_max_depth"] == pytest.approx(hertz.tau1_max_depth, rel=depth)
+        assert figure_values["txz_max_abs"] == pytest.approx(0.25 * hertz.peak_pressure, rel=tau1)
 
     def test_stated_uncertainties_cover_the_errors(self, smooth):
         """All but one in twenty, which is by a factor of two at most."""

@@ -104,8 +104,8 @@ class TestRestOfTheScene:
         return said
 
     def test_a_smooth_surface_has_nothing_to_run_in(self, refused):
-        found = refused({"profile": None})
-        assert found == (
+        complaint = refused({"profile": None})
+        assert complaint == (
             "wavy.toml: running_in: is given for a smooth surface; allowed only with [profile]"
         )
 
@@ -116,8 +116,8 @@ class TestRestOfTheScene:
             "body": {"thickness": 1e-3},
             "load": {"per_length": None, "approach": 1e-6},
         }
-        found = refused(layer)
-        assert found.startswith("wavy.toml: running_in.load: is missing; allowed is a load per")
+        complaint = refused(layer)
+        assert complaint.startswith("wavy.toml: running_in.load: is missing; allowed is a load per")
         scene = resolved({**layer, "running_in": {"load": pair.load_per_length}})
         assert scene.running_in.load == pair.load_per_length
 
