@@ -224,11 +224,12 @@ def rows_of(
     return tuple(rows)
 
 
-def answers_of(out: Path, cases: Iterable[Case]) -> Cache:
+def answers_of(out: Path, command: str, cases: Iterable[Case]) -> Cache:
     """Answers of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
-    key = key_of(names, versions(), program_code("analytic", "comparisons", "fem", "meshes"))
-    return Cache(unfinished(out), key, kinds_of(Figure), by_all=True)
+    code = program_code("analytic", "comparisons", "fem", "meshes")
+    key = key_of(names, versions(), code)
+    return Cache(unfinished(out, command), key, kinds_of(Figure), by_all=True)
 
 
 @dataclass(frozen=True)
@@ -302,7 +303,7 @@ def carry_out(
     concluded  the campaign of command, rows and seconds"""
     check_writable(out, (f"{command}.json", f"{command}.html"))
     check_place(junit)
-    start, kept = perf_counter(), answers_of(out, cases)
+    start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     if is_first():
         files = {f"{command}.json": as_json(finite(campaign.as_dict()))}

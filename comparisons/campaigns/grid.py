@@ -22,9 +22,8 @@ from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import key_of, program_code, versions
 from comparisons.common.tasks import ProcessEnded, Tasks, called
-from comparisons.models.level_cache import scene_key
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import surface_of
+from comparisons.scenes.surface import scene_key, surface_of
 from fem.solver.communicator import each_alone
 
 SOLVED, FAILED = "solved", "failed"

@@ -7,22 +7,19 @@ import io
 import json
 import shutil
 import typing
-import zlib
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
-from comparisons.common.files import ATTEMPTS, remove_leftovers, whole_file
+from comparisons.common.files import remove_leftovers, whole_file
 from comparisons.common.mpi import from_first, is_first
 
-# What a damaged file raises, by which bit of it is wrong; of an unknown compression, RuntimeError.
-DAMAGED = (
-    OSError, ValueError, KeyError, TypeError, EOFError, RuntimeError, BadZipFile, zlib.error
-)  # fmt: skip
+# What reading raises where a file is damaged, or of an earlier state of the program: zipfile, zlib,
+# numpy, json and the checks of dataclasses have errors of their own.
+DAMAGED = Exception
 
 
 @dataclass(frozen=True)
@@ -42,7 +39,7 @@ class Cache:
 
     def save(self, name: str, value: object) -> None:
         """Write a result: dataclasses, dictionaries, tuples, arrays, numbers, texts.
-        Another run may remove the folder at any moment; what is lost is computed again."""
+        The same command may end elsewhere and remove the folder; what is lost is computed again."""
         if self.folder is None or not is_first():
             return
         arrays: dict[str, np.ndarray] = {}
@@ -50,16 +47,16 @@ class Cache:
         # in memory first: an interrupt amid an archive whose file is closed would be complained of
         content = io.BytesIO()
         np.savez(content, outline=np.array(outline), **arrays)
-        for _ in range(ATTEMPTS):
-            self.folder.mkdir(parents=True, exist_ok=True)
-            with suppress(FileNotFoundError):
-                with whole_file(self.path(name)) as part:
-                    part.write_bytes(content.getbuffer())
-                return
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with suppress(FileNotFoundError), whole_file(self.path(name)) as part:
+            part.write_bytes(content.getbuffer())
 
     def discard(self) -> None:
+        """Remove the results, and the folder around theirs unless it holds those of others."""
         if self.folder is not None and is_first():
             shutil.rmtree(self.folder, ignore_errors=True)
+            with suppress(OSError):
+                self.folder.parent.rmdir()
 
     def remove_leftovers(self) -> None:
         """Remove what a process left that was killed while it saved."""
@@ -84,15 +81,15 @@ NO_CACHE = Cache(None, "", {})
 
 def kinds_of(*roots: type) -> dict[str, type]:
     """Every dataclass that values of these types and their fields may be made of, by name."""
-    found: dict[str, type] = {}
+    kinds: dict[str, type] = {}
     left = list(roots)
     while left:
         kind = left.pop()
-        if is_dataclass(kind) and kind.__name__ not in found:
-            found[kind.__name__] = kind
+        if is_dataclass(kind) and kind.__name__ not in kinds:
+            kinds[kind.__name__] = kind
             for hint in typing.get_type_hints(kind).values():
                 left += _mentioned(hint)
-    return found
+    return kinds
 
 
 def _mentioned(hint: object) -> Iterator[type]:
@@ -122,17 +119,17 @@ def encoded(value: object, arrays: dict[str, np.ndarray]) -> object:
     return value
 
 
-def decoded(given: object, arrays: dict[str, np.ndarray], kinds: dict[str, type]) -> object:
+def decoded(code: object, arrays: dict[str, np.ndarray], kinds: dict[str, type]) -> object:
     """The value that `encoded` took; `kinds` are its dataclasses by name."""
-    if not isinstance(given, dict):
-        return given
-    if "array" in given:
-        return arrays[given["array"]]
-    if "tuple" in given:
-        return tuple(decoded(item, arrays, kinds) for item in given["tuple"])
-    if "set" in given:
-        return frozenset(given["set"])
-    if "dict" in given:
-        return {key: decoded(item, arrays, kinds) for key, item in given["dict"]}
-    parts = {name: decoded(item, arrays, kinds) for name, item in given["fields"].items()}
-    return kinds[given["kind"]](**parts)
+    if not isinstance(code, dict):
+        return code
+    if "array" in code:
+        return arrays[code["array"]]
+    if "tuple" in code:
+        return tuple(decoded(item, arrays, kinds) for item in code["tuple"])
+    if "set" in code:
+        return frozenset(code["set"])
+    if "dict" in code:
+        return {key: decoded(item, arrays, kinds) for key, item in code["dict"]}
+    parts = {name: decoded(item, arrays, kinds) for name, item in code["fields"].items()}
+    return kinds[code["kind"]](**parts)

@@ -3,7 +3,6 @@
 Unfinished files are inside the folder where it exists: its parent need not be writable, and no file
 moves to another file system. Else they are beside it: the folder appears with the results."""
 
-import contextlib
 import errno
 import fcntl
 import glob
@@ -12,7 +11,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 
 from comparisons.common.errors import InputError
@@ -24,42 +23,46 @@ OWN_FILES = (
     *("run_in_profile.csv", "finite_element/mesh.msh"),
     *(f"{model}/{name}" for model in OWN_FOLDERS for name in ("contact.csv", "stress.vtu")),
 )
-# The same in formats that a run writes when it is asked to, or where a field is large; and patterns
-# of what it writes for further friction coefficients.
-OTHER_FILES = tuple(f"{model}/stress.{name}" for model in OWN_FOLDERS for name in ("vtkhdf", "msh"))
-FURTHER = "whole/friction_*"
-OTHER_FILES += (f"{FURTHER}/contact.csv", f"{FURTHER}/stress.*")
+FURTHER = "whole/friction_*"  # of the second friction coefficient, and so on
+ALL_FILES = (  # with patterns, and those formats of fields that a run writes when it is asked to
+    *OWN_FILES,
+    *(f"{model}/stress.{name}" for model in OWN_FOLDERS for name in ("vtkhdf", "msh")),
+    *(f"{FURTHER}/contact.csv", f"{FURTHER}/stress.*"),
+)
 RECORD = "record.json"  # of a run: its "files" are this program's
 # Those whose own record is <name>.json.
 STUDIES = ("cost", "map", "paper", "stability", "sweep", "verify")
 RECORDS = (RECORD, *(f"{name}.json" for name in STUDIES))
 LARGEST_RECORD = 2**28  # bytes; a larger one is nobody's that this program knows
 PART = ".part"  # ends the name of a file that is not whole yet
-ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
 
 
-def unfinished(out: Path) -> Path:
-    """The folder of a run's finished levels while the run into `out` has not ended."""
+def unfinished(out: Path, command: str) -> Path:
+    """The folder for what a command into `out` has finished, while the command has not ended: its
+    own, so that another one's end leaves it alone."""
+    return _unfinished(out) / command
+
+
+def _unfinished(out: Path) -> Path:
     beside = out.parent / f".{out.name}.unfinished"
-    # that of a run which began before `out` was made is still good
+    # that of a command which began before `out` was made is still good
     return out / ".unfinished" if out.is_dir() and not beside.is_dir() else beside
 
 
-def claimed(out: Path, own: tuple[str, ...] = ()) -> set[str]:
+def claimed(out: Path, together: tuple[str, ...] = ()) -> set[str]:
     """Names of the files in a folder that a record there says this program wrote.
 
-    own   names of files that are written together: a study's record is all of theirs"""
-    found: set[str] = set()
+    together  names of files that are written together: a study's record is all of theirs"""
+    names: set[str] = set()
     record = _record(out / RECORD)
     if "hashes" in record:
-        # records had no list of files at first
-        files = record.get("files", [*OWN_FILES, *OTHER_FILES])
-        found |= {RECORD, *map(str, files)} if isinstance(files, list) else set()
-    for name in STUDIES:
-        if "schema" in _record(out / f"{name}.json"):
-            found |= {path.name for path in out.glob(f"{name}*")}
-            found |= set(own) if f"{name}.json" in own else set()
-    return found
+        files = record.get("files", ALL_FILES)  # records had no list of files at first
+        names |= {RECORD, *map(str, files)} if isinstance(files, list | tuple) else set()
+    for study in STUDIES:
+        if "schema" in _record(out / f"{study}.json"):
+            names |= {path.name for path in out.glob(f"{study}*")}
+            names |= set(together) if f"{study}.json" in together else set()
+    return names
 
 
 def holds_comparison(out: Path) -> bool:
@@ -78,16 +81,16 @@ def claim(out: Path, name: str) -> None:
 
 def _record(path: Path) -> dict:
     """A JSON object in a file; empty where there is none."""
-    with contextlib.suppress(OSError, ValueError, RecursionError):
+    with suppress(OSError, ValueError, RecursionError):
         if path.stat().st_size <= LARGEST_RECORD:
             content = json.loads(path.read_bytes())
             return content if isinstance(content, dict) else {}
     return {}
 
 
-def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> None:
-    """Raise InputError unless `out` is, or can be made, a folder to write the files `own` in, and
-    holds none of them that somebody else wrote."""
+def check_writable(out: Path, files: tuple[str, ...] = ALL_FILES) -> None:
+    """Raise InputError unless `out` is, or can be made, a folder to write `files` in, by name or
+    pattern, and holds none of them that somebody else wrote."""
     try:  # the longest name that is used beside it
         os.lstat(out.parent / f".{out.name}.part-12345678")
     except OSError as error:
@@ -97,16 +100,16 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
     _check_folder(out, place)
-    for folder in (unfinished(out), *(out / name for name in OWN_FOLDERS)):
+    for folder in (_unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)
-    present = _present(out, own)
+    present = _present(out, files)
     for name in present:
         if (out / name).is_dir():
             raise _cannot(out, f"{out / name} is a folder; allowed is none")
     if present:
         with _alone_in(out):
-            ours = claimed(out, own)
+            ours = claimed(out, files)
             foreign = [n for n in present if n not in ours and os.path.lexists(out / n)]
         if foreign:
             why = f"no record there says that crosscheck wrote {foreign[0]}"
@@ -116,16 +119,16 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
 @contextmanager
 def _locked(path: Path, how: int) -> Iterator[bool | None]:
     """Lock a file or folder to the block's end: whether it is; None where a disk has no locks."""
-    held, number = True, None
+    is_locked, number = True, None
     try:
         number = os.open(path, os.O_RDONLY)
         fcntl.flock(number, how)
     except (BlockingIOError, FileNotFoundError):
-        held = False
+        is_locked = False
     except OSError:
-        held = None
+        is_locked = None
     try:
-        yield held
+        yield is_locked
     finally:
         if number is not None:
             os.close(number)
@@ -136,9 +139,8 @@ def _alone_in(out: Path) -> AbstractContextManager[bool | None]:
     return _locked(out, fcntl.LOCK_EX)
 
 
-def _present(out: Path, own: tuple[str, ...]) -> list[str]:
-    """Names in a folder that are among `own`, which may be patterns."""
-    return [name for pattern in own for name in glob.glob(pattern, root_dir=out)]
+def _present(out: Path, patterns: tuple[str, ...]) -> list[str]:
+    return [name for pattern in patterns for name in glob.glob(pattern, root_dir=out)]
 
 
 def _cannot(out: Path, why: str) -> InputError:
@@ -148,18 +150,13 @@ def _cannot(out: Path, why: str) -> InputError:
 def _check_folder(out: Path, place: Path) -> None:
     """Raise InputError, which names `out`, unless `place` is a folder to write in, or is gone.
     Permission bits are not enough (root, a read-only file system), so a folder is made there and
-    removed. Another run may remove `place` meanwhile, or remove it and make it again."""
-    for attempt in range(ATTEMPTS):
-        if not os.path.lexists(place):
-            return
-        try:
-            tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
-            return
-        except NotADirectoryError as error:
-            raise _cannot(out, f"{place} is not a folder; allowed is a folder") from error
-        except OSError as error:
-            if isinstance(error, FileNotFoundError) and attempt < ATTEMPTS - 1:
-                continue
+    removed. Another run may remove `place` meanwhile."""
+    try:
+        tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
+    except NotADirectoryError as error:
+        raise _cannot(out, f"{place} is not a folder; allowed is a folder") from error
+    except OSError as error:
+        if os.path.lexists(place):
             why = f"{place} ({error.strerror}); allowed is a folder that can"
             raise _cannot(out, why) from error
 
@@ -188,9 +185,9 @@ def _naming(part: Path, path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        given = Path(os.fsdecode(error.filename)) if error.filename else part
-        if given.is_relative_to(part):
-            error.filename = str(path / given.relative_to(part))
+        named = Path(os.fsdecode(error.filename)) if error.filename else part
+        if named.is_relative_to(part):
+            error.filename = str(path / named.relative_to(part))
         raise
 
 
@@ -198,17 +195,17 @@ def _naming(part: Path, path: Path) -> Iterator[None]:
 def _held(path: Path) -> Iterator[bool]:
     """Lock an unfinished file or folder until the block, or this process, ends. Whether it is held,
     and still there: another process may have taken it for abandoned just before."""
-    with _locked(path, fcntl.LOCK_EX | fcntl.LOCK_NB) as held:
-        yield held is not False and path.exists()
+    with _locked(path, fcntl.LOCK_EX | fcntl.LOCK_NB) as is_locked:
+        yield is_locked is not False and path.exists()
 
 
 def _remove_abandoned(parts: Iterable[Path]) -> None:
     """Remove unfinished files and folders whose process was killed: nobody holds them."""
     for part in parts:
-        with contextlib.suppress(OSError), _locked(part, fcntl.LOCK_EX | fcntl.LOCK_NB) as held:
-            if held and part.is_dir():
+        with suppress(OSError), _locked(part, fcntl.LOCK_EX | fcntl.LOCK_NB) as is_locked:
+            if is_locked and part.is_dir():
                 shutil.rmtree(part)
-            elif held:
+            elif is_locked:
                 part.unlink()
 
 
@@ -225,33 +222,34 @@ def remove_leftovers(folder: Path) -> None:
 
 
 @contextmanager
-def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> Iterator[Path]:
+def published(out: Path, files: tuple[str, ...] = ALL_FILES) -> Iterator[Path]:
     """A scratch folder whose files replace those of `out`, one by one and whole, at the end.
 
-    own   names or patterns of files that are removed where they are not made again
+    files  names or patterns of those that are removed where they are not made again
     If the block fails or is interrupted nothing in `out` changes."""
-    check_writable(out, own)
+    check_writable(out, files)
     with _scratch(out) as scratch, _naming(scratch, out):
         yield scratch
         made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
         made.sort(key=lambda name: str(name) not in RECORDS)  # first what claims the others
         out.mkdir(exist_ok=True)
         with _alone_in(out):
-            ours = claimed(out, own)
+            ours = claimed(out, files)
             for name in made:
-                _move(scratch / name, out / name)
-            for name in ours & set(_present(out, own)):
+                (out / name).parent.mkdir(parents=True, exist_ok=True)
+                os.replace(scratch / name, out / name)
+            for name in ours & set(_present(out, files)):
                 if Path(name) not in made:
                     (out / name).unlink(missing_ok=True)
             for folder in (*_present(out, (FURTHER,)), *OWN_FOLDERS):
-                with contextlib.suppress(OSError):  # absent, or holds something
+                with suppress(OSError):  # absent, or holds something
                     (out / folder).rmdir()
 
 
-def publish(out: Path, files: Mapping[str, str | bytes], own: tuple[str, ...] = ()) -> None:
-    """Leave files by name in `out`, whole, all or none; `own` as for `published`, or these."""
-    with published(out, own or tuple(files)) as folder:
-        for name, content in files.items():
+def publish(out: Path, contents: Mapping[str, str | bytes], files: tuple[str, ...] = ()) -> None:
+    """Leave contents by name in `out`, whole, all or none; `files` as for `published`, or these."""
+    with published(out, files or tuple(contents)) as folder:
+        for name, content in contents.items():
             data = content.encode() if isinstance(content, str) else content
             (folder / name).write_bytes(data)
 
@@ -273,15 +271,3 @@ def _scratch(out: Path) -> Iterator[Path]:
                 finally:
                     shutil.rmtree(scratch, ignore_errors=True)
                 return
-
-
-def _move(source: Path, target: Path) -> None:
-    """Put a file in its place, in a folder that another run may remove while it is empty."""
-    for attempt in range(ATTEMPTS):
-        target.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            os.replace(source, target)
-            return
-        except FileNotFoundError:
-            if attempt == ATTEMPTS - 1:
-                raise

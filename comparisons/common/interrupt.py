@@ -79,8 +79,8 @@ def _pass_signals_to(child: int) -> list[int]:
         os.kill(child, signal.SIGINT)
 
     signal.signal(signal.SIGINT, interrupt)
-    for each in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(each, lambda number, frame: os.kill(child, number))
+    for name in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(name, lambda number, frame: os.kill(child, number))
     return killed
 
 

@@ -67,11 +67,11 @@ def from_first(make: Callable[[], Result]) -> Result:
                 result = make()
         except Exception as caught:
             error = caught
-    own = result
+    made = result
     result, error = MPI.COMM_WORLD.bcast((result, error))
     if error is not None:
         raise error
-    return own if MPI.COMM_WORLD.rank == 0 else result
+    return made if MPI.COMM_WORLD.rank == 0 else result
 
 
 def as_one(work: Callable[[], int], ends: Container[int]) -> int:

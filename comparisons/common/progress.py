@@ -13,11 +13,11 @@ ProgressCallback = Callable[[str], None]
 
 def peak_memory() -> int:
     """Largest resident memory of this process so far [bytes]."""
-    found = _kilobytes("/proc/self/status", "VmHWM")
-    if found is not None:  # getrusage includes the parent's, in a process just started
-        return 1024 * found
-    found = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return found * (1 if sys.platform == "darwin" else 1024)
+    kilobytes = _kilobytes("/proc/self/status", "VmHWM")
+    if kilobytes is not None:  # getrusage includes the parent's, in a process just started
+        return 1024 * kilobytes
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return kilobytes * (1 if sys.platform == "darwin" else 1024)
 
 
 def processor_seconds() -> float:
@@ -30,8 +30,8 @@ def processor_seconds() -> float:
 
 def machine_memory() -> float:
     """Memory that processes of this machine could still get [bytes]; infinite where unknown."""
-    found = _kilobytes("/proc/meminfo", "MemAvailable")
-    return math.inf if found is None else 1024.0 * found
+    kilobytes = _kilobytes("/proc/meminfo", "MemAvailable")
+    return math.inf if kilobytes is None else 1024.0 * kilobytes
 
 
 def _kilobytes(path: str, name: str) -> int | None:

@@ -23,13 +23,13 @@ _version = cache(metadata.version)
 
 def versions() -> dict[str, str | None]:
     """Version of Python and of every package that shapes a figure; None where it is absent."""
-    found: dict[str, str | None] = {"python": platform.python_version()}
+    numbers: dict[str, str | None] = {"python": platform.python_version()}
     for name in PACKAGES:
         try:
-            found[name] = _version(name)
+            numbers[name] = _version(name)
         except metadata.PackageNotFoundError:
-            found[name] = None
-    return found
+            numbers[name] = None
+    return numbers
 
 
 def made() -> dict[str, str | None]:
@@ -44,10 +44,10 @@ def revision() -> str | None:
     if not (PROJECT / ".git").exists():
         return None
     git = ("git", "-C", str(PROJECT), "describe", "--always", "--exclude=*", "--dirty=+changes")
-    own = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
-    given = {"env": own | {"GIT_OPTIONAL_LOCKS": "0"}, "text": True, "timeout": 20.0}
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    how = {"env": environment | {"GIT_OPTIONAL_LOCKS": "0"}, "text": True, "timeout": 20.0}
     with suppress(OSError, subprocess.SubprocessError):
-        return subprocess.run(git, capture_output=True, check=True, **given).stdout.strip() or None
+        return subprocess.run(git, capture_output=True, check=True, **how).stdout.strip() or None
     return None
 
 
@@ -84,7 +84,7 @@ def program_code(*places: str) -> str:
     for place in places:
         path = PROJECT / place
         kinds = ("*.py", "*.toml", "*.c") if path.is_dir() else ()
-        sources = [each for kind in kinds for each in path.rglob(kind)] or [path]
+        sources = [source for kind in kinds for source in path.rglob(kind)] or [path]
         for source in sorted(sources):
             with open(source, "rb", buffering=0) as file:
                 total.update(file.read())

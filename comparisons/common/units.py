@@ -58,7 +58,7 @@ COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
         (LOAD, {"N/m": "1", "N/mm": "1e3", "kN/m": "1e3", "kN/mm": "1e6", "N/um": "1e6"}),
         (TIME, {"s": "1", "min": "60", "h": "3600"}),
         (MEMORY, {"byte": "1", "MB": "1e6", "GB": "1e9", "MiB": "1048576", "GiB": "1073741824"}),
-        *((each, {each.si_unit: "1"}) for each in OF_HEAT),
+        *((measure, {measure.si_unit: "1"}) for measure in OF_HEAT),
         (DIMENSIONLESS, {"%": "1e-2"}),
     )
     for unit, factor in units.items()
@@ -71,30 +71,30 @@ _UNIT = re.compile(rf"(?:1\s*/\s*)?{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})
 _LONGEST_UNIT = 60
 
 
-def to_si(given: object, dimension: Dimension) -> float:
-    """The value of `given` in the SI unit of `dimension`.
-    `given` is an int or float, already in SI, or a string "number unit". Raises UnitError for
+def to_si(entry: object, dimension: Dimension) -> float:
+    """The value of `entry` in the SI unit of `dimension`.
+    `entry` is an int or float, already in SI, or a string "number unit". Raises UnitError for
     anything else, an unknown unit, another dimension, or a value that is not finite."""
-    if isinstance(given, bool) or not isinstance(given, int | float | str):
-        raise UnitError(f"is {describe(given)}")
-    if not isinstance(given, str):
+    if isinstance(entry, bool) or not isinstance(entry, int | float | str):
+        raise UnitError(f"is {describe(entry)}")
+    if not isinstance(entry, str):
         try:
-            value = float(given)
+            value = float(entry)
         except OverflowError:
             value = math.inf
-        return _finite(value, given)
-    match = _NUMBER.fullmatch(given)
+        return _finite(value, entry)
+    match = _NUMBER.fullmatch(entry)
     if match is None:
-        raise UnitError(f"is {describe(given)}, which is not a number and a unit")
+        raise UnitError(f"is {describe(entry)}, which is not a number and a unit")
     number, unit = match[1], match[2]
     if not unit:
-        raise UnitError(f"is {describe(given)}, which has no unit")
-    factor = _factor(unit, dimension, given)
+        raise UnitError(f"is {describe(entry)}, which has no unit")
+    factor = _factor(unit, dimension, entry)
     if not math.isfinite(float(number)):
-        return _finite(float(number), given)
+        return _finite(float(number), entry)
     if float(number) == 0.0:
         return 0.0
-    return _finite(float(Decimal(number) * factor), given)
+    return _finite(float(Decimal(number) * factor), entry)
 
 
 def unit_in_si(unit: object, dimension: Dimension) -> float:
@@ -106,73 +106,73 @@ def unit_in_si(unit: object, dimension: Dimension) -> float:
 
 def known_units(dimension: Dimension) -> str:
     """Units of every day, for messages."""
-    return ", ".join(name for name, (found, _) in COMMON_UNITS.items() if found is dimension)
+    return ", ".join(name for name, (known, _) in COMMON_UNITS.items() if known is dimension)
 
 
-def describe(given: object) -> str:
+def describe(entry: object) -> str:
     """A value of a TOML file in the words of a message, cut short where it is long."""
-    if isinstance(given, bool):
-        return "true" if given else "false"
-    if isinstance(given, str):
-        shown = given if len(given) <= 40 else given[:37] + "..."
+    if isinstance(entry, bool):
+        return "true" if entry else "false"
+    if isinstance(entry, str):
+        shown = entry if len(entry) <= 40 else entry[:37] + "..."
         return f'"{shown}"' if shown.isprintable() else ascii(shown)
-    if isinstance(given, int | float):
-        if abs(given) < 10**20:
-            return repr(given)
-        return f"{given if isinstance(given, float) else Decimal(given):.3e}"
-    if isinstance(given, list | tuple):
+    if isinstance(entry, int | float):
+        if abs(entry) < 10**20:
+            return repr(entry)
+        return f"{entry if isinstance(entry, float) else Decimal(entry):.3e}"
+    if isinstance(entry, list | tuple):
         return "a list"
-    if isinstance(given, dict):
+    if isinstance(entry, dict):
         return "a table"
     dates = datetime.date | datetime.time
-    return "a date or time" if isinstance(given, dates) else f"of type {type(given).__name__}"
+    return "a date or time" if isinstance(entry, dates) else f"of type {type(entry).__name__}"
 
 
-def _finite(value: float, given: object) -> float:
+def _finite(value: float, entry: object) -> float:
     if not math.isfinite(value):
-        raise UnitError(f"is {describe(given)}, which is not finite")
+        raise UnitError(f"is {describe(entry)}, which is not finite")
     return value
 
 
-def _factor(unit: str, dimension: Dimension, given: str) -> Decimal:
+def _factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
     """SI units in one `unit`, which must measure `dimension`."""
     if unit in COMMON_UNITS:
-        found, factor = COMMON_UNITS[unit]
-        if found is not dimension:
-            raise UnitError(f"is {describe(given)}, {found.phrase}")
+        known, factor = COMMON_UNITS[unit]
+        if known is not dimension:
+            raise UnitError(f"is {describe(entry)}, {known.phrase}")
         return factor
-    return pint_factor(unit, dimension, given)
+    return pint_factor(unit, dimension, entry)
 
 
-def pint_factor(unit: str, dimension: Dimension, given: str) -> Decimal:
-    """As pint has it: SI units in one `unit`. Raises UnitError, which quotes `given`."""
+def pint_factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
+    """As pint has it: SI units in one `unit`. Raises UnitError, which quotes `entry`."""
     if _UNIT.fullmatch(unit) is None or len(unit) > _LONGEST_UNIT:
-        raise UnknownUnitError(f"is {describe(given)}, and {describe(unit)} is not a unit")
+        raise UnknownUnitError(f"is {describe(entry)}, and {describe(unit)} is not a unit")
     registry = _registry()
     try:
         parsed = registry.parse_units(unit)
         # not dimensions: to pint a byte, a radian and a bare number are all dimensionless
         root = registry.get_root_units(parsed)[1]
     except (AttributeError, ValueError, TypeError, ArithmeticError, SyntaxError) as error:
-        unknown = f"is {describe(given)}, and {_unknown(unit, dimension)}"
+        unknown = f"is {describe(entry)}, and {_unknown(unit, dimension)}"
         raise UnknownUnitError(unknown) from error
     if root != _root(dimension):
-        raise UnitError(f"is {describe(given)}, {_phrase(parsed)}")
+        raise UnitError(f"is {describe(entry)}, {_phrase(parsed)}")
     try:
         none, one = (
             Decimal(registry.Quantity(Decimal(count), parsed).to(dimension.si_unit).magnitude)
             for count in (0, 1)
         )
     except (ArithmeticError, TypeError) as error:
-        raise UnitError(f"is {describe(given)}, which cannot be converted") from error
+        raise UnitError(f"is {describe(entry)}, which cannot be converted") from error
     # 0 dB is 1: a logarithm or a shifted scale has no factor, though some pints convert it
     if none != 0:
-        raise UnitError(f"is {describe(given)}, which cannot be converted")
+        raise UnitError(f"is {describe(entry)}, which cannot be converted")
     return one
 
 
 def _unknown(unit: str, dimension: Dimension) -> str:
-    same = [name for name, (found, _) in COMMON_UNITS.items() if found is dimension]
+    same = [name for name, (known, _) in COMMON_UNITS.items() if known is dimension]
     folded = {name.casefold(): name for name in reversed(same)}
     near = difflib.get_close_matches(unit.casefold(), folded, n=1, cutoff=0.6)
     hint = f' (did you mean "{folded[near[0]]}"?)' if near else ""

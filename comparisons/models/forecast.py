@@ -1,6 +1,6 @@
 """What the levels of a run will take, by the laws of cost, before anything is meshed or solved."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -47,15 +47,11 @@ class Forecast:
             text += f" with {significant(self.per_wave, 2)} pressure elements to the shortest wave"
         return f"{text}; {self.ends}"
 
-    def as_dict(self) -> dict:
-        """For JSON, SI units."""
-        return asdict(self) | {"levels": [asdict(level) for level in self.levels]}
-
 
 def forecast(problem: Problem, plan: Plan) -> Forecast:
     """Of a plan's levels, without its effects and far-boundary check; as if contact were all over
     the stretch of pressures, which it never exceeds."""
-    scene, found, total, ends = problem.scene, [], 0.0, ""
+    scene, levels, total, ends = problem.scene, [], 0.0, ""
     for number in range(problem.most_levels):
         pitch = problem.pitches[0] / 2.0**number
         elements = problem.grid(pitch).count
@@ -63,19 +59,19 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
         costs = [expected_level(name, problem, plan, pitch, everywhere) for name in plan.models]
         seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
         total += seconds
-        if found and total > problem.time:
+        if levels and total > problem.time:
             ends = f"the budget of {with_unit(scene.budget.time, 's', 3)} ends it (budget.time)"
             break
-        if found and memory > scene.budget.memory:
+        if levels and memory > scene.budget.memory:
             memory = with_unit(scene.budget.memory, "byte", 3)
             ends = f"the budget of {memory} ends it (budget.memory)"
             break
         unknowns = max(cost.unknowns for cost in costs)
-        found.append(PlannedLevel(pitch, elements, unknowns, seconds, memory))
+        levels.append(PlannedLevel(pitch, elements, unknowns, seconds, memory))
     wave = None if scene.profile is None else shortest_wavelength(problem.surface.profile)
-    per_wave = None if wave is None or np.isinf(wave) else float(wave / found[-1].pitch)
+    per_wave = None if wave is None or np.isinf(wave) else float(wave / levels[-1].pitch)
     asked = len(problem.pitches)
-    return Forecast(tuple(found), asked, per_wave, ends or f"{len(found)} levels are the most")
+    return Forecast(tuple(levels), asked, per_wave, ends or f"{len(levels)} levels are the most")
 
 
 def expected_level(
@@ -92,6 +88,7 @@ def expected_level(
 
 def _cost(levels: tuple[PlannedLevel, ...]) -> str:
     """Unknowns of the last one, seconds of all, largest memory."""
-    seconds, memory = sum(each.seconds for each in levels), max(each.memory for each in levels)
+    seconds = sum(level.seconds for level in levels)
+    memory = max(level.memory for level in levels)
     unknowns = significant(float(levels[-1].unknowns), 2)
     return f"{unknowns} unknowns, {with_unit(seconds, 's', 2)}, {with_unit(memory, 'byte', 2)}"

@@ -76,13 +76,13 @@ def _stresses(
     x, pressure = level.grid.x, level.solution.pressure
     ends = ends_of(problem, level.grid, level.solution)
     points = *([window] if fields else []), search_window(problem, window)
-    *shown, searched = (field_on(level, each, ends) for each in points)
+    *shown, searched = (field_on(level, window, ends) for window in points)
     nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
         how = {"beside": ends.at(friction), "cells": problem.asperities}
-        found = stress_maxima(x, pressure, friction, searched.at(friction), nu, **how)
-        extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
-        maxima = {"tau1": found.cells["tau1"], "txz": found.cells["txz_abs"]}
+        largest = stress_maxima(x, pressure, friction, searched.at(friction), nu, **how)
+        extremes = {"tau1": largest.tau1, "txz": largest.txz_abs, "von_mises": largest.von_mises}
+        maxima = {"tau1": largest.cells["tau1"], "txz": largest.cells["txz_abs"]}
         field = shown[0].at(friction).stress if shown else None
         results.append(StressResult(friction, extremes, field, maxima))
     return tuple(results)
@@ -90,7 +90,7 @@ def _stresses(
 
 def field_on(level: Level, points: Window, ends: EndStress) -> FrictionField:
     """Stresses at a window's points, those next to the ends of contact included."""
-    found = friction_field(
+    field = friction_field(
         level.grid.x,
         level.solution.pressure,
         (points.x[0], points.x[-1]),
@@ -98,7 +98,7 @@ def field_on(level: Level, points: Window, ends: EndStress) -> FrictionField:
         subdivisions=points.subdivisions(level.grid.pitch),
         stride=points.stride(level.grid.pitch),
     )
-    return replace(found, stress=found.stress.plus(ends.parts(found.x, found.z[:, None])))
+    return replace(field, stress=field.stress.plus(ends.parts(field.x, field.z[:, None])))
 
 
 def stresses_at(
@@ -107,7 +107,7 @@ def stresses_at(
     """A solved level's stresses by friction coefficient at x, z (n,) [m]; NaN where z < 0."""
     below, parts = z >= 0.0, np.full((4, len(x)), np.nan)
     at = x[below], z[below]
-    given = level.grid.x, level.solution.pressure
     ends = ends_of(problem, level.grid, level.solution)
-    parts[:, below] = friction_stress_at(*given, *at).plus(ends.parts(*at)).parts
+    stress = friction_stress_at(level.grid.x, level.solution.pressure, *at)
+    parts[:, below] = stress.plus(ends.parts(*at)).parts
     return {friction: FrictionStress.of(parts).at(friction) for friction in frictions}

@@ -46,10 +46,10 @@ class StressResult:
         is known for all together only, 0 of the others. `cells` are the problem's asperities."""
         if name in self.maxima:
             return self.maxima[name]
-        found, largest = np.full((3, len(cells) + 1), np.nan), self.extremes[name]
-        found[0] = 0.0
-        found[:, np.searchsorted(cells, largest.x)] = abs(largest.value), largest.x, largest.z
-        return found
+        maxima, largest = np.full((3, len(cells) + 1), np.nan), self.extremes[name]
+        maxima[0] = 0.0
+        maxima[:, np.searchsorted(cells, largest.x)] = abs(largest.value), largest.x, largest.z
+        return maxima
 
 
 def highest(maxima: np.ndarray) -> Extremum:
@@ -85,7 +85,7 @@ class MeshField:
         the displacements one more, where that without is known, too."""
         nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
         moved = body.at_points(np.moveaxis(displacement, 1, 0))[:, nodes.point]
-        states = dict(zip(frictions, (StressState(*each.values.T) for each in nodal), strict=True))
+        states = dict(zip(frictions, (StressState(*s.values.T) for s in nodal), strict=True))
         sets = states, dict(zip((*frictions, 0.0), moved, strict=False))
         points, top = body.points[nodes.point], np.flatnonzero(np.isin(nodes.point, body.top.point))
         top = top[np.argsort(points[top, 0])]
@@ -122,9 +122,10 @@ class RecoverableField:
         from fem.stress.stress import nodal_stresses
         from fem.stress.surface_load import SurfaceLoad
 
-        given = self.hats, self.pressure, np.array(self.frictions), straight_down
+        frictions = np.array(self.frictions)
+        load = SurfaceLoad(body, self.hats, self.pressure, frictions, straight_down)
         beside = [self.ends.at(friction) for friction in self.frictions]
-        return nodal_stresses(self.displacement, SurfaceLoad(body, *given), beside)
+        return nodal_stresses(self.displacement, load, beside)
 
 
 @dataclass(frozen=True)

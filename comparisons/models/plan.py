@@ -2,7 +2,7 @@
 
 A skipped step never changes a figure that is asked for."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from comparisons.figures.quantity import MODELS
 from comparisons.models.assumptions import assumptions_of
@@ -30,8 +30,8 @@ class Plan:
     effects: bool  # compute effects beside the scene's own where their estimates ask for it
     domain_check: bool  # repeat the coarsest finite-element level on a block of half the size
     increments_check: bool  # repeat that level with longer increments of plastic flow
-    skipped: tuple[Skipped, ...]  # steps, each with its reason
     assumptions: tuple[str, ...]  # of the models of this run
+    skipped: tuple[Skipped, ...] = ()  # steps, each with its reason
 
     @property
     def compares(self) -> bool:
@@ -40,49 +40,55 @@ class Plan:
 
 def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     """The plan that computes what the scene asks for and nothing else."""
-    scene = problem.scene
-    finite_elements = "finite_element" in models
-    stress = scene.stress is not None
-    shared = finite_elements and _shares_factor(scene)
+    scene, settings = problem.scene, problem.scene.finite_element
+    half_plane, finite_elements = (name in models for name in MODELS)
     uncoupled = [no_coupling(problem, friction) for friction in scene.load.friction]
-    coupling = "half_plane" in models and not all(uncoupled)
     unbounded = scene.body.thickness is None or scene.body.width is None or not scene.roller.rigid
-    domain_check = finite_elements and unbounded
-    increments_check = finite_elements and scene.finite_element.plastic
-    effects = set(models) == set(MODELS) and bool(scene.budget.effects) and bool(scene.tolerances)
-    skipped = [
-        Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
+    compares = half_plane and finite_elements
+    plan = Plan(
+        models,
+        stress=scene.stress is not None,
+        shared_factor=finite_elements and _shares_factor(scene),
+        coupling=half_plane and not all(uncoupled),
+        effects=compares and bool(scene.budget.effects) and bool(scene.tolerances),
+        domain_check=finite_elements and unbounded,
+        increments_check=finite_elements and settings.plastic,
+        assumptions=assumptions_of(problem),
+    )
+    steps = [
+        *((name not in models, f"{name} model", "not asked for") for name in MODELS),
+        (scene.profile is None, "refinement under asperities", "the surface is smooth"),
+        (scene.heat is None, "frictional heat", "the scene has no [heat]"),
+        (not plan.stress, "subsurface stresses", "the scene has no [stress]"),
+        (
+            plan.stress and not any(scene.load.friction),
+            "stresses of the sliding traction",
+            "there is no friction",
+        ),
+        (
+            scene.statistics is None or not half_plane,
+            "statistics of rough contact",
+            "they take the half-plane" if scene.statistics else "the scene has no [statistics]",
+        ),
+        (scene.body.hardness is None, "hardness cap", "the body has no hardness"),
     ]
-
-    def skip(needless: bool, step: str, because: str) -> None:
-        if needless:
-            skipped.append(Skipped(step, because))
-
-    slides = any(scene.load.friction)
-    skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
-    skip(scene.heat is None, "frictional heat", "the scene has no [heat]")
-    skip(not stress, "subsurface stresses", "the scene has no [stress]")
-    skip(stress and not slides, "stresses of the sliding traction", "there is no friction")
-    why = "they take the half-plane" if scene.statistics else "the scene has no [statistics]"
-    unasked = scene.statistics is None or "half_plane" not in models
-    skip(unasked, "statistics of rough contact", why)
-    skip(scene.body.hardness is None, "hardness cap", "the body has no hardness")
-    if "half_plane" in models:
-        skip(not coupling, "coupling", uncoupled[-1])
+    if half_plane:
+        steps.append((not plan.coupling, "coupling", uncoupled[-1]))
     if finite_elements:
-        skip(scene.roller.rigid, "mesh of the roller", "it is rigid")
-        same = "it is the body's block with another modulus, or the same"
-        skip(shared, "factorisation of the roller's block", same)
-        why = "not asked for (budget.effects)" if scene.tolerances else "no quantity is judged"
-        skip(not effects, "effects beside the scene's own finite elements", why)
-        skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
-        skip(not increments_check, "check of the increments of flow", "no body flows")
-        leans = no_check(scene)
-        skip(leans is not None, "check of the compliance before contact", leans)
-    if set(models) != set(MODELS):
-        skipped.append(Skipped("comparison", "it takes both models"))
-    steps = stress, shared, coupling, effects, domain_check, increments_check
-    return Plan(models, *steps, tuple(skipped), assumptions_of(problem))
+        shared = "it is the body's block with another modulus, or the same"
+        unasked = "not asked for (budget.effects)" if scene.tolerances else "no quantity is judged"
+        unchecked = no_check(scene)
+        steps += [
+            (scene.roller.rigid, "mesh of the roller", "it is rigid"),
+            (plan.shared_factor, "factorisation of the roller's block", shared),
+            (not plan.effects, "effects beside the scene's own finite elements", unasked),
+            (not unbounded, "check of the far boundary", "the body's boundaries are its own"),
+            (not settings.plastic, "check of the increments of flow", "no body flows"),
+            (unchecked is not None, "check of the compliance before contact", unchecked),
+        ]
+    steps.append((not compares, "comparison", "it takes both models"))
+    skipped = tuple(Skipped(step, because) for needless, step, because in steps if needless)
+    return replace(plan, skipped=skipped)
 
 
 def no_coupling(problem: Problem, friction: float) -> str | None:
@@ -97,12 +103,9 @@ def no_coupling(problem: Problem, friction: float) -> str | None:
 def _shares_factor(scene: Scene) -> bool:
     """Whether the roller's block is the body's but for a factor on its modulus."""
     settings, roller = scene.finite_element, scene.roller.material
-    own = (scene.body.thickness, scene.body.width, scene.coating) != (
-        None,
-        None,
-        None,
-    ) or settings.plastic
-    own = own or settings.deformation == "finite"  # its boundary is its shape
+    bounds = scene.body.thickness, scene.body.width, scene.coating
+    # at finite deformation a body's boundary is its shape
+    same_body = bounds == (None, None, None) and not settings.nonlinear
     flat = settings.geometry == "flat" and settings.roller_body == "half-plane"
     alike = roller is not None and roller.poissons_ratio == scene.body.poissons_ratio
-    return alike and flat and not own
+    return alike and flat and same_body

@@ -214,11 +214,12 @@ def _smooth_contact(scene: Scene, modulus: float, load: float | None) -> HertzCo
 def _check_layers(scene: Scene, half_width: float) -> None:
     """Refuse a layer too thin or thick for a mesh, and a coating that is nothing, or rigid."""
     if scene.coating is not None:
-        own, body = (each.youngs_modulus for each in (scene.coating.material, scene.body.material))
-        if not body / STIFFEST <= own <= body * STIFFEST:
+        coating, body = scene.coating.youngs_modulus, scene.body.youngs_modulus
+        if not body / STIFFEST <= coating <= body * STIFFEST:
             raise SceneError(
-                f"{scene.source}: coating.youngs_modulus: is {own:g} Pa on a body of {body:.3g} "
-                f"Pa; allowed is from {body / STIFFEST:.3g} Pa to {body * STIFFEST:.3g} Pa"
+                f"{scene.source}: coating.youngs_modulus: is {coating:g} Pa on a body of "
+                f"{body:.3g} Pa; allowed is from {body / STIFFEST:.3g} Pa to "
+                f"{body * STIFFEST:.3g} Pa"
             )
     layers = {"body": scene.body.thickness, "coating": scene.coating and scene.coating.thickness}
     if scene.load.kind == "approach":  # without deformation; the load is not known yet
@@ -244,30 +245,27 @@ def surface_ends(problem: Problem) -> tuple[float, float]:
 
 def _contact_extent(problem: Problem) -> tuple[float, float]:
     """Outermost contact with a margin [m], by coarse half-plane solutions on fitting stretches."""
-    scene, half_width, hardness = (
-        problem.scene,
-        problem.hertz.half_width,
-        problem.scene.body.hardness,
-    )
+    scene, half_width, load = problem.scene, problem.hertz.half_width, problem.hertz.load_per_length
     start, stop = surface_ends(problem)
-    narrowest = 0.0 if hardness is None else problem.hertz.load_per_length / hardness
+    narrowest = load / problem.constraints().hardness
     if narrowest > 2.0 * scene.roller.radius:
-        softest = 0.5 * problem.hertz.load_per_length / scene.roller.radius
+        softest = 0.5 * load / scene.roller.radius
         raise SceneError(
-            f"{scene.source}: body.hardness: is {hardness:g} Pa, which carries the load on "
-            f"{narrowest:.3g} m, more than the roller is wide; allowed is {softest:.3g} Pa or more"
+            f"{scene.source}: body.hardness: is {scene.body.hardness:g} Pa, which carries the "
+            f"load on {narrowest:.3g} m, more than the roller is wide; allowed is {softest:.3g} Pa "
+            "or more"
         )
     profile = problem.surface.profile
     relief = 0.0 if profile is None else float(np.ptp(profile.height))
     if not start < 0.0 < stop:
         raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
     # this far out the surface is below the roller even if the highest peak stood there
-    outermost = max(2.0 * half_width, problem.hertz.load_per_length / problem.widest.hardness)
+    outermost = max(2.0 * half_width, load / problem.widest.hardness)
     outermost += np.sqrt(2.0 * scene.roller.radius * relief)
     while True:
         low, high = max(start, -outermost), min(stop, outermost)
         touching = (low, high)
-        if problem.hertz.load_per_length < FULL * problem.widest.hardness * (high - low):
+        if load < FULL * problem.widest.hardness * (high - low):
             touching, slack = _search_extent(problem, low, high)
             if touching[0] > low + slack and touching[1] < high - slack:
                 break
@@ -348,7 +346,7 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
 
 def standing_out(values: np.ndarray, least: float) -> list[int]:
     """Places of the largest values (n,) between falls of `least` or more on both sides."""
-    found, place, low, rises = [], 0, values[0], False
+    places, place, low, rises = [], 0, values[0], False
     for k, value in enumerate(values):
         if not rises:
             low = min(low, value)
@@ -357,9 +355,9 @@ def standing_out(values: np.ndarray, least: float) -> list[int]:
         elif value > values[place]:
             place = k
         elif value <= values[place] - least:
-            found.append(place)
+            places.append(place)
             low, rises = value, False
-    return found
+    return places
 
 
 def _asperities(problem: Problem) -> tuple[float, ...]:

@@ -1,6 +1,6 @@
-"""A scene's surface after running-in, and the account of it."""
+"""A scene's surface after running-in, and what was assumed of it."""
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -31,10 +31,8 @@ def run_in_surface(scene: Scene, surface: SceneSurface) -> SceneSurface:
     settings, profile = scene.running_in, surface.profile
     if settings is None or surface.run_in is not None:
         return surface
-    radius, modulus = (
-        scene.roller.radius,
-        combined_modulus(scene.roller.material, scene.body.material),
-    )
+    radius = scene.roller.radius
+    modulus = combined_modulus(scene.roller.material, scene.body.material)
     load = _load(scene, modulus)
     pitch = _pitch(profile, hertz_from_load(load, radius, modulus).half_width)
     count = profile.length / pitch
@@ -48,12 +46,12 @@ def run_in_surface(scene: Scene, surface: SceneSurface) -> SceneSurface:
     places = np.array(settings.places(surface.position)) - surface.position
     sweeps = settings.sweeps
     try:
-        found = run_in(profile, radius, modulus, limits, places, pitch=pitch, sweeps=sweeps)
+        done = run_in(profile, radius, modulus, limits, places, pitch=pitch, sweeps=sweeps)
     except ContactError as error:
         where = f"{scene.source}: running_in.hardness"
         raise SceneError(f"{where}: {error}; allowed is more") from error
-    info = replace(surface.info, roughness=roughness(found.profile))
-    return replace(surface, profile=found.profile, info=info, run_in=found)
+    info = replace(surface.info, roughness=roughness(done.profile))
+    return replace(surface, profile=done.profile, info=info, run_in=done)
 
 
 def _load(scene: Scene, modulus: float) -> float:
@@ -79,47 +77,25 @@ def _wanted(profile: Profile) -> float:
     return min(shortest_wavelength(profile) / HATS_PER_WAVE, profile.spacing)
 
 
-def running_in_account(surface: SceneSurface) -> dict | None:
-    """What running-in did, for result.json; None without it."""
-    found = surface.run_in
-    if found is None:
-        return None
-    return {
-        "hardness": found.constraints.hardness,
-        "load_per_length": found.constraints.load,
-        "pitch": found.pitch,
-        "passes": len(found.passes),
-        "sweeps": found.sweeps,
-        "settled": found.status == "settled",
-        "converged": found.converged,
-        "volume_moved": found.volume,
-        "volume_by_pass": [one.volume for one in found.passes],
-        "largest_lowering": found.largest_lowering,
-        "at_ends_of_trace": ended(surface),
-        "roughness_before": asdict(roughness(found.before)),
-        "roughness_after": asdict(surface.info.roughness),
-    }
-
-
 def running_in_assumptions(scene: Scene, surface: SceneSurface) -> list[str]:
     """The assumptions of running-in, and where it fell short."""
-    found, settings = surface.run_in, scene.running_in
+    done, settings = surface.run_in, scene.running_in
     listed = [
         f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "
         "friction; what flows is lost, nothing rises beside it and nothing hardens"
     ]
-    if found is None:
+    if done is None:
         return listed
-    if found.pitch > COARSE * _wanted(found.before):
-        apart = with_unit(found.pitch, "m", 3)
-        shortest = with_unit(shortest_wavelength(found.before), "m", 3)
+    if done.pitch > COARSE * _wanted(done.before):
+        apart = with_unit(done.pitch, "m", 3)
+        shortest = with_unit(shortest_wavelength(done.before), "m", 3)
         listed.append(
             f"running-in: its pressures stood {apart} apart, too coarse for the shortest waves of "
             f"the surface ({shortest}): asperities between them have not flowed enough"
         )
-    if found.status != "settled":
+    if done.status != "settled":
         listed.append(
-            f"running-in: the surface has not settled in {found.sweeps} sweeps over "
+            f"running-in: the surface has not settled in {done.sweeps} sweeps over "
             f"{len(settings.places(surface.position))} positions"
         )
     if ended(surface):

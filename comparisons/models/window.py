@@ -44,13 +44,13 @@ def window_of(problem: Problem) -> Window:
     half_width = problem.hertz.half_width
     half_range, depth = (e.metres(half_width) for e in (wanted.half_range, wanted.depth))
     block = problem.block
-    for name, given, body, unbounded in (
+    for name, size, body, unbounded in (
         ("half_range", half_range, scene.body.width and 0.5 * scene.body.width, 0.25 * block),
         ("depth", depth, scene.body.thickness, 0.5 * block),
     ):
-        if body is None and given > unbounded:
+        if body is None and size > unbounded:
             raise SceneError(
-                f"{scene.source}: stress.{name}: is {given:.3g} m; allowed is at most half of what "
+                f"{scene.source}: stress.{name}: is {size:.3g} m; allowed is at most half of what "
                 f"the unbounded body is meshed to (finite_element.block), {unbounded:.3g} m"
             )
     half_range = min(half_range, 0.5 * (scene.body.width or np.inf))
@@ -63,8 +63,8 @@ def window_of(problem: Problem) -> Window:
     )
     if spacing < 0.5 * FINEST_SPACING * finest:
         least = f"{FINEST_SPACING * finest:.3g} m, a part of a pressure element"
-        given = f"stress.half_range: is {half_range:.3g} m"
-        raise SceneError(f"{scene.source}: {given}; allowed is at least {least}")
+        problem = f"stress.half_range: is {half_range:.3g} m"
+        raise SceneError(f"{scene.source}: {problem}; allowed is at least {least}")
     if 2.0 * half_range > MOST_COLUMNS * coarsest:
         most = f"{0.5 * MOST_COLUMNS * coarsest:.3g} m at pressure elements of {coarsest:.3g} m"
         raise SceneError(

@@ -107,11 +107,12 @@ class _LevelTask:
         from comparisons.models.finite_element.mesh import Refinement
         from fem.nonlinear.press_plastic import TRAVEL
 
-        if self.half_block:
-            here.callback("finite elements: far boundary at half the distance")
-            stages = Stages(no_progress)
-        elif self.times > 1:
-            here.callback(f"finite elements: increments of flow {self.times} times as long")
+        is_check = self.half_block or self.times > 1
+        if is_check:
+            what = "far boundary at half the distance"
+            if not self.half_block:
+                what = f"increments of flow {self.times} times as long"
+            here.callback(f"finite elements: {what}")
             stages = Stages(no_progress)
         return finite_element_level(
             self.problem,
@@ -120,7 +121,7 @@ class _LevelTask:
             self.window,
             stages,
             here.held("bodies", self.pitch, BodyCache),
-            LevelOptions(check=not self.half_block and self.times == 1, fields=not self.half_block),
+            LevelOptions(check=not is_check, fields=not self.half_block),
         )
 
 
@@ -156,16 +157,21 @@ class _Levels:
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)
-        size = {"seconds": cost.seconds, "memory": cost.memory}
-        shares = None if task.name == "half_plane" else task.pitch
-        self.tasks.add(task.key, task.solve, **size, urgency=task.urgency, shares=shares)
+        self.tasks.add(
+            task.key,
+            task.solve,
+            seconds=cost.seconds,
+            memory=cost.memory,
+            urgency=task.urgency,
+            shares=None if task.name == "half_plane" else task.pitch,
+        )
 
     def wait(self, number: int, models: Iterable[str]) -> None:
         """Have the levels of the models up to a number."""
         missing = [
-            self.task(name, each)
+            self.task(name, level)
             for name in models
-            for each in range(len(self.levels[name]) + 1, number + 1)
+            for level in range(len(self.levels[name]) + 1, number + 1)
         ]
         for task in missing:
             self.add(task)
@@ -222,14 +228,14 @@ class _Levels:
 def unresolved(solved: Solved) -> dict[str, float]:
     """Judged quantities whose discretisation uncertainty is above its share of the tolerance,
     with the largest of any friction coefficient."""
-    problem, found = solved.problem, {}
+    problem, largest = solved.problem, {}
     tolerance = problem.scene.tolerances
     for friction in problem.scene.load.friction:
         sizes = discretisations(solved.runs, problem, friction, solved.window)
         for name, size in sizes.items():
             if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:
-                found[name] = max(size, found.get(name, 0.0))
-    return found
+                largest[name] = max(size, largest.get(name, 0.0))
+    return largest
 
 
 def _stuck(before: dict[str, float], now: dict[str, float]) -> bool:

@@ -73,7 +73,13 @@ def rerun(
         from comparisons.output.page.saved import read_run
         from comparisons.studies.answers.show import answers_of
 
-        answers = answers_of(read_run(folder, with_mesh=False))
+        try:
+            answers = answers_of(read_run(folder, with_mesh=False))
+        except (ArithmeticError, AttributeError, LookupError, TypeError) as error:
+            raise InputError(
+                f"{folder}: its report.npz holds no answers ({error!r}); allowed is what this "
+                "version of crosscheck wrote"
+            ) from error
     with _place(folder, out) as place:
         known = Known(record.surface, answers, record.levels)
         outcome = run(record.scene, place, record.models, callback, known=known)
@@ -92,10 +98,10 @@ def _items(result: Result) -> dict[str, Item]:
     """All that is compared of a result: figures and series, the numbers of its scene, the verdict,
     and what converged."""
     said = {
-        f"{study}.{CONVERGED} {each.source} {each.at or ''}".strip(): each.text
+        f"{study}.{CONVERGED} {said.source} {said.at or ''}".strip(): said.text
         for study, findings in result.found.items()
-        for each in findings.statements
-        if each.name == CONVERGED
+        for said in findings.statements
+        if said.name == CONVERGED
     }
     numbers = dict(_numbers(result.scene, "scene"))
     return items_of(result.found, numbers | said | {"verdict": result.verdict})

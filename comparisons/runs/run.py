@@ -9,15 +9,24 @@ from importlib import import_module
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
+from comparisons.common.cache import NO_CACHE, Cache, kinds_of
 from comparisons.common.errors import InputError, SceneError, SolverError, address_space
+from comparisons.common.files import unfinished
 from comparisons.common.mpi import from_first, is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
-from comparisons.common.provenance import digest, revision
+from comparisons.common.provenance import (
+    LEVEL_CODE,
+    digest,
+    key_of,
+    program_code,
+    revision,
+    versions,
+)
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
 from comparisons.figures.figure import Findings
 from comparisons.models.forecast import forecast
-from comparisons.models.level_cache import level_cache
-from comparisons.models.plan import make_plan
+from comparisons.models.level import Level
+from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem, problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.field_files import AUTOMATIC
@@ -25,7 +34,7 @@ from comparisons.output.record import record_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.write import write_files
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import SceneSurface, surface_of
+from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.study import Run, Solved, studied, unsolved
@@ -37,6 +46,11 @@ from meshes.block import MeshError
 REPORT = (
     *("PIL.Image", "pyparsing", "matplotlib.axes", "matplotlib.figure"),
     *("matplotlib.backends.backend_svg", "jinja2", "comparisons.output.page.page"),
+)
+# What shapes levels, and the answers of studies that are kept beside them.
+CODE = (
+    *LEVEL_CODE,
+    *(f"comparisons/studies/{name}" for name in ("model_error", "scatter", "statistics")),
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
@@ -147,9 +161,8 @@ def solve(
 ) -> Run:
     """Solve a scene by its plan and answer its studies, as `run` does; nothing is solved yet."""
     problem, plan = scene.problem, scene.plan
-    kinds = (study.data for study in STUDIES if study.data is not None)
-    cache = level_cache(out, problem, plan, *kinds)
-    chosen = [each for each in STUDIES if each.applies(scene) and each.needs(scene) is None]
+    cache = level_cache(out, problem, plan)
+    chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
     there = _for_finite_elements() if "finite_element" in plan.models else ()
     here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
     solving, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
@@ -162,13 +175,14 @@ def solve(
 
             begin(scene)
             solved = refined(scene, tasks, begin)
-            found = studied(STUDIES, solved, {}, tasks)
+            findings = studied(STUDIES, solved, {}, tasks)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
         cache.discard()
         raise
-    run = Run(solved, found, record_of(problem, solved.runs, _hashes(solved, found)), out)
+    record = record_of(problem, solved.runs, _hashes(solved, findings))
+    run = Run(solved, findings, record, out)
     try:
         if out is not None:
             write_files(run, within(callback, SOLVED, 1.0), fields)
@@ -178,7 +192,18 @@ def solve(
     return run
 
 
-def _hashes(solved: Solved, found: Mapping[str, Findings]) -> dict[str, object]:
+def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
+    """Finished levels of the run of `plan` that writes `out`, and answers of its studies: a run
+    that was stopped goes on from them. None writes and caches nothing."""
+    if out is None:
+        return NO_CACHE
+    shape = scene_key(problem.scene, problem.surface)
+    key = key_of(shape, repr(plan), versions(), program_code(*CODE))
+    kinds = kinds_of(Level, *(study.data for study in STUDIES if study.data is not None))
+    return Cache(unfinished(out, "run"), key, kinds, by_all=True)
+
+
+def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:
     """Of pressures, of the run-in surface, and of the files of answers."""
     hashes: dict[str, object] = {
         f"{name}_pressure": digest(run.finest.solution.pressure)
@@ -187,7 +212,7 @@ def _hashes(solved: Solved, found: Mapping[str, Findings]) -> dict[str, object]:
     run_in = solved.problem.surface.run_in
     if run_in is not None:
         hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
-    for files in found["answers"].series if "answers" in found else ():
+    for files in findings["answers"].series if "answers" in findings else ():
         if files.name == "files":
             hashes[f"answer_{files.source}"] = list(files.columns["sha256"].values)
     return hashes

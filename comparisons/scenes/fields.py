@@ -34,8 +34,8 @@ class FieldType(ABC):
     """A field type that pydantic calls through `read`."""
 
     @abstractmethod
-    def read(self, given: object) -> object:
-        """The value that `given`, as TOML has it, stands for."""
+    def read(self, entry: object) -> object:
+        """The value that `entry`, as TOML has it, stands for."""
 
     @abstractmethod
     def allowed(self) -> str:
@@ -44,15 +44,15 @@ class FieldType(ABC):
     def wrong(self, problem: str) -> ValueError:
         return ValueError(f"{problem}; allowed is {self.allowed()}")
 
-    def in_si(self, given: object, dimension: Dimension) -> float:
+    def in_si(self, entry: object, dimension: Dimension) -> float:
         """As `comparisons.common.units.to_si`, but of a size that can be computed with."""
         try:
-            value = to_si(given, dimension)
+            value = to_si(entry, dimension)
         except UnitError as error:
             raise self.wrong(str(error)) from error
         if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
             size = f"whose size is not from {SMALLEST:g} to {LARGEST:g} in SI"
-            raise self.wrong(f"is {describe(given)}, {size}")
+            raise self.wrong(f"is {describe(entry)}, {size}")
         return value
 
     def __get_pydantic_core_schema__(self, source: object, handler: object) -> object:
@@ -70,10 +70,10 @@ class Number(FieldType):
     below: float | None = None
     at_most: float | None = None
 
-    def read(self, given: object) -> float:
-        value = self.in_si(given, self.dimension)
+    def read(self, entry: object) -> float:
+        value = self.in_si(entry, self.dimension)
         if not all(holds(value, bound) for _, holds, bound in self._bounds()):
-            raise self.wrong(f"is {describe(given)}")
+            raise self.wrong(f"is {describe(entry)}")
         return value + 0.0  # -0.0 is 0.0
 
     def _bounds(self) -> list[tuple[str, Callable[[float, float], bool], float]]:
@@ -97,10 +97,10 @@ class Whole(FieldType):
     at_least: int
     at_most: int
 
-    def read(self, given: object) -> int:
-        if type(given) is not int or not self.at_least <= given <= self.at_most:
-            raise self.wrong(f"is {describe(given)}")
-        return given
+    def read(self, entry: object) -> int:
+        if type(entry) is not int or not self.at_least <= entry <= self.at_most:
+            raise self.wrong(f"is {describe(entry)}")
+        return entry
 
     def allowed(self) -> str:
         return f"a whole number from {self.at_least} to {self.at_most}"
@@ -112,16 +112,16 @@ class Text(FieldType):
 
     meaning: str
 
-    def read(self, given: object) -> str:
-        if not isinstance(given, str):
-            raise self.wrong(f"is {describe(given)}")
-        if not given.strip():
+    def read(self, entry: object) -> str:
+        if not isinstance(entry, str):
+            raise self.wrong(f"is {describe(entry)}")
+        if not entry.strip():
             raise self.wrong("is blank")
-        if not given.isprintable():
+        if not entry.isprintable():
             raise self.wrong("holds a control character")
-        if len(given) > LONGEST_TEXT:
-            raise self.wrong(f"has {len(given)} characters, more than {LONGEST_TEXT}")
-        return given
+        if len(entry) > LONGEST_TEXT:
+            raise self.wrong(f"has {len(entry)} characters, more than {LONGEST_TEXT}")
+        return entry
 
     def allowed(self) -> str:
         return f"a string of one line, {self.meaning}"
@@ -133,12 +133,12 @@ class OneOf(FieldType):
 
     words: tuple[str, ...]
 
-    def read(self, given: object) -> str:
-        if given not in self.words:
-            near = nearest(given, self.words, 0.6) if isinstance(given, str) else None
+    def read(self, entry: object) -> str:
+        if entry not in self.words:
+            near = nearest(entry, self.words, 0.6) if isinstance(entry, str) else None
             hint = f' (did you mean "{near}"?)' if near else ""
-            raise self.wrong(f"is {describe(given)}{hint}")
-        return given
+            raise self.wrong(f"is {describe(entry)}{hint}")
+        return entry
 
     def allowed(self) -> str:
         return " or ".join(f'"{word}"' for word in self.words)
@@ -150,14 +150,14 @@ class Truth(FieldType):
 
     words: tuple[str, ...] = ()
 
-    def read(self, given: object) -> bool | str:
-        if not isinstance(given, bool) and given not in self.words:
-            raise self.wrong(f"is {describe(given)}")
-        return given
+    def read(self, entry: object) -> bool | str:
+        if not isinstance(entry, bool) and entry not in self.words:
+            raise self.wrong(f"is {describe(entry)}")
+        return entry
 
     def allowed(self) -> str:
-        words = [f'"{word}"' for word in self.words]
-        return f"{', '.join(['true', 'false', *words][:-1])} or {['false', *words][-1]}"
+        words = ["true", "false", *(f'"{word}"' for word in self.words)]
+        return f"{', '.join(words[:-1])} or {words[-1]}"
 
 
 @dataclass(frozen=True)
@@ -166,12 +166,12 @@ class Unit(FieldType):
 
     dimension: Dimension
 
-    def read(self, given: object) -> str:
+    def read(self, entry: object) -> str:
         try:
-            unit_in_si(given, self.dimension)
+            unit_in_si(entry, self.dimension)
         except UnitError as error:
             raise self.wrong(str(error)) from error
-        return given.strip()
+        return entry.strip()
 
     def allowed(self) -> str:
         return f'a unit of {self.dimension.phrase.removeprefix("a ")} as a string, such as "um"'
@@ -197,11 +197,11 @@ class Extent:
 class ExtentField(FieldType):
     """A length above 0: a number counts Hertz half-widths, a string has a unit."""
 
-    def read(self, given: object) -> Extent:
-        value = self.in_si(given, LENGTH)
+    def read(self, entry: object) -> Extent:
+        value = self.in_si(entry, LENGTH)
         if not value > 0.0:
-            raise self.wrong(f"is {describe(given)}")
-        return Extent(value, in_half_widths=not isinstance(given, str))
+            raise self.wrong(f"is {describe(entry)}")
+        return Extent(value, in_half_widths=not isinstance(entry, str))
 
     def allowed(self) -> str:
         return 'a number of half-widths above 0 or a length above 0 such as "500 um"'
@@ -209,68 +209,68 @@ class ExtentField(FieldType):
 
 @dataclass(frozen=True)
 class Several(FieldType):
-    """A list of what `each` reads, at least one and none twice; a single value is a list of one."""
+    """A list of what `item` reads, at least one and none twice; a single value is a list of one."""
 
-    each: Number
+    item: Number
 
-    def read(self, given: object) -> tuple[float, ...]:
-        values = given if isinstance(given, list | tuple) else [given]
+    def read(self, entry: object) -> tuple[float, ...]:
+        values = entry if isinstance(entry, list | tuple) else [entry]
         if not values:
             raise self.wrong("is an empty list")
         if len(values) > MOST_VALUES:
             raise self.wrong(f"is a list of {len(values)} values, more than {MOST_VALUES}")
-        read = tuple(self.each.read(value) for value in values)
+        read = tuple(self.item.read(value) for value in values)
         for value in read:
             if read.count(value) > 1:
                 raise self.wrong(f"lists {value:g} twice")
         return read
 
     def allowed(self) -> str:
-        return f"{self.each.allowed()}, or a list of such, none of them twice"
+        return f"{self.item.allowed()}, or a list of such, none of them twice"
 
 
 @dataclass(frozen=True)
 class Named(FieldType):
-    """A table of numbers, one of each of the `names`: what `each` reads."""
+    """A table of numbers, one of each of the `names`: what `item` reads."""
 
     names: tuple[str, ...]
-    each: Number
+    item: Number
 
-    def read(self, given: object) -> dict[str, float]:
-        if not isinstance(given, dict):
-            raise self.wrong(f"is {describe(given)}")
-        for name in (*given, *self.names):
-            if name not in given or name not in self.names:
+    def read(self, entry: object) -> dict[str, float]:
+        if not isinstance(entry, dict):
+            raise self.wrong(f"is {describe(entry)}")
+        for name in (*entry, *self.names):
+            if name not in entry or name not in self.names:
                 raise self.wrong(f"{'lacks' if name in self.names else 'holds'} {describe(name)}")
-        return {name: self.each.read(given[name]) for name in self.names}
+        return {name: self.item.read(entry[name]) for name in self.names}
 
     def allowed(self) -> str:
         shown = ", ".join(f"{name} = …" for name in self.names)
-        return f"a table {{{shown}}}, each {self.each.allowed()}"
+        return f"a table {{{shown}}}, each {self.item.allowed()}"
 
 
 @dataclass(frozen=True)
 class Grid(FieldType):
-    """[columns, rows] of a field of points: from 3 to `each` of both, at most `most` in all."""
+    """[columns, rows] of a field of points: from 3 to `longest` of both, at most `most` in all."""
 
     most: int
-    each: int
+    longest: int
 
-    def read(self, given: object) -> tuple[int, int]:
-        if not isinstance(given, list | tuple):
-            raise self.wrong(f"is {describe(given)}")
-        if len(given) != 2:
-            raise self.wrong(f"is a list of {len(given)}")
-        for number in given:
-            if type(number) is not int or not 3 <= number <= self.each:
+    def read(self, entry: object) -> tuple[int, int]:
+        if not isinstance(entry, list | tuple):
+            raise self.wrong(f"is {describe(entry)}")
+        if len(entry) != 2:
+            raise self.wrong(f"is a list of {len(entry)}")
+        for number in entry:
+            if type(number) is not int or not 3 <= number <= self.longest:
                 raise self.wrong(f"holds {describe(number)}")
-        columns, rows = given
+        columns, rows = entry
         if columns * rows > self.most:
             raise self.wrong(f"asks for {describe(columns * rows)} points")
         return columns, rows
 
     def allowed(self) -> str:
-        both = f"a list of two whole numbers [along x, along z], from 3 to {self.each} each"
+        both = f"a list of two whole numbers [along x, along z], from 3 to {self.longest} each"
         return f"{both}, at most {self.most} points in all"
 
 
@@ -318,10 +318,10 @@ class SceneSection(BaseModel):
         self, names: Sequence[str], joint: str, or_none: bool = False
     ) -> Iterator[tuple[str, str]]:
         """A broken rule unless exactly one of these fields is given, or none with `or_none`."""
-        given = [name for name in names if getattr(self, name) is not None]
-        if len(given) > 1 or not (given or or_none):
-            how = f"given beside {given[0]}" if given else "missing"
-            field = given[1] if given else names[0]
+        present = [name for name in names if getattr(self, name) is not None]
+        if len(present) > 1 or not (present or or_none):
+            how = f"given beside {present[0]}" if present else "missing"
+            field = present[1] if present else names[0]
             yield field, f"is {how}; allowed is exactly one of {joint.join(names)}"
 
 

@@ -56,7 +56,7 @@ class FiniteElementSection(SceneSection):
 
     def completed(self, scene: SceneSection) -> Self:
         bodies = [body for body in (scene.roller, scene.body, scene.coating) if body is not None]
-        largest = max(each.poissons_ratio for each in bodies if each.poissons_ratio is not None)
+        largest = max(body.poissons_ratio for body in bodies if body.poissons_ratio is not None)
         update: dict[str, object] = {}
         if self.element is None:
             cubic = largest > QUADRATIC_UP_TO and not self.nonlinear

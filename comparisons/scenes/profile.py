@@ -31,11 +31,11 @@ PLACE = Number(LENGTH, at_least=0.0)
 class CutOff(FieldType):
     """A length above 0, or "auto"."""
 
-    def read(self, given: object) -> float | str:
-        if given == AUTOMATIC:
+    def read(self, entry: object) -> float | str:
+        if entry == AUTOMATIC:
             return AUTOMATIC
         try:
-            return POSITIVE.read(given)
+            return POSITIVE.read(entry)
         except ValueError as error:
             raise self.wrong(str(error).partition(";")[0]) from error
 
@@ -46,22 +46,22 @@ class CutOff(FieldType):
 class Segment(FieldType):
     """[[x0, y0], [x1, y1]]: two points of two lengths each, at least 0."""
 
-    def read(self, given: object) -> tuple[tuple[float, float], tuple[float, float]]:
-        points = self._pair(given)
+    def read(self, entry: object) -> tuple[tuple[float, float], tuple[float, float]]:
+        points = self._pair(entry)
         start, stop = (tuple(map(self._length, self._pair(point))) for point in points)
         if start == stop:
             raise self.wrong("starts where it ends")
         return start, stop
 
-    def _pair(self, given: object) -> list | tuple:
-        if isinstance(given, list | tuple) and len(given) == 2:
-            return given
-        size = f" of {len(given)}" if isinstance(given, list | tuple) else ""
-        raise self.wrong(f"holds {describe(given)}{size}")
+    def _pair(self, entry: object) -> list | tuple:
+        if isinstance(entry, list | tuple) and len(entry) == 2:
+            return entry
+        size = f" of {len(entry)}" if isinstance(entry, list | tuple) else ""
+        raise self.wrong(f"holds {describe(entry)}{size}")
 
-    def _length(self, given: object) -> float:
+    def _length(self, entry: object) -> float:
         try:
-            return PLACE.read(given)
+            return PLACE.read(entry)
         except ValueError as error:
             raise self.wrong(f"holds a place that {str(error).partition(';')[0]}") from error
 
@@ -73,10 +73,10 @@ class Segment(FieldType):
 class Columns(FieldType):
     """Of a table: those of x and height, or that of heights alone, by names or numbers from 0."""
 
-    def read(self, given: object) -> tuple[str | int, ...]:
-        values = given if isinstance(given, list | tuple) else [given]
+    def read(self, entry: object) -> tuple[str | int, ...]:
+        values = entry if isinstance(entry, list | tuple) else [entry]
         if len(values) not in (1, 2) or values.count(values[0]) > 1:
-            raise self.wrong(f"is {describe(given)} of {len(values)}")
+            raise self.wrong(f"is {describe(entry)} of {len(values)}")
         for value in values:
             named = isinstance(value, str) and value.strip()
             if not named and (type(value) is not int or not 0 <= value < MAX_SAMPLES):
@@ -138,12 +138,12 @@ class ProfileSection(SceneSection):
 
     @model_validator(mode="before")
     @classmethod
-    def _defaults_of_the_variety(cls, given: object) -> object:
-        if not isinstance(given, dict):
-            return given
-        kind = given.get("kind", "file")
+    def _defaults_of_the_variety(cls, entry: object) -> object:
+        if not isinstance(entry, dict):
+            return entry
+        kind = entry.get("kind", "file")
         variety = VARIETIES.get(kind) if isinstance(kind, str) else None
-        return {**variety.defaults, **given} if variety else given
+        return {**variety.defaults, **entry} if variety else entry
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.file is not None and self.kind is not None:
@@ -182,9 +182,5 @@ class Variety:
         return set().union(self.needed, self.optional, self.defaults, FILTER, *groups)
 
 
-VARIETIES = {
-    name: Variety(**given)
-    for name, given in tomllib.loads(
-        Path(__file__).with_name("varieties.toml").read_text(encoding="utf-8")
-    ).items()
-}
+_TABLES = tomllib.loads(Path(__file__).with_name("varieties.toml").read_text(encoding="utf-8"))
+VARIETIES = {name: Variety(**table) for name, table in _TABLES.items()}

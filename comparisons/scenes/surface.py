@@ -28,6 +28,7 @@ from analytic.surface.synthetic import ground_texture, self_affine, sinusoid
 from analytic.surface.turned import turned
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import finite
+from comparisons.common.provenance import digest
 from comparisons.common.units import LENGTH, unit_in_si
 from comparisons.scenes.fields import allowed, plain
 from comparisons.scenes.profile import AUTOMATIC, FILTER, ProfileSection
@@ -112,12 +113,12 @@ class SceneSurface:
     def completed(self, tables: dict) -> dict:
         """The tables of the scene with the fields that follow from its surface: reading them
         again, in a folder that holds the profile's file, gives scene and surface."""
-        found = dict(tables) | {"load": tables["load"] | {"position": self.position}}
+        completed = dict(tables) | {"load": tables["load"] | {"position": self.position}}
         if self.profile is not None:
             follows = {"length": self.length, "cutoff": self.info.cutoff}
             known = {name: value for name, value in follows.items() if value is not None}
-            found["profile"] = tables["profile"] | known
-        return found
+            completed["profile"] = tables["profile"] | known
+        return completed
 
     def as_dict(self, scene: SceneBase) -> dict:
         """The scene for JSON: its completed tables, its name, what became of its profile."""
@@ -160,6 +161,13 @@ def surface_of(scene: SceneBase, known: KnownTrace | None = None) -> SceneSurfac
     if scene.running_in is not None:
         _check_places(scene, surface)
     return surface
+
+
+def scene_key(scene: SceneBase, surface: SceneSurface) -> list:
+    """What of a scene shapes results: its tables and its profile."""
+    profile = surface.profile
+    traced = "" if profile is None else digest(profile.x, profile.height)
+    return [surface.completed(scene.tables), traced]
 
 
 def _sinusoid_length(scene: SceneBase) -> float:

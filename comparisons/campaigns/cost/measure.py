@@ -39,11 +39,10 @@ from comparisons.common.provenance import LEVEL_CODE, key_of, machine, program_c
 from comparisons.common.tasks import ProcessEnded, Tasks, called
 from comparisons.figures.figure import Figure
 from comparisons.models.level import Level
-from comparisons.models.level_cache import scene_key
 from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import surface_of
+from comparisons.scenes.surface import scene_key, surface_of
 
 FOLDER = "cost_points"
 # What shapes what is measured, beside versions of libraries and the machine.

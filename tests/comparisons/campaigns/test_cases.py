@@ -93,11 +93,11 @@ def test_a_case_that_ends_its_process_is_a_row(monkeypatch):
 
 def test_what_is_kept_of_a_stopped_command_is_not_computed_again(tmp_path):
     good = case(figure(0.5))
-    (first,) = rows_of([good], kept=answers_of(tmp_path, [good]))
+    (first,) = rows_of([good], kept=answers_of(tmp_path, "verify", [good]))
     again = Case(good.group, good.name, good.model, failing)
-    (row,) = rows_of([again], kept=answers_of(tmp_path, [again]))
+    (row,) = rows_of([again], kept=answers_of(tmp_path, "verify", [again]))
     assert row.figures == first.figures and row.holds
-    assert answers_of(tmp_path, [good, RAISES]).load("1") is None  # of other cases
+    assert answers_of(tmp_path, "verify", [good, RAISES]).load("1") is None  # of other cases
 
 
 def test_the_decisive_figure_is_the_first_or_the_one_that_fails_by_most():

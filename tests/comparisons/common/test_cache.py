@@ -1,5 +1,6 @@
 """Cached results: whole and the same, or none, whatever happened to the file and its folder."""
 
+import json
 import shutil
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -25,18 +26,26 @@ class Some:
     parts: dict[str, Part]
 
 
+@dataclass(frozen=True)
+class Checked:
+    count: int
+
+    def __post_init__(self) -> None:
+        self.count.bit_length()  # of None an AttributeError
+
+
 VALUE = Some(np.linspace(0.0, 1.0, 50), 3, {"one": Part("a", (0.1, 2.0)), "two": Part("b", ())})
 
 
-def same(found: Some) -> bool:
-    return np.array_equal(found.x, VALUE.x) and (found.count, found.parts) == (3, VALUE.parts)
+def same(cached: Some) -> bool:
+    return np.array_equal(cached.x, VALUE.x) and (cached.count, cached.parts) == (3, VALUE.parts)
 
 
 @pytest.fixture
 def cache(tmp_path: Path) -> Cache:
-    found = Cache(tmp_path / "cache", "key", kinds_of(Some))
-    found.save("some", VALUE)
-    return found
+    cached = Cache(tmp_path / "cache", "key", kinds_of(Some))
+    cached.save("some", VALUE)
+    return cached
 
 
 def names(folder: Path) -> list[str]:
@@ -59,9 +68,9 @@ def test_a_wrong_bit_anywhere_is_harmless(cache):
         spoilt = bytearray(whole)
         spoilt[place] ^= 1 << bit
         path.write_bytes(spoilt)
-        found = cache.load("some")
-        refused += found is None
-        assert found is None or same(found)  # the bit was of no account
+        cached = cache.load("some")
+        refused += cached is None
+        assert cached is None or same(cached)  # the bit was of no account
     assert refused > 0.8 * FLIPS
 
 
@@ -78,17 +87,29 @@ def test_what_a_killed_process_left_is_removed(cache):
     assert names(cache.folder) == ["some.npz"]
 
 
-def test_a_folder_that_another_run_removed_is_made_again(cache, monkeypatch):
-    write = Path.write_bytes
+def test_a_folder_that_goes_while_a_result_is_saved_is_no_error(cache, monkeypatch):
+    monkeypatch.setattr(Path, "write_bytes", lambda part, content: shutil.rmtree(cache.folder))
+    cache.save("other", VALUE)
+    assert cache.load("other") is None
 
-    def after_the_other_ended(part, content):
-        monkeypatch.setattr(Path, "write_bytes", write)
-        shutil.rmtree(cache.folder)
-        return write(part, content)
 
-    monkeypatch.setattr(Path, "write_bytes", after_the_other_ended)
-    cache.save("some", VALUE)
-    assert names(cache.folder) == ["some.npz"]
+EARLIER = [
+    {"value": {"kind": "Gone", "fields": {}}},
+    {"value": {"kind": "Some", "fields": {"x": 1.0}}},
+    {"value": {"kind": "Checked", "fields": {"count": None}}},
+    {"value": {"array": "a9"}},
+    {"value": {"dict": 3}},
+    {},
+    [],
+]
+
+
+@pytest.mark.parametrize("outline", EARLIER, ids=str)
+def test_what_an_earlier_state_of_the_program_wrote_is_none(cache, outline):
+    if isinstance(outline, dict) and outline:
+        outline = outline | {"key": "key"}
+    np.savez(cache.path("old"), outline=np.array(json.dumps(outline)))
+    assert replace(cache, kinds=cache.kinds | {"Checked": Checked}).load("old") is None
 
 
 def test_two_runs_do_not_write_the_same_part(cache, monkeypatch):

@@ -139,19 +139,19 @@ def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
     unprivileged.chmod(0o500)
     check_writable(out)
     with published(out) as scratch:
-        assert scratch.parent == unfinished(out).parent == out
+        assert scratch.parent == unfinished(out, "run").parents[1] == out
         fill(scratch, ["result.json", "half_plane/contact.csv"])
     assert sorted(p.name for p in out.iterdir()) == ["half_plane", "result.json"]
 
 
-def test_where_unfinished_levels_are(tmp_path):
+def test_where_finished_levels_of_an_unfinished_run_are(tmp_path):
     out = tmp_path / "results"
     beside = tmp_path / ".results.unfinished"
-    assert unfinished(out) == beside
+    assert unfinished(out, "run") == beside / "run"
     out.mkdir()
-    assert unfinished(out) == out / ".unfinished"
+    assert unfinished(out, "run") == out / ".unfinished" / "run"
     beside.mkdir()
-    assert unfinished(out) == beside
+    assert unfinished(out, "run") == beside / "run"
 
 
 @pytest.mark.parametrize("name", ["half_plane", "finite_element", ".unfinished"])
@@ -168,45 +168,18 @@ def test_a_folder_where_a_file_is_needed_is_refused(tmp_path):
         check_writable(tmp_path)
 
 
-def test_a_sub_folder_that_another_run_removes_is_made_again(tmp_path, monkeypatch):
-    move = os.replace
-    removed = []
-
-    def replace(source, target):
-        if not removed:
-            removed.append(target.parent)
-            target.parent.rmdir()
-        move(source, target)
-
-    monkeypatch.setattr(os, "replace", replace)
-    with published(tmp_path / "out") as scratch:
-        fill(scratch, ["half_plane/contact.csv"])
-    assert removed == [tmp_path / "out" / "half_plane"]
-    assert (tmp_path / "out" / "half_plane" / "contact.csv").read_text() == "new"
-
-
-@pytest.mark.parametrize("comes_back", [False, True])
-def test_a_sub_folder_that_another_run_removes_while_it_is_tried(tmp_path, monkeypatch, comes_back):
-    place = tmp_path / "half_plane"
+def test_a_sub_folder_that_another_run_removes_while_it_is_tried(tmp_path, monkeypatch):
+    place, make = tmp_path / "half_plane", os.mkdir
     place.mkdir()
-    make = os.mkdir
-    removed = []
 
     def mkdir(path, *args, **kwargs):
-        if not removed:
-            removed.append(path)
+        if Path(path).parent == place:
             place.rmdir()
-            try:
-                make(path, *args, **kwargs)
-            finally:
-                if comes_back:
-                    make(place)
         make(path, *args, **kwargs)
 
     monkeypatch.setattr(os, "mkdir", mkdir)
     check_writable(tmp_path)
-    assert removed
-    assert place.exists() is comes_back
+    assert not place.exists()
 
 
 def test_a_folder_that_never_takes_anything_is_refused(tmp_path, monkeypatch):

@@ -145,7 +145,7 @@ def test_in_the_middle_of_a_factorisation(folder, interrupt):
     assert err == (
         "crosscheck: interrupted; finished levels are kept, the same command goes on from there\n"
     )
-    kept = {path.name for path in (folder / ".out.unfinished").iterdir()}
+    kept = {path.name for path in (folder / ".out.unfinished/run").iterdir()}
     assert "finite_element-2.npz" in kept and "finite_element-far_boundary_check.npz" not in kept
     assert not (folder / "out").exists()
     if interrupt is os.kill:
@@ -161,7 +161,7 @@ def test_in_the_middle_of_factorisations_side_by_side(folder):
     out, err = process.communicate(timeout=PATIENT)
     assert (process.returncode, out) == (ExitStatus.INTERRUPTED, "")
     assert err.startswith("crosscheck: interrupted; finished levels are kept")
-    kept = {path.name for path in (folder / ".out.unfinished").glob("finite_element*")}
+    kept = {path.name for path in (folder / ".out.unfinished/run").glob("finite_element*")}
     assert 1 <= len(kept) < 3
     assert count(folder) == 3 - len(kept)
 
@@ -188,7 +188,7 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
     assert capsys.readouterr().err == (
         "crosscheck: interrupted; finished levels are kept, the same command goes on from there\n"
     )
-    assert (folder / ".out.unfinished" / "half_plane-1.npz").exists()
+    assert (folder / ".out.unfinished/run" / "half_plane-1.npz").exists()
 
 
 def test_a_crash_of_the_only_process_stays_a_crash(folder):
@@ -204,7 +204,7 @@ def test_the_end_of_the_process_of_a_level_is_one_line(folder):
     assert (process.returncode, out) == (ExitStatus.NOT_CONVERGED, "")
     assert err.startswith("crosscheck: scene.toml: finite_element-") and err.count("\n") == 1
     assert "two processes that worked on it have ended; finished levels are kept" in err
-    assert {path.name for path in (folder / ".out.unfinished").iterdir()} == {
+    assert {path.name for path in (folder / ".out.unfinished/run").iterdir()} == {
         "half_plane-1.npz",
         "half_plane-2.npz",
     }
@@ -243,7 +243,7 @@ def test_an_ignored_interrupt_stays_ignored(folder):
 def test_an_interrupted_command_says_what_it_keeps(
     tmp_path, monkeypatch, capsys, command, work, left
 ):
-    def interrupted(*given: object, **named: object) -> None:
+    def interrupted(*arguments: object, **named: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(f"comparisons.campaigns.{work}", interrupted)

@@ -216,9 +216,9 @@ class TestProcesses:
         with tasks_of_copies(lambda: "no pickle takes this") as tasks:
             for name in "ab":
                 tasks.add(name, lookup)
-            found = [tasks.result(name) for name in "ab"]
-        assert {said for said, _ in found} == {"no pickle takes this"}
-        assert os.getpid() not in {process for _, process in found}
+            answers = [tasks.result(name) for name in "ab"]
+        assert {said for said, _ in answers} == {"no pickle takes this"}
+        assert os.getpid() not in {process for _, process in answers}
 
     def test_errors_are_raised_where_they_are_asked_for(self, beside):
         beside.add("bad", divided, urgency=FIRST)

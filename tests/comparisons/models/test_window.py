@@ -21,13 +21,13 @@ def problem(name="ground-unrun", **stress):
 
 @pytest.mark.parametrize("name", ["ground-unrun", "ground-run-in"])
 def test_extremes_do_not_depend_on_the_points_of_the_field(name):
-    found = []
+    extremes_by_points = []
     for points in ([3, 3], [40, 16], [600, 200]):
-        given = problem(name, points=points)
-        level = half_plane_level(given, given.pitches[0], window_of(given), Stages())
-        found.append([e.value for s in level.stresses for e in s.extremes.values()])
-    assert found[0] == pytest.approx(found[2], rel=1e-9)
-    assert found[1] == pytest.approx(found[2], rel=1e-9)
+        posed = problem(name, points=points)
+        level = half_plane_level(posed, posed.pitches[0], window_of(posed), Stages())
+        extremes_by_points.append([e.value for s in level.stresses for e in s.extremes.values()])
+    assert extremes_by_points[0] == pytest.approx(extremes_by_points[2], rel=1e-9)
+    assert extremes_by_points[1] == pytest.approx(extremes_by_points[2], rel=1e-9)
 
 
 def test_a_trace_that_is_nothing_beside_the_window_is_refused_before_it_is_searched(tmp_path):
@@ -40,29 +40,29 @@ def test_a_trace_that_is_nothing_beside_the_window_is_refused_before_it_is_searc
         "profile": {"file": "trace.csv", "x_unit": "pm", "z_unit": "nm"},
         "load": {"hertz_peak_pressure": 1e9},
     }
-    given = problem_of(resolved(tables | {"stress": {}}, folder=tmp_path))
+    posed = problem_of(resolved(tables | {"stress": {}}, folder=tmp_path))
     with pytest.raises(SceneError, match=r"stress.half_range: is 2.6e-07 m; .*: check x_unit and"):
-        window_of(given)
+        window_of(posed)
 
 
 @pytest.mark.parametrize("columns", [3, 10, 77, 600, 2500])
 def test_points_belong_to_the_grid_of_every_level(columns):
-    given = problem(points=[columns, 20])
-    window = window_of(given)
+    posed = problem(points=[columns, 20])
+    window = window_of(posed)
     assert len(window.x) == pytest.approx(columns, rel=0.5)
     assert len(window.z) == 20 and window.z[0] == 0.0
     spacing = np.diff(window.x).mean()
-    for pitch in given.pitches:
+    for pitch in posed.pitches:
         ratio = window.stride(pitch) / window.subdivisions(pitch)
         assert ratio * pitch == pytest.approx(spacing, rel=1e-9)
         assert min(window.stride(pitch), window.subdivisions(pitch)) == 1
 
 
 def test_the_search_is_as_dense_as_the_coarsest_pressures():
-    given = problem(points=[10, 10])
-    searched = search_window(given, window_of(given))
-    assert np.diff(searched.x).max() == pytest.approx(given.pitches[0])
-    assert searched.z[1] < given.pitches[0]
+    posed = problem(points=[10, 10])
+    searched = search_window(posed, window_of(posed))
+    assert np.diff(searched.x).max() == pytest.approx(posed.pitches[0])
+    assert searched.z[1] < posed.pitches[0]
     assert (searched.z[3:] / searched.z[2:-1]).max() < 1.7
 
 

@@ -48,18 +48,20 @@ def test_every_level_but_the_far_boundary_check_is_checked(outcome):
 
 
 def test_result(outcome):
-    found = read_result(outcome.directory / "result.json").found["checks"]
+    checks = read_result(outcome.directory / "result.json").found["checks"]
     levels = [level.operator for level in outcome.runs["finite_element"].levels]
-    assert found.said("compliance") == levels[-1].verdict == "neither"
-    assert found.said("compliance, by level") == ", ".join(each.verdict for each in levels)
+    assert checks.said("compliance") == levels[-1].verdict == "neither"
+    assert checks.said("compliance, by level") == ", ".join(
+        one_level.verdict for one_level in levels
+    )
     columns, waves, moved = (
-        found.table(f"compliance, {name}").columns
+        checks.table(f"compliance, {name}").columns
         for name in ("columns, nearest surface", "waves, nearest surface", "columns, half-plane")
     )
     assert columns["x"].values[2] == levels[-1].nearest.columns[2].x
     assert waves["difference"].values[0] == levels[-1].nearest.waves[0].difference
-    assert found.said("compliance, finite") == "thickness"
-    assert found.said("compliance, datum") == "a constant is removed"
+    assert checks.said("compliance, finite") == "thickness"
+    assert checks.said("compliance, datum") == "a constant is removed"
     assert len(moved["x"].values) == len(columns["x"].values) == 5
 
 
@@ -68,8 +70,8 @@ def test_a_figure_of_it_may_move_by_its_own_size(outcome):
     [name] = [n for n in recorded if "waves, nearest surface.difference" in n]
     for times, beyond in ((1.5, 0), (3.0, 1)):
         values = tuple(times * value for value in recorded[name].value)
-        found = movement(recorded, recorded | {name: replace(recorded[name], value=values)})
-        assert len(found.moved) == 1 and len(found.beyond) == beyond
+        checks = movement(recorded, recorded | {name: replace(recorded[name], value=values)})
+        assert len(checks.moved) == 1 and len(checks.beyond) == beyond
 
 
 def test_table_and_how_to_read_it(outcome):
@@ -84,14 +86,14 @@ def test_table_and_how_to_read_it(outcome):
 
 
 def test_it_survives_an_interrupt(outcome, tmp_path):
-    found = outcome.runs["finite_element"].finest.operator
+    checks = outcome.runs["finite_element"].finest.operator
     cache = Cache(tmp_path, "key", kinds_of(Level))
-    cache.save("level", found)
-    assert cache.load("level") == found
+    cache.save("level", checks)
+    assert cache.load("level") == checks
 
 
 def test_a_body_that_deforms_finitely_is_not_pressed_linearly_as_well(monkeypatch):
-    monkeypatch.setattr(finite_element, "pressed_linearly", lambda *given: 1 / 0)
+    monkeypatch.setattr(finite_element, "pressed_linearly", lambda *arguments: 1 / 0)
     problem = problem_of(Scene.read("finite-strain"))
     plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[0])
     assert finite_element_level(problem, plan, refinement, None, Stages()).solution.converged

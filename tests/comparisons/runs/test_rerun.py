@@ -1,7 +1,10 @@
 """Recorded runs repeated from their record alone: the same figures, and what is found if not."""
 
+import copy
+import functools
 import io
 import json
+import operator
 import re
 import shutil
 
@@ -12,8 +15,10 @@ from scenes import SMOOTH, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import InputError
+from comparisons.common.progress import no_progress
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
+from comparisons.output.page.redraw import draw_again
 from comparisons.output.record import read_result
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
@@ -60,9 +65,9 @@ def half_plane(tmp_path_factory):
 
 
 @pytest.fixture
-def own(half_plane, tmp_path):
+def spoilable(half_plane, tmp_path):
     """A copy to spoil."""
-    return shutil.copytree(half_plane, tmp_path / "own")
+    return shutil.copytree(half_plane, tmp_path / "spoilable")
 
 
 def peak_of(result):
@@ -77,8 +82,8 @@ def cost_of(levels):
     return {"study": MODEL_ERROR, "name": "cost", "is_account": True, "columns": columns}
 
 
-def whole_levels(found) -> int:
-    return found[MODEL_ERROR].table("cost").columns["levels"].values[0]
+def whole_levels(findings) -> int:
+    return findings[MODEL_ERROR].table("cost").columns["levels"].values[0]
 
 
 def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, monkeypatch):
@@ -117,12 +122,12 @@ def test_the_recorded_folder_is_not_written_to(half_plane, out):
         rerun(half_plane, half_plane / out)
 
 
-def test_a_tampered_figure_is_found(own, capsys):
+def test_a_tampered_figure_is_found(spoilable, capsys):
     def alter(result):
         peak_of(result)["value"] *= 1.0 + 1e-3
 
-    change(own / "result.json", alter)
-    assert main(["rerun", str(own)]) == 1
+    change(spoilable / "result.json", alter)
+    assert main(["rerun", str(spoilable)]) == 1
     printed = capsys.readouterr().out
     rows = [line for line in printed.splitlines() if line.startswith("contact.peak_pressure")]
     assert len(rows) == 1
@@ -130,22 +135,22 @@ def test_a_tampered_figure_is_found(own, capsys):
     assert "MOVED  1 figure moved by more than the stated uncertainty" in printed
 
 
-def test_within_its_uncertainty_it_is_shown_and_no_finding(own, capsys):
+def test_within_its_uncertainty_it_is_shown_and_no_finding(spoilable, capsys):
     def alter(result):
         peak_of(result)["value"] *= 1.0 + 1e-5
 
-    stated = read_result(own / "result.json").figures.one(quantity="peak_pressure").numerical
+    stated = read_result(spoilable / "result.json").figures.one(quantity="peak_pressure").numerical
     assert 1e-5 < stated < 1e-4
-    change(own / "result.json", alter)
-    assert main(["rerun", str(own)]) == 0
+    change(spoilable / "result.json", alter)
+    assert main(["rerun", str(spoilable)]) == 0
     printed = capsys.readouterr().out
     assert "-1.00e-05" in printed and f"{stated:.2e}" in printed
     assert "1 figure moved, within the stated uncertainty" in printed
 
 
-def test_other_versions_are_named(own):
-    change(own / "record.json", lambda record: record["versions"].update(numpy="0.1"))
-    repetition = rerun(own)
+def test_other_versions_are_named(spoilable):
+    change(spoilable / "record.json", lambda record: record["versions"].update(numpy="0.1"))
+    repetition = rerun(spoilable)
     assert repetition.other == {"numpy": ("0.1", versions()["numpy"])}
     console = Console(width=120, file=io.StringIO(), record=True)
     console.print(rerun_summary(repetition))
@@ -242,20 +247,20 @@ def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
         ("result.json", '{"schema": 2}', "result.json: is no result of a run"),
     ],
 )
-def test_a_folder_without_a_whole_record_is_refused(own, capsys, file, text, words):
-    path = own / file
+def test_a_folder_without_a_whole_record_is_refused(spoilable, capsys, file, text, words):
+    path = spoilable / file
     if text is None:
         path.unlink()
     else:
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    before = contents(own)
-    assert main(["rerun", str(own)]) == 2
+    before = contents(spoilable)
+    assert main(["rerun", str(spoilable)]) == 2
     out, err = capsys.readouterr()
     assert out == "" and err.count("\n") == 1
     assert len(err) < 400
 
     assert re.search(words, err), err
-    assert contents(own) == before
+    assert contents(spoilable) == before
 
 
 @pytest.mark.parametrize(
@@ -272,10 +277,10 @@ def test_a_folder_without_a_whole_record_is_refused(own, capsys, file, text, wor
         (lambda r: r.pop("versions"), "versions: is missing; allowed is a table"),
     ],
 )
-def test_a_record_that_cannot_be_is_refused(own, alter, words):
-    change(own / "record.json", alter)
+def test_a_record_that_cannot_be_is_refused(spoilable, alter, words):
+    change(spoilable / "record.json", alter)
     with pytest.raises(InputError, match=words):
-        rerun(own)
+        rerun(spoilable)
 
 
 @pytest.mark.parametrize(
@@ -290,21 +295,54 @@ def test_a_record_that_cannot_be_is_refused(own, alter, words):
         lambda r: peak_of(r).update(value=10**400),
     ],
 )
-def test_figures_that_no_run_writes_are_refused_before_anything_is_solved(own, alter, monkeypatch):
+def test_figures_that_no_run_writes_are_refused_before_anything_is_solved(
+    spoilable, alter, monkeypatch
+):
     monkeypatch.setattr("comparisons.runs.rerun.run", None)
-    change(own / "result.json", alter)
+    change(spoilable / "result.json", alter)
     with pytest.raises(InputError, match=r"result.json: .*; allowed is "):
-        rerun(own)
+        rerun(spoilable)
+
+
+def parts(table, way=()):
+    """Every entry below a table or list, by the way to it."""
+    pairs = table.items() if isinstance(table, dict) else enumerate(table)
+    for name, item in pairs:
+        yield (*way, name)
+        if isinstance(item, dict | list):
+            yield from parts(item, (*way, name))
+
+
+def test_report_npz_of_an_earlier_state_is_drawn_or_refused_in_one_line(spoilable):
+    """With a part of it missing, or another one than is looked for."""
+    with np.load(spoilable / "report.npz") as stored:
+        arrays = dict(stored)
+    outline, random, refused = json.loads(str(arrays["outline"])), np.random.default_rng(2), 0
+    ways = list(parts(outline))
+    for other in [None, "x", [], {}, -1.5] * 12:
+        spoilt = copy.deepcopy(outline)
+        *way, last = ways[random.integers(len(ways))]
+        table = functools.reduce(operator.getitem, way, spoilt)
+        if other == {}:
+            del table[last]
+        else:
+            table[last] = other
+        np.savez(spoilable / "report.npz", **arrays | {"outline": np.array(json.dumps(spoilt))})
+        try:
+            draw_again([spoilable], None, pdf=False, callback=no_progress, draws=False)
+        except InputError:
+            refused += 1
+    assert refused > 20
 
 
 @pytest.mark.parametrize("name", ["result.json", "record.json"])
 @pytest.mark.parametrize("command", ["rerun", "report"])
-def test_a_file_of_three_gigabytes_is_not_read(own, capsys, command, name):
-    with (own / name).open("ab") as file:
+def test_a_file_of_three_gigabytes_is_not_read(spoilable, capsys, command, name):
+    with (spoilable / name).open("ab") as file:
         file.truncate(3 * 10**9)
-    assert main([command, str(own)]) == 2
-    told = capsys.readouterr().err
-    assert f"{name}: has 3000000000 bytes; allowed are 268435456" in told
+    assert main([command, str(spoilable)]) == 2
+    complaint = capsys.readouterr().err
+    assert f"{name}: has 3000000000 bytes; allowed are 268435456" in complaint
 
 
 def test_no_such_folder(tmp_path, capsys):

@@ -14,13 +14,12 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.output.headline import verdict_of
 from comparisons.output.record import read_result
 from comparisons.output.result_json import content_of
-from comparisons.runs.run import run, solve
+from comparisons.runs.run import level_cache, run, solve
 from comparisons.scenes.scene import Scene
 from comparisons.studies.study import unsolved
 
@@ -36,7 +35,7 @@ def figures(outcome) -> dict:
     """result.json without what may differ from run to run."""
     result = json.loads(json.dumps(content_of(outcome)))
     del result["record"]["made"]
-    result["series"] = [each for each in result["series"] if "is_account" not in each]
+    result["series"] = [series for series in result["series"] if "is_account" not in series]
     return result
 
 
@@ -64,13 +63,15 @@ class TestSmooth:
     )
     def test_meets_hertz(self, smooth, model, peak, half_width, tau1, depth):
         hertz = smooth.problem.hertz
-        found = values(smooth, model)
-        assert found["peak_pressure"] == pytest.approx(hertz.peak_pressure, rel=peak)
-        assert found["contact_length"] == pytest.approx(2 * hertz.half_width, rel=half_width)
-        assert found["contact_ratio"] == pytest.approx(1.0, rel=half_width)
-        assert found["tau1_max"] == pytest.approx(hertz.tau1_max, rel=tau1)
-        assert found["tau1_max_depth"] == pytest.approx(hertz.tau1_max_depth, rel=depth)
-        assert found["txz_max_abs"] == pytest.approx(0.25 * hertz.peak_pressure, rel=tau1)
+        figure_values = values(smooth, model)
+        assert figure_values["peak_pressure"] == pytest.approx(hertz.peak_pressure, rel=peak)
+        assert figure_values["contact_length"] == pytest.approx(
+            2 * hertz.half_width, rel=half_width
+        )
+        assert figure_values["contact_ratio"] == pytest.approx(1.0, rel=half_width)
+        assert figure_values["tau1_max"] == pytest.approx(hertz.tau1_max, rel=tau1)
+        assert figure_values["tau1_max_depth"] == pytest.approx(hertz.tau1_max_depth, rel=depth)
+        assert figure_values["txz_max_abs"] == pytest.approx(0.25 * hertz.peak_pressure, rel=tau1)
 
     def test_stated_uncertainties_cover_the_errors(self, smooth):
         """All but one in twenty, which is by a factor of two at most."""
@@ -258,7 +259,7 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert level_cache(tmp_path / "out", other, plan).load("level") is None
     whole = replace(plan, shared_factor=False)
     assert level_cache(tmp_path / "out", posed, whole).load("level") is None
-    path = tmp_path / ".out.unfinished" / "level.npz"
+    path = tmp_path / ".out.unfinished" / "run" / "level.npz"
     path.write_bytes(path.read_bytes()[:1000])
     assert kept.load("level") is None
     kept.discard()

@@ -38,10 +38,10 @@ sys.exit(main())
 
 
 def test_figures_are_those_of_one_process(tmp_path):
-    found = {cores: result(tmp_path / str(cores), cores) for cores in (1, 2)}
-    [effects] = [each for each in found[1]["series"] if each["name"] == "effects"]
+    results = {cores: result(tmp_path / str(cores), cores) for cores in (1, 2)}
+    [effects] = [entry for entry in results[1]["series"] if entry["name"] == "effects"]
     assert "finite_strain" in effects["columns"]["effect"]
-    assert list(timeless(found[1])) == list(timeless(found[2]))
+    assert list(timeless(results[1])) == list(timeless(results[2]))
 
 
 def result(folder: Path, cores: int) -> dict:
@@ -64,7 +64,7 @@ def result(folder: Path, cores: int) -> dict:
 def timeless(value: object, path: str = "") -> list[tuple[str, object]]:
     """Every entry by its path, without times and memory, in order."""
     if isinstance(value, dict):
-        return [each for name, part in value.items() for each in timeless(part, f"{path}.{name}")]
+        return [entry for name, part in value.items() for entry in timeless(part, f"{path}.{name}")]
     if isinstance(value, list):
-        return [each for part in value for each in timeless(part, f"{path}[]")]
+        return [entry for part in value for entry in timeless(part, f"{path}[]")]
     return [] if re.search("seconds|peak_memory|cost|made", path) else [(path, value)]

@@ -139,8 +139,8 @@ def deep(friction=0.0):
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_contact_spreads_beyond_one_and_a_half_half_widths(friction):
     """As far as flow takes it: pressures end before the grid does."""
-    found = run(resolved(deep(friction)), None, ("finite_element",))
-    level, a = found.runs["finite_element"].finest, found.problem.hertz.half_width
+    done = run(resolved(deep(friction)), None, ("finite_element",))
+    level, a = done.runs["finite_element"].finest, done.problem.hertz.half_width
     assert level.contact_length > 3.1 * a
     assert not level.solution.pressure[[0, -1]].any()
     assert level.solution.pressure.max() < 4.0 * YIELD_STRESS
@@ -150,10 +150,10 @@ def test_contact_that_leaves_the_grid_is_refused(outcome):
     """The grid is wide enough for what the surface bears when it is sheared off: no scene leaves
     it, and a change that did would be said."""
     level = outcome.runs["finite_element"].finest
-    given = outcome.problem, level.grid
-    _refuse_cut_off(*given, level.solution.pressure, level.solution, "here")
+    placed = outcome.problem, level.grid
+    _refuse_cut_off(*placed, level.solution.pressure, level.solution, "here")
     with pytest.raises(FemError, match="contact here reaches beyond the pressure elements"):
-        _refuse_cut_off(*given, level.solution.pressure + 1.0, level.solution, "here")
+        _refuse_cut_off(*placed, level.solution.pressure + 1.0, level.solution, "here")
 
 
 def test_the_shipped_scene_is_solved_below_its_elastic_roller():

@@ -40,12 +40,12 @@ MEASURED = Path(__file__).parents[4] / "shared" / "profiles"
 def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, peak):
     """Contact ratio and peak pressure over p0, at a limit that five grids approach."""
     problem = problem_of(Scene.read(name))
-    found = []
+    by_level = []
     for refinement in range(5):
         pitch = problem.pitches[0] / 2.0**refinement
-        found.append(values_of(half_plane_level(problem, pitch, None, Stages()), problem, 0.0))
-    ratios = grid_convergence([f["contact_ratio"] for f in found], 2.0)
-    peaks = grid_convergence([f["peak_pressure"] for f in found], 2.0)
+        by_level.append(values_of(half_plane_level(problem, pitch, None, Stages()), problem, 0.0))
+    ratios = grid_convergence([f["contact_ratio"] for f in by_level], 2.0)
+    peaks = grid_convergence([f["peak_pressure"] for f in by_level], 2.0)
     assert ratios.uncertainty < 2e-3 and peaks.uncertainty < 2e-3 * peaks.value
     assert ratios.limit == pytest.approx(ratio, abs=0.015)
     assert peaks.limit / problem.hertz.peak_pressure == pytest.approx(peak, rel=0.02)
@@ -173,9 +173,9 @@ def test_other_scenes_agree(name, tmp_path):
 def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
     outcome = run(quick(name, effects=True), None, MODELS)
     assert verdict_of(outcome)[0] == verdict
-    found = {row.quantity: row.value for row in outcome.figures.of(study="comparison")}
-    assert found["peak_pressure"] == pytest.approx(peak, rel=0.1)
-    assert found["contact_length"] == pytest.approx(length, rel=0.1)
+    by_level = {row.quantity: row.value for row in outcome.figures.of(study="comparison")}
+    assert by_level["peak_pressure"] == pytest.approx(peak, rel=0.1)
+    assert by_level["contact_length"] == pytest.approx(length, rel=0.1)
 
 
 def test_every_scene_is_named_here():

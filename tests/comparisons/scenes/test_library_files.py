@@ -36,7 +36,7 @@ def test_scenes_of_the_ground_disc_share_their_load():
 
 
 @pytest.mark.parametrize("name", scene_names())
-def test_written_out_tables_of_a_scene_that_comes_along(name):
+def test_written_out_tables_give_the_scene_again_and_survive_json(name):
     scene = Scene.read(name)
     surface = surface_of(scene)
     tables = surface.completed(scene.tables)
@@ -46,12 +46,6 @@ def test_written_out_tables_of_a_scene_that_comes_along(name):
         traced = surface_of(again).profile
         assert np.array_equal(traced.x, surface.profile.x)
         assert np.array_equal(traced.height, surface.profile.height)
-
-
-@pytest.mark.parametrize("name", scene_names())
-def test_as_dict_survives_json(name):
-    scene = Scene.read(name)
-    surface = surface_of(scene)
     plain = surface.as_dict(scene)
     assert json.loads(json.dumps(plain, allow_nan=False)) == plain
     assert plain["name"] == name and plain["title"] == scene.title

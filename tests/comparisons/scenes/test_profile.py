@@ -36,8 +36,8 @@ def measured(folder: Path, height: np.ndarray, **profile):
     """The surface of a scene with a trace of these heights [um] over X."""
     rows = np.column_stack([X, height]).tolist()
     (folder / "trace.csv").write_text("\n".join(f"{x!r},{z!r}" for x, z in rows))
-    given = {"file": "trace.csv", "x_unit": "um", "z_unit": "um", **profile}
-    return with_profile(folder, **given)
+    fields = {"file": "trace.csv", "x_unit": "um", "z_unit": "um", **profile}
+    return with_profile(folder, **fields)
 
 
 def test_units_of_the_file(tmp_path):
@@ -116,10 +116,10 @@ def test_lost_samples_are_bridged_on_request(tmp_path):
     rows[50] = "50,nan"
     rows[60] = "60,nan"
     (tmp_path / "trace.csv").write_text("\n".join(rows))
-    given = {"file": "trace.csv", "x_unit": "um", "z_unit": "um"}
+    fields = {"file": "trace.csv", "x_unit": "um", "z_unit": "um"}
     with pytest.raises(SceneError, match=r"profile\.file: .*trace\.csv, line 1: height"):
-        with_profile(tmp_path, **given)
-    info = with_profile(tmp_path, **given, dropouts="bridge").info
+        with_profile(tmp_path, **fields)
+    info = with_profile(tmp_path, **fields, dropouts="bridge").info
     assert (info.samples, info.bridged, info.trimmed) == (200, 2, 1)
 
 
@@ -182,19 +182,19 @@ def test_a_sinusoid_has_a_crest_under_the_roller():
 
 
 def test_a_self_affine_profile_is_that_of_its_seed():
-    given = {"hurst": 0.8, "rms_slope": 0.03, "samples": 257, "length": 1e-3}
-    surface = with_profile(kind="self-affine", seed=5, **given)
-    wanted = self_affine(seed=5, **given)
+    fields = {"hurst": 0.8, "rms_slope": 0.03, "samples": 257, "length": 1e-3}
+    surface = with_profile(kind="self-affine", seed=5, **fields)
+    wanted = self_affine(seed=5, **fields)
     assert np.array_equal(surface.profile.height, wanted.height)
     assert surface.info.roughness.rms_slope == pytest.approx(0.03, rel=1e-12)
-    other = with_profile(kind="self-affine", seed=6, **given)
+    other = with_profile(kind="self-affine", seed=6, **fields)
     assert not np.allclose(other.profile.height, wanted.height, atol=1e-9)
-    unseeded = resolved(changed(BARE, profile={"kind": "self-affine", **given}))
+    unseeded = resolved(changed(BARE, profile={"kind": "self-affine", **fields}))
     assert unseeded.tables["profile"]["seed"] == 0
 
 
 def test_a_ground_texture():
-    given = {
+    fields = {
         "rms_height": 4e-7,
         "samples": 513,
         "length": 5e-4,
@@ -202,6 +202,6 @@ def test_a_ground_texture():
         "roll_off_wavelength": 8e-5,
         "longest_wavelength": 2.5e-4,
     }
-    surface = with_profile(kind="ground", seed=3, **given)
-    assert np.array_equal(surface.profile.height, ground_texture(seed=3, **given).height)
+    surface = with_profile(kind="ground", seed=3, **fields)
+    assert np.array_equal(surface.profile.height, ground_texture(seed=3, **fields).height)
     assert surface.info.roughness.rsk < 0.0

@@ -58,8 +58,8 @@ class TestMaps:
     def test_a_row(self, mapped):
         surface = with_profile(mapped, file="map.sdf", row=3, form="none")
         wanted = 1e-9 * HEIGHTS[3]
-        found = surface.profile.height
-        np.testing.assert_allclose(found - found[0], wanted - wanted[0], rtol=0.0, atol=1e-20)
+        made = surface.profile.height
+        np.testing.assert_allclose(made - made[0], wanted - wanted[0], rtol=0.0, atol=1e-20)
         assert surface.info.place == "row 3 of 6 rows and 41 columns, 4e-05 m by 1e-05 m"
         assert surface.info.format == "SDF (ISO 25178-71)"
 
@@ -80,7 +80,7 @@ class TestMaps:
         assert np.array_equal(surface_of(again).profile.height, surface.profile.height)
 
     @pytest.mark.parametrize(
-        ("given", "words"),
+        ("changes", "words"),
         [
             ({}, "is a map of 6 rows and 41 columns, 4e-05 m by 1e-05 m, and a profile is one li"),
             ({"row": 6}, "has no row 6 (a map of 6 rows and 41 columns"),
@@ -89,8 +89,8 @@ class TestMaps:
             ({"row": 1, "spacing": "1 um"}, "gives its own size"),
         ],
     )
-    def test_choices_that_the_file_does_not_allow(self, mapped, given, words):
-        message = complaint(mapped, file="map.sdf", **given)
+    def test_choices_that_the_file_does_not_allow(self, mapped, changes, words):
+        message = complaint(mapped, file="map.sdf", **changes)
         assert message.startswith(f"mine.toml: profile.file: {mapped / 'map.sdf'}: {words}")
 
     def test_a_line_scan_has_no_rows(self, tmp_path):
@@ -107,7 +107,7 @@ class TestMaps:
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("changes", "message"),
     [
         ({"row": 1, "column": 2}, "profile.column: is given beside row; allowed is exactly one of"),
         ({"row": -1}, "profile.row: is -1; allowed is a whole number from 0"),
@@ -124,27 +124,27 @@ class TestMaps:
         ({"short_cutoff": "auto"}, 'profile.short_cutoff: is "auto", which is not a number'),
     ],
 )
-def test_fields_that_make_no_sense(given, message):
-    assert complaint(file="map.sdf", **given).startswith(f"mine.toml: {message}")
+def test_fields_that_make_no_sense(changes, message):
+    assert complaint(file="map.sdf", **changes).startswith(f"mine.toml: {message}")
 
 
 class TestFilter:
     def test_a_cutoff_takes_the_long_waves_off(self):
-        plain, found = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
+        plain, made = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
         wanted = filtered(plain.profile, 0.8e-3)
-        assert np.array_equal(found.profile.height, wanted.height)
-        assert found.info.cutoff == 0.8e-3
-        assert found.info.roughness.rq < 0.6 * plain.info.roughness.rq
-        assert found.info.roughness == roughness(wanted)
+        assert np.array_equal(made.profile.height, wanted.height)
+        assert made.info.cutoff == 0.8e-3
+        assert made.info.roughness.rq < 0.6 * plain.info.roughness.rq
+        assert made.info.roughness == roughness(wanted)
 
     def test_both_cutoffs(self):
         plain = with_profile(**ROUGH)
-        found = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um")
+        made = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um")
         wanted = filtered(plain.profile, 0.8e-3, 25e-6)
-        assert np.array_equal(found.profile.height, wanted.height)
-        slope = found.info.roughness.rms_slope
+        assert np.array_equal(made.profile.height, wanted.height)
+        slope = made.info.roughness.rms_slope
         assert slope < 0.7 * plain.info.roughness.rms_slope
-        assert found.info.standard == standard_roughness(plain.profile, 0.8e-3, 25e-6)
+        assert made.info.standard == standard_roughness(plain.profile, 0.8e-3, 25e-6)
 
     def test_an_automatic_cutoff_is_written_out(self):
         scene = scene_with(**ROUGH, cutoff="auto")
@@ -154,9 +154,9 @@ class TestFilter:
         assert scene.tables["profile"]["cutoff"] == "auto"
 
     def test_the_standards_figures_do_not_hang_on_what_is_pressed(self):
-        plain, found = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
+        plain, made = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
         assert plain.info.cutoff is None
-        assert plain.info.standard == found.info.standard
+        assert plain.info.standard == made.info.standard
         assert plain.info.standard.cutoff == 0.8e-3
         assert plain.info.standard.short_cutoff is None  # samples 2 um apart
 
@@ -172,7 +172,7 @@ class TestFilter:
         )
 
     @pytest.mark.parametrize(
-        ("given", "message"),
+        ("changes", "message"),
         [
             (
                 {"cutoff": "3 mm"},
@@ -186,8 +186,8 @@ class TestFilter:
             ),
         ],
     )
-    def test_cutoffs_that_do_not_suit(self, given, message):
-        assert complaint(**ROUGH, **given).startswith(f"mine.toml: profile.{message}")
+    def test_cutoffs_that_do_not_suit(self, changes, message):
+        assert complaint(**ROUGH, **changes).startswith(f"mine.toml: profile.{message}")
 
     def test_it_is_told(self):
         info = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um").info
@@ -201,10 +201,10 @@ class TestFilter:
 
     def test_figures_for_json(self):
         info = with_profile(**ROUGH, cutoff="0.8 mm").info
-        found = json.loads(json.dumps(info.surface(), allow_nan=False))
-        assert found["pressed"]["ra"] == info.roughness.ra
-        assert found["standard"]["rz"] == info.standard.rz
-        assert (found["cutoff"], found["short_cutoff"], found["standard_why"]) == (8e-4, None, None)
+        made = json.loads(json.dumps(info.surface(), allow_nan=False))
+        assert made["pressed"]["ra"] == info.roughness.ra
+        assert made["standard"]["rz"] == info.standard.rz
+        assert (made["cutoff"], made["short_cutoff"], made["standard_why"]) == (8e-4, None, None)
 
 
 class TestTurned:
@@ -218,13 +218,13 @@ class TestTurned:
         assert scene_with(**TURNED).tables["profile"]["seed"] == 0
 
     def test_noise_is_that_of_its_seed(self):
-        given = {**TURNED, "noise": "50 nm", "noise_wavelength": "10 um"}
-        one, same, other = (with_profile(**given, seed=seed) for seed in (1, 1, 2))
+        changes = {**TURNED, "noise": "50 nm", "noise_wavelength": "10 um"}
+        one, same, other = (with_profile(**changes, seed=seed) for seed in (1, 1, 2))
         assert np.array_equal(one.profile.height, same.profile.height)
         assert np.std(one.profile.height - other.profile.height) > 5e-8
 
     @pytest.mark.parametrize(
-        ("given", "message"),
+        ("changes", "message"),
         [
             ({"feed": "1 mm"}, "profile: feed 0.001 m must be at most nose_radius, 0.0008 m"),
             (
@@ -240,8 +240,8 @@ class TestTurned:
             ({"length": None}, "profile.length: is missing; allowed is a length above 0"),
         ],
     )
-    def test_parameters_that_make_no_sense(self, given, message):
-        tables = {name: value for name, value in {**TURNED, **given}.items() if value is not None}
+    def test_parameters_that_make_no_sense(self, changes, message):
+        tables = {name: value for name, value in {**TURNED, **changes}.items() if value is not None}
         assert complaint(**tables).startswith(f"mine.toml: {message}")
 
 

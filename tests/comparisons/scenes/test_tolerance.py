@@ -11,11 +11,11 @@ from comparisons.scenes.scene import Scene, with_tolerance
 
 class TestTolerance:
     def test_it_replaces_each_that_the_scene_has(self):
-        found = with_tolerance(Scene.read("smooth"), 0.005)
-        assert found.tolerances == dict.fromkeys(
+        tightened = with_tolerance(Scene.read("smooth"), 0.005)
+        assert tightened.tolerances == dict.fromkeys(
             ("peak_pressure", "contact_length", "tau1_max"), 5e-3
         )
-        assert found.tables["tolerance"] == found.tolerances
+        assert tightened.tables["tolerance"] == tightened.tolerances
 
     @pytest.mark.parametrize("wrong", ["0", "1", "-0.1", "nan"])
     def test_not_every_number_is_one(self, wrong, capsys):
@@ -27,20 +27,20 @@ class TestTolerance:
         coarse = resolved(changed(SMOOTH, resolution={"pitch": 1e-4}))
         levels = {}
         for tolerance in (0.2, 2e-3):
-            given = with_tolerance(coarse, tolerance)
-            outcome = run(given, tmp_path / f"{tolerance}", ("half_plane",))
+            judged = with_tolerance(coarse, tolerance)
+            outcome = run(judged, tmp_path / f"{tolerance}", ("half_plane",))
             assert outcome.solved.refinement == "every judged quantity is resolved"
             levels[tolerance] = len(outcome.runs["half_plane"].levels)
         assert levels[0.2] == 3 < levels[2e-3]
 
     def test_the_command_hands_it_on(self, monkeypatch, tmp_path):
-        given = []
+        judged = []
 
         def stand_in(scene, out, models, *rest):
-            given.append(scene.tolerances)
+            judged.append(scene.tolerances)
             raise KeyboardInterrupt
 
         monkeypatch.setattr("comparisons.runs.run.run", stand_in)
         command = ["run", "smooth", "--json", "--out", str(tmp_path / "out")]
         assert main([*command, "--tolerance", "0.01"]) == ExitStatus.INTERRUPTED
-        assert set(given[0].values()) == {0.01}
+        assert set(judged[0].values()) == {0.01}

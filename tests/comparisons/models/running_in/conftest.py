@@ -46,13 +46,10 @@ def resolved(wavy) -> Callable[..., Scene]:
     away."""
 
     def changed(changes: dict | None = None) -> Scene:
-        tables = copy.deepcopy(wavy)
-        for section, fields in (changes or {}).items():
-            if fields is None:
-                tables.pop(section, None)
-                continue
-            merged = {**tables.get(section, {}), **fields}
-            tables[section] = {name: value for name, value in merged.items() if value is not None}
-        return scenes.resolved(tables, "wavy")
+        fields = {}
+        for section, table in (changes or {}).items():
+            named = {f"{section}.{name}": value for name, value in (table or {}).items()}
+            fields |= {section: None} if table is None else named
+        return scenes.resolved(wavy, "wavy").changed(fields)
 
     return changed

@@ -28,12 +28,12 @@ class TestProblem:
     def test_the_run_in_surface_is_the_one_that_is_pressed(self, resolved, pair):
         scene = resolved()
         problem, surface = problem_of(scene), surface_of(scene)
-        found = problem.surface.run_in
-        assert found.volume > 0.0 and found.converged and found.status == "settled"
-        assert problem.surface.profile is found.profile
-        assert problem.surface.info.roughness == roughness(found.profile)
+        worn = problem.surface.run_in
+        assert worn.volume > 0.0 and worn.converged and worn.status == "settled"
+        assert problem.surface.profile is worn.profile
+        assert problem.surface.info.roughness == roughness(worn.profile)
         x = np.linspace(-50e-6, 50e-6, 999)
-        lowered = surface.profile.spline()(x) - found.profile.spline()(x)
+        lowered = surface.profile.spline()(x) - worn.profile.spline()(x)
         assert problem.gap(x) == pytest.approx(
             x**2 / (2.0 * pair.radius) - surface.profile.spline()(x) + lowered, abs=1e-18
         )
@@ -42,21 +42,20 @@ class TestProblem:
     def test_it_is_run_in_under_the_scenes_pair_load_and_places(self, resolved, pair, hardness):
         scene = resolved({"load": {"position": 5e-6}})
         surface = surface_of(scene)
-        found = run_in_surface(scene, surface).run_in
+        worn = run_in_surface(scene, surface).run_in
         other = run_in(
             surface.profile.shifted(-5e-6),
             pair.radius,
             pair.combined_modulus,
-            found.constraints,
+            worn.constraints,
             np.array(scene.running_in.places(0.0)),
-            pitch=found.pitch,
+            pitch=worn.pitch,
         )
         assert (
-            found.constraints.load == pair.load_per_length
-            and found.constraints.hardness == hardness
+            worn.constraints.load == pair.load_per_length and worn.constraints.hardness == hardness
         )
-        assert other.volume == pytest.approx(found.volume, rel=1e-6)
-        assert found.passes[0].position == pytest.approx(-30e-6)
+        assert other.volume == pytest.approx(worn.volume, rel=1e-6)
+        assert worn.passes[0].position == pytest.approx(-30e-6)
 
     def test_the_load_is_the_scenes(self, resolved, pair):
         by_peak = {"per_length": None, "hertz_peak_pressure": pair.peak_pressure}
@@ -79,18 +78,18 @@ class TestProblem:
 
     def test_hats_are_fine_enough_for_the_volume_and_nest_in_the_samples(self, resolved, pair):
         scene = resolved()
-        found = run_in_of(scene).run_in
-        octaves = np.log2(found.pitch / found.before.spacing)
+        worn = run_in_of(scene).run_in
+        octaves = np.log2(worn.pitch / worn.before.spacing)
         assert octaves == pytest.approx(round(octaves), abs=1e-9)
         finer = run_in(
-            found.before,
+            worn.before,
             pair.radius,
             pair.combined_modulus,
-            found.constraints,
+            worn.constraints,
             np.array(scene.running_in.places(0.0)),
-            pitch=0.25 * found.pitch,
+            pitch=0.25 * worn.pitch,
         )
-        assert found.volume == pytest.approx(finer.volume, rel=5e-3)
+        assert worn.volume == pytest.approx(finer.volume, rel=5e-3)
 
     def test_a_long_flat_trace_does_not_ask_for_more_hats_than_the_contact_needs(
         self, resolved, pair
@@ -116,12 +115,12 @@ class TestRun:
         return outcome
 
     def test_files_hold_the_surface_before_and_after(self, done: Run):
-        found, out = done.problem.surface.run_in, done.directory
+        worn, out = done.problem.surface.run_in, done.directory
         table = np.loadtxt(out / "run_in_profile.csv", delimiter=",", skiprows=1)
         header = (out / "run_in_profile.csv").read_text().splitlines()[0]
         assert header == "x [m],height before running-in [m],height [m]"
-        assert table[:, 0] == pytest.approx(found.profile.x, rel=1e-11)
-        assert table[:, 1] - table[:, 2] == pytest.approx(found.lowering, abs=1e-17)
+        assert table[:, 0] == pytest.approx(worn.profile.x, rel=1e-11)
+        assert table[:, 1] - table[:, 2] == pytest.approx(worn.lowering, abs=1e-17)
         assert read_result(out / "result.json").found["running_in"].said("status") == "settled"
         assert not (done.directory / "half_plane" / "run_in_profile.csv").exists()
 
@@ -145,10 +144,10 @@ def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness()
     """On ground as steep as the unrun, peaks end at the hardness, and little material goes."""
     scene = Scene.read("ground-running-in")
     problem = problem_of(scene)
-    found = problem.surface.run_in
-    assert found.status == "settled" and found.converged
-    assert not any(one.at_end for one in found.passes)
-    assert 1e-12 * 30.0 < found.volume < 1e-12 * 45.0
+    worn = problem.surface.run_in
+    assert worn.status == "settled" and worn.converged
+    assert not any(one.at_end for one in worn.passes)
+    assert 1e-12 * 30.0 < worn.volume < 1e-12 * 45.0
     from comparisons.common.progress import Stages
     from comparisons.models.half_plane import half_plane_level
 
@@ -158,5 +157,5 @@ def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness()
     unrun = problem_of(Scene.read("ground-unrun"))
     before = half_plane_level(unrun, unrun.pitches[-1], None, Stages())
     assert before.solution.pressure.max() > 1.5 * peak
-    ratios = [found.contact_length / problem.hertz.half_width / 2.0 for found in (before, level)]
+    ratios = [worn.contact_length / problem.hertz.half_width / 2.0 for worn in (before, level)]
     assert ratios == pytest.approx([0.69, 0.72], abs=0.01)

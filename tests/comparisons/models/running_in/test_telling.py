@@ -32,14 +32,14 @@ def outcome(finish: Callable[..., Run], wavy) -> Run:
 
 class TestTelling:
     def test_result(self, outcome: Run, hardness):
-        found, run_in = outcome.found["running_in"], outcome.problem.surface.run_in
-        told = {f.quantity: f.value for f in found.figures if f.source == "half_plane"}
-        assert told["passes"] == len(run_in.passes) == 5 * told["sweeps"]
-        volumes = found.table("passes").columns["volume"].values
-        assert told["volume_moved"] == run_in.volume == sum(volumes)
-        assert told["largest_lowering"] == run_in.largest_lowering > 0.0
-        assert (found.said("status"), found.said("converged")) == ("settled", "yes")
-        assert found.table("at ends of the trace") is None
+        findings, run_in = outcome.found["running_in"], outcome.problem.surface.run_in
+        by_quantity = {f.quantity: f.value for f in findings.figures if f.source == "half_plane"}
+        assert by_quantity["passes"] == len(run_in.passes) == 5 * by_quantity["sweeps"]
+        volumes = findings.table("passes").columns["volume"].values
+        assert by_quantity["volume_moved"] == run_in.volume == sum(volumes)
+        assert by_quantity["largest_lowering"] == run_in.largest_lowering > 0.0
+        assert (findings.said("status"), findings.said("converged")) == ("settled", "yes")
+        assert findings.table("at ends of the trace") is None
         known = outcome.figures.of(study="running_in")
         before, after = (known.one(source=s, quantity="rq").value for s in ("before", "after"))
         assert before > after > 0.0

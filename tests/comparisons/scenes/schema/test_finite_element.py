@@ -29,20 +29,20 @@ def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict)
 
 
 @pytest.mark.parametrize(
-    ("given", "follows"),
+    ("as_written", "follows"),
     [
         ({}, {"gap": "reference", "block": 400.0}),
         ({"far_field": "half-plane"}, {"block": 20.0}),
         ({"far_field": "half-plane", "block": 40}, {"block": 40.0}),
     ],
 )
-def test_what_follows_from_other_fields(given, follows):
-    settings = scene_of(ELASTIC, given).finite_element
+def test_what_follows_from_other_fields(as_written, follows):
+    settings = scene_of(ELASTIC, as_written).finite_element
     assert {name: getattr(settings, name) for name in follows} == follows
 
 
 @pytest.mark.parametrize(
-    ("ratio", "given", "element"),
+    ("ratio", "as_written", "element"),
     [
         (0.49, {}, "P2"),
         (0.4901, {}, "P3"),
@@ -50,9 +50,9 @@ def test_what_follows_from_other_fields(given, follows):
         (0.4999, {"deformation": "finite", "coupled": True}, "P2"),
     ],
 )
-def test_elements_are_cubic_near_incompressibility(ratio, given, element):
+def test_elements_are_cubic_near_incompressibility(ratio, as_written, element):
     tables = {**RIGID, "body": {**STEEL, "poissons_ratio": ratio}}
-    assert scene_of(tables, given).finite_element.element == element
+    assert scene_of(tables, as_written).finite_element.element == element
 
 
 WAVE = {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
@@ -71,16 +71,16 @@ def test_a_body_that_yields():
 
 
 @pytest.mark.parametrize("load", [False, True])
-@pytest.mark.parametrize("own", [None, False, True])
-def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
-    given = {} if own is None else {"coupled": own}
-    scene = scene_of(RIGID, given, load={"coupled": load})
+@pytest.mark.parametrize("coupled_there", [None, False, True])
+def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
+    as_written = {} if coupled_there is None else {"coupled": coupled_there}
+    scene = scene_of(RIGID, as_written, load={"coupled": load})
     assert scene.load.coupled == load
-    assert scene.finite_element.coupled == (load if own is None else own)
+    assert scene.finite_element.coupled == (load if coupled_there is None else coupled_there)
 
 
 @pytest.mark.parametrize(
-    ("tables", "given", "sections", "complaint"),
+    ("tables", "as_written", "sections", "complaint"),
     [
         (RIGID, {"roller_body": "disc"}, {}, 'roller_body: is "disc", but the roller is rigid'),
         (
@@ -160,9 +160,9 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
         ),
     ],
 )
-def test_refusals_name_the_field_and_what_is_allowed(tables, given, sections, complaint):
+def test_refusals_name_the_field_and_what_is_allowed(tables, as_written, sections, complaint):
     with pytest.raises(SceneError) as refused:
-        scene_of(tables, given, **sections)
+        scene_of(tables, as_written, **sections)
     message = str(refused.value)
     assert message.startswith("mine.toml: finite_element.") and message.count("\n") == 0
     assert complaint in message and "allowed" in message
@@ -236,7 +236,7 @@ def test_bodies_that_cannot_be(sections, complaint):
 
 
 @pytest.mark.parametrize(
-    ("given", "said", "unsaid"),
+    ("as_written", "said", "unsaid"),
     [
         ({}, "the gap is on the undeformed surface", "finite elements:"),
         ({"gap": "displaced"}, "the deformed one, and the pressure acts along the roller's", None),
@@ -245,9 +245,9 @@ def test_bodies_that_cannot_be(sections, complaint):
         ({"coupled": True}, "finite elements: the sliding traction moves the surfaces", None),
     ],
 )
-def test_assumptions_say_what_is_dropped(given, said, unsaid):
+def test_assumptions_say_what_is_dropped(as_written, said, unsaid):
     tables = {**ELASTIC, "body": {**STEEL, "poissons_ratio": 0.2}}
-    spoken = "\n".join(assumptions_of(problem_of(scene_of(tables, given))))
+    spoken = "\n".join(assumptions_of(problem_of(scene_of(tables, as_written))))
     assert said in spoken
     assert unsaid is None or unsaid not in spoken
 

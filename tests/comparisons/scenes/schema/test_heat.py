@@ -58,9 +58,9 @@ def test_refused(fields, said):
 STRESSED = changed(HOT, heat={"stresses": True, "body_expansion": "12 um/m/K"}, stress={})
 
 
-@pytest.mark.parametrize("given", ["12 um/m/K", "12e-6 1/K", "12 ppm/K", 12e-6])
-def test_thermal_stresses_are_asked_for(given):
-    heat = resolved(changed(STRESSED, heat={"body_expansion": given})).heat
+@pytest.mark.parametrize("expansion", ["12 um/m/K", "12e-6 1/K", "12 ppm/K", 12e-6])
+def test_thermal_stresses_are_asked_for(expansion):
+    heat = resolved(changed(STRESSED, heat={"body_expansion": expansion})).heat
     assert (heat.body_expansion, heat.coating_expansion) == (pytest.approx(12e-6), None)
     assert resolved(HOT).heat.body_expansion is None
 

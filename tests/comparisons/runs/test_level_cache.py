@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 from scenes import SMOOTH, problem
 
+from comparisons.campaigns.cases import Case, answers_of, carry_out
 from comparisons.campaigns.cost import measure as cost_measure
 from comparisons.campaigns.maps import map as map_of_groups
 from comparisons.common import provenance
-from comparisons.models.level_cache import CODE, level_cache
+from comparisons.common.progress import no_progress
 from comparisons.models.plan import make_plan
+from comparisons.runs.run import CODE, level_cache
 
 
 def test_levels_are_inside_a_folder_that_exists(tmp_path, smooth_outcome):
@@ -22,11 +24,27 @@ def test_levels_are_inside_a_folder_that_exists(tmp_path, smooth_outcome):
     cache.save("first", level)
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
     assert [path.relative_to(out) for path in out.rglob("*.npz")] == [
-        (out / ".unfinished/first.npz").relative_to(out)
+        (out / ".unfinished/run/first.npz").relative_to(out)
     ]
     assert np.array_equal(cache.load("first").solution.pressure, level.solution.pressure)
     cache.discard()
     assert not list(out.iterdir())
+
+
+def test_the_end_of_another_command_leaves_levels_alone(tmp_path, smooth_outcome):
+    """Into the folder of a run that was stopped; and the end of that run the other's answers."""
+    out, cases = tmp_path / "out", [Case("tests", "nothing", "half_plane", tuple)]
+    levels = level_cache(out, smooth_outcome.problem, smooth_outcome.plan)
+    levels.save("first", smooth_outcome.runs["half_plane"].levels[0])
+    carry_out("stability", cases, out, None, no_progress)
+    assert levels.load("first") is not None
+    answers = answers_of(out, "verify", cases)
+    answers.save("1", ((), None, 0.0))
+    carry_out("stability", cases, out, None, no_progress)
+    levels.discard()
+    assert levels.load("first") is None and answers.load("1") == ((), None, 0.0)
+    answers.discard()
+    assert [path.name for path in tmp_path.rglob("*")] == ["out", "stability.json"]
 
 
 @pytest.fixture
