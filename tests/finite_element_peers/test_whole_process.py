@@ -7,14 +7,7 @@ import numpy as np
 import pytest
 
 from tests.finite_element_peers import cases, whole_process
-from tests.finite_element_peers.whole_process import (
-    MESH,
-    PEER,
-    process,
-    solve,
-    stored,
-    time_at,
-)
+from tests.finite_element_peers.whole_process import MESH, PEER, process, solve, stored, time_at
 
 
 def test_a_process_prints_the_peak_of_its_solution(cylinder, tmp_path, monkeypatch):

@@ -6,13 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from tests.half_plane_peers.cases import (
-    CONTACT_SHARE,
-    REFINED,
-    cylinder,
-    rough,
-    sinusoid,
-)
+from tests.half_plane_peers.cases import CONTACT_SHARE, REFINED, cylinder, rough, sinusoid
 from tests.half_plane_peers.codes import crosscheck
 from tests.half_plane_peers.yardstick import TOLERANCE, displacements, measure
 

@@ -10,10 +10,7 @@ from scipy.optimize import nnls
 from analytic.contact import active_set
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import (
-    ContactError,
-    solve_contact,
-)
+from analytic.contact.problem import ContactError, solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
@@ -189,9 +186,7 @@ class TestHardness:
     def test_a_plateau_costs_few_exchanges(self, roller, count, above_mean):
         """Nearly every node at the hardness, where block exchanges may come round in a circle."""
         grid = HatGrid.within(
-            -2.0 * HERTZ.half_width,
-            2.0 * HERTZ.half_width,
-            4.0 * HERTZ.half_width / (count + 1),
+            -2.0 * HERTZ.half_width, 2.0 * HERTZ.half_width, 4.0 * HERTZ.half_width / (count + 1)
         )
         hardness = above_mean * LOAD / grid.weights.sum()
         solution = roller.pressed(

@@ -19,8 +19,7 @@ X, Z = RNG.uniform(-0.1, 0.15, 60), RNG.uniform(0.0, 0.05, 60)
 
 
 @pytest.mark.parametrize(
-    ("element", "unit", "size"),
-    [("hat", hat_stress, PITCH), ("strip", strip_stress, 0.5 * PITCH)],
+    ("element", "unit", "size"), [("hat", hat_stress, PITCH), ("strip", strip_stress, 0.5 * PITCH)]
 )
 def test_sum_of_the_elements(element, unit, size):
     found = stress_at(NODES, PRESSURE, 0.3, X, Z, element)

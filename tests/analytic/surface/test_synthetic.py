@@ -8,13 +8,7 @@ from text_profiles import read_profile
 
 from analytic.profile import MAX_SAMPLES, surface
 from analytic.surface.roughness import roughness, shortest_wavelength
-from analytic.surface.synthetic import (
-    ground_texture,
-    same_spectrum,
-    self_affine,
-    sinusoid,
-    smooth,
-)
+from analytic.surface.synthetic import ground_texture, same_spectrum, self_affine, sinusoid, smooth
 
 FRACTAL = {"hurst": 0.7, "samples": 1025, "length": 1e-3, "seed": 1, "rms_slope": 0.05}
 GROUND = {

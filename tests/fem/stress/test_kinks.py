@@ -56,13 +56,7 @@ def test_three_kinks_make_a_hat(friction):
     assert len(near) > 20
     place, sx, sz, txz, sliding = (
         np.array([[float(p[name]) for name in names] for p in near])
-        for names in (
-            ["x_over_pitch", "z_over_pitch"],
-            ["sx"],
-            ["sz"],
-            ["txz"],
-            ["sx_traction"],
-        )
+        for names in (["x_over_pitch", "z_over_pitch"], ["sx"], ["sz"], ["txz"], ["sx_traction"])
     )
     exact = np.column_stack([sx + friction * sliding, sz + friction * txz, txz + friction * sx])
     np.testing.assert_allclose(stress(hat(friction), place), exact, atol=1e-13)

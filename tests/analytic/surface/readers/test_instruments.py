@@ -199,11 +199,7 @@ def test_an_uneven_scan_comes_in_metres(tmp_path, monkeypatch):
     found = read_instrument_file(tmp_path / "scan")
     np.testing.assert_allclose(found.heights, [1e-6, 4e-6, 9e-6])
     np.testing.assert_allclose(found.x, [0.0, 2e-6, 3e-6])
-    assert (found.pitch, found.unit, found.format) == (
-        None,
-        1e-6,
-        "made, by SurfaceTopography 1",
-    )
+    assert (found.pitch, found.unit, found.format) == (None, 1e-6, "made, by SurfaceTopography 1")
 
 
 def test_a_channel_that_is_no_height_is_refused(tmp_path, monkeypatch):
