@@ -184,9 +184,3 @@ def test_stresses_depend_on_dundurs_constants_alone():
 def test_impossible_layers_are_refused(thickness, base, message):
     with pytest.raises(ValueError, match=message):
         LayeredBody(LAYER, thickness, base)
-
-
-@pytest.mark.parametrize("z", [-1e-9, 1.1 * THICKNESS])
-def test_depths_outside_the_layer_are_refused(z):
-    with pytest.raises(ValueError, match="depths"):
-        wave_stress(LayeredBody(LAYER, THICKNESS, "bonded"), 1.0, z)

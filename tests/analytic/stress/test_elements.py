@@ -1,4 +1,4 @@
-"""Stresses of one strip and of one hat against high-precision values, near and far."""
+"""Stresses of one strip and of one hat against high-precision values; their scalars."""
 
 import json
 
@@ -8,6 +8,7 @@ from exact_stresses import hat_stress, strip_stress
 from scenes import DATA
 
 from analytic.stress.elements import FrictionStress
+from analytic.stress_state import StressState
 
 STRIP = json.loads((DATA / "b_uniform_strip.json").read_text())["points"]
 HAT = json.loads((DATA / "hat_stress.json").read_text())["points"]
@@ -100,20 +101,6 @@ def test_only_ratios_of_lengths_matter(stress):
         np.testing.assert_array_equal(parts(stress(x * unit, z * unit, unit)), expected)
 
 
-@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
-def test_stresses_are_in_equilibrium(stress):
-    """Derivatives of sx, sz, txz by central differences: div = 0, under p and under q."""
-    rng = np.random.default_rng(5)
-    x, z, h = rng.uniform(-3.0, 3.0, 60), rng.uniform(0.3, 4.0, 60), 1e-4
-    for name in ("normal", "traction"):
-        east, west = (getattr(stress(x + d, z, 1.0), name) for d in (h, -h))
-        down, up = (getattr(stress(x, z + d, 1.0), name) for d in (h, -h))
-        along = (east.sx - west.sx) + (down.txz - up.txz)
-        across = (east.txz - west.txz) + (down.sz - up.sz)
-        assert np.abs(along / (2.0 * h)).max() < 2e-6
-        assert np.abs(across / (2.0 * h)).max() < 2e-6
-
-
 def test_surface_of_a_hat_is_its_own_load():
     x = np.array([-3.0, -1.0, -0.75, 0.0, 0.5, 1.0, 8.0])
     unit = hat_stress(x, 0.0, 1.0)
@@ -164,3 +151,30 @@ def test_what_is_odd_in_x_vanishes_exactly_on_the_axis(stress):
 def test_a_point_above_the_surface_is_refused(stress):
     with pytest.raises(ValueError, match="z must not be negative"):
         stress(0.0, -1.0, 1.0)
+
+
+def tensors(stress: StressState, poissons_ratio: float) -> np.ndarray:
+    tensor = np.zeros((stress.sx.size, 3, 3))
+    tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 2, 2] = stress.sx, stress.sz, stress.sy(0.0)
+    tensor[:, 0, 1] = tensor[:, 1, 0] = stress.txz
+    tensor[:, 2, 2] = poissons_ratio * (stress.sx + stress.sz)
+    return tensor
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
+def test_scalars_of_random_tensors(nu):
+    rng = np.random.default_rng(11)
+    stress = StressState(*rng.standard_normal((3, 50)) * 1e9)
+    tensor = tensors(stress, nu)
+    in_plane = np.linalg.eigvalsh(tensor[:, :2, :2])
+    largest = 0.5 * (in_plane[:, 1] - in_plane[:, 0])
+    np.testing.assert_allclose(stress.tau1, largest, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(stress.sy(nu), tensor[:, 2, 2], rtol=1e-14)
+    deviator = tensor - np.trace(tensor, axis1=1, axis2=2)[:, None, None] / 3.0 * np.eye(3)
+    expected = np.sqrt(1.5 * np.sum(deviator**2, axis=(1, 2)))
+    np.testing.assert_allclose(stress.von_mises(nu), expected, rtol=1e-13)
+
+
+def test_shapes_must_agree():
+    with pytest.raises(ValueError, match="equal shape"):
+        StressState(np.zeros(3), np.zeros(3), np.zeros(2))

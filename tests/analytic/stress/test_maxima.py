@@ -114,20 +114,6 @@ def test_depth_sections_of_the_figures():
     np.testing.assert_allclose(edge, [0.21567, 0.24437, 0.26446, 0.25968], atol=5e-5)
 
 
-def test_near_the_surface_hats_follow_and_strips_do_not():
-    """A depth of a thousandth of the pitch, at the ends of strips, under friction."""
-    count, friction = 32, 0.3
-    depth = 1e-3 / count
-    ends = (np.arange(-24, 24) + 0.5) / count
-    errors = {}
-    for element in ("hat", "strip"):
-        x, pressure = elements(count, element)
-        stress = stress_at(x, pressure, friction, ends, depth, element)
-        errors[element] = np.abs(stress.sx - hertz_stress(UNIT, ends, depth, friction).sx).max()
-    assert errors["hat"] < 2e-3
-    assert errors["strip"] > 20.0 * errors["hat"]
-
-
 def test_rough_pressure_against_a_much_finer_search():
     """Several asperities of nearly equal pressure: the right one must win, off the grid."""
     rng = np.random.default_rng(21)
