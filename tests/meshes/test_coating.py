@@ -9,7 +9,6 @@ from blocks import BLOCK, of_kinds
 from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
 from meshes.coating import LAYERS, LONGEST, core, layer_size, stretched, with_layers
-from meshes.msh_file import read_msh, write_msh
 from meshes.size_law import estimate_unknowns, largest_size, surface_edge, wanted_size
 
 
@@ -72,15 +71,6 @@ def test_a_thin_coating_costs_less_than_its_length_in_layers(built):
     mesh = built("thin coating")
     in_equal_elements = 2.0 * LAYERS * 2.0 * 18.5 / layer_size(mesh.spec)
     assert 0.01 < stretched(mesh).sum() / in_equal_elements < 0.05
-
-
-def test_file_keeps_the_interface(built, tmp_path):
-    mesh = built("as thick as the contact")
-    write_msh(mesh, tmp_path / "mesh.msh")
-    read = read_msh(tmp_path / "mesh.msh")
-    assert read.spec.interface == mesh.spec.interface
-    same = {name: mesh.quality[name] for name in read.quality}
-    assert read.quality == pytest.approx(same, rel=1e-9)
 
 
 @pytest.mark.parametrize("interface", [0.0, -1.0, 40.0, np.nan])

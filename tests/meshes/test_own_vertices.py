@@ -6,7 +6,6 @@ from blocks import GRADED, SPECS, of_kinds
 
 from meshes.block import BlockSpec, MeshError
 from meshes.build import build_block
-from meshes.msh_file import read_msh, write_msh
 from meshes.size_law import local_edges, own_vertices, point_size, wanted_size
 
 
@@ -72,12 +71,6 @@ def test_edges_are_cut_into_the_fewest_parts_that_fit():
     assert edge.max() <= 0.075
     given = np.diff(GRADED)
     assert len(edge) == np.ceil(given / 0.075 - 1e-9).sum()
-
-
-def test_file_keeps_the_vertices(built, tmp_path):
-    write_msh(built("uneven"), tmp_path / "mesh.msh")
-    read = read_msh(tmp_path / "mesh.msh")
-    assert np.array_equal(read.spec.vertices, built("uneven").spec.vertices)
 
 
 @pytest.mark.parametrize(
