@@ -235,11 +235,6 @@ def test_parameters_that_make_no_sense(maker, changes, words):
     assert "\n" not in str(caught.value)
 
 
-def test_two_samples_a_wave_are_just_allowed():
-    profile = self_affine(**FRACTAL, shortest_wavelength=2 * FRACTAL["length"] / 1024)
-    assert roughness(profile).rms_slope == pytest.approx(0.05, rel=1e-9)
-
-
 def test_random_traces_have_the_spectrum_of_another():
     """Root mean square height exactly; slope and curvature on average, phases anew."""
     trace = ground_texture(
