@@ -4,7 +4,7 @@ from tests.cost_laws import LevelCost, demands, main
 
 
 def level(seconds, unknowns=(100, 100), memory=(1e9, 1e9)):
-    return LevelCost("made", 3, unknowns, seconds, memory)
+    return LevelCost("made 3", unknowns, seconds, memory)
 
 
 def test_each_law_fails_beyond_a_factor_of_two():

@@ -43,21 +43,9 @@ ROOMS = {
     "figures common",
 }
 MOST_ENTRIES = 16  # of a folder
-HEAVY = {
-    "basix",
-    "dolfinx",
-    "ffcx",
-    "gmsh",
-    "matplotlib",
-    "meshio",
-    "mpi4py",
-    "petsc4py",
-    "pyvista",
-    "ufl",
-    "vtk",
-    "vtkmodules",
-    "scipy.signal",  # with scipy.stats a sixth of a second
-}
+# scipy.signal with its scipy.stats takes a sixth of a second
+HEAVY = "basix dolfinx ffcx gmsh matplotlib meshio mpi4py petsc4py pyvista ufl vtk vtkmodules"
+HEAVY = {*HEAVY.split(), "scipy.signal"}
 AT_TOP = {"README.md", "CITATION.cff", "crosscheck", "pyproject.toml", "tests", *MAY_IMPORT}
 MODULES = sorted(path for package in MAY_IMPORT for path in (PROJECT / package).rglob("*.py"))
 
@@ -149,8 +137,7 @@ def test_imports_follow_the_arrows():
 def imports_of_ours(path: Path) -> set[str]:
     """Modules of the project that a module imports, early or late; not those for type hints."""
     tree = ast.parse(path.read_text())
-    unseen = [node for node in ast.walk(tree) if is_type_checking(node)]
-    for node in unseen:
+    for node in filter(is_type_checking, ast.walk(tree)):
         node.body = []
     names = set()
     for name in imported(tree, package_of(path)):
@@ -182,8 +169,7 @@ def graph() -> dict[str, set[str]]:
 
 
 def test_no_import_runs_against_the_order():
-    found = [f"{a} -> {b}" for a in graph() for b in graph()[a] if against_the_order(a, b)]
-    assert found == []
+    assert [f"{a} -> {b}" for a in graph() for b in graph()[a] if against_the_order(a, b)] == []
     assert against_the_order("comparisons.common.files", "comparisons.runs.run")
     assert not against_the_order("comparisons.runs.run", "comparisons.common.files")
 

@@ -151,13 +151,6 @@ def test_first_command_runs_both_models_and_fills_the_folder_that_is_named(monke
     assert f"In `{RESULTS / 'ground-unrun'}`" in README
 
 
-def test_test_command_is_the_launchers():
-    """Which runs pytest on the whole suite: see `test_launcher`. Here it would not end."""
-    launcher = (PROJECT / "crosscheck").read_text()
-    assert f'if [ "${{1-}}" = {shlex.split(COMMANDS[1])[1]} ]; then' in launcher
-    assert "-m pytest" in launcher
-
-
 def test_commands_in_passing_work(tmp_path):
     """What the doctor finds, and the studies, are tested with them: they take seconds and more."""
     named = {

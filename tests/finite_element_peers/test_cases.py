@@ -9,7 +9,7 @@ import pytest
 from tests.finite_element_peers import calculix, cases, scikit_fem, whole_process
 from tests.finite_element_peers.calculix import deck, last_contact
 from tests.finite_element_peers.task import FailedError, gap
-from tests.finite_element_peers.whole_process import MESH, PEER, process, solve, stored
+from tests.finite_element_peers.whole_process import PEER, process, solve, stored
 from tests.harness import AbsentError
 
 
@@ -57,16 +57,6 @@ def test_a_peers_process_reads_its_mesh(cylinder, tmp_path, capsys):
     unknowns, peak = json.loads(capsys.readouterr().out)
     assert unknowns == 2 * len(task.mesh.points)
     assert abs(peak / cylinder.peak - 1.0) < 4e-3
-
-
-def test_a_mesh_alone_prints_nothing(cylinder, tmp_path, capsys):
-    file = stored(cylinder.task(5, 0.4), tmp_path / "task.npz")
-    solve(MESH, file)
-    assert capsys.readouterr().out == ""
-    solve("P3", file)
-    unknowns, peak = json.loads(capsys.readouterr().out)
-    exact = cylinder.peak
-    assert unknowns > 1000 and abs(peak / exact - 1.0) < np.sqrt(1e-4)
 
 
 @pytest.fixture(scope="module")

@@ -4,22 +4,13 @@ import numpy as np
 import pytest
 from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
-from text_profiles import read_profile
+from text_profiles import GROUND, read_profile
 
 from analytic.profile import MAX_SAMPLES, surface
 from analytic.surface.roughness import roughness, shortest_wavelength
 from analytic.surface.synthetic import ground_texture, same_spectrum, self_affine, sinusoid, smooth
 
 FRACTAL = {"hurst": 0.7, "samples": 1025, "length": 1e-3, "seed": 1, "rms_slope": 0.05}
-GROUND = {
-    "rms_height": 0.4608e-6,
-    "samples": 2237,
-    "length": 2236e-6,
-    "seed": 1,
-    "roll_off_wavelength": 80e-6,
-    "shortest_wavelength": 10e-6,
-    "longest_wavelength": 250e-6,
-}
 WAVE = {"wavelength": 50e-6, "amplitude": 0.2e-6, "length": 1e-3}
 MAKERS = {smooth: {"length": 1e-3}, sinusoid: WAVE, self_affine: FRACTAL, ground_texture: GROUND}
 
