@@ -19,7 +19,7 @@ SLIDING = {
     "load": {"hertz_peak_pressure": PRESSURE, "friction": [0.0, 0.3]},
     "stress": {"points": [80, 30], "bulge": True},
     "resolution": {"pitch": 20e-6, "levels": 2},
-    "budget": {"effects": False, "time": 5.0},
+    "budget": {"effects": False, "time": 1.0},
 }
 WAVY = {"profile": {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.2e-6}}
 THIN = {"poissons_ratio": 0.49, "thickness": 80e-6, "base": "bonded"}
