@@ -64,15 +64,6 @@ def test_hat_closed_form_and_moments_meet():
         assert np.abs(inside - outside).max() < 2e-14 * scale
 
 
-def test_hat_is_the_mean_of_shifted_strips():
-    """A strip smeared over its own width is a hat; Gauss points, so not where a strip ends."""
-    node, weight = np.polynomial.legendre.leggauss(40)
-    x = np.array([-2.6, -1.0, 0.0, 0.4, 1.7, 50.0, 3000.0])
-    for z in (0.6, 2.0, 900.0):
-        strips = parts(strip_stress(x[:, None] - 0.5 * node, z, 0.5)) @ weight / 2.0
-        np.testing.assert_allclose(parts(hat_stress(x, z, 1.0)), strips, rtol=1e-12, atol=1e-16)
-
-
 def test_point_load_far_away():
     """Half-width 1/2 carries one unit; corrections are of the order 1/r^2."""
     for x, z in ((1e7, 1e-3), (-1e7, 1e7), (1.0, 1e7)):
@@ -129,15 +120,6 @@ def test_strip_has_a_logarithmic_spike_where_the_hat_is_bounded():
     np.testing.assert_allclose(np.diff(strip)[4:], -2.0 / np.pi * np.log(10.0), rtol=1e-6)
     assert np.abs(hat - hat_stress(1.0, 0.0, 1.0).traction_sx).max() < 0.05
     assert np.abs(hat[-1] - hat_stress(1.0, 0.0, 1.0).traction_sx) < 1e-11
-
-
-def test_friction_superposes_pressure_and_traction():
-    unit = hat_stress(np.array([0.2, -4.0]), np.array([0.7, 0.1]), 1.0)
-    mixed = unit.at(0.25)
-    for name in ("sx", "sz", "txz"):
-        expected = getattr(unit.normal, name) + 0.25 * getattr(unit.traction, name)
-        np.testing.assert_array_equal(getattr(mixed, name), expected)
-    assert unit.at(0.0) is unit.normal
 
 
 @pytest.mark.parametrize("stress", [strip_stress, hat_stress])

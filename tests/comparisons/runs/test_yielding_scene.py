@@ -131,7 +131,7 @@ def deep(friction=0.0):
     return changed(
         TABLES | {"body": body},
         load={"hertz_peak_pressure": 7e9, "friction": friction},
-        resolution={"pitch": "120 um"},
+        resolution={"pitch": "180 um"},
         finite_element={"coupled": friction > 0.0},
     )
 
