@@ -12,6 +12,7 @@ seconds or more: a shorter one is mostly the start of its process.
 
 import argparse
 from concurrent.futures import ProcessPoolExecutor
+from itertools import chain, product
 from multiprocessing import get_context
 from typing import NamedTuple
 
@@ -21,21 +22,21 @@ from tests import harness
 WITHIN = 2.0
 LEAST = 1.0  # s
 LEVELS = 3
+LAWS = {"unknowns": ".0f", "seconds": ".2f", "memory": ".0f"}  # and how they are printed
 
 
 class LevelCost(NamedTuple):
-    """One level: (expected, measured) each; unknowns, processor seconds, bytes at the peak."""
+    """One level: (expected, measured) each; unknowns, processor seconds, MB at the peak."""
 
-    scene: str
-    number: int
+    level: str
     unknowns: tuple[float, float]
     seconds: tuple[float, float]
     memory: tuple[float, float]
 
-    @property
-    def ratios(self) -> tuple[float, ...]:
+    def ratio(self, law: str) -> float:
         """Expected over measured."""
-        return tuple(one / other for one, other in (self.unknowns, self.seconds, self.memory))
+        expected, measured = getattr(self, law)
+        return expected / measured
 
 
 def level_cost(name: str, number: int) -> LevelCost:
@@ -57,35 +58,30 @@ def level_cost(name: str, number: int) -> LevelCost:
         problem, plan, refinement, window, Stages(), options=LevelOptions(check=True)
     )
     seconds = processor_seconds() - begin
-    return LevelCost(
-        name,
-        number,
-        (expected_unknowns(problem, plan, refinement, level.patches), level.unknowns),
-        (level.expected_seconds, seconds),
-        (level.expected_memory, peak_memory()),
-    )
+    unknowns = expected_unknowns(problem, plan, refinement, level.patches), level.unknowns
+    memory = level.expected_memory / 1e6, peak_memory() / 1e6
+    return LevelCost(f"{name} {number}", unknowns, (level.expected_seconds, seconds), memory)
 
 
 def level_costs(names: list[str], levels: int) -> list[LevelCost]:
     """Of each scene's first levels."""
-    found = []
-    for name in names:
-        for number in range(1, levels + 1):
-            with ProcessPoolExecutor(1, get_context("spawn")) as alone:
-                found.append(alone.submit(level_cost, name, number).result())
-    return found
+    costs = []
+    for name, number in product(names, range(1, levels + 1)):
+        with ProcessPoolExecutor(1, get_context("spawn")) as alone:
+            costs.append(alone.submit(level_cost, name, number).result())
+    return costs
 
 
 def demands(rows: list[LevelCost]) -> list[harness.Demand]:
     """That every law is within WITHIN, of the levels that take LEAST or more."""
     long = [row for row in rows if row.seconds[1] >= LEAST]
-    found = []
-    for k, law in enumerate(("unknowns", "seconds", "memory")):
-        ratios = [row.ratios[k] for row in long] or [1.0]
+    demanded = []
+    for law in LAWS:
+        ratios = [row.ratio(law) for row in long] or [1.0]
         text = f"expected over measured {law}: {min(ratios):.2f} to {max(ratios):.2f}"
         holds = min(ratios) >= 1.0 / WITHIN and max(ratios) <= WITHIN
-        found.append(harness.Demand(holds, f"{text} (within a factor of {WITHIN:g})"))
-    return found
+        demanded.append(harness.Demand(holds, f"{text} (within a factor of {WITHIN:g})"))
+    return demanded
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -93,24 +89,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("scenes", nargs="*", default=scene_names())
     parser.add_argument("--levels", type=int, default=LEVELS)
-    given = parser.parse_args(arguments)
-    rows = level_costs(given.scenes, given.levels)
-    harness.print_table(
-        "finite elements, one level in a process",
-        ("level", "unknowns", "ratio", "seconds", "ratio", "MB", "ratio"),
-        [
-            (
-                f"{row.scene} {row.number}",
-                f"{row.unknowns[1]:.0f}",
-                f"{row.ratios[0]:.2f}",
-                f"{row.seconds[1]:.2f}",
-                f"{row.ratios[1]:.2f}",
-                f"{row.memory[1] / 1e6:.0f}",
-                f"{row.ratios[2]:.2f}",
-            )
-            for row in rows
-        ],
-    )
+    options = parser.parse_args(arguments)
+    rows, cells = level_costs(options.scenes, options.levels), []
+    for row in rows:
+        measured = (f"{getattr(row, law)[1]:{form}}" for law, form in LAWS.items())
+        ratios = (f"{row.ratio(law):.2f}" for law in LAWS)
+        cells.append((row.level, *chain(*zip(measured, ratios, strict=True))))
+    columns = ("level", "unknowns", "ratio", "seconds", "ratio", "MB", "ratio")
+    harness.print_table("finite elements, one level in a process", columns, cells)
     return harness.print_demands(demands(rows))
 
 

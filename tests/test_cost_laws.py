@@ -4,7 +4,7 @@ from tests.cost_laws import LevelCost, demands, main
 
 
 def level(seconds, unknowns=(100, 100), memory=(1e9, 1e9)):
-    return LevelCost("made", 3, unknowns, seconds, memory)
+    return LevelCost("made 3", unknowns, seconds, memory)
 
 
 def test_each_law_fails_beyond_a_factor_of_two():
@@ -17,10 +17,6 @@ def test_each_law_fails_beyond_a_factor_of_two():
         level((2.0, 2.0), memory=(4.2e9, 2e9)),
     ):
         assert [demand.holds for demand in demands([good, bad])].count(False) == 1
-
-
-def test_short_levels_are_not_judged():
-    assert all(demand.holds for demand in demands([level((0.1, 0.9))]))
 
 
 def test_a_level_is_solved_in_its_own_process(capsys):

@@ -63,9 +63,3 @@ def test_a_seed_gives_the_same_inputs_and_each_is_read_or_refused(tmp_path, inpu
 def test_what_is_a_defect(tmp_path, error, told):
     word, account = outcome(raising(error), tmp_path / "scene.toml")
     assert word == "DEFECT" and told in account
-
-
-@pytest.mark.parametrize("given", ['"nan m"', "'inf'", "4 infinitely small nanometres"])
-def test_what_the_user_gave_is_quoted_and_no_defect(tmp_path, given):
-    error = InputError(f"scene.toml: load.position: is {given}; allowed is a length")
-    assert outcome(raising(error), tmp_path / "scene.toml") == ("refused", "")

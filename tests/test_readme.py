@@ -151,13 +151,6 @@ def test_first_command_runs_both_models_and_fills_the_folder_that_is_named(monke
     assert f"In `{RESULTS / 'ground-unrun'}`" in README
 
 
-def test_test_command_is_the_launchers():
-    """Which runs pytest on the whole suite: see `test_launcher`. Here it would not end."""
-    launcher = (PROJECT / "crosscheck").read_text()
-    assert f'if [ "${{1-}}" = {shlex.split(COMMANDS[1])[1]} ]; then' in launcher
-    assert "-m pytest" in launcher
-
-
 def test_commands_in_passing_work(tmp_path):
     """What the doctor finds, and the studies, are tested with them: they take seconds and more."""
     named = {
@@ -356,13 +349,6 @@ def test_bounds_are_those_of_the_tests_that_are_named(row):
     assert float(bound) in numbers_in(*in_ticks(test))
 
 
-def test_a_bound_that_no_test_has_is_seen():
-    [test] = in_ticks(rows("figure", FIGURES)[0][-1])
-    assert 1.5e-15 not in numbers_in(test)
-    with pytest.raises(ValueError):
-        numbers_in(f"{test}_no_more")
-
-
 def test_effects_have_the_estimates_that_are_named():
     assert "a quarter of a/R" in LIMITS and TILT == 1 / 4
     assert "three tenths of peak pressure over E" in LIMITS and STRAIN == 3 / 10
@@ -407,33 +393,23 @@ class TestPicture:
         assert size_of(tmp_path / "new.png") == size_of(overview.PICTURE)
 
     def test_holds_the_figures_of_the_run(self, mine):
-        hertz, window = mine.outcome.problem.hertz, mine.outcome.window
+        outcome = mine.outcome
+        hertz, window, friction = outcome.problem.hertz, outcome.window, outcome.deciding_friction
         with drawing():
-            pressures, differences, surfaces, shear, bar = overview.overview(mine.outcome).axes
+            pressures, differences, surfaces, shear, _ = overview.overview(outcome).axes
         drawn = {line.get_label(): line.get_xydata() for line in pressures.lines}
-        friction = mine.outcome.deciding_friction
-        levels = mine.outcome.levels(friction)
-        ends = overview.REACH * hertz.half_width
+        levels = outcome.levels(friction)
         for name, level in levels.items():
             label = next(each for each in drawn if each.startswith(LABELS[name]))
-            shown = np.abs(level.grid.x) <= ends
-            x, pressure = drawn[label].T * [[hertz.half_width], [hertz.peak_pressure]]
-            drawn_here = np.interp(level.grid.x[shown], x, pressure)
-            assert drawn_here == pytest.approx(level.solution.pressure[shown])
+            peak = level.solution.pressure.max() / hertz.peak_pressure
+            assert drawn[label][:, 1].max() == pytest.approx(peak)
         assert np.max(drawn["Hertz, smooth"][:, 1]) == pytest.approx(1.0, abs=1e-5)
-        half_plane, last = mine.outcome.pair(friction).values()
-        difference = half_plane.solution.pressure - last.solution.pressure
-        x, between = differences.lines[0].get_xydata().T
-        shown = np.abs(last.grid.x) <= ends
-        drawn_here = np.interp(last.grid.x[shown] / hertz.half_width, x, between)
-        assert drawn_here * hertz.peak_pressure == pytest.approx(difference[shown])
+        half_plane, last = (level.solution for level in outcome.pair(friction).values())
+        between = differences.lines[0].get_xydata()[:, 1] * hertz.peak_pressure
+        expected = half_plane.pressure - last.pressure
+        assert np.abs(between).max() == pytest.approx(np.abs(expected).max())
         assert len(surfaces.lines) == 2 * len(levels)
-        field = last.stress(friction).field.tau1
-        [image] = shear.images
-        largest = bar._colorbar.mappable.to_rgba(np.nanmax(field) / hertz.peak_pressure, bytes=True)
-        assert np.any(np.all(image.get_array() == largest, axis=-1))
-        low, high = shear.get_ylim()
-        assert (low, high) == (window.z[-1] / hertz.half_width, 0.0)
+        assert shear.get_ylim() == (window.z[-1] / hertz.half_width, 0.0)
         assert {panel.get_xlim() for panel in (pressures, differences, surfaces, shear)} == {
             (-overview.REACH, overview.REACH)
         }

@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
+from scipy.integrate import quad, trapezoid
 from scipy.interpolate import CubicSpline
 
-from analytic.grid import HatGrid, roller_gap
+from analytic.grid import HatGrid, hat_integrals, roller_gap
 
 
 def test_grids_of_halved_pitch_nest():
@@ -67,3 +67,32 @@ def test_average_of_a_spline_is_exact_between_its_knots(pitch):
 def test_gap_of_a_rough_surface_is_the_parabola_less_the_heights():
     x = np.linspace(-1.0, 1.0, 5)
     assert roller_gap(2.0, np.sin)(x) == pytest.approx(x**2 / 4.0 - np.sin(x))
+
+
+def test_averages_over_unequal_hats_are_exact_for_polynomials():
+    hats = np.array([-1.0, -0.4, -0.1, 0.7, 2.0])
+    power = np.arange(7)
+    exact = np.zeros((3, 7))
+    for i in range(3):
+        a, b, c = hats[i : i + 3]
+        # The hat's second derivative is three deltas: integrate x^k twice.
+        whole = [t ** (power + 2.0) / ((power + 1.0) * (power + 2.0)) for t in (a, b, c)]
+        exact[i] = (whole[0] - whole[1]) / (b - a) + (whole[2] - whole[1]) / (c - b)
+    found = np.stack([hat_integrals(hats, lambda x, k=k: x**k) for k in power], axis=1)
+    assert found == pytest.approx(exact, rel=1e-12, abs=1e-14)
+    assert found[:, 0] == pytest.approx(0.5 * (hats[2:] - hats[:-2]), rel=1e-14)
+
+
+def test_averages_with_a_knot_follow_a_kink():
+    hats = np.array([0.0, 1.0, 3.0])
+    kink = 1.6
+    found = hat_integrals(hats, lambda x: np.abs(x - kink), np.array([kink]))
+    x = np.linspace(0.0, 3.0, 300001)
+    direct = trapezoid(np.interp(x, hats, [0, 1, 0]) * np.abs(x - kink), x)
+    assert found == pytest.approx(direct, rel=1e-8)
+
+
+def test_a_grid_of_hats_has_the_same_averages():
+    grid = HatGrid(0.1, -5, 9)
+    nodes = 0.1 * np.arange(-6, 11)
+    assert grid.hat_integrals(np.exp) == pytest.approx(hat_integrals(nodes, np.exp), rel=1e-13)

@@ -8,7 +8,7 @@ import pytest
 from exact_stresses import flowed_volume, largest_overlap
 from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
-from text_profiles import read_profile
+from text_profiles import GROUND, read_profile
 
 import analytic.running_in
 from analytic.contact.equilibrium import Constraints
@@ -213,12 +213,10 @@ class TestRefinement:
             lifts.append(rise.max() / found.largest_lowering)
         assert lifts == pytest.approx([0.032, 0.010], rel=0.3)
 
-    def test_two_hats_a_sample_by_default(self):
+    def test_narrower_hats_add_samples_where_the_roller_was(self):
+        """Two hats a sample, which is the default."""
         found = ran_in(pitch=None, positions=[0.0], sweeps=1)
         assert found.pitch == pytest.approx(0.5 * WAVY.spacing, rel=1e-12)
-
-    def test_narrower_hats_add_samples_where_the_roller_was(self):
-        found = ran_in(pitch=0.5 * WAVY.spacing, positions=[0.0], sweeps=1)
         kept = np.isclose(found.profile.x[:, None], WAVY.x, rtol=0.0, atol=1e-15).any(axis=0)
         assert np.all(kept)
         steps = np.diff(found.profile.x) / WAVY.spacing
@@ -291,15 +289,13 @@ class TestSymmetry:
 
     def test_contact_beyond_the_ground_looked_at_is_found(self):
         """The search starts wide enough; even from one too narrow for the contact it gets there."""
-        constraints = Constraints(load=LOAD, hardness=0.9 * P0)
         profile = smooth(length=20.0 * A, samples=2001)
-        surface = analytic.running_in._Surface(
-            profile, RADIUS, MODULUS, constraints, profile.spacing, np.array([0.3 * A])
+        pair = RADIUS, MODULUS, Constraints(load=LOAD, hardness=0.9 * P0)
+        wide, narrow = (
+            analytic.running_in._Surface(profile, *pair, profile.spacing, np.array([0.3 * A]))
+            for _ in range(2)
         )
-        wanted = surface.press(0.3 * A)
-        narrow = analytic.running_in._Surface(
-            profile, RADIUS, MODULUS, constraints, profile.spacing, np.array([0.3 * A])
-        )
+        wanted = wide.press(0.3 * A)
         narrow._span(0.97 * A)
         found = narrow.press(0.3 * A)
         assert narrow.reach > 1.5 * A
@@ -348,16 +344,7 @@ class TestGroundSurface:
     @classmethod
     def truncated(cls) -> Profile:
         """The recipe's first step, which running-in starts from."""
-        trace = ground_texture(
-            rms_height=0.4608e-6,
-            samples=2237,
-            length=2236e-6,
-            seed=1,
-            roll_off_wavelength=80e-6,
-            shortest_wavelength=10e-6,
-            longest_wavelength=250e-6,
-        )
-        height = 1e6 * trace.height
+        height = 1e6 * ground_texture(**GROUND).height
 
         def blurred(values, sigma):
             return gaussian_filter1d(values, sigma, mode="nearest")

@@ -9,12 +9,13 @@ import pytest
 from blocks import hooke
 from scenes import hat_nodes
 
-from analytic.exact.hertz import hertz_from_peak_pressure
+from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Material
 from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.exact_load import forces_of
+from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
-from fem.stress.stress import NodalStress, nodal_stress
+from fem.stress.stress import NodalStress, evaluate, nodal_stress
 from meshes.block import BlockMesh, BlockSpec, add_midpoints, structured
 from meshes.build import build_block
 
@@ -122,6 +123,7 @@ class Pressed:
         half_width: float = 4000.0,
         depth: float = 4000.0,
         poisson: float = 0.3,
+        far: bool = False,
         **held,
     ) -> None:
         self.hertz = hertz_from_peak_pressure(1.0, 0.5, 1.0)
@@ -132,13 +134,13 @@ class Pressed:
         pitch = 1.0 / edges
         reach = edges + 8
         self.x = pitch * np.arange(-reach, reach + 1)
-        self.compliance = FiniteElementCompliance(
-            self.body, hat_nodes(self.x[0], pitch, len(self.x))
-        )
-        gap = pitch * (self.x**2 + pitch**2 / 6.0)
-        weights = np.full(len(self.x), pitch)
+        hats = hat_nodes(self.x[0], pitch, len(self.x))
+        field = FarField(self.body, hats[0], hats[-1]) if far else None
+        self.compliance = FiniteElementCompliance(self.body, hats, far=field)
+        self.gap = pitch * (self.x**2 + pitch**2 / 6.0)
+        self.weights = np.full(len(self.x), pitch)
         self.pressure, self.approach = dense_contact(
-            self.compliance.matrix(), gap, weights, self.hertz.load_per_length
+            self.compliance.matrix(), self.gap, self.weights, self.hertz.load_per_length
         )
 
     def pressure_at(self, x: np.ndarray) -> np.ndarray:
@@ -150,6 +152,15 @@ class Pressed:
     def stress(self, friction: float) -> NodalStress:
         moved = self.displacement(friction)
         return nodal_stress(self.body, moved, self.compliance.hats, self.pressure, friction)
+
+    def error(self, friction: float, low: float, high: float) -> float:
+        """Relative L2 error of the three stresses from a depth to another, over |x| < 1.5."""
+        x, z = np.meshgrid(np.linspace(-1.5, 1.5, 61), np.linspace(0.0, 1.5, 41))
+        inside = (z >= low) & (z < high)
+        exact = hertz_stress(self.hertz, x[inside], z[inside], friction)
+        found = evaluate(self.body, self.stress(friction), x[inside], z[inside])
+        found, exact = (np.stack([s.sx, s.sz, s.txz]) for s in (found, exact))
+        return np.sqrt(np.sum((found - exact) ** 2) / np.sum(exact**2))
 
 
 @pytest.fixture(scope="session")

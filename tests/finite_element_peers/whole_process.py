@@ -29,14 +29,7 @@ import numpy as np
 
 from meshes.block import BlockMesh, BlockSpec
 from tests.finite_element_peers import task as given
-from tests.harness import (
-    AbsentError,
-    Demand,
-    print_demands,
-    print_table,
-    run_on_one_thread,
-    timed,
-)
+from tests.harness import AbsentError, Demand, print_demands, print_table, run_on_one_thread, timed
 
 GROWTHS, EDGES = (0.4, 0.2, 0.1), (10, 20, 40, 80)
 ERROR, ROUNDS = 1e-4, 3

@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 import comparisons as crosscheck
-from comparisons.figures.figure import Figure, Figures
-from comparisons.figures.uncertainty import numerical
 from comparisons.notebook import scene_of
 from tests.finite_strain_check import cases, check
 from tests.finite_strain_check.contact import State, SurfacePair
@@ -104,7 +102,7 @@ def test_small_strains_meet_the_half_plane_on_a_rough_body():
     run = crosscheck.run(scene, models="half-plane")
     known = {f.quantity: f.value for f in run.figures.of(study="contact")}
     task = cases.task_of(scene, 0.0, "linear")
-    found = cases.solved(task, (0.5, 0.25, 0.125))[-1]
+    found = cases.solved(task, (1.0, 0.125))[-1]
     assert 1e9 * found.peak == pytest.approx(known["peak_pressure"], rel=2e-3)
     assert 1e9 * found.tau1 == pytest.approx(known["tau1_max"], rel=2e-3)
     assert 1e9 * found.txz == pytest.approx(known["txz_max_abs"], rel=2e-3)
@@ -127,30 +125,6 @@ def test_kept_values_are_those_of_the_finest_mesh():
         assert (
             max(p["tau1_max"] for p in each["patches"]) == each["figures"]["tau1_max"]["value"]
         ), name
-
-
-def test_a_figure_outside_both_uncertainties_is_not_within():
-    def stated_as(value):
-        of_model = "half_plane", 97.0, {"friction": 0.1}
-        error = "half_plane", value, {"friction": 0.1}, "whole", 1.0, numerical(0.0, 0.003, 0.0)
-        return Figures(
-            figure
-            for name in names
-            for figure in (Figure("contact", name, *of_model), Figure("model_error", name, *error))
-        )
-
-    names = ["peak_pressure", "contact_length", "tau1_max", "txz_max_abs"]
-    figure = {"value": 100.0, "uncertainty": 0.4}
-    for stated, within in ((-0.026, True), (-0.034, True), (-0.024, False), (-0.046, False)):
-        found = check.held("scene", stated_as(stated), dict.fromkeys(cases.QUANTITIES, figure))
-        assert len(found) == len(names)
-        assert {each.ratio <= 1.0 for each in found} == {within}
-        covered, far = check.demands(found)
-        assert covered.holds == within
-        assert far.holds == (stated > -0.04)
-    right = [found[0]._replace(stated=found[0].found)] * 38
-    assert check.demands(right + found[:2])[0].holds
-    assert not check.demands(right + found[:3])[0].holds
 
 
 def test_the_project_holds_a_small_rough_scene(capsys):

@@ -20,13 +20,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from tests.half_plane_peers.cases import LineCase, cylinder, rough, sinusoid
-from tests.half_plane_peers.codes import (
-    LineAnswer,
-    LineCode,
-    contact_mechanics,
-    crosscheck,
-    tamaas,
-)
+from tests.half_plane_peers.codes import LineAnswer, LineCode, contact_mechanics, crosscheck, tamaas
 from tests.half_plane_peers.yardstick import TOLERANCE, ContactResiduals, measure
 from tests.harness import Demand, installed, print_demands, print_table
 

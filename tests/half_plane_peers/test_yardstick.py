@@ -1,19 +1,17 @@
-"""The measure of contact conditions: its operators are exact, and it rejects wrong pressures."""
+"""The measure of contact conditions is exact and rejects wrong pressures; the race runs, with the
+peers and without."""
 
+import re
+import sys
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
-from tests.half_plane_peers.cases import (
-    CONTACT_SHARE,
-    REFINED,
-    cylinder,
-    rough,
-    sinusoid,
-)
+from tests.half_plane_peers.cases import CONTACT_SHARE, REFINED, cylinder, rough, sinusoid
 from tests.half_plane_peers.codes import crosscheck
+from tests.half_plane_peers.race import main
 from tests.half_plane_peers.yardstick import TOLERANCE, displacements, measure
 
 COUNT = 128
@@ -74,3 +72,23 @@ def test_a_tenth_of_a_rough_line_touches(seed):
     case = rough(1024, seed)
     pressure = crosscheck()[1].solve(case, 0.0, 0).pressure
     assert np.mean(pressure > 0.0) == pytest.approx(CONTACT_SHARE, abs=3.0 / 1024)
+
+
+def test_absent_peers_are_named(monkeypatch, capsys):
+    for name in ("tamaas", "ContactMechanics"):
+        monkeypatch.setitem(sys.modules, name, None)
+    status = main(["--sizes", "32", "--seeds", "--repeats", "1"])
+    shown = capsys.readouterr().out
+    assert status == 1  # nothing is shown without a peer
+    assert "skipped: Tamaas is not installed: pip install tamaas" in shown
+    assert "skipped: ContactMechanics is not installed" in shown
+    assert len(re.findall(r"(cylinder|sinusoid).*crosscheck, (hats|strips)", shown)) == 4
+
+
+@pytest.mark.parametrize("module", ["tamaas", "ContactMechanics"])
+def test_peers_meet_the_yardstick(module, capsys):
+    pytest.importorskip(module, reason=f"{module} is not installed: pip install {module}")
+    main(["--sizes", "64", "--seeds", "1", "--repeats", "1"])
+    shown = capsys.readouterr().out
+    assert "never meets" not in shown
+    assert shown.count("error") > 3

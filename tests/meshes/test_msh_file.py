@@ -122,6 +122,16 @@ def test_files_with_a_shift_in_z_alone_are_still_read(mesh, path, tmp_path):
     assert found.points == pytest.approx(mesh.points, abs=1e-15)
 
 
+@pytest.mark.parametrize("name", ["as thick as the contact", "uneven"])
+def test_interface_and_vertices_come_back(name, built, tmp_path):
+    spec, quality = built(name).spec, built(name).quality
+    write_msh(built(name), tmp_path / "mesh.msh")
+    found = read_msh(tmp_path / "mesh.msh")
+    assert found.spec.interface == spec.interface
+    assert np.array_equal(found.spec.vertices, spec.vertices)
+    assert found.quality == pytest.approx({key: quality[key] for key in found.quality}, rel=1e-9)
+
+
 def test_spec_of_numpy_numbers_and_without_a_window_comes_back(tmp_path):
     spec = BlockSpec(np.float64(1.0), np.float32(2.0), np.array([[0, 1]]), 0.25)
     write_msh(build_block(spec), tmp_path / "plain.msh")

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from scipy.interpolate import CubicSpline
 
+from analytic.surface.synthetic import self_affine
 from meshes.block import BlockSpec, MeshError, add_midpoints, real_points
 from meshes.build import build_block
 from meshes.quality import corner_jacobians
@@ -14,8 +14,6 @@ EDGES_PER_WAVE = 20
 SPEC = BlockSpec(10.0, 20.0, np.array([[-2.0, 2.0]]), WAVELENGTH / EDGES_PER_WAVE)
 FINE_SPEC = BlockSpec(2.0, 4.0, np.array([[-2.0, 2.0]]), WAVELENGTH / EDGES_PER_WAVE)
 
-GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(4)
-
 
 @pytest.fixture(scope="module")
 def flat():
@@ -25,19 +23,6 @@ def flat():
 def sinusoid(rms_slope, wavelength=WAVELENGTH):
     k = 2.0 * np.pi / wavelength
     return lambda x: np.sqrt(2.0) * rms_slope / k * np.cos(k * x + 0.4)
-
-
-def self_affine(rms_slope, half_width, shortest, hurst=0.8, seed=0):
-    """Random profile with a power-law spectrum, as a spline over the whole top side."""
-    n = 8192
-    step = 2.02 * half_width / n
-    q = 2.0 * np.pi * np.fft.rfftfreq(n, step)
-    size = np.maximum(q, 2.0 * np.pi / half_width) ** (-0.5 - hurst)
-    size[(q == 0.0) | (q > 2.0 * np.pi / shortest)] = 0.0
-    phase = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, len(q))
-    height = np.fft.irfft(size * np.exp(1j * phase), n)
-    height *= rms_slope / np.gradient(height, step).std()
-    return CubicSpline(-1.01 * half_width + step * np.arange(n), height)
 
 
 def top(mesh):
@@ -120,8 +105,9 @@ def test_corners_hold_the_least_determinant(flat, determinants):
 
 @pytest.mark.parametrize(("rms_slope", "hurst"), [(0.05, 0.8), (0.3, 0.8), (0.3, 0.3)])
 def test_rough_profiles_of_many_wavelengths(flat, rms_slope, hurst):
-    height = self_affine(rms_slope, SPEC.half_width, 0.25, hurst)
-    mesh = roughen(flat, height)
+    trace = {"length": 2.02 * SPEC.half_width, "samples": 8193, "seed": 0}
+    waves = {"rms_slope": rms_slope, "hurst": hurst, "shortest_wavelength": 0.25}
+    mesh = roughen(flat, self_affine(**trace, **waves).spline())
     assert mesh.quality["least_jacobian"] > 0.15
     assert mesh.quality["least_angle_degrees"] > 15.0
 

@@ -1,13 +1,15 @@
-"""The size law: values, growth, caps, and its two forms against each other."""
+"""The size law: values, growth, caps, its two forms; integrals behind the estimated unknowns."""
 
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError
 from meshes.size_law import (
     edges_per_size,
+    estimate_unknowns,
     largest_size,
     point_size,
+    sum_of_integrals,
     surface_edge,
     uncapped_size,
     wanted_size,
@@ -86,3 +88,39 @@ def test_an_edge_that_just_fits_is_not_cut():
 
 def test_narrow_block_caps_the_size_too():
     assert largest_size(BlockSpec(0.5, 100.0, np.array([[-0.1, 0.1]]), 0.1)) == 0.25
+
+
+def spec(half_width, depth, intervals, size, growth=0.2):
+    return BlockSpec(half_width, depth, np.array(intervals), size, growth)
+
+
+def test_integral_of_a_constant_size_is_exact():
+    block = spec(3.0, 2.0, [[-1.0, 1.0]], 0.1, growth=0.0)
+    box = [-3.0, 3.0, 0.0, 2.0]
+    assert sum_of_integrals(block, [box], [1.0]) == pytest.approx(12.0 / 0.01, rel=1e-12)
+    assert sum_of_integrals(block, [[-3.0, 3.0, 0.0, 0.0]], [1.0]) == pytest.approx(60.0, rel=1e-12)
+
+
+def test_integrals_of_a_linear_size():
+    """Along a side, and over the block."""
+    block, far = spec(50.0, 1000.0, [[-50.0, 50.0]], 0.1), 0.1 + 0.2 * 100.0  # below it is capped
+    side = sum_of_integrals(block, [[50.0, 50.0, 0.0, 100.0]], [1.0])
+    assert side == pytest.approx(np.log(far / 0.1) / 0.2, rel=1e-3)
+    whole = sum_of_integrals(block, [[-50.0, 50.0, 0.0, 100.0]], [1.0])
+    assert whole == pytest.approx(100.0 * (1.0 / 0.1 - 1.0 / far) / 0.2, rel=2e-2)
+
+
+def test_blocks_too_large_to_build_are_estimated():
+    assert estimate_unknowns(spec(0.2, 1.0, [[-0.1, 0.1]], 1e-6)) > 1e6
+    assert estimate_unknowns(spec(1000.0, 1e-2, [[-1.0, 1.0]], 0.01)) > 1e7
+
+
+def test_impossible_block_is_refused():
+    with pytest.raises(MeshError, match="depth"):
+        estimate_unknowns(spec(1.0, -1.0, [[-0.5, 0.5]], 0.1))
+
+
+def test_what_is_beyond_counting_is_refused():
+    """Each halving of the boxes doubles them: it would take all memory."""
+    with pytest.raises(MeshError, match=r"elements of 1e-12 m in a body of 1 m are too many"):
+        estimate_unknowns(spec(1.0, 1.0, [[-0.5, 0.5]], 1e-12))

@@ -17,11 +17,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import (
-    CoupledHalfPlane,
-    CoupledPair,
-    hat_sign,
-)
+from analytic.operators.tangential import CoupledHalfPlane, CoupledPair, hat_sign
 
 REFERENCES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
 SLIDING = REFERENCES["sliding_cylinder"]

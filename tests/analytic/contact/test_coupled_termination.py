@@ -1,4 +1,5 @@
-"""Sliding contacts end whatever they start from, and what that takes: exchanges, contractions."""
+"""Sliding contacts end whatever they start from, and what that takes: exchanges, contractions, and
+steps of Krylov's subspace."""
 
 from dataclasses import replace
 
@@ -8,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic.contact import coupled as coupled_contact
-from analytic.contact.coupled import CoupledEquilibrium
+from analytic.contact.coupled import CoupledEquilibrium, krylov_step
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactError
 from analytic.grid import HatGrid
@@ -132,3 +133,30 @@ def test_a_vanishing_load_rests_on_one_crest(roller):
     found = roller.sliding(roller.grid, roller.rough(1), 0.5, Constraints(load=1e-9))
     assert found.converged
     assert np.count_nonzero(found.pressure) <= 2
+
+
+@pytest.mark.parametrize("size", [1, 2, 12])
+def test_krylov_step_solves_what_it_spans(size):
+    rng = np.random.default_rng(size)
+    matrix = np.eye(size) + 0.5 * rng.standard_normal((size, size)) / np.sqrt(size)
+    target = rng.standard_normal(size)
+    found, left = krylov_step(lambda v: matrix @ v, target, 0.0)
+    assert left < 1e-12
+    assert matrix @ found == pytest.approx(target, abs=1e-12)
+
+
+def test_krylov_step_stops_at_its_goal():
+    applied = []
+    matrix = np.diag(np.linspace(1.0, 2.0, 40))
+    target = np.ones(40)
+
+    def apply(vector):
+        applied.append(vector)
+        return matrix @ vector
+
+    found, left = krylov_step(apply, target, 1e-3)
+    assert 1e-5 < left <= 1e-3
+    assert np.linalg.norm(target - matrix @ found) == pytest.approx(left, rel=1e-6)
+    assert len(applied) < 10
+    found, left = krylov_step(apply, target, 7.0)
+    assert not found.any() and left == np.sqrt(40.0)

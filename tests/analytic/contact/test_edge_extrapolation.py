@@ -28,15 +28,18 @@ def violations_with_edges(half_nodes: int) -> tuple[Violations, ActiveSet]:
     return problem.violations(rest, active), active
 
 
+def left_over(active: ActiveSet) -> int:
+    """Nodes by which the free set is wrong."""
+    return abs(np.count_nonzero(active.free) - 801)
+
+
 @pytest.mark.parametrize("excess", [10, 20, 40])
 def test_tension_shows_half_of_an_excess(excess):
     violated, active = violations_with_edges(400 + excess)
     assert np.count_nonzero(violated.tensile) == pytest.approx(excess, abs=0.2 * excess + 2)
     assert not violated.joining.any()
-    better = active.exchanged(extrapolated(violated, active))
-    plain = active.exchanged(violated)
-    wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
-    assert wrong <= 0.3 * wrong_plain
+    better, plain = map(active.exchanged, (extrapolated(violated, active), violated))
+    assert left_over(better) <= 0.3 * left_over(plain)
 
 
 @pytest.mark.parametrize("lack", [12, 24, 48])
@@ -44,10 +47,8 @@ def test_overlap_shows_one_and_a_half_times_a_lack(lack):
     violated, active = violations_with_edges(400 - lack)
     assert np.count_nonzero(violated.joining) == pytest.approx(3 * lack, abs=0.4 * lack + 2)
     assert not violated.tensile.any()
-    better = active.exchanged(extrapolated(violated, active))
-    plain = active.exchanged(violated)
-    wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
-    assert wrong <= 0.4 * wrong_plain
+    better, plain = map(active.exchanged, (extrapolated(violated, active), violated))
+    assert left_over(better) <= 0.4 * left_over(plain)
 
 
 def marks(text: str) -> np.ndarray:
@@ -55,36 +56,26 @@ def marks(text: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("free", "tensile", "expected"),
-    [
-        ("..xxxxxx..", "..xxx.....", "..xxxxx..."),  # from the left edge, as far again less one
-        ("..xxxxxx..", ".....xxx..", "...xxxxx.."),
-        ("xxxxxxxx..", "xxx.......", "xxxxx....."),  # the end of the grid is an edge
-        ("..xxxxxx..", "..x.......", "..x......."),  # single nodes as they are
-        ("..xxxxxx..", "....xx....", "....xx...."),  # within the patch: no edge to move
-        ("...xxx....", "...xxx....", "...xxx...."),  # the whole patch
-        (".xxxx.xxxx", ".xxx......", ".xxxx....."),  # no farther than the patch goes
+    ("free", "tensile", "joining", "expected"),
+    [  # tensile runs grow inwards
+        ("..xxxxxx..", "..xxx.....", "", "..xxxxx..."),  # from the left edge, as far less one
+        ("..xxxxxx..", ".....xxx..", "", "...xxxxx.."),
+        ("xxxxxxxx..", "xxx.......", "", "xxxxx....."),  # the end of the grid is an edge
+        ("..xxxxxx..", "..x.......", "", "..x......."),  # single nodes as they are
+        ("..xxxxxx..", "....xx....", "", "....xx...."),  # within the patch: no edge to move
+        ("...xxx....", "...xxx....", "", "...xxx...."),  # the whole patch
+        (".xxxx.xxxx", ".xxx......", "", ".xxxx....."),  # no farther than the patch goes
+        # joining runs shrink towards their patch
+        ("xxx.......", "", "...xxxxxx.", "...xxxx..."),  # the two thirds beside the patch
+        (".......xxx", "", ".xxxxxx...", "...xxxx..."),
+        ("xx......xx", "", "..xxxxxx..", "..xxxxxx.."),  # a gap that closes
+        ("..........", "", "..xxxxxx..", "..xxxxxx.."),  # a new patch
+        ("xxx.......", "", "...xx.....", "...xx....."),
     ],
 )
-def test_tensile_runs_grow_inwards(free, tensile, expected):
-    active = ActiveSet(~marks(free), np.zeros(len(free), dtype=bool))
+def test_runs_grow_inwards_or_shrink_towards_their_patch(free, tensile, joining, expected):
     none = np.zeros(len(free), dtype=bool)
-    found = extrapolated(Violations(marks(tensile), none, none, none), active)
-    assert found.tensile.tolist() == marks(expected).tolist()
-
-
-@pytest.mark.parametrize(
-    ("free", "joining", "expected"),
-    [
-        ("xxx.......", "...xxxxxx.", "...xxxx..."),  # the two thirds beside the patch
-        (".......xxx", ".xxxxxx...", "...xxxx..."),
-        ("xx......xx", "..xxxxxx..", "..xxxxxx.."),  # a gap that closes
-        ("..........", "..xxxxxx..", "..xxxxxx.."),  # a new patch
-        ("xxx.......", "...xx.....", "...xx....."),
-    ],
-)
-def test_joining_runs_shrink_towards_their_patch(free, joining, expected):
-    active = ActiveSet(~marks(free), np.zeros(len(free), dtype=bool))
-    none = np.zeros(len(free), dtype=bool)
-    found = extrapolated(Violations(none, none, marks(joining), none), active)
-    assert found.joining.tolist() == marks(expected).tolist()
+    shown = [marks(runs) if runs else none for runs in (tensile, joining)]
+    violations = Violations(shown[0], none, shown[1], none)
+    found = extrapolated(violations, ActiveSet(~marks(free), none))
+    assert (found.tensile if tensile else found.joining).tolist() == marks(expected).tolist()

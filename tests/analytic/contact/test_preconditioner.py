@@ -1,7 +1,5 @@
 """Displacements continued over the gaps: what the continuation is, and what it buys."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 from scipy.linalg import toeplitz
@@ -93,60 +91,6 @@ def test_a_closed_line_is_bridged_across_its_ends():
     assert np.all(np.diff(continued[[5, 6, 7, 0, 1, 2, 3]]) < 0.0)
 
 
-@cache
-def stiffness(count: int) -> np.ndarray:
-    """Of the periodic half-plane: pressures by displacements."""
-    return np.linalg.inv(toeplitz(PeriodicHalfPlane(count, 1.0, 1.0).column))
-
-
-class TestLeastEnergy:
-    """A gap on a closed line of 1024 touching nodes, at rest at 0 before it and at 1 behind."""
-
-    COUNT = 1024
-
-    def excess(self, gap: int) -> dict[str, float]:
-        """Energy over the least of all continuations, less 1: as continued, straight, a jump."""
-        nodes = np.append(0, np.arange(gap, self.COUNT))
-        back = np.linspace(0.0, np.pi, len(nodes))[1:]  # from 1 to 0 around the rest of the line
-        values = np.append(0.0, 0.5 + 0.5 * np.cos(back))
-        continued = Extension(nodes, self.COUNT, closed=True).extend(values)
-        bridge = np.arange(1, gap)
-        shapes = {name: continued.copy() for name in ("arcsine", "straight", "jump", "least")}
-        shapes["straight"][bridge] = bridge / gap * values[1]
-        shapes["jump"][bridge] = 0.0
-        inverse = stiffness(self.COUNT)
-        pull = inverse[np.ix_(bridge, nodes)] @ values
-        shapes["least"][bridge] = -np.linalg.solve(inverse[np.ix_(bridge, bridge)], pull)
-        energy = {name: shape @ inverse @ shape for name, shape in shapes.items()}
-        return {name: value / energy["least"] - 1.0 for name, value in energy.items()}
-
-    @pytest.mark.parametrize("gap", [4, 8, 16, 32, 64])
-    def test_the_arcsine_is_within_a_few_per_cent_of_it(self, gap):
-        excess = self.excess(gap)
-        assert 0.0 < excess["arcsine"] < 0.015
-        assert excess["jump"] > 20.0 * excess["arcsine"]
-
-    @pytest.mark.parametrize("gap", [16, 32, 64])
-    def test_it_is_closer_than_a_straight_line_once_the_gap_is_resolved(self, gap):
-        excess = self.excess(gap)
-        assert excess["arcsine"] < 0.7 * excess["straight"]
-
-
-class CutOff:
-    """No continuation: nothing moves beyond the free nodes."""
-
-    def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
-        self.nodes, self.count = nodes, count
-
-    def extend(self, values: np.ndarray) -> np.ndarray:
-        grid = np.zeros(self.count)
-        grid[self.nodes] = values
-        return grid
-
-    def gather(self, values: np.ndarray) -> np.ndarray:
-        return values[self.nodes]
-
-
 class TestIterations:
     """Conjugate gradients on patches of 14 touching and 14 open nodes, for any displacements."""
 
@@ -170,14 +114,6 @@ class TestIterations:
         few, many = self.applications(20), self.applications(400)
         assert many < 1.5 * few
         assert many < 40
-
-    def test_without_the_continuation_it_does(self, monkeypatch):
-        continued = [self.applications(patches) for patches in (20, 400)]
-
-        monkeypatch.setattr(equilibrium, "extension_from", CutOff)
-        cut = [self.applications(patches) for patches in (20, 400)]
-        assert cut[1] > 2.0 * continued[1]
-        assert cut[1] / cut[0] > 1.3 * continued[1] / continued[0]
 
 
 def test_the_free_half_planes_ring_is_long_enough():

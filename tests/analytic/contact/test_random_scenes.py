@@ -8,7 +8,6 @@ Rounding limits what a scene can ask: gaps are known to 1e-16 of their range, so
 stay above 1e-6 of it where the approach is prescribed and the residuals below 1e-8 of them.
 """
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cache
 
@@ -222,7 +221,6 @@ class Run:
     label: str
     converged: bool
     residuals: dict[str, float]
-    touching: float
     departure: float | None
     iterations: dict[str, int]
 
@@ -239,7 +237,6 @@ def outcome(seed: int) -> Run:
         case.label,
         solution.converged,
         residuals(case, solution, matrix),
-        np.count_nonzero(solution.pressure) / case.count,
         departure,
         solution.iterations,
     )
@@ -260,17 +257,6 @@ def test_few_nodes_agree_with_bounded_least_squares():
     assert not wrong, "\n".join(wrong)
 
 
-def test_the_scenes_are_as_varied_as_they_claim():
-    found = [outcome(seed) for seed in SEEDS]
-    words = Counter(word for f in found for word in f.label.replace(",", "").split())
-    assert 60 < words["periodic"] < 100
-    assert 100 < words["load"] < 140
-    assert 50 < words["capped"] < 85
-    assert min(words[shape.__name__] for shape in SHAPES) > 15
-    assert min(f.touching for f in found if f.touching > 0.0) < 2e-3
-    assert sum(f.touching == 1.0 for f in found) > 10
-
-
 @pytest.mark.parametrize("count", [1, 2, 3, 7, 128, 129, 513])
 @pytest.mark.parametrize("share", [1e-6, 0.5, 0.9, 0.999, 1.0 - 1e-9])
 def test_loads_up_to_what_the_hardness_carries(count, share):
@@ -282,11 +268,3 @@ def test_loads_up_to_what_the_hardness_carries(count, share):
         assert solution.converged, case.label
         assert max(residuals(case, solution, case.matrix()).values()) <= RESIDUAL, case.label
         assert solution.iterations["applications"] <= APPLICATIONS
-
-
-def test_residuals_see_a_wrong_solution():
-    case = scene(0)
-    solution, matrix = case.solved(), case.matrix()
-    wrong = ContactSolution(**{**vars(solution), "pressure": 1.001 * solution.pressure})
-    assert max(residuals(case, solution, matrix).values()) <= RESIDUAL
-    assert max(residuals(case, wrong, matrix).values()) > 1e-4

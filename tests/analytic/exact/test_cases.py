@@ -11,14 +11,7 @@ from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
-from analytic.exact.cases import (
-    ALUMINIUM,
-    CERAMIC,
-    STEEL,
-    ExactContact,
-    exact_contacts,
-    hertz_case,
-)
+from analytic.exact.cases import ALUMINIUM, CERAMIC, STEEL, ExactContact, exact_contacts, hertz_case
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from analytic.exact.sliding import sliding_from_load
 from analytic.grid import HatGrid

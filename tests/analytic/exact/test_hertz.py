@@ -58,7 +58,10 @@ def test_reference_extremes(mu):
         assert extremum.z == pytest.approx(float(expected[name]["z_over_a"]), abs=1e-10)
 
 
-def test_much_friction_brings_the_largest_shear_to_the_surface():
+def test_friction_brings_the_largest_shear_to_the_surface():
+    """It rises with mu; from about mu = 0.37 on mu p0 at the surface exceeds all below."""
+    depths = [hertz_extremes(UNIT, mu).tau1.z for mu in (0.0, 0.1, 0.2, 0.36, 0.38)]
+    assert np.all(np.diff(depths) < 0.0) and depths[-2] > 0.1 and depths[-1] == 0.0
     found = hertz_extremes(UNIT, 0.5)
     assert (found.tau1.value, found.tau1.z) == (0.5, 0.0)
     assert (found.txz_min.value, found.txz_min.z) == (-0.5, 0.0)
@@ -120,6 +123,48 @@ def test_depth_below_the_edge():
     ):
         tau1 = hertz_stress(UNIT, 1.0, depth, friction).tau1
         np.testing.assert_allclose(tau1, expected, atol=5.1e-6)
+
+
+def smith_and_liu(x: np.ndarray, z: np.ndarray, friction: float) -> dict[str, np.ndarray]:
+    """Stresses of the unit contact at z > 0 as Smith and Liu 1953 give them, by two functions of
+    the point, psi and its twin, of k1, k2 = (1 + x)^2 + z^2, (1 - x)^2 + z^2."""
+    k1, k2 = (1.0 + x) ** 2 + z**2, (1.0 - x) ** 2 + z**2
+    root = np.sqrt(k2 / k1)
+    under = root * np.sqrt(2.0 * root + (k1 + k2 - 4.0) / k1)
+    psi, twin = np.pi / k1 * (1.0 - root) / under, np.pi / k1 * (1.0 + root) / under
+    normal = {
+        "sx": z * ((1.0 + 2.0 * z**2 + 2.0 * x**2) * twin - 2.0 * np.pi - 3.0 * x * psi),
+        "sz": z * (twin - x * psi),
+        "txz": z**2 * psi,
+    }
+    tangential = {
+        "sx": (2.0 * x**2 - 2.0 - 3.0 * z**2) * psi
+        + 2.0 * np.pi * x
+        + 2.0 * (1.0 - x**2 - z**2) * x * twin,
+        "sz": z**2 * psi,
+        "txz": (1.0 + 2.0 * x**2 + 2.0 * z**2) * z * twin - 2.0 * np.pi * z - 3.0 * x * z * psi,
+    }
+    return {name: -(normal[name] + friction * tangential[name]) / np.pi for name in normal}
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1, 1.0 / 3.0, -0.8])
+def test_closed_forms_of_smith_and_liu(friction):
+    rng = np.random.default_rng(5)
+    x, z = rng.uniform(-3.0, 3.0, 500), rng.uniform(0.05, 3.0, 500)
+    found = hertz_stress(UNIT, x, z, friction)
+    for name, expected in smith_and_liu(x, z, friction).items():
+        # their sums lose digits: 1e-12 of the peak pressure is theirs
+        np.testing.assert_allclose(getattr(found, name), expected, atol=1e-12)
+
+
+def test_largest_tension_stands_at_the_trailing_edge():
+    """2 mu p0, the figure that surface cracks are judged by."""
+    x, z = np.linspace(-4.0, 4.0, 8001), np.array([[0.0], [1e-3], [0.1], [1.0]])
+    for friction in (0.1, 0.6):
+        sx = hertz_stress(UNIT, x, z, friction).sx
+        row, column = np.unravel_index(np.argmax(sx), sx.shape)
+        assert (row, x[column]) == (0, pytest.approx(-1.0))
+        assert sx.max() == pytest.approx(2.0 * friction, rel=1e-12)
 
 
 def test_surface():

@@ -1,21 +1,17 @@
-"""Sinusoidal contact against high-precision values, quadrature, sums over images and its limits."""
+"""Sinusoidal contact against high-precision values, quadrature and its limits."""
 
 import json
 
 import numpy as np
 import pytest
-from exact_stresses import westergaard_gap, westergaard_stress
+from exact_stresses import westergaard_gap
 from scenes import DATA
 from scipy.integrate import quad
 
-from analytic.exact.hertz import hertz_from_load, hertz_stress
-from analytic.exact.westergaard import (
-    WestergaardContact,
-    westergaard_from_mean_pressure,
-)
+from analytic.exact.hertz import hertz_from_load
+from analytic.exact.westergaard import WestergaardContact, westergaard_from_mean_pressure
 
 CASES = json.loads((DATA / "d_westergaard.json").read_text())["cases"]
-NAMES = ("sx", "sz", "txz")
 
 
 def unit(share: float, wavelength: float = 1.0) -> WestergaardContact:
@@ -105,13 +101,6 @@ def test_light_load_is_hertz():
         places = np.array([0.0, 0.3, 0.9, 0.999]) * hertz.half_width
         errors.append(np.abs(contact.pressure(places) / hertz.pressure(places) - 1.0).max())
         assert contact.half_width / hertz.half_width == pytest.approx(1.0, abs=share)
-        x, z = np.meshgrid(np.linspace(-2.0, 2.0, 9), [0.0, 1e-6, 0.3, 1.0, 3.0])
-        x, z = x * hertz.half_width, z * hertz.half_width
-        wavy = westergaard_stress(contact, x, z, 0.3, mean_sx=0.0)
-        plain = hertz_stress(hertz, x, z, 0.3)
-        for name in NAMES:
-            difference = np.abs(getattr(wavy, name) - getattr(plain, name)).max()
-            assert difference < 3.0 * np.sqrt(share) * hertz.peak_pressure
     assert np.diff(np.log10(errors)) == pytest.approx([-2.0, -2.0], abs=0.05)
 
 
@@ -125,57 +114,10 @@ def test_full_contact():
 
 
 def test_partial_contact_passes_into_full_contact():
-    x, z = np.linspace(-0.5, 0.5, 41), np.array([[0.0], [0.01], [0.3]])
+    x = np.linspace(-0.5, 0.5, 41)
     below, at = unit(1.0 - 1e-13), unit(1.0)
     assert not below.full and at.full
     assert below.pressure(x) == pytest.approx(at.pressure(x), abs=1e-6)
-    for name in NAMES:
-        here, there = (getattr(westergaard_stress(c, x, z, 0.3), name) for c in (below, at))
-        assert here == pytest.approx(there, abs=1e-6)
-
-
-@pytest.mark.parametrize("share", [0.02, 0.6, 0.98, 1.3])
-def test_stresses_are_the_sum_of_the_periodic_line_loads(share):
-    """Potential and gradient by quadrature of cot and its derivative over the pressure."""
-    contact = unit(share)
-    order = 2000
-    if contact.full:
-        place = (np.arange(order) + 0.5) / order - 0.5
-        load = contact.pressure(place) / order
-    else:
-        alpha = np.arange(1, order + 1) * np.pi / (order + 1)
-        sine = np.sin(np.pi * contact.half_width)
-        place = np.arcsin(sine * np.cos(alpha)) / np.pi
-        load = 2.0 * sine**2 * np.sin(alpha) ** 2 / (order + 1)
-    rng = np.random.default_rng(6)
-    x, z = rng.uniform(-2.0, 2.0, 200), rng.uniform(0.02, 2.0, 200)
-    angle = np.pi * (x[:, None] + 1j * z[:, None] - place)
-    first = (1.0 / np.tan(angle)) @ load
-    second = -np.pi * z * (np.sin(angle) ** -2.0 @ load)
-    stress = westergaard_stress(contact, x, z, 0.4)
-    normal = first.imag + second.real, first.imag - second.real, -second.imag
-    assert stress.sx == pytest.approx(normal[0] + 0.4 * (second.imag - 2.0 * first.real), abs=1e-12)
-    assert stress.sz == pytest.approx(normal[1] + 0.4 * normal[2], abs=1e-12)
-    assert stress.txz == pytest.approx(normal[2] + 0.4 * normal[0], abs=1e-12)
-
-
-def test_stresses_are_the_sum_of_the_fields_of_many_crests():
-    """A light contact's line loads one by one; what lies beyond n images falls like 1/n."""
-    contact = unit(1e-12)
-    x, z = np.array([0.2, -0.4, 0.5]), np.array([0.1, 0.3, 2.0])
-    stress = westergaard_stress(contact, x, z)
-    for count, left in ((1000, 1.3e-3), (10000, 1.3e-4)):
-        along = x[:, None] - np.arange(-count, count + 1)
-        kernel = 2.0 / np.pi * contact.load_per_wavelength / (along**2 + z[:, None] ** 2) ** 2
-        images = {
-            "sx": -np.sum(kernel * along**2, axis=1) * z,
-            "sz": -np.sum(kernel, axis=1) * z**3,
-            "txz": -np.sum(kernel * along, axis=1) * z**2,
-        }
-        for name in NAMES:
-            error = np.abs(getattr(stress, name) - images[name]).max() / contact.mean_pressure
-            assert error < left * z.max()
-    assert error < 1e-7 and name == "txz"
 
 
 @pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9])
@@ -210,102 +152,14 @@ def _slope(valley: float, y: float) -> float:
     return 4.0 * np.sin(y) * np.sqrt(max(np.sin(valley - y) * np.sin(valley + y), 0.0))
 
 
-@pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="no precision beyond double")
-@pytest.mark.parametrize("share", [1e-12, 1e-4, 0.3, 0.99, 1.0 - 1e-9])
-def test_stresses_keep_their_digits(share):
-    """The potential as written, in longer numbers; next to edges, valley, surface, and deep.
-
-    Errors count in units of the potential and of its gradient times z at the point.
-    """
-    contact = unit(share)
-    a = np.longdouble(contact.half_width)
-    rng = np.random.default_rng(9)
-    beside = contact.half_width * (1.0 + rng.choice([-1, 1], 100) * 10.0 ** rng.uniform(-9, 0, 100))
-    x = np.concatenate([beside[beside < 0.5], 0.5 - 10.0 ** rng.uniform(-6, -0.4, 100)])
-    z = 10.0 ** rng.uniform(-9.0, 0.3, len(x))
-    pi = 4 * np.arctan(np.longdouble(1))
-    theta = pi * (x.astype(np.longdouble) + 1j * z.astype(np.longdouble))
-    edge, sine = np.sin(pi * a), np.sin(theta)
-    right = 2 * np.sin((theta - pi * a) / 2) * np.cos((theta + pi * a) / 2)  # sine - edge
-    left = 2 * np.sin((theta + pi * a) / 2) * np.cos((theta - pi * a) / 2)
-    root = np.sqrt(right) * np.sqrt(left)
-    rest = edge**2 / (sine + root)  # sine - root
-    first = 2 * np.cos(theta) * rest
-    second = -2 * rest * (1 - sine * rest) / root * pi * z
-    closing = contact.closing_pressure
-    scale = closing * np.maximum(np.abs(first), np.abs(second)).astype(float)
-    stress = westergaard_stress(contact, x, z, 1.0)
-    normal = first.imag + second.real, first.imag - second.real, -second.imag
-    for found, expected in (
-        (stress.sx, normal[0] + second.imag - 2 * first.real),
-        (stress.sz, normal[1] + normal[2]),
-        (stress.txz, normal[2] + normal[0]),
-    ):
-        assert np.abs((found - closing * expected) / scale).max() < 2e-14
-
-
-def test_surface_and_edge():
-    for share in (1e-8, 0.3, 1.0 - 1e-12, 1.2):
-        contact = unit(share)
-        a = contact.half_width
-        x = np.array([-1.3, -a, -0.5 * a, 0.0, 0.3 * a, a, 0.5, 0.9, 1.0 - a])
-        stress = westergaard_stress(contact, x, 0.0, 0.25)
-        pressure = contact.pressure(x)
-        np.testing.assert_allclose(stress.sz, -pressure, rtol=1e-13, atol=1e-16)
-        np.testing.assert_allclose(stress.txz, -0.25 * pressure, rtol=1e-13, atol=1e-16)
-        assert np.all(np.isfinite(stress.sx))
-        if not contact.full:
-            inside = np.abs(x) <= a
-            expected = -pressure - 0.5 * np.sin(2.0 * np.pi * x)
-            np.testing.assert_allclose(stress.sx[inside], expected[inside], rtol=1e-13, atol=1e-15)
-
-
-@pytest.mark.parametrize("share", [1e-6, 0.4, 1.0 - 1e-9, 2.0])
-def test_field_is_periodic_and_mirrors(share):
-    contact = unit(share, 2.0**-10)
-    rng = np.random.default_rng(2)
-    x = rng.integers(-512, 513, 60) * 2.0**-20
-    z = rng.uniform(0.0, 1e-3, 60)
-    here = westergaard_stress(contact, x, z, 0.3)
-    there = westergaard_stress(contact, x + 3 * 2.0**-10, z, 0.3)
-    mirrored = westergaard_stress(contact, -x, z, -0.3)
-    for name, sign in (("sx", 1.0), ("sz", 1.0), ("txz", -1.0)):
-        np.testing.assert_array_equal(getattr(there, name), getattr(here, name))
-        np.testing.assert_array_equal(sign * getattr(mirrored, name), getattr(here, name))
-
-
-def test_only_the_means_are_left_deep_below():
-    for share in (1e-9, 0.5, 1.7):
-        stress = westergaard_stress(unit(share), [0.1, 0.4], [[30.0], [1e9]], 0.2)
-        for name, mean in (("sx", -share), ("sz", -share), ("txz", -0.2 * share)):
-            np.testing.assert_allclose(getattr(stress, name), mean, rtol=1e-14)
-    confined = westergaard_stress(unit(0.5), 0.1, 40.0, mean_sx=-0.5 * 0.3 / 0.7)
-    assert confined.sx == pytest.approx(-0.5 * 0.3 / 0.7, rel=1e-14)
-
-
-def test_any_level_carries_the_load():
-    x = (np.arange(4000) + 0.5) / 4000
-    for share in (0.01, 0.7, 1.2):
-        for depth in (0.01, 0.2):
-            stress = westergaard_stress(unit(share), x, depth, 0.3, mean_sx=0.125)
-            assert stress.sz.mean() == pytest.approx(-share, rel=1e-12)
-            assert stress.txz.mean() == pytest.approx(-0.3 * share, rel=1e-12)
-            assert stress.sx.mean() == pytest.approx(0.125, rel=1e-12)
-
-
 def test_units_do_not_matter():
     small = westergaard_from_mean_pressure(0.3 * 2.0**30, 2.0**-20, 2.0**-30, 2.0**40 / np.pi)
     large = westergaard_from_mean_pressure(0.3, 1.0, 2.0**-10, 2.0**10 / np.pi)
     assert small.half_width == large.half_width * 2.0**-20
     assert small.mean_gap == large.mean_gap * 2.0**-20
     assert small.pressure(2.0**-23) == large.pressure(0.125) * 2.0**30
-    there = westergaard_stress(small, 2.0**-22, 2.0**-23, 0.2)
-    here = westergaard_stress(large, 0.25, 0.125, 0.2)
-    assert there.sx == here.sx * 2.0**30
 
 
 def test_what_makes_no_sense_is_refused():
     with pytest.raises(ValueError, match="amplitude must be positive"):
         westergaard_from_mean_pressure(1.0, 1.0, 0.0, 1.0)
-    with pytest.raises(ValueError, match="z must not be negative"):
-        westergaard_stress(unit(0.5), 0.0, -1e-3)

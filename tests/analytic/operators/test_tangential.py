@@ -1,4 +1,4 @@
-"""Normal displacement under sliding traction: kernel, sign, operators."""
+"""Normal displacement under sliding traction: kernel, sign, operators, and a whole matrix."""
 
 import json
 from itertools import pairwise
@@ -10,11 +10,16 @@ from scenes import DATA
 from scipy.integrate import quad
 from scipy.linalg import toeplitz
 
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.grid import HatGrid, roller_gap
 from analytic.material import Material, combined_modulus, dundurs_constants
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import CoupledHalfPlane, hat_sign
+from analytic.operators.tangential import CoupledHalfPlane, DenseCoupledCompliance, hat_sign
 
 PITCH, MODULUS, BETA = 0.7e-6, 115e9, 2.0 / 7.0
+RADIUS, LOAD = 7.5706e-3, 1.0e6
+GRID = HatGrid.within(-0.5e-3, 0.5e-3, 2e-6)
 
 
 def hat(x):
@@ -141,3 +146,60 @@ def test_approximate_inverse_is_positive_and_near_the_inverse(friction_dundurs):
     values = np.linalg.eigvals(product)
     assert np.count_nonzero(np.abs(values - 1.0) > 0.01) <= 6  # the ends of the grid, the mean
     assert values.real.min() > 0.9 and np.abs(values).max() < 5.0
+
+
+def body(friction_dundurs: float = 0.4) -> CoupledHalfPlane:
+    return CoupledHalfPlane(GRID.count, GRID.pitch, MODULUS, friction_dundurs)
+
+
+def whole(operator: CoupledHalfPlane) -> DenseCoupledCompliance:
+    return DenseCoupledCompliance(operator.block(np.arange(operator.count)))
+
+
+def wavy_gap() -> np.ndarray:
+    wave = 2.0 * np.pi / 60e-6
+    return GRID.hat_integrals(lambda x: roller_gap(RADIUS)(x) - 0.3e-6 * np.cos(wave * x + 0.4))
+
+
+@pytest.mark.parametrize(
+    "constraints",
+    [Constraints(load=LOAD), Constraints(load=LOAD, hardness=5e9), Constraints(approach=2e-6)],
+)
+@pytest.mark.parametrize("friction_dundurs", [-0.1, 0.4])
+def test_contact_of_the_whole_matrix_is_that_of_the_body(friction_dundurs, constraints):
+    right = solve_coupled(body(friction_dundurs), wavy_gap(), GRID.weights, constraints)
+    found = solve_coupled(whole(body(friction_dundurs)), wavy_gap(), GRID.weights, constraints)
+    assert found.converged
+    assert found.pressure == pytest.approx(right.pressure, abs=1e-8 * right.pressure.max())
+    assert found.iterations["exchanges"] <= 12
+
+
+def test_coarser_hats_of_a_matrix_are_sums_of_finer_ones():
+    """As those of the half-plane with hats twice as wide; of an even count the last is short."""
+    for count in (41, 40):
+        fine = CoupledHalfPlane(count, 1e-6, MODULUS, 0.4, 1e-3)
+        coarse = whole(fine).coarsened()
+        exact = fine.coarsened().block(np.arange(count // 2))
+        inner = slice(None) if count % 2 else slice(None, -1)
+        found = coarse.matrix[inner, inner]
+        assert found == pytest.approx(exact[inner, inner], rel=1e-11)
+        assert coarse.count == count // 2 and coarse.skew
+
+
+def test_symmetric_matrix_has_no_skew_part():
+    assert not whole(body(0.0)).skew
+    assert whole(body(1e-6)).skew
+
+
+def test_hats_that_the_body_cannot_resolve_away_from_the_contact_do_no_harm():
+    """As over a mesh that is coarse there: displacements of every third hat, and between them."""
+    far = np.abs(GRID.x) > 0.42e-3
+    places = np.flatnonzero(~far | (np.arange(GRID.count) % 3 == 0))
+    spread = np.array([np.interp(GRID.x, GRID.x[places], row) for row in np.eye(len(places))]).T
+    few = DenseCoupledCompliance(spread @ body().block(places) @ spread.T)
+    assert few.solve(np.arange(40), np.ones((40, 1))) is None
+    constraints = Constraints(load=LOAD)
+    found = solve_coupled(few, wavy_gap(), GRID.weights, constraints)
+    right = solve_coupled(body(), wavy_gap(), GRID.weights, constraints)
+    assert found.converged
+    assert found.pressure == pytest.approx(right.pressure, abs=1e-6 * right.pressure.max())

@@ -1,4 +1,4 @@
-"""Stresses of one strip and of one hat against high-precision values, near and far."""
+"""Stresses of one strip and of one hat against high-precision values; their scalars."""
 
 import json
 
@@ -8,6 +8,7 @@ from exact_stresses import hat_stress, strip_stress
 from scenes import DATA
 
 from analytic.stress.elements import FrictionStress
+from analytic.stress_state import StressState
 
 STRIP = json.loads((DATA / "b_uniform_strip.json").read_text())["points"]
 HAT = json.loads((DATA / "hat_stress.json").read_text())["points"]
@@ -63,15 +64,6 @@ def test_hat_closed_form_and_moments_meet():
         assert np.abs(inside - outside).max() < 2e-14 * scale
 
 
-def test_hat_is_the_mean_of_shifted_strips():
-    """A strip smeared over its own width is a hat; Gauss points, so not where a strip ends."""
-    node, weight = np.polynomial.legendre.leggauss(40)
-    x = np.array([-2.6, -1.0, 0.0, 0.4, 1.7, 50.0, 3000.0])
-    for z in (0.6, 2.0, 900.0):
-        strips = parts(strip_stress(x[:, None] - 0.5 * node, z, 0.5)) @ weight / 2.0
-        np.testing.assert_allclose(parts(hat_stress(x, z, 1.0)), strips, rtol=1e-12, atol=1e-16)
-
-
 def test_point_load_far_away():
     """Half-width 1/2 carries one unit; corrections are of the order 1/r^2."""
     for x, z in ((1e7, 1e-3), (-1e7, 1e7), (1.0, 1e7)):
@@ -98,20 +90,6 @@ def test_only_ratios_of_lengths_matter(stress):
     expected = parts(stress(x, z, 1.0))
     for unit in (2.0**-40, 2.0**30):
         np.testing.assert_array_equal(parts(stress(x * unit, z * unit, unit)), expected)
-
-
-@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
-def test_stresses_are_in_equilibrium(stress):
-    """Derivatives of sx, sz, txz by central differences: div = 0, under p and under q."""
-    rng = np.random.default_rng(5)
-    x, z, h = rng.uniform(-3.0, 3.0, 60), rng.uniform(0.3, 4.0, 60), 1e-4
-    for name in ("normal", "traction"):
-        east, west = (getattr(stress(x + d, z, 1.0), name) for d in (h, -h))
-        down, up = (getattr(stress(x, z + d, 1.0), name) for d in (h, -h))
-        along = (east.sx - west.sx) + (down.txz - up.txz)
-        across = (east.txz - west.txz) + (down.sz - up.sz)
-        assert np.abs(along / (2.0 * h)).max() < 2e-6
-        assert np.abs(across / (2.0 * h)).max() < 2e-6
 
 
 def test_surface_of_a_hat_is_its_own_load():
@@ -144,15 +122,6 @@ def test_strip_has_a_logarithmic_spike_where_the_hat_is_bounded():
     assert np.abs(hat[-1] - hat_stress(1.0, 0.0, 1.0).traction_sx) < 1e-11
 
 
-def test_friction_superposes_pressure_and_traction():
-    unit = hat_stress(np.array([0.2, -4.0]), np.array([0.7, 0.1]), 1.0)
-    mixed = unit.at(0.25)
-    for name in ("sx", "sz", "txz"):
-        expected = getattr(unit.normal, name) + 0.25 * getattr(unit.traction, name)
-        np.testing.assert_array_equal(getattr(mixed, name), expected)
-    assert unit.at(0.0) is unit.normal
-
-
 @pytest.mark.parametrize("stress", [strip_stress, hat_stress])
 def test_what_is_odd_in_x_vanishes_exactly_on_the_axis(stress):
     unit = stress(0.0, np.array([1e-12, 1e-3, 0.3, 1.0, 2.9, 3.1, 50.0]), 1.0)
@@ -164,3 +133,30 @@ def test_what_is_odd_in_x_vanishes_exactly_on_the_axis(stress):
 def test_a_point_above_the_surface_is_refused(stress):
     with pytest.raises(ValueError, match="z must not be negative"):
         stress(0.0, -1.0, 1.0)
+
+
+def tensors(stress: StressState, poissons_ratio: float) -> np.ndarray:
+    tensor = np.zeros((stress.sx.size, 3, 3))
+    tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 2, 2] = stress.sx, stress.sz, stress.sy(0.0)
+    tensor[:, 0, 1] = tensor[:, 1, 0] = stress.txz
+    tensor[:, 2, 2] = poissons_ratio * (stress.sx + stress.sz)
+    return tensor
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
+def test_scalars_of_random_tensors(nu):
+    rng = np.random.default_rng(11)
+    stress = StressState(*rng.standard_normal((3, 50)) * 1e9)
+    tensor = tensors(stress, nu)
+    in_plane = np.linalg.eigvalsh(tensor[:, :2, :2])
+    largest = 0.5 * (in_plane[:, 1] - in_plane[:, 0])
+    np.testing.assert_allclose(stress.tau1, largest, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(stress.sy(nu), tensor[:, 2, 2], rtol=1e-14)
+    deviator = tensor - np.trace(tensor, axis1=1, axis2=2)[:, None, None] / 3.0 * np.eye(3)
+    expected = np.sqrt(1.5 * np.sum(deviator**2, axis=(1, 2)))
+    np.testing.assert_allclose(stress.von_mises(nu), expected, rtol=1e-13)
+
+
+def test_shapes_must_agree():
+    with pytest.raises(ValueError, match="equal shape"):
+        StressState(np.zeros(3), np.zeros(3), np.zeros(2))

@@ -52,10 +52,7 @@ def test_hats_are_accurate_at_any_depth_and_place(friction):
 
 # On each depth: the square of the pitch, beside which the pressure's square-root edges radiate
 # stresses of power 3/2 under traction, and of 5/2 under pressure, as the depth goes with the pitch.
-ORDERS = {
-    0.0: [2.0, 2.0, 2.0, 2.05, 2.2, 2.3],
-    0.1: [1.55, 1.55, 1.57, 1.6, 1.65, 1.75],
-}
+ORDERS = {0.0: [2.0, 2.0, 2.0, 2.05, 2.2, 2.3], 0.1: [1.55, 1.55, 1.57, 1.6, 1.65, 1.75]}
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.1])

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from analytic.stress.field import friction_field
 from analytic.stress.points import stress_at
 from analytic.stress_state import StressState
 
@@ -145,18 +144,3 @@ class TestBalance:
         stress = at(p, 0.0, x, np.full(401, depth))
         assert np.all(stress.sz <= 0.0) and np.all(stress.sx <= EXACT * p.max())
         assert np.min(stress.sz) >= -p.max() * (1.0 + EXACT)
-
-
-class TestFields:
-    LEVELS = np.array([0.0, 1e-3, 0.02, 0.3, 2.0])
-
-    def field(self, pressure, friction, subdivisions=1):
-        return friction_field(NODES, pressure, (-0.5, 0.5), self.LEVELS, subdivisions).at(friction)
-
-    @given(seed=seeds, friction=frictions, subdivisions=st.integers(1, 4))
-    @examples(15)
-    def test_the_field_is_what_the_points_say(self, seed, friction, subdivisions):
-        p = pressures(seed)
-        field = self.field(p, friction, subdivisions)
-        x, z = np.meshgrid(field.x, field.z)
-        assert_equal(field.stress, at(p, friction, x, z), 10.0)

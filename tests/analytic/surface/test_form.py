@@ -63,15 +63,6 @@ def test_residual_of_a_line_is_orthogonal_to_lines_under_the_integral():
     assert abs(np.dot(weight, left.height * x / LENGTH)) < 1e-14
 
 
-def test_crowded_samples_do_not_turn_the_line():
-    def slope(x):
-        return remove_form(Profile(x, np.sin(1.3 * x) + 0.1 * x), "line")[1].slope
-
-    even = slope(np.linspace(0.0, 6.0, 4001))
-    crowded = slope(np.concatenate((np.linspace(0.0, 2.0, 4000), np.linspace(2.01, 6.0, 400))))
-    assert crowded == pytest.approx(even, rel=1e-4)
-
-
 @pytest.mark.parametrize("tilt", [0.0, 2e-4, -0.1])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("radius_over_length", [0.7, 3.0, 1e2, 1e4, 1e6])
@@ -105,14 +96,6 @@ def test_straight_trace_has_no_radius(mean, slope):
     assert form.slope == pytest.approx(slope, abs=1e-12)
     assert "straight" in str(form)
     assert np.max(np.abs(left.height)) < 1e-17
-
-
-def test_roughness_hardly_moves_the_arc():
-    x = np.linspace(0.0, LENGTH, 2001)
-    roughness = 0.3e-6 * np.cos(2.0 * np.pi * x / 40e-6)
-    left, form = remove_form(Profile(x, arc(x, 0.02) + roughness), "arc")
-    assert form.radius == pytest.approx(0.02, rel=1e-4)
-    np.testing.assert_allclose(left.height, roughness, atol=2e-9)
 
 
 @pytest.mark.parametrize("size", [1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-2])

@@ -18,34 +18,24 @@ from analytic.surface.roughness import (
 from analytic.surface.synthetic import self_affine, sinusoid
 
 UNEVEN = np.array([-1.0, -0.9, -0.35, -0.3, 0.1, 0.55, 0.6, 0.98, 1.0])
-
-
-def polynomial(power):
-    return roughness(Profile(UNEVEN, UNEVEN**power))
+RQ = sqrt(4 / 45)  # of the parabola
 
 
 def as_array(figures):
     return np.array([getattr(figures, name) for name in figures.__dataclass_fields__])
 
 
-def test_straight_line_is_exact():
-    found = polynomial(1)
-    exact = [0.0, 1 / 2, 1 / sqrt(3), 0.0, 9 / 5, 2.0, 1.0, 1.0]
-    np.testing.assert_allclose(as_array(found), exact, rtol=1e-13, atol=1e-13)
-
-
-def test_parabola_is_exact():
-    found = polynomial(2)
-    rq = sqrt(4 / 45)
-    rsk, rku = (16 / 945) / rq**3, (16 / 945) / rq**4
-    exact = [1 / 3, 4 / (9 * sqrt(3)), rq, rsk, rku, 1.0, sqrt(4 / 3), 2.0]
-    np.testing.assert_allclose(as_array(found), exact, rtol=1e-12, atol=1e-13)
-
-
-def test_cubic_is_exact():
-    found = polynomial(3)
-    exact = [0.0, 1 / 4, 1 / sqrt(7), 0.0, 49 / 13, 2.0, 3 / sqrt(5), 3.0]
-    np.testing.assert_allclose(as_array(found), exact, rtol=1e-12, atol=1e-13)
+@pytest.mark.parametrize(
+    ("power", "exact"),
+    [
+        (1, [0.0, 1 / 2, 1 / sqrt(3), 0.0, 9 / 5, 2.0, 1.0, 1.0]),
+        (2, [1 / 3, 4 / (9 * sqrt(3)), RQ, 16 / 945 / RQ**3, 16 / 945 / RQ**4, 1, sqrt(4 / 3), 2]),
+        (3, [0.0, 1 / 4, 1 / sqrt(7), 0.0, 49 / 13, 2.0, 3 / sqrt(5), 3.0]),
+    ],
+)
+def test_powers_are_exact(power, exact):
+    figures = as_array(roughness(Profile(UNEVEN, UNEVEN**power)))
+    np.testing.assert_allclose(figures, exact, rtol=1e-12, atol=1e-13)
 
 
 def test_extremes_between_the_samples_count():

@@ -4,28 +4,13 @@ import numpy as np
 import pytest
 from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
-from text_profiles import read_profile
+from text_profiles import GROUND, read_profile
 
 from analytic.profile import MAX_SAMPLES, surface
 from analytic.surface.roughness import roughness, shortest_wavelength
-from analytic.surface.synthetic import (
-    ground_texture,
-    same_spectrum,
-    self_affine,
-    sinusoid,
-    smooth,
-)
+from analytic.surface.synthetic import ground_texture, same_spectrum, self_affine, sinusoid, smooth
 
 FRACTAL = {"hurst": 0.7, "samples": 1025, "length": 1e-3, "seed": 1, "rms_slope": 0.05}
-GROUND = {
-    "rms_height": 0.4608e-6,
-    "samples": 2237,
-    "length": 2236e-6,
-    "seed": 1,
-    "roll_off_wavelength": 80e-6,
-    "shortest_wavelength": 10e-6,
-    "longest_wavelength": 250e-6,
-}
 WAVE = {"wavelength": 50e-6, "amplitude": 0.2e-6, "length": 1e-3}
 MAKERS = {smooth: {"length": 1e-3}, sinusoid: WAVE, self_affine: FRACTAL, ground_texture: GROUND}
 
@@ -239,11 +224,6 @@ def test_parameters_that_make_no_sense(maker, changes, words):
     with pytest.raises(ValueError, match=words) as caught:
         maker(**(MAKERS[maker] | changes))
     assert "\n" not in str(caught.value)
-
-
-def test_two_samples_a_wave_are_just_allowed():
-    profile = self_affine(**FRACTAL, shortest_wavelength=2 * FRACTAL["length"] / 1024)
-    assert roughness(profile).rms_slope == pytest.approx(0.05, rel=1e-9)
 
 
 def test_random_traces_have_the_spectrum_of_another():

@@ -131,7 +131,7 @@ def deep(friction=0.0):
     return changed(
         TABLES | {"body": body},
         load={"hertz_peak_pressure": 7e9, "friction": friction},
-        resolution={"pitch": "120 um"},
+        resolution={"pitch": "180 um"},
         finite_element={"coupled": friction > 0.0},
     )
 
@@ -159,7 +159,8 @@ def test_contact_that_leaves_the_grid_is_refused(outcome):
 def test_the_shipped_scene_is_solved_below_its_elastic_roller():
     """Its pressure elements reach beyond the fine mesh; a third beyond first flow the body bears
     less than Hertz's peak, on a longer contact."""
-    [finite_element] = run(Scene.read("yielding"), None, ("finite_element",)).runs.values()
+    scene = Scene.read("yielding").changed("resolution.levels", 2)  # of three, which cost six times
+    [finite_element] = run(scene, None, ("finite_element",)).runs.values()
     level, hertz = finite_element.finest, 2.4e9
     assert level.solution.converged
     assert 0.9 * hertz < level.solution.pressure.max() < 0.94 * hertz

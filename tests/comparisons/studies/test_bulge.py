@@ -19,7 +19,7 @@ SLIDING = {
     "load": {"hertz_peak_pressure": PRESSURE, "friction": [0.0, 0.3]},
     "stress": {"points": [80, 30], "bulge": True},
     "resolution": {"pitch": 20e-6, "levels": 2},
-    "budget": {"effects": False, "time": 5.0},
+    "budget": {"effects": False, "time": 1.0},
 }
 WAVY = {"profile": {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.2e-6}}
 THIN = {"poissons_ratio": 0.49, "thickness": 80e-6, "base": "bonded"}
@@ -164,7 +164,7 @@ def test_patches_of_a_meshed_profile_have_the_step_and_no_bulge():
 def test_patches_that_flow_raise_bulges_of_their_own():
     wavy = {"kind": "sinusoid", "wavelength": 400e-6, "amplitude": 4e-6}
     tables = changed(
-        FLOWING, load={"hertz_peak_pressure": 2e9}, resolution={"pitch": 20e-6, "elements": None}
+        FLOWING, load={"hertz_peak_pressure": 2e9}, resolution={"pitch": 40e-6, "elements": None}
     )
     outcome = solved(tables | {"profile": wavy})
     found = bulge_of(outcome)

@@ -104,10 +104,7 @@ def test_a_thin_bonded_layer(structured_block, graded, elements, nu, expected):
 # Largest error of the displacement between neighbours, of its largest: degrees 1, 2, 3, mixed.
 @pytest.mark.parametrize(
     ("nu", "expected"),
-    [
-        (0.3, [4.1e-2, 6.8e-4, 2.0e-4, 5.3e-4]),
-        (0.499999, [9.9e-1, 6.2e-3, 5.2e-4, 2.2e-4]),
-    ],
+    [(0.3, [4.1e-2, 6.8e-4, 2.0e-4, 5.3e-4]), (0.499999, [9.9e-1, 6.2e-3, 5.2e-4, 2.2e-4])],
 )
 def test_a_large_block(structured_block, graded, nu, expected):
     material, count, edge = Material(1.0, nu), 31, 1 / 16

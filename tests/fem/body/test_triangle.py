@@ -1,9 +1,87 @@
-"""The quadrature rule on the triangle."""
+"""Points are found in the element that holds them; the quadrature rule on the triangle."""
 
 import numpy as np
 import pytest
 
-from fem.body.triangle import collapsed_gauss, inverse
+from fem.body.triangle import Locator, collapsed_gauss, inverse, shapes
+from meshes.block import real_points
+
+
+def wavy(x):
+    """Fades out where the elements of a graded mesh could no longer follow it."""
+    return 0.12 * np.cos(9.0 * x) * np.exp(-((x / 0.6) ** 4))
+
+
+@pytest.fixture(scope="module", params=["straight", "curved"])
+def case(request, structured_block, graded):
+    outer = graded(2.0, 0.05, 1.3)
+    x = np.concatenate([-1 - outer[:0:-1], np.linspace(-1, 1, 41), 1 + outer[1:]])
+    curved = request.param == "curved"
+    mesh = structured_block(x, graded(2.0, 0.05, 1.3), wavy if curved else None, seed=11)
+    return real_points(mesh), mesh.triangles, Locator(real_points(mesh), mesh.triangles, curved)
+
+
+def test_points_come_back_from_their_element(case):
+    points, triangles, locator = case
+    random = np.random.default_rng(3)
+    where = np.column_stack([random.uniform(-3, 3, 20_000), random.uniform(0.13, 2, 20_000)])
+    element, at = locator(where)
+    assert np.all(element >= 0)
+    back = np.einsum("kac,ka->kc", points[triangles[element]], shapes(at))
+    np.testing.assert_allclose(back, where, atol=1e-12)
+    assert at.min() > -1e-9 and at.sum(axis=1).max() < 1.0 + 1e-9
+
+
+def test_the_same_points_again_are_known_and_others_are_not(case):
+    points, triangles, locator = case
+    where = points[triangles[:7, :3]].mean(axis=1)
+    first, again = locator(where)[0], locator(where.copy())[0]
+    np.testing.assert_array_equal(first, np.arange(7))
+    assert again is first
+    np.testing.assert_array_equal(locator(where[::-1])[0], np.arange(7)[::-1])
+
+
+def test_mesh_points_the_boundary_ones_included_are_inside(case):
+    points, triangles, locator = case
+    element, at = locator(points)
+    assert np.all(element >= 0)
+    back = np.einsum("kac,ka->kc", points[triangles[element]], shapes(at))
+    np.testing.assert_allclose(back, points, atol=1e-12)
+
+
+def test_points_outside_belong_to_no_element(case):
+    _, _, locator = case
+    where = np.array([[0.0, -0.2], [3.1, 1.0], [-3.001, 1.0], [0.0, 2.001], [50.0, 50.0]])
+    np.testing.assert_array_equal(locator(where)[0], -1)
+
+
+def test_points_just_below_and_above_a_rough_surface(structured_block):
+    line = np.linspace(-1, 1, 41)
+    mesh = structured_block(line, np.linspace(0, 1, 11), wavy, seed=2)
+    assert np.abs(np.gradient(wavy(line), line)).max() > 0.9
+    locator = Locator(real_points(mesh), mesh.triangles, True)
+    x = np.linspace(-0.99, 0.99, 997)
+    assert np.all(locator(np.column_stack([x, -wavy(x) + 1e-3]))[0] >= 0)
+    assert np.all(locator(np.column_stack([x, -wavy(x) - 1e-3]))[0] == -1)
+
+
+def test_a_block_bent_along_x_too(structured_block):
+    """A sector of a ring: points just inside and outside of its curved sides and its top."""
+    mesh = structured_block(np.linspace(-1, 1, 33), np.linspace(0, 1, 17), seed=6)
+    angle, radius = mesh.points[:, 0], 2.0 - mesh.points[:, 1]
+    points = np.column_stack([radius * np.sin(angle), 2.0 - radius * np.cos(angle)])
+    locator = Locator(points, mesh.triangles, True)
+    random = np.random.default_rng(5)
+    angle, radius = random.uniform(-1, 1, 5000), random.uniform(0.9, 2.1, 5000)
+    inside = np.abs(radius - 1.5) < 0.499
+    outside = np.abs(radius - 1.5) > 0.501
+    where = np.column_stack([radius * np.sin(angle), 2.0 - radius * np.cos(angle)])
+    element, at = locator(where)
+    assert np.all(element[outside] == -1)
+    assert np.all(element[inside & (np.abs(angle) < 0.999)] >= 0)
+    found = element >= 0
+    back = np.einsum("kac,ka->kc", points[mesh.triangles[element[found]]], shapes(at[found]))
+    np.testing.assert_allclose(back, where[found], atol=1e-12)
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3])

@@ -1,6 +1,5 @@
 """Blocks of any size as the half-plane: displacements, pressures and stresses, datum included."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,7 +10,7 @@ from scenes import hat_nodes
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
-from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
+from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus
 from analytic.operators.half_plane import HalfPlane
@@ -21,7 +20,6 @@ from fem.body.support import Support
 from fem.compliance.far_field import FarField, multipoles
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.maximum import maximum
-from fem.stress.stress import evaluate, nodal_stress
 from meshes.block import BlockSpec
 from meshes.build import build_block
 
@@ -166,82 +164,48 @@ def test_displacement_and_application_are_the_same_but_for_that():
     np.testing.assert_allclose(applied, operator.matrix(0.4) @ pressure, rtol=1e-10)
 
 
-class Pressed:
-    """Hertz's contact of a rigid cylinder on half-width 1 and peak pressure 1."""
+@pytest.fixture
+def case(pressed):
+    """Hertz's contact on a block of some half-widths, whose boundary may be held further in."""
 
-    def __init__(self, size, within=np.inf, far=True):
-        self.grid = HatGrid.within(-1.2, 1.2, 0.05)
-        hats = hat_nodes(self.grid.x[0], self.grid.pitch, self.grid.count)
-        support = replace(HELD, within=(within, within))
-        self.operator = compliance(flat_block(size, 20), hats, support=support, far=far)
-        solution = solve_with_model(
-            self.operator,
-            HalfPlane(self.grid.count, self.grid.pitch, 1.0),
-            self.grid.hat_integrals(np.square),
-            self.grid.weights,
-            Constraints(load=HERTZ.load_per_length),
-        )
-        assert solution.converged
-        self.pressure, self.approach = solution.pressure, solution.approach
+    def of(size, within=np.inf, far=True):
+        block = {"half_width": size, "depth": size, "sides": "fixed", "within": (within, within)}
+        return pressed(20, far=far, **block)
 
-    def stress(self, friction):
-        return nodal_stress(
-            self.operator.body,
-            self.operator.displacement(self.pressure, friction),
-            self.operator.hats,
-            self.pressure,
-            friction,
-        )
-
-    def tau1(self, friction):
-        nodal = self.stress(friction)
-        return maximum(self.operator.body, nodal, lambda s: s.tau1, (-2.0, 2.0, 2.0))
-
-    def field_error(self, friction):
-        """Relative L2 error of the stresses 0.15 to 1.5 half-widths deep."""
-        x, z = np.meshgrid(np.linspace(-1.5, 1.5, 61), np.linspace(0.15, 1.5, 41))
-        exact = hertz_stress(HERTZ, x, z, friction)
-        found = evaluate(self.operator.body, self.stress(friction), x, z)
-        found, exact = (np.stack([s.sx, s.sz, s.txz]) for s in (found, exact))
-        return np.sqrt(np.sum((found - exact) ** 2) / np.sum(exact**2))
+    return of
 
 
-pressed = cache(Pressed)
+def largest_shear(case):
+    return maximum(case.body, case.stress(0.0), lambda s: s.tau1, (-2.0, 2.0, 2.0)).value
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("size", [4.0, 10.0, 20.0])
-def test_stresses_of_small_blocks_are_hertzs(size, friction):
+def test_stresses_of_small_blocks_are_hertzs(case, size):
     """As near as on a block of 400 half-widths; held, one of 10 errs by 8 % in tau1."""
-    case = pressed(size)
-    exact = hertz_extremes(HERTZ, friction).tau1
-    if friction == 0.0:
-        assert case.tau1(friction).value == pytest.approx(exact.value, rel=1e-3)
-        held = pressed(size, far=False)
-        assert held.tau1(friction).value > 1.03 * exact.value
-    assert case.field_error(friction) < 8e-4
+    assert largest_shear(case(size)) == pytest.approx(HERTZ.tau1_max, rel=1e-3)
+    assert largest_shear(case(size, far=False)) > 1.03 * HERTZ.tau1_max
+    assert all(case(size).error(friction, 0.15, 2.0) < 8e-4 for friction in (0.0, 0.3))
 
 
-def test_pressure_and_approach_do_not_depend_on_the_blocks_size():
+def test_pressure_and_approach_do_not_depend_on_the_blocks_size(case):
     """One mesh, its outer part held further in: what differs is the boundary's place alone."""
-    whole = pressed(400.0)
+    whole = case(400.0)
     for within in (5.0, 10.0, 40.0):
-        part = pressed(400.0, within)
+        part = case(400.0, within)
         assert part.pressure.max() == pytest.approx(whole.pressure.max(), rel=2e-5)
         np.testing.assert_allclose(part.pressure, whole.pressure, atol=1e-4)
         assert part.approach == pytest.approx(whole.approach, rel=5e-4)
-    held = pressed(400.0, far=False)
+    held = case(400.0, far=False)
     assert whole.pressure.max() == pytest.approx(held.pressure.max(), rel=1e-5)
 
 
-def test_approach_has_the_half_planes_datum():
-    case = pressed(10.0)
-    operator = HalfPlane(case.grid.count, case.grid.pitch, 1.0)
-    gap = case.grid.hat_integrals(np.square)
+def test_approach_has_the_half_planes_datum(case):
+    small = case(10.0)
+    operator = HalfPlane(len(small.x), small.weights[0], 1.0)
     load = Constraints(load=HERTZ.load_per_length)
-    expected = solve_contact(operator, gap, case.grid.weights, load)
-    assert case.approach == pytest.approx(expected.approach, rel=1e-4)
-    assert case.operator.far.datum == pytest.approx(operator.datum)
+    expected = solve_contact(operator, small.gap, small.weights, load)
+    assert small.approach == pytest.approx(expected.approach, rel=1e-4)
+    assert small.compliance.far.datum == pytest.approx(operator.datum)
 
 
 def test_two_bodies_of_different_blocks_add_up():

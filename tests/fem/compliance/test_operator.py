@@ -5,25 +5,13 @@ import pytest
 from scenes import hat_nodes
 
 from analytic.material import Material
+from analytic.operators.half_plane import HalfPlane
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 
 MATERIAL = Material(2.0, 0.3)
 PITCH, COUNT = 0.1, 21
 HATS = hat_nodes(-1.0, PITCH, COUNT)
-
-
-def half_plane(pitch: float, count: int, modulus: float) -> np.ndarray:
-    """-2/(pi E') integral integral phi_i phi_j ln|x - s|, a fourth difference of x^4 ln|x| / 24.
-
-    Up to a constant that depends on the datum (Johnson 1985, eq. 2.24, integrated twice).
-    """
-    offset = np.arange(-2, count + 2)
-    safe = np.where(offset == 0, 1, np.abs(offset))
-    kernel = offset.astype(float) ** 4 * np.log(safe) / 24.0
-    entry = np.convolve(kernel, [1, -4, 6, -4, 1], mode="valid") * pitch**2
-    distance = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
-    return -2.0 / (np.pi * modulus) * entry[distance]
 
 
 def block(structured_block, graded, edge, extent=300.0, half_span=1.5):
@@ -62,7 +50,8 @@ def test_apply_is_the_matrix_and_counts(fine):
 
 def error_of(matrix, material):
     """Largest error of an entry with the datum removed, relative to the largest entry."""
-    exact = without_datum(half_plane(PITCH, COUNT, material.plane_strain_modulus))
+    half_plane = HalfPlane(COUNT, PITCH, material.plane_strain_modulus)
+    exact = without_datum(half_plane.block(np.arange(COUNT)))
     return np.abs(without_datum(matrix) - exact).max() / np.abs(exact).max()
 
 

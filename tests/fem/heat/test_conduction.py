@@ -202,7 +202,7 @@ def turning(x, radius, velocity):
     wave[0] = wave[1]
     nu, z = radius * wave, radius * np.sqrt(1j * wave * velocity)
     ratio = np.zeros_like(z)  # I_{nu+1} / I_nu, by its continued fraction
-    for more in range(4000, 0, -1):
+    for more in range(400, 0, -1):
         ratio = 1.0 / (2.0 * (nu + more) / z + ratio)
     resistance = radius / (nu + z * ratio)
     resistance[0] = 0.0

@@ -134,9 +134,3 @@ def test_times_must_ascend(slab):
     moving = Conduction(slab, 0.0, INSULATED)
     with pytest.raises(ValueError, match="ascend"):
         list(moving.transient(lambda t: 0.0, np.array([0.0, 1.0, 1.0]), np.zeros(3)))
-
-
-def test_steps_double():
-    times = doubling_times(0.5, 30.0, 4)
-    assert times[:7] == pytest.approx([0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0])
-    assert times[-1] == 32.0 and len(np.unique(np.diff(times))) == 4

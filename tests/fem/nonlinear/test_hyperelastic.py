@@ -1,18 +1,15 @@
-"""Neo-Hookean bodies: exact homogeneous deformations, an energy, the linear body as their limit."""
+"""Laws of elasticity: stress from an energy of principal stretches, closed forms, limits; bodies of
+quadratic elements, neo-Hookean ones on curved elements."""
 
 import numpy as np
 import pytest
 
-from analytic.material import Material
+from analytic.material import LAWS, Law, Material
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import straight_down
 from fem.body.triangle import collapsed_gauss, gradients, jacobians
-from fem.nonlinear.hyperelastic import (
-    CauchyRecovery,
-    HyperelasticBody,
-    along_surface,
-    cauchy_stress,
-)
+from fem.nonlinear.hyperelastic import CauchyRecovery, HyperelasticBody, along_surface
+from fem.nonlinear.laws import SERIES_TO, cauchy_stress
 from fem.solver.mumps import FemError
 from fem.stress.recovery import recovered_stress
 from fem.stress.surface_load import SurfaceLoad
@@ -20,6 +17,157 @@ from fem.stress.surface_load import SurfaceLoad
 MATERIAL = Material(2.0, 0.3)
 MU = MATERIAL.shear_modulus
 LAME = 2.0 * MU * 0.3 / 0.4
+L, M, N = -3.0, -7.0, -8.0
+NEO_HOOKEAN, *_ = EVERY = [Law(name, (L, M, N) if name == "murnaghan" else None) for name in LAWS]
+every_law = pytest.mark.parametrize("law", EVERY, ids=LAWS)
+GRADIENTS = ([[0.1, -0.2], [0.15, -0.1]], [[0.0, 0.08], [0.0, 0.0]], [[-0.05, 0.0], [0.0, -0.05]])
+
+
+def density(law, stretches):
+    """W of three principal stretches."""
+    stretches = np.asarray(stretches)
+    volume = stretches.prod()
+    if law.name == "neo-hookean":
+        log = np.log(volume)
+        return 0.5 * MU * ((stretches**2).sum() - 3.0) - MU * log + 0.5 * LAME * log**2
+    if law.name == "hencky":
+        log = np.log(stretches)
+        return MU * (log**2).sum() + 0.5 * LAME * log.sum() ** 2
+    green = 0.5 * (stretches**2 - 1.0)
+    if law.name == "st-venant-kirchhoff":
+        return MU * (green**2).sum() + 0.5 * LAME * green.sum() ** 2
+    a, b, c = green
+    first, second, third = a + b + c, a * b + b * c + c * a, a * b * c
+    whole = (0.5 * LAME + MU) * first**2 - 2.0 * MU * second + (L + 2 * M) / 3 * first**3
+    return whole - 2.0 * M * first * second + N * third
+
+
+def energy(law, gradient, across=1.0):
+    return density(law, [*np.linalg.svd(np.eye(2) + gradient, compute_uv=False), across])
+
+
+def first_piola(law, gradient):
+    """dW/dF by differences."""
+    found, h = np.empty((2, 2)), 1e-6
+    for i, j in np.ndindex(2, 2):
+        step = np.zeros((2, 2))
+        step[i, j] = h
+        found[i, j] = (energy(law, gradient + step) - energy(law, gradient - step)) / (2 * h)
+    return found
+
+
+@every_law
+@pytest.mark.parametrize("gradient", GRADIENTS)
+def test_stress_is_the_energys_derivative(law, gradient):
+    f = np.eye(2) + gradient
+    volume = np.linalg.det(f)
+    sigma = first_piola(law, np.array(gradient)) @ f.T / volume
+    h = 1e-6  # the stretch across the plane is one
+    across = (energy(law, gradient, 1 + h) - energy(law, gradient, 1 - h)) / (2 * h) / volume
+    wanted = [sigma[0, 0], sigma[1, 1], sigma[0, 1], across]
+    found = cauchy_stress(np.array(gradient), MU, LAME, law)
+    np.testing.assert_allclose(found, wanted, atol=1e-8 * MU)
+
+
+@every_law
+@pytest.mark.parametrize("gradient", GRADIENTS)
+def test_the_bodys_forces_are_those_of_the_stress(structured_block, law, gradient):
+    """Virtual work of any linear displacement on a block of straight elements: P times its area."""
+    mesh = structured_block(np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 1.0, 4), seed=3)
+    body = elastic_body(mesh, Material(2.0, 0.3, law), Support())
+    f = np.eye(2) + gradient
+    force, tangent = HyperelasticBody(body).linearised(body.nodes @ np.array(gradient).T)
+    piola = first_piola(law, np.array(gradient))
+    np.testing.assert_allclose(force.T @ body.nodes, 2.0 * piola, atol=1e-7 * MU)
+    assert abs(tangent - tangent.T).max() < 1e-13 * abs(tangent).max()
+    sx, sz, txz, _ = cauchy_stress(np.array(gradient), MU, LAME, law)
+    sigma = np.array([[sx, txz], [txz, sz]])
+    own = np.linalg.det(f) * sigma @ np.linalg.inv(f).T
+    np.testing.assert_allclose(own, piola, atol=1e-8 * MU)
+
+
+@every_law
+def test_the_tangent_is_the_forces_derivative(structured_block, law):
+    """At rest and next to it, where stretches are equal, as well as far from it."""
+    mesh = structured_block(np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 1.0, 4), seed=3)
+    body = elastic_body(mesh, Material(2.0, 0.3, law), Support())
+    response, (x, z), h = HyperelasticBody(body), body.nodes.T, 1e-6
+    step = np.column_stack([np.cos(x - 2 * z), np.sin(2 * x + z)])
+    for size in (0.0, 1e-7, 1e-2, 0.05):
+        at = size * np.column_stack([np.sin(2 * x + z), np.cos(x - 2 * z) - z * x])
+        _, tangent = response.linearised(at)
+        ahead, behind = (response.linearised(at + way * h * step)[0] for way in (1, -1))
+        wanted = (ahead - behind).ravel() / (2 * h)
+        np.testing.assert_allclose(tangent @ step.ravel(), wanted, atol=1e-7 * np.abs(wanted).max())
+
+
+@every_law
+def test_small_strains_are_hookes(law):
+    gradient = 1e-7 * np.array([[1.0, -2.0], [0.5, -0.7]])
+    strain = 0.5 * (gradient + gradient.T)
+    hooke = 2 * MU * strain + LAME * np.trace(strain) * np.eye(2)
+    wanted = [hooke[0, 0], hooke[1, 1], hooke[0, 1], LAME * np.trace(strain)]
+    found = cauchy_stress(gradient, MU, LAME, law)
+    np.testing.assert_allclose(found, wanted, rtol=2e-6)
+
+
+@every_law
+def test_rotations_turn_the_stress(law):
+    gradient = np.array(GRADIENTS[0])
+    c, s = np.cos(0.8), np.sin(0.8)
+    turn = np.array([[c, s], [-s, c]])
+
+    def tensor(of):
+        sx, sz, txz, across = cauchy_stress(of, MU, LAME, law)
+        return np.array([[sx, txz], [txz, sz]]), across
+
+    before, across = tensor(gradient)
+    after, same = tensor(turn @ (np.eye(2) + gradient) - np.eye(2))
+    np.testing.assert_allclose(after, turn @ before @ turn.T, atol=1e-13 * MU)
+    assert same == pytest.approx(across, rel=1e-12)
+
+
+@every_law
+@pytest.mark.parametrize("stretch", [0.8, 0.97, 1.1])
+def test_a_column_held_at_its_sides(law, stretch):
+    """Closed forms of the stress along the only stretch."""
+    plane, log, green = LAME + 2 * MU, np.log(stretch), 0.5 * (stretch**2 - 1.0)
+    wanted = {
+        "neo-hookean": (MU * (stretch**2 - 1.0) + LAME * log) / stretch,
+        "hencky": plane * log / stretch,
+        "st-venant-kirchhoff": plane * green * stretch,
+        "murnaghan": (plane * green + (L + 2 * M) * green**2) * stretch,
+    }[law.name]
+    _, sz, txz, _ = cauchy_stress(np.diag([0.0, stretch - 1.0]), MU, LAME, law)
+    assert sz == pytest.approx(wanted, rel=1e-12)
+    assert txz == 0.0
+
+
+def test_henckys_series_meets_the_closed_form():
+    """Both sides of SERIES_TO: y = tanh(2 d)^2 of a pure shear by stretches exp(d), exp(-d)."""
+    limit = np.arctanh(np.sqrt(SERIES_TO)) / 2
+    for d in limit * np.array([1 - 1e-9, 1 + 1e-9]):
+        found = cauchy_stress(np.diag(np.expm1([d, -d])), MU, LAME, Law("hencky"))
+        np.testing.assert_allclose(found[:2], [2 * MU * d, -2 * MU * d], rtol=1e-12)
+
+
+@every_law
+def test_inverted_elements_are_refused(structured_block, law):
+    mesh = structured_block(np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 1.0, 4))
+    body = elastic_body(mesh, Material(2.0, 0.3, law), Support())
+    with pytest.raises(FemError, match="inverted"):
+        HyperelasticBody(body).linearised(body.nodes @ np.diag([-1.5, 0.0]))
+
+
+def test_constants_belong_to_murnaghan():
+    with pytest.raises(ValueError, match="Murnaghan"):
+        Law("hencky", (1.0, 1.0, 1.0))
+    with pytest.raises(ValueError, match="Murnaghan"):
+        Law("murnaghan")
+    with pytest.raises(ValueError, match="one of"):
+        Law("hooke")
+
+
 X = np.linspace(-1.0, 1.0, 5)
 Z = np.linspace(0.0, 1.0, 4)
 
@@ -50,47 +198,24 @@ def deformed_by(body, gradient):
     return body.nodes @ np.asarray(gradient, dtype=float).T
 
 
-def first_piola(gradient):
-    """P = mu (F - F^-T) + lambda ln J F^-T, written out by cofactors."""
-    f = np.eye(2) + gradient
-    volume = f[0, 0] * f[1, 1] - f[0, 1] * f[1, 0]
-    inverse = np.array([[f[1, 1], -f[1, 0]], [-f[0, 1], f[0, 0]]]) / volume
-    return MU * (f - inverse) + LAME * np.log(volume) * inverse
-
-
-GRADIENTS = {
+HOMOGENEOUS = {
     "shear": [[0.0, 0.7], [0.0, 0.0]],
     "stretch": [[0.4, 0.0], [0.0, -0.3]],
     "all": [[0.3, -0.2], [0.5, -0.1]],
 }
 
 
-@pytest.mark.parametrize("gradient", GRADIENTS.values(), ids=GRADIENTS.keys())
-def test_homogeneous_deformations_are_exact(body, response, gradient):
-    """Forces on the boundary are those of P, none inside; Cauchy's stress is P F' / J."""
+@pytest.mark.parametrize("gradient", HOMOGENEOUS.values(), ids=HOMOGENEOUS)
+def test_homogeneous_deformations_of_curved_elements(body, response, gradient):
+    """Forces on the boundary are those of P, none inside; by quadrature."""
     gradient = np.array(gradient)
     force, _ = response.linearised(deformed_by(body, gradient))
-    piola = first_piola(gradient)
     boundary = np.unique(np.concatenate(list(vars(body.sides).values())))
     inside = np.setdiff1d(np.arange(len(body.nodes)), boundary)
-    scale = np.abs(force).max()
-    assert np.abs(force[inside]).max() < 1e-2 * scale  # curved elements: by quadrature
+    assert np.abs(force[inside]).max() < 1e-2 * np.abs(force).max()
     # virtual work of any linear displacement: P times the area
-    area = quadrature(body)[1].sum()
-    np.testing.assert_allclose(force.T @ body.nodes, piola * area, rtol=2e-3, atol=2e-3 * MU)
-    f = np.eye(2) + gradient
-    sigma = piola @ f.T / np.linalg.det(f)
-    found = cauchy_stress(gradient, MU, LAME)[:3]
-    np.testing.assert_allclose(found, [sigma[0, 0], sigma[1, 1], sigma[0, 1]], rtol=1e-13)
-
-
-def test_simple_shear_by_the_textbook():
-    """mu g^2 along, nothing across, mu g: the volume stays (Bonet and Wood, section 6.4)."""
-    np.testing.assert_allclose(
-        cauchy_stress(np.array([[0.0, 0.7], [0.0, 0.0]]), MU, LAME),
-        [MU * 0.49, 0.0, MU * 0.7, 0.0],
-        atol=1e-15,
-    )
+    piola = first_piola(NEO_HOOKEAN, gradient) * quadrature(body)[1].sum()
+    np.testing.assert_allclose(force.T @ body.nodes, piola, rtol=2e-3, atol=2e-3 * MU)
 
 
 def test_rigid_motions_give_no_stress(body, response):
@@ -110,20 +235,7 @@ def some_displacement(body, size):
     return size * np.column_stack([np.sin(2 * x + z), np.cos(x - 2 * z) - z * x])
 
 
-def test_tangent_is_the_forces_derivative_and_symmetric(body, response):
-    at = some_displacement(body, 0.05)
-    _, tangent = response.linearised(at)
-    assert abs(tangent - tangent.T).max() < 1e-13 * abs(tangent).max()
-    step = some_displacement(body, 1.0)[::-1]
-    h = 1e-5
-    ahead, behind = (response.linearised(at + way * h * step)[0] for way in (1, -1))
-    difference = (ahead - behind).ravel() / (2.0 * h)
-    np.testing.assert_allclose(
-        tangent @ step.ravel(), difference, atol=1e-6 * abs(difference).max()
-    )
-
-
-def energy(body, displacement):
+def energy_of(body, displacement):
     """W over the body, by a quadrature of its own."""
     at, area = quadrature(body)
     nodes = body.points[body.mesh.triangles]
@@ -138,7 +250,7 @@ def test_force_is_the_energys_derivative(body, response):
     at, step = some_displacement(body, 0.05), some_displacement(body, 1.0)[::-1]
     force, _ = response.linearised(at)
     h = 1e-4
-    difference = (energy(body, at + h * step) - energy(body, at - h * step)) / (2.0 * h)
+    difference = (energy_of(body, at + h * step) - energy_of(body, at - h * step)) / (2.0 * h)
     # the code's quadrature is of degree 4 where the integrand is no polynomial
     assert (force * step).sum() == pytest.approx(difference, rel=2e-3)
 
@@ -169,11 +281,6 @@ def test_a_material_of_each_triangle(structured_block):
     assert np.abs(force - linear)[free].max() < 1e-5 * np.abs(linear[free]).max()
     with pytest.raises(FemError, match="coated"):
         CauchyRecovery(body, at, None, np.zeros(3))
-
-
-def test_inverted_elements_are_refused(body, response):
-    with pytest.raises(FemError, match="inverted"):
-        response.linearised(deformed_by(body, [[-1.5, 0.0], [0.0, 0.0]]))
 
 
 def test_slopes_along_quadratic_edges():

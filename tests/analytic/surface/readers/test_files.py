@@ -211,6 +211,7 @@ def test_heights_of_no_size_are_refused(tmp_path, content):
     assert "holds no profile" in refusal(text(tmp_path, content), x_scale=1.0, height_scale=1.0)
 
 
+@pytest.mark.usefixtures("one_reader")
 def test_digits_in_groups_are_shown_as_they_are(tmp_path):
     path = text(tmp_path, b'"1,000,000";"1,5"\n' * 5)
     assert '"1,000,000"' in refusal(path, **SCALES)

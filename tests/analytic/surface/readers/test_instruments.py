@@ -65,6 +65,7 @@ def test_x3p(tmp_path):
 
 
 @needs_reader
+@pytest.mark.usefixtures("one_reader")
 def test_text_of_a_map_with_its_size_and_unit(tmp_path):
     rows = "\n".join("\t".join(map(repr, row)) for row in (1e9 * HEIGHTS).tolist())
     (tmp_path / "map.asc").write_text(f"# Width: 14 um\n# Height: 10 um\n# Value units: nm\n{rows}")
@@ -75,6 +76,7 @@ def test_text_of_a_map_with_its_size_and_unit(tmp_path):
 
 
 @needs_reader
+@pytest.mark.usefixtures("one_reader")
 def test_the_sizes_of_an_mi_file_are_in_metres(tmp_path):
     """The library names the unit of its heights for both: 20 um would be 20 pm long."""
     head = {"fileType": "Image", "xPixels": 8, "yPixels": 8, "xLength": 2e-5, "yLength": 4e-5}
@@ -89,6 +91,7 @@ def test_the_sizes_of_an_mi_file_are_in_metres(tmp_path):
 
 
 @needs_reader
+@pytest.mark.usefixtures("one_reader")
 def test_what_begins_like_mat_and_holds_nothing_is_of_no_format_that_is_known(tmp_path):
     (tmp_path / "a.nms").write_bytes(bytes([2, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 255, 255]) * 80)
     with pytest.raises(ProfileError, match="is of no format that is known"):
@@ -96,6 +99,7 @@ def test_what_begins_like_mat_and_holds_nothing_is_of_no_format_that_is_known(tm
 
 
 @needs_reader
+@pytest.mark.usefixtures("one_reader")
 def test_files_without_size_and_unit_say_so(tmp_path):
     np.savetxt(tmp_path / "map.asc", HEIGHTS)
     found = read_instrument_file(tmp_path / "map.asc")
@@ -104,6 +108,7 @@ def test_files_without_size_and_unit_say_so(tmp_path):
 
 
 @needs_reader
+@pytest.mark.usefixtures("one_reader")
 @pytest.mark.parametrize(
     ("content", "words"),
     [
@@ -121,6 +126,7 @@ def test_unknown_files(tmp_path, content, words):
 
 
 @needs_reader
+@pytest.mark.usefixtures("one_reader")
 def test_a_truncated_file(tmp_path):
     write_x3p(tmp_path / "map.x3p", HEIGHTS)
     whole = (tmp_path / "map.x3p").read_bytes()
@@ -199,11 +205,7 @@ def test_an_uneven_scan_comes_in_metres(tmp_path, monkeypatch):
     found = read_instrument_file(tmp_path / "scan")
     np.testing.assert_allclose(found.heights, [1e-6, 4e-6, 9e-6])
     np.testing.assert_allclose(found.x, [0.0, 2e-6, 3e-6])
-    assert (found.pitch, found.unit, found.format) == (
-        None,
-        1e-6,
-        "made, by SurfaceTopography 1",
-    )
+    assert (found.pitch, found.unit, found.format) == (None, 1e-6, "made, by SurfaceTopography 1")
 
 
 def test_a_channel_that_is_no_height_is_refused(tmp_path, monkeypatch):

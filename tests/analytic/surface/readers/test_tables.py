@@ -13,6 +13,7 @@ from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.text import ColumnsError
 from analytic.surface.readers.topography import MapLine
 
+pytestmark = pytest.mark.usefixtures("one_reader")
 X = 0.5 * np.arange(40)  # um
 RAW = np.sin(X / 3.0)
 LEVEL = RAW - 0.01 * X

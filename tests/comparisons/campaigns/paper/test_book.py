@@ -1,6 +1,7 @@
 """Seireg's conclusions on rough contact as physics: which way each figure goes, and by how much."""
 
 import json
+from functools import cache
 
 import numpy as np
 import pytest
@@ -9,35 +10,46 @@ from scenes import DATA
 from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.rough_bodies import bearing_of
 from comparisons.campaigns.paper import book
-from comparisons.campaigns.paper.claims import CONFIRMED, DENIED, THEORY, book_claims, judge
+from comparisons.campaigns.paper.claims import (
+    CONFIRMED,
+    DENIED,
+    THEORY,
+    JudgedClaim,
+    book_claims,
+    judge,
+)
 
-JUDGED = {claim.key: judge(claim, None) for claim in book_claims()}
 REFERENCE = json.loads((DATA / "g_greenwood.json").read_text())["GT"]
 
 
+@cache
+def judged() -> dict[str, JudgedClaim]:
+    """By the keys of their claims."""
+    return {claim.key: judge(claim, None) for claim in book_claims()}
+
+
 def test_outcomes_are_those_of_the_numbers():
-    confirmed, denied = (
-        {key for key, judged in JUDGED.items() if judged.outcome == kind}
-        for kind in (CONFIRMED, DENIED)
-    )
-    heat = {f"seireg-{name}" for name in ("bottom", "fifteen", "partition")}
-    assert denied == {"rough-constant", "penetration-coefficient"} | heat
-    assert len(confirmed) + len(denied) == len(JUDGED) == 13
+    denied = {key for key, each in judged().items() if each.outcome == DENIED}
+    assert denied == {"rough-constant", "penetration-coefficient"} | {
+        f"seireg-{name}" for name in ("bottom", "fifteen", "partition")
+    }
+    assert {each.outcome for each in judged().values()} == {CONFIRMED, DENIED}
+    assert len(judged()) == 13
 
 
 def test_heat_against_reference_values():
     """Those of 16 digits; the parabola's error, and the partition, have tests of their own."""
     reference = json.loads((DATA / "h_heat.json").read_text())["seed_claims"]
-    fifteen = JUDGED["seireg-fifteen"]
+    fifteen = judged()["seireg-fifteen"]
     exact = float(reference["bottom_deviation_at_15_tL_exact"])
     assert fifteen.numbers[THEORY].value == pytest.approx(exact, rel=1e-12)
-    mean, short, _ = (numbers[THEORY] for numbers in fifteen.besides.values())
+    mean, short, _ = (each[THEORY] for each in fifteen.besides.values())
     assert mean == pytest.approx(float(reference["mean_deviation_at_15_tL_exact"]), rel=1e-10)
     exact = float(reference["bottom_deviation_at_15_tL_seed_formula"])
     assert short == pytest.approx(exact, rel=1e-12)
     coefficient = 1.12 / float(reference["surface_flux_coefficient_exact_2_over_sqrt_pi"])
-    assert JUDGED["seireg-flux"].numbers[THEORY].value == pytest.approx(coefficient, rel=1e-12)
-    halves = list(JUDGED["seireg-partition"].besides.values())
+    assert judged()["seireg-flux"].numbers[THEORY].value == pytest.approx(coefficient, rel=1e-12)
+    halves = list(judged()["seireg-partition"].besides.values())
     assert halves[0][THEORY] == pytest.approx(0.5, abs=1e-9)
 
 
@@ -59,18 +71,18 @@ def test_sets_b_and_c_have_the_same_bearing():
 def test_every_direction_of_the_third_conclusion_is_the_other_one():
     """More pressure, and so less area, by roughness, by fewer and by sharper asperities."""
     base = {"density": 500e6, "radius": 0.2e-3, "deviation": 0.5e-6}
-    pressure = book.real_pressure(Summits(**base), 10.0)
+    own = book.real_pressure(Summits(**base), 10.0)
     for name, factor in (("deviation", 1.5), ("density", 0.7), ("radius", 0.7)):
         rougher = Summits(**base | {name: factor * base[name]})
-        assert book.real_pressure(rougher, 10.0) > 1.02 * pressure
+        assert book.real_pressure(rougher, 10.0) > 1.02 * own
 
 
 def test_light_and_heavy_loads_bracket_the_reference():
     """Of a bearing of 4, near set A's 2.7, the reference has 0.7262 / 0.1233 and 5.823 / 5.724."""
     (light,) = (row for row in REFERENCE if (row["T"], row["mu"]) == (0.01, 4.0))
     ratio = float(light["a_eff_star_A"]) / float(light["aHertz_star"])
-    number = JUDGED["rough-light-load"].numbers[THEORY].value
+    number = judged()["rough-light-load"].numbers[THEORY].value
     assert ratio < number < 1.1 * ratio
-    (peak,) = JUDGED["rough-light-load"].besides.values()
+    (peak,) = judged()["rough-light-load"].besides.values()
     assert peak[THEORY] < float(light["p0_over_p0Hertz"])
-    assert JUDGED["rough-heavy-load"].numbers[THEORY].value < 1.05
+    assert judged()["rough-heavy-load"].numbers[THEORY].value < 1.05

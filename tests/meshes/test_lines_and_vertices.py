@@ -1,16 +1,23 @@
-"""The block with a line across it that element edges follow: a coating and what lies below."""
+"""Blocks with a line across them that element edges follow, and with vertices of their own."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import BLOCK, of_kinds
+from blocks import BLOCK, GRADED, SPECS, of_kinds
 
 from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
 from meshes.coating import LAYERS, LONGEST, core, layer_size, stretched, with_layers
-from meshes.msh_file import read_msh, write_msh
-from meshes.size_law import estimate_unknowns, largest_size, surface_edge, wanted_size
+from meshes.size_law import (
+    estimate_unknowns,
+    largest_size,
+    local_edges,
+    own_vertices,
+    point_size,
+    surface_edge,
+    wanted_size,
+)
 
 
 def corners(mesh):
@@ -74,15 +81,6 @@ def test_a_thin_coating_costs_less_than_its_length_in_layers(built):
     assert 0.01 < stretched(mesh).sum() / in_equal_elements < 0.05
 
 
-def test_file_keeps_the_interface(built, tmp_path):
-    mesh = built("as thick as the contact")
-    write_msh(mesh, tmp_path / "mesh.msh")
-    read = read_msh(tmp_path / "mesh.msh")
-    assert read.spec.interface == mesh.spec.interface
-    same = {name: mesh.quality[name] for name in read.quality}
-    assert read.quality == pytest.approx(same, rel=1e-9)
-
-
 @pytest.mark.parametrize("interface", [0.0, -1.0, 40.0, np.nan])
 def test_interface_outside_the_block_is_refused(interface):
     with pytest.raises(MeshError, match="interface is"):
@@ -93,3 +91,76 @@ def test_layers_that_do_not_fit_are_refused():
     vertices = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.5]])
     with pytest.raises(MeshError, match="do not fit"):
         with_layers(vertices, np.empty((0, 3), dtype=int), 1.0, (np.array([0.0, 1.0]),))
+
+
+def on_top(mesh):
+    vertices = np.unique(mesh.triangles[:, :3])
+    return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
+
+
+@of_kinds("own vertices")
+def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
+    given, x = mesh.spec.vertices, on_top(mesh)
+    inside = x[(x >= given[0]) & (x <= given[-1])]
+    assert np.isin(given, inside).all()
+    if mesh.spec.window is None and mesh.spec.interface is None and mesh.spec.depth > 1.0:
+        assert np.array_equal(inside, given)
+    else:
+        added = np.setdiff1d(inside, given)
+        assert len(added) > 0
+        parts = (added - given[np.searchsorted(given, added) - 1]) / np.diff(given)[
+            np.searchsorted(given, added) - 1
+        ]
+        count = np.bincount(np.searchsorted(given, added)) + 1
+        whole = parts * count[np.searchsorted(given, added)]
+        assert whole == pytest.approx(np.round(whole), abs=1e-6)
+
+
+@of_kinds("own vertices")
+def test_elements_at_the_surface_have_the_size_of_its_edges(mesh):
+    corner = mesh.points[mesh.triangles[:, :3]]
+    first, last = mesh.spec.vertices[[0, -1]]
+    among = (corner[..., 0] >= first).all(axis=1) & (corner[..., 0] <= last).all(axis=1)
+    corner = corner[among & ((corner[..., 1] == 0.0).sum(axis=1) == 2)]
+    edge = np.array([np.ptp(c[c[:, 1] == 0.0, 0]) for c in corner])
+    height = corner[..., 1].max(axis=1)
+    assert 0.7 < np.median(height / edge) < 1.0
+    assert (height / edge).max() < 2.0
+    assert (height / edge).min() > 0.3
+
+
+def test_size_law_follows_the_edges_down_and_beside_them():
+    edges = local_edges(GRADED)
+    spec = SPECS["own vertices"]["graded"]
+    assert wanted_size(spec, GRADED, np.zeros_like(GRADED)) == pytest.approx(edges, rel=1e-14)
+    assert wanted_size(spec, 0.0, 2.0) == pytest.approx(edges[len(edges) // 2] + 0.4)
+    beyond = np.array([GRADED[-1] + 3.0, 4.0])
+    assert wanted_size(spec, *beyond) == pytest.approx(edges[-1] + 0.2 * 5.0)
+
+
+@pytest.mark.parametrize("spec", SPECS["own vertices"].values(), ids=SPECS["own vertices"])
+def test_both_forms_of_the_law_agree(spec):
+    rng = np.random.default_rng(0)
+    x = rng.choice([1.0, 0.1], 500) * rng.uniform(-spec.half_width, spec.half_width, 500)
+    x = np.concatenate([x, spec.vertices])
+    z = np.concatenate([spec.depth * rng.random(500) ** 3, np.zeros(len(spec.vertices))])
+    size = point_size(spec)
+    one_by_one = [size(*point) for point in zip(x.tolist(), z.tolist(), strict=True)]
+    assert wanted_size(spec, x, z) == pytest.approx(one_by_one, rel=1e-12)
+
+
+def test_edges_are_cut_into_the_fewest_parts_that_fit():
+    spec = SPECS["own vertices"]["graded, thin"]
+    edge = np.diff(own_vertices(spec))
+    assert edge.max() <= 0.075
+    given = np.diff(GRADED)
+    assert len(edge) == np.ceil(given / 0.075 - 1e-9).sum()
+
+
+@pytest.mark.parametrize(
+    "vertices", [[0.0], [0.0, 0.0, 1.0], [0.0, 0.5], [0.0, np.nan, 1.0], [[0.0, 1.0]]]
+)
+def test_vertices_that_do_not_fit_the_interval_are_refused(vertices):
+    spec = BlockSpec(20.0, 40.0, np.array([[0.0, 1.0]]), 0.5, vertices=np.array(vertices))
+    with pytest.raises(MeshError, match="vertices must be"):
+        build_block(spec)
