@@ -85,6 +85,7 @@ def test_json_of_one_solid_by_another_name(capsys):
     assert main(["materials", "Pyrex", "--json"]) == 0
     (entry,) = json.loads(capsys.readouterr().out)
     assert (entry["name"], entry["third_order"]) == ("borosilicate glass", None)
+    assert entry["bounded_by"] == ["fused silica", "aluminium alloy"]
 
 
 def test_an_unknown_name_is_one_line_with_the_nearest(capsys):
