@@ -141,29 +141,34 @@ def _with_error(value: float, error: float | None) -> str:
 def page(solid: "Solid") -> "Table":
     """Everything of one solid, each number with the keys of its sources, and what those are."""
     from rich.table import Table
+    from rich.text import Text
 
     from comparisons.scenes.materials import sources
 
     table = Table(box=None, padding=(0, 2, 0, 0), show_header=False)
-    table.add_row("solid", solid.name, ", ".join(solid.aliases))
-    table.add_row("class", solid.kind, solid.description)
+
+    def add(*cells: str) -> None:
+        table.add_row(*map(Text, cells))  # in a Text brackets are no markup
+
+    add("solid", solid.name, ", ".join(solid.aliases))
+    add("class", solid.kind, solid.description)
     for key, value in solid.values.items():
-        table.add_row(key, _shown(key, value), ", ".join(value.sources))
+        add(key, _shown(key, value), ", ".join(value.sources))
     for name, cell in zip("lmn", _constants(solid)[:3], strict=True):
         if solid.has_constants:
-            table.add_row(name, f"{cell} GPa", ", ".join(solid.law_sources))
+            add(name, f"{cell} GPa", ", ".join(solid.law_sources))
     if not solid.has_constants:
         law = "not known" if solid.law is None else solid.law.name
-        table.add_row("law", law, solid.missing or ", ".join(solid.law_sources))
+        add("law", law, solid.missing or ", ".join(solid.law_sources))
     if bounds := _bounds(solid):
-        table.add_row("its bounds", "", f"{' and '.join(bounds)}, scaled to its shear modulus")
+        add("its bounds", "", f"{' and '.join(bounds)}, scaled to its shear modulus")
     for key, value in solid.typical.items():
         words = "typical, never filled in; " + ", ".join(value.sources)
-        table.add_row(key, _shown(key, value), words)
+        add(key, _shown(key, value), words)
     if solid.note:
-        table.add_row("note", "", solid.note)
+        add("note", "", solid.note)
     for key in _keys(solid):
-        table.add_row(key, "", sources()[key])
+        add(key, "", sources()[key])
     return table
 
 

@@ -63,6 +63,8 @@ def test_one_solid_is_shown_with_all_of_its_sources(name, capsys):
     assert main(["materials", name]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     solid = solids()[name]
+    words = [word for text in (solid.note, solid.missing) for word in text.split()]
+    assert all(word in shown for word in words)
     for key in solid.law_sources:
         assert key in shown
     for value in solid.values.values():
