@@ -23,7 +23,7 @@ UNITS = {
     "yield_stress": "Pa",
     "hardness": "Pa",
 }
-NO_TITLE = "-"
+UNKNOWN = "-"
 
 
 @job
@@ -70,6 +70,7 @@ def entry_of(solid: "Solid") -> dict:
         and dict(zip("lmn", law.standard_errors, strict=True)),
         "third_order_sources": list(solid.law_sources),
         "missing": solid.missing,
+        "bounded_by": _bounds(solid),
         "typical": {key: _value(key, value) for key, value in solid.typical.items()},
         "note": solid.note,
         "sources": {key: sources()[key] for key in _keys(solid)},
@@ -84,6 +85,17 @@ def _value(key: str, value: "Value") -> dict:
         "span": value.span and list(value.span),
         "sources": list(value.sources),
     }
+
+
+def _bounds(solid: "Solid") -> list[str]:
+    """The solids between whose laws that of one lies of which none was measured."""
+    from comparisons.scenes.materials import bounding_solids
+
+    if solid.law is not None or solid.material is None:
+        return []
+    material = solid.material
+    pair = bounding_solids(solid.kind, material.youngs_modulus, material.poissons_ratio)
+    return [bound.name for bound in pair]
 
 
 def _keys(solid: "Solid") -> list[str]:
@@ -109,14 +121,14 @@ def solids_table(listed: list["Solid"]) -> "Table":
 
 def _moduli(solid: "Solid") -> list[str]:
     young, ratio = (solid.values.get(name) for name in ("youngs_modulus", "poissons_ratio"))
-    return [f"{young.value / 1e9:.4g}", NO_TITLE if ratio is None else f"{ratio.value:.3g}"]
+    return [f"{young.value / 1e9:.4g}", UNKNOWN if ratio is None else f"{ratio.value:.3g}"]
 
 
 def _constants(solid: "Solid") -> list[str]:
     """l, m, n with their errors, and the source; what stands in their place."""
     law = solid.law
     if law is None or law.murnaghan is None:
-        return [NO_TITLE] * 3 + ["none found" if law is None else f"{law.name}: its class"]
+        return [UNKNOWN] * 3 + ["none found" if law is None else f"{law.name}: its class"]
     errors = law.standard_errors or (None,) * 3
     cells = [_with_error(*pair) for pair in zip(law.murnaghan, errors, strict=True)]
     return [*cells, ", ".join(solid.law_sources)]
@@ -129,27 +141,34 @@ def _with_error(value: float, error: float | None) -> str:
 def page(solid: "Solid") -> "Table":
     """Everything of one solid, each number with the keys of its sources, and what those are."""
     from rich.table import Table
+    from rich.text import Text
 
     from comparisons.scenes.materials import sources
 
     table = Table(box=None, padding=(0, 2, 0, 0), show_header=False)
-    table.add_row("solid", solid.name, ", ".join(solid.aliases))
-    table.add_row("class", solid.kind, solid.description)
+
+    def add(*cells: str) -> None:
+        table.add_row(*map(Text, cells))  # in a Text brackets are no markup
+
+    add("solid", solid.name, ", ".join(solid.aliases))
+    add("class", solid.kind, solid.description)
     for key, value in solid.values.items():
-        table.add_row(key, _shown(key, value), ", ".join(value.sources))
+        add(key, _shown(key, value), ", ".join(value.sources))
     for name, cell in zip("lmn", _constants(solid)[:3], strict=True):
         if solid.has_constants:
-            table.add_row(name, f"{cell} GPa", ", ".join(solid.law_sources))
+            add(name, f"{cell} GPa", ", ".join(solid.law_sources))
     if not solid.has_constants:
         law = "not known" if solid.law is None else solid.law.name
-        table.add_row("law", law, solid.missing or ", ".join(solid.law_sources))
+        add("law", law, solid.missing or ", ".join(solid.law_sources))
+    if bounds := _bounds(solid):
+        add("its bounds", "", f"{' and '.join(bounds)}, scaled to its shear modulus")
     for key, value in solid.typical.items():
         words = "typical, never filled in; " + ", ".join(value.sources)
-        table.add_row(key, _shown(key, value), words)
+        add(key, _shown(key, value), words)
     if solid.note:
-        table.add_row("note", "", solid.note)
+        add("note", "", solid.note)
     for key in _keys(solid):
-        table.add_row(key, "", sources()[key])
+        add(key, "", sources()[key])
     return table
 
 

@@ -16,6 +16,7 @@ from analytic.material.third_order import (
     PRESSURE_DERIVATIVES,
     murnaghan_constants,
     murnaghan_errors,
+    peak_change,
 )
 from comparisons.common.errors import nearest
 from comparisons.common.units import (
@@ -176,6 +177,17 @@ def measured_solids(*kinds: str) -> list[Solid]:
     while len(measured := [solid for solid in solids().values() if _is_of(solid, within)]) < 2:
         within = tuple(dict.fromkeys(WIDER.get(kind, ANY) for kind in within))
     return measured
+
+
+def bounding_solids(kind: str, youngs_modulus: float, poissons_ratio: float) -> tuple[Solid, Solid]:
+    """Of `measured_solids`, the two whose constants, scaled to the body's shear modulus, lower and
+    raise the peak pressure of a smooth contact most."""
+    body = Material(youngs_modulus, poissons_ratio)
+
+    def change(solid: Solid) -> float:
+        return peak_change(scaled_law(solid, body), body)
+
+    return min(measured_solids(kind), key=change), max(measured_solids(kind), key=change)
 
 
 def typical_range(name: str, solid: str | None, kinds: Iterable[str]) -> tuple[float, float] | None:

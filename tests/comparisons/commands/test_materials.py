@@ -1,11 +1,53 @@
 """`crosscheck materials`: the list, one solid, JSON, and a name that no solid has."""
 
 import json
+from itertools import takewhile
+from math import inf
+from pathlib import Path
 
 import pytest
 
+import comparisons
+from analytic.material.third_order import peak_change, strain_limit
 from comparisons.cli import main
-from comparisons.scenes.materials import solids
+from comparisons.commands.materials import solids_table
+from comparisons.scenes.materials import bounding_solids, classes, solids
+
+PAGE = Path(comparisons.__file__).parent / "docs" / "reference.md"
+
+
+def page_rows(first):
+    """Cells of the page's table whose first heading is `first`."""
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    start = next(n for n, line in enumerate(lines) if line.startswith(f"| {first} |")) + 2
+    table = takewhile(lambda line: line.startswith("|"), lines[start:])
+    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table]
+
+
+def test_the_page_has_the_table_that_the_command_prints():
+    columns = [list(column.cells) for column in solids_table(list(solids().values())).columns]
+    assert page_rows("solid") == [list(row) for row in zip(*columns, strict=True)]
+
+
+def test_the_page_has_the_changes_of_a_contact_and_the_limits_of_strain():
+    measured = [solid for solid in solids().values() if solid.has_constants]
+    rows = page_rows("of")
+    assert [row[0] for row in rows] == [solid.name for solid in measured]
+    for solid, (_, *cells) in zip(measured, rows, strict=True):
+        law, material = solid.law, solid.material
+        ratios = [constant / material.shear_modulus for constant in law.murnaghan]
+        assert cells[:3] == [f"{ratio:.2f}" for ratio in ratios]
+        assert cells[3] == f"{peak_change(law, material):+.2f}"
+        limit = strain_limit(law, material)
+        shear = "none" if limit.shear == inf else f"{limit.shear:.2f}"
+        assert cells[6:] == [f"{limit.compression:.2f}", shear]
+
+
+def test_the_page_has_the_solids_that_bound_a_class():
+    for kind, *names in page_rows("bounded class"):
+        if kind != "rubber":
+            assert names == [solid.name for solid in bounding_solids(kind, 210e9, 0.3)]
+    assert [row[0] for row in page_rows("bounded class")] == classes()
 
 
 def test_every_solid_is_listed(capsys):
@@ -21,6 +63,8 @@ def test_one_solid_is_shown_with_all_of_its_sources(name, capsys):
     assert main(["materials", name]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     solid = solids()[name]
+    words = [word for text in (solid.note, solid.missing) for word in text.split()]
+    assert all(word in shown for word in words)
     for key in solid.law_sources:
         assert key in shown
     for value in solid.values.values():
@@ -43,6 +87,7 @@ def test_json_of_one_solid_by_another_name(capsys):
     assert main(["materials", "Pyrex", "--json"]) == 0
     (entry,) = json.loads(capsys.readouterr().out)
     assert (entry["name"], entry["third_order"]) == ("borosilicate glass", None)
+    assert entry["bounded_by"] == ["fused silica", "aluminium alloy"]
 
 
 def test_an_unknown_name_is_one_line_with_the_nearest(capsys):

@@ -111,8 +111,8 @@ def test_thermal_constants_follow_where_heat_does_not_give_them():
     assert scene({"material": "fused silica"}, **stressed).heat.body_expansion == 6.5e-7
 
 
-def test_a_thermal_constant_that_was_not_looked_up_is_asked_for():
-    with pytest.raises(SceneError, match=r"heat.body_conductivity: is missing; allowed is"):
+def test_a_thermal_constant_that_was_not_found_is_asked_for():
+    with pytest.raises(SceneError, match=r"heat.body_specific_heat: is missing; allowed is"):
         scene({"material": "alumina"}, heat=HEAT, load=LOAD | {"friction": 0.1})
 
 
