@@ -24,13 +24,13 @@ class AbsentError(Exception):
 
 def installed(*peers: Callable[[], list[Result]]) -> list[Result]:
     """The codes of all peers that are installed; the others are named on the screen."""
-    found: list[Result] = []
+    codes: list[Result] = []
     for peer in peers:
         try:
-            found += peer()
+            codes += peer()
         except AbsentError as absent:
             print(f"skipped: {absent}")
-    return found
+    return codes
 
 
 def run_on_one_thread(main: Callable[[], int]) -> None:
@@ -46,8 +46,8 @@ def run_on_one_thread(main: Callable[[], int]) -> None:
 def timed(work: Callable[[], Result]) -> tuple[float, Result]:
     """Processor time [s] of a call, its child processes included, and what it returned."""
     start = processor_seconds()
-    found = work()
-    return processor_seconds() - start, found
+    result = work()
+    return processor_seconds() - start, result
 
 
 def print_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

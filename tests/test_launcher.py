@@ -183,8 +183,8 @@ def test_threads_and_packages_at_home_are_the_users(checkout):
 def test_test_command_runs_pytest_in_the_checkout_on_one_thread(checkout):
     done = checkout.call("test", "-k", "a b", OMP_NUM_THREADS="7", STATUS="5", cwd="/")
     assert done.returncode == 5
-    told = f"threads=1 folder={checkout.root} arguments=-m pytest {SHARED} -k a b\n"
-    assert done.stdout == told
+    expected = f"threads=1 folder={checkout.root} arguments=-m pytest {SHARED} -k a b\n"
+    assert done.stdout == expected
 
 
 def test_first_test_adds_what_only_the_tests_need_once(checkout):
@@ -224,8 +224,8 @@ def test_programs_come_where_installing_is_allowed_and_stop_nothing(checkout, su
     ids=" ".join,
 )
 def test_named_files_and_a_number_of_processes_are_left_as_they_are(checkout, arguments):
-    told = checkout.call("test", *arguments).stdout
-    assert told.endswith(f"arguments=-m pytest {' '.join(arguments)}\n")
+    printed = checkout.call("test", *arguments).stdout
+    assert printed.endswith(f"arguments=-m pytest {' '.join(arguments)}\n")
 
 
 def test_continuous_integration_runs_the_test_command(checkout):

@@ -130,8 +130,8 @@ def test_the_rules_can_be_broken():
 
 
 def test_imports_follow_the_arrows():
-    found = [(str(path), forbidden(path.read_text(), package_of(path))) for path in MODULES]
-    assert [each for each in found if each[1]] == []
+    against = {str(path): forbidden(path.read_text(), package_of(path)) for path in MODULES}
+    assert {path: names for path, names in against.items() if names} == {}
 
 
 def imports_of_ours(path: Path) -> set[str]:
@@ -203,15 +203,15 @@ def test_a_folder_is_read_at_a_glance(folder):
 
 def defined(path: Path) -> set[str]:
     """Names at the top of a module."""
-    found = set()
+    names = set()
     for node in ast.parse(path.read_text()).body:
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            found.add(node.name)
+            names.add(node.name)
         elif isinstance(node, ast.ImportFrom | ast.Import):
-            found |= {alias.asname or alias.name for alias in node.names}
+            names |= {alias.asname or alias.name for alias in node.names}
         else:
-            found |= {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
-    return found
+            names |= {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
+    return names
 
 
 def resolves(name: str) -> bool:
@@ -239,7 +239,7 @@ def test_names_of_modules_in_words_resolve():
         for path in sources
         for name in pattern.findall(path.read_text())
     }
-    assert [each for each in sorted(named) if not resolves(each[1])] == []
+    assert [(path, name) for path, name in sorted(named) if not resolves(name)] == []
     assert len(named) > 50
 
 
@@ -254,8 +254,8 @@ def test_a_class_has_its_name_to_itself():
 
 
 def test_heavy_imports_stand_inside_functions():
-    found = [(str(path), heavy_at_import(path.read_text(), package_of(path))) for path in MODULES]
-    assert [each for each in found if each[1]] == []
+    heavy = {str(path): heavy_at_import(path.read_text(), package_of(path)) for path in MODULES}
+    assert {path: names for path, names in heavy.items() if names} == {}
 
 
 def heavy_after(code: str) -> list[str]:
@@ -348,11 +348,17 @@ def test_top_level_holds_only_what_belongs_there():
 def test_the_citation_is_of_this_project():
     """What no parser of YAML is needed for; `cffconvert --validate` checks the rest."""
     lines = (PROJECT / "CITATION.cff").read_text().splitlines()
-    own = dict(line.split(": ", 1) for line in lines if not line.startswith(" ") and ": " in line)
+    citation = dict(
+        line.split(": ", 1) for line in lines if not line.startswith(" ") and ": " in line
+    )
     project = project_table()["project"]
-    assert own["cff-version"] == "1.2.0" and own["type"] == "software" and "authors:" in lines
-    assert (own["title"], own["version"]) == (project["name"], project["version"])
-    assert own["abstract"] == f"{project['description']}."
+    assert (
+        citation["cff-version"] == "1.2.0"
+        and citation["type"] == "software"
+        and "authors:" in lines
+    )
+    assert (citation["title"], citation["version"]) == (project["name"], project["version"])
+    assert citation["abstract"] == f"{project['description']}."
     papers = (PROJECT / "comparisons/docs/method.md").read_text()
     for line in lines:
         name, _, value = line.strip().partition(": ")

@@ -64,12 +64,12 @@ def rows(heading: str, page: str = README) -> list[list[str]]:
         if line.startswith(f"| {heading} |"):
             break
     next(lines)
-    found = []
+    cells = []
     for line in lines:
         if not line.startswith("|"):
-            return found
-        found.append([cell.strip() for cell in line.strip("|").split(" | ")])
-    return found
+            break
+        cells.append([cell.strip() for cell in line.strip("|").split(" | ")])
+    return cells
 
 
 def in_ticks(text: str) -> list[str]:
@@ -89,9 +89,9 @@ def call(arguments: list[str], folder: Path) -> Call:
     """`crosscheck` with these arguments, in a folder."""
     outcomes, original = [], run_module.run
 
-    def watched(scene: Scene, *given: object) -> Run:
+    def watched(scene: Scene, *arguments: object) -> Run:
         """With fewer points of the fields, which take half the time of all effects."""
-        outcomes.append(original(scene.changed("stress.points", [150, 60]), *given))
+        outcomes.append(original(scene.changed("stress.points", [150, 60]), *arguments))
         return outcomes[-1]
 
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
@@ -268,12 +268,12 @@ def shown_rows() -> list[tuple[str, list[str], list[str]]]:
     """Rows of the table that is shown: quantity in result.json, frictions, other cells."""
     names = {label: name for name, label in SHORT.items()}
     *lines, _ = fenced("text").split("─\n")[1].split("\n\n")[0].splitlines()
-    found = []
+    shown = []
     for line in lines:
         label, *cells = re.split(r"\s{2,}", line.strip())
         if label in names:  # else a note on the row above
-            found.append((names[label], cells[0].split(", "), cells[1:]))
-    return found
+            shown.append((names[label], cells[0].split(", "), cells[1:]))
+    return shown
 
 
 def test_shown_table_has_every_quantity_and_the_look_of_a_run(mine):
@@ -316,8 +316,8 @@ def test_shown_half_plane_is_within_the_uncertainty_that_is_shown(unrun):
         shown, rounded = float(number) * unit, 0.5 * unit / 10.0 ** len(number.partition(".")[2])
         uncertainty = float(next(c for c in cells[3:] if re.fullmatch(r"[\d.]+", c))) / 100.0
         for friction in frictions:
-            found = unrun[float(friction)][name]
-            assert abs(found - shown) <= rounded + uncertainty * found, name
+            value = unrun[float(friction)][name]
+            assert abs(value - shown) <= rounded + uncertainty * value, name
             checked += 1
     assert checked == 12
 
@@ -344,8 +344,8 @@ def numbers_in(test: str) -> set[float]:
 
 @pytest.mark.parametrize("row", rows("figure", FIGURES), ids=lambda row: row[0])
 def test_bounds_are_those_of_the_tests_that_are_named(row):
-    _, _, found, bound, test = row
-    assert 0.0 < float(found) < float(bound)
+    _, _, error, bound, test = row
+    assert 0.0 < float(error) < float(bound)
     assert float(bound) in numbers_in(*in_ticks(test))
 
 
@@ -361,9 +361,9 @@ def test_the_whole_method_fits_on_a_page_and_works():
     assert len(code.splitlines()) <= 75
     with redirect_stdout(io.StringIO()) as printed:
         exec(code, {})
-    found, said = printed.getvalue().splitlines(), shown.splitlines()
-    assert len(found) == len(said) == 3
-    for line, wanted in zip(found, said, strict=True):
+    lines, page = printed.getvalue().splitlines(), shown.splitlines()
+    assert len(lines) == len(page) == 3
+    for line, wanted in zip(lines, page, strict=True):
         assert line.split(":")[0] == wanted.split(":")[0]
         assert line.split()[-1] == wanted.split()[-1] == "agree"
         difference, uncertainty = (float(n) for n in re.findall(r"([+-]?[\d.]+)%", line))

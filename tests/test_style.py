@@ -35,8 +35,9 @@ def missing_hints(source: str) -> list[str]:
     """Public functions with arguments, or a result, that have no type hint."""
     missing = []
     for function in public_functions(ast.parse(source)):
-        given = function.args
-        arguments = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
+        signature = function.args
+        arguments = [*signature.posonlyargs, *signature.args, *signature.kwonlyargs]
+        arguments += [signature.vararg, signature.kwarg]
         hints = [a.annotation for a in arguments if a and a.arg not in ("self", "cls")]
         if None in (*hints, function.returns):
             missing.append(f"{function.lineno} {function.name}")

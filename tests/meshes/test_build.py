@@ -111,11 +111,11 @@ def test_edges_follow_the_size_law(mesh):
 
 @every
 def test_fit_to_solve_on(mesh):
-    given = mesh.spec.vertices is not None
-    assert mesh.quality["least_angle_degrees"] > (20.0 if given else 22.0)
+    own_vertices = mesh.spec.vertices is not None
+    assert mesh.quality["least_angle_degrees"] > (20.0 if own_vertices else 22.0)
     assert mesh.quality["least_jacobian"] > 0.4
     assert mesh.quality["least_gamma"] > 0.4
-    assert mesh.quality["size_jump"] < (2.6 if given else 2.5)
+    assert mesh.quality["size_jump"] < (2.6 if own_vertices else 2.5)
     assert mesh.quality["elements"] == len(mesh.triangles)
     assert corner_jacobians(mesh.points, mesh.triangles).min() > 0.0
 
@@ -189,7 +189,7 @@ def test_other_units_same_triangles(name, built):
     ],
 )
 def test_impossible_request_is_refused_in_words(change, words):
-    given = {"half_width": 20.0, "depth": 40.0, "intervals": np.array([[0.0, 1.0]])}
-    spec = BlockSpec(**(given | {"surface_size": 0.05} | change))
+    block = {"half_width": 20.0, "depth": 40.0, "intervals": np.array([[0.0, 1.0]])}
+    spec = BlockSpec(**(block | {"surface_size": 0.05} | change))
     with pytest.raises(MeshError, match=words):
         build_block(spec)

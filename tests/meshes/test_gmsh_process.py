@@ -92,14 +92,14 @@ def test_what_is_missing_comes_with_how_to_get_it(monkeypatch, tmp_path, error, 
 
 def outline_changed(monkeypatch, change):
     outline = build.outline
-    monkeypatch.setattr(build, "outline", lambda *given: change(outline(*given)))
+    monkeypatch.setattr(build, "outline", lambda *arguments: change(outline(*arguments)))
 
 
 def test_sides_that_gmsh_cannot_fill_are_reported(monkeypatch):
-    def crossing(given):
-        points = given.points.copy()
-        points[2] = points[given.lines[2][1]]
-        return replace(given, points=points)
+    def crossing(sides):
+        points = sides.points.copy()
+        points[2] = points[sides.lines[2][1]]
+        return replace(sides, points=points)
 
     outline_changed(monkeypatch, crossing)
     with pytest.raises(MeshError, match="gmsh failed: its 0 triangles cover 0 of the block"):
@@ -107,7 +107,7 @@ def test_sides_that_gmsh_cannot_fill_are_reported(monkeypatch):
 
 
 def test_an_error_raised_by_gmsh_is_passed_on(monkeypatch):
-    outline_changed(monkeypatch, lambda given: replace(given, regions=((1, 2, 3),)))
+    outline_changed(monkeypatch, lambda sides: replace(sides, regions=((1, 2, 3),)))
     with pytest.raises(MeshError, match=r"gmsh failed: .+"):
         build.build_block(SPEC)
 
@@ -144,7 +144,7 @@ def test_another_process_follows_one_that_failed_or_was_killed(monkeypatch):
     first = build.build_block(SPEC)
     served = process_id()
     with monkeypatch.context() as patch:
-        outline_changed(patch, lambda given: replace(given, regions=((1, 2, 3),)))
+        outline_changed(patch, lambda sides: replace(sides, regions=((1, 2, 3),)))
         with pytest.raises(MeshError):
             build.build_block(SPEC)
     assert not build.idle
@@ -215,15 +215,15 @@ def test_no_orphan_is_left_however_the_caller_ends(how):
     )
     try:
         deadline = time.monotonic() + 20.0
-        while not (found := children(caller.pid)) and time.monotonic() < deadline:
+        while not (processes := children(caller.pid)) and time.monotonic() < deadline:
             time.sleep(0.02)
-        (gmsh,) = found
+        (gmsh,) = processes
         # Its own command line shows that the child runs gmsh by now and not the caller's copy.
         while b"gmsh_worker" not in Path(f"/proc/{gmsh}/cmdline").read_bytes():
             time.sleep(0.02)
-        while not (found := children(gmsh)):
+        while not (processes := children(gmsh)):
             time.sleep(0.02)
-        (mesher,) = found
+        (mesher,) = processes
         os.kill(caller.pid, how)
         caller.wait(timeout=10.0)
         while (alive(gmsh) or alive(mesher)) and time.monotonic() < deadline:

@@ -47,29 +47,29 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0, help="number of each kind, to go on from")
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--only", help="kind and number of one input, such as scene:17")
-    given = parser.parse_args()
+    options = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     warnings.simplefilter("ignore")
-    if not given.instruments:  # each file takes a process of its own, and half a second
+    if not options.instruments:  # each file takes a process of its own, and half a second
         instruments._ask = lambda *_: {"problem": "is left to SurfaceTopography"}
     kinds = {
-        "scene": (scenes, resolve, given.count),
-        "profile": (profiles, resolve, given.count),
-        "looked at": (profiles_alone, look, given.looked_at),
-        "solved": (tiny_scenes, solve, given.solved),
-        "result": (results, read_results, given.folders),
+        "scene": (scenes, resolve, options.count),
+        "profile": (profiles, resolve, options.count),
+        "looked at": (profiles_alone, look, options.looked_at),
+        "solved": (tiny_scenes, solve, options.solved),
+        "result": (results, read_results, options.folders),
     }
     counts: dict[str, Counter] = {}
     defects: dict[str, list[str]] = {}
     for kind, (inputs, work, count) in kinds.items():
-        only = (given.only or "").partition(":")
+        only = (options.only or "").partition(":")
         if only[0] not in ("", kind):
             continue
         counts[kind] = Counter()
         with tempfile.TemporaryDirectory() as folder:
             one = range(int(only[2]), int(only[2]) + 1) if only[2] else None
-            numbers = one or range(count)[given.first :]
-            for number, path in inputs(Path(folder), numbers, given.seed):
+            numbers = one or range(count)[options.first :]
+            for number, path in inputs(Path(folder), numbers, options.seed):
                 if only[2]:
                     shutil.copytree(path.parent, f"mutated-{kind}-{number}")
                 word, account = outcome(work, path)
@@ -77,13 +77,13 @@ def main() -> int:
                 if account:
                     place = re.sub(r"[\d.e+-]+", "#", account)
                     defects.setdefault(place, []).append(f"{kind}:{number}  {account}")
-    words = sorted({word for each in counts.values() for word in each})
-    rows = [(kind, *(str(each[word]) for word in words)) for kind, each in counts.items()]
+    words = sorted({word for count in counts.values() for word in count})
+    rows = [(kind, *(str(count[word]) for word in words)) for kind, count in counts.items()]
     print_table("what became of them", ("mutated", *words), rows)
     for like in sorted(defects.values(), key=len, reverse=True)[:SHOWN]:
         print(f"{len(like)} x {like[0][:600]}")
-    found = sum(each["DEFECT"] for each in counts.values())
-    return print_demands([Demand(found == 0, f"{found} inputs end in a defect")])
+    number = sum(count["DEFECT"] for count in counts.values())
+    return print_demands([Demand(number == 0, f"{number} inputs end in a defect")])
 
 
 if __name__ == "__main__":
