@@ -1,12 +1,16 @@
 """Every solid of materials.toml is complete and has its sources; numbers are those of the source;
 solids that a body may be like."""
 
+import re
+
 import pytest
 
 from analytic.material import Material
 from analytic.material.third_order import peak_change
+from comparisons.common.units import COMMON_UNITS
 from comparisons.scenes.materials import (
     ELASTIC,
+    SOLIDS,
     THERMAL,
     kinds_like,
     measured_solids,
@@ -171,3 +175,11 @@ def test_typical_strengths_are_the_solids_or_those_of_its_class():
 
 def test_thermal_and_elastic_fields_are_what_a_scene_takes():
     assert set(RANGES) == {*ELASTIC, *THERMAL}
+
+
+def test_the_file_has_no_unit_that_takes_long_to_look_up():
+    """pint takes ten times as long to load as a scene to read."""
+    text = SOLIDS.read_text(encoding="utf-8")
+    units = re.findall(r'(?:=|from|to) "[-+]?[\d.]+(?:e[-+]?\d+)? ([^" ]+)"', text)
+    assert set(units) <= COMMON_UNITS.keys()
+    assert len(units) > 250
