@@ -109,12 +109,12 @@ def _items(result: Result) -> dict[str, Item]:
 
 def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:
     """Every number and truth below a table by its path."""
-    if isinstance(table, dict | list):
-        pairs = table.items() if isinstance(table, dict) else enumerate(table)
-        for name, item in pairs:
-            yield from _numbers(
-                item, f"{path}[{name}]" if isinstance(name, int) else f"{path}.{name}"
-            )
+    if isinstance(table, dict):
+        for name, item in table.items():
+            yield from _numbers(item, f"{path}.{name}")
+    elif isinstance(table, list):
+        for number, item in enumerate(table):
+            yield from _numbers(item, f"{path}[{number}]")
     elif isinstance(table, int | float):
         yield path, table
 

@@ -58,10 +58,11 @@ def home(here: Here) -> int:
 
 
 def met(here: Here, folder: Path, name: str, other: str) -> int:
-    """Waits until the other process works, too."""
+    """The process, which waits until the other task is worked on, too."""
     (folder / name).touch()
     end = time.monotonic() + 60.0
-    while not (folder / other).exists() and time.monotonic() < end:
+    while not (folder / other).exists():
+        assert time.monotonic() < end
         time.sleep(0.01)
     return os.getpid()
 
@@ -71,15 +72,6 @@ def noted(here: Here, path: Path, name: str) -> str:
     with path.open("a") as file:
         file.write(name)
     return name
-
-
-def together(here: Here, folder: Path, name: str, other: str) -> bool:
-    """Whether the other one begins while this one works."""
-    (folder / name).touch()
-    end = time.monotonic() + 60.0
-    while not (folder / other).exists() and time.monotonic() < end:
-        time.sleep(0.01)
-    return (folder / other).exists()
 
 
 def divided(here: Here) -> float:
@@ -114,7 +106,7 @@ class TestOrder:
 
     def test_two_work_side_by_side_and_not_in_this_process(self, beside, tmp_path):
         for name, other in ("ab", "ba"):
-            beside.add(name, together, tmp_path, name, other)
+            beside.add(name, met, tmp_path, name, other)
         assert beside.result("a") and beside.result("b")
         beside.add("c", number)
         assert beside.result("c") != os.getpid()
@@ -342,7 +334,7 @@ class TestExecutor:
     def test_tasks_are_submitted_as_they_become_known(self, tmp_path):
         with ThreadPoolExecutor(2) as pool, Tasks(partial(ExecutorWorker, pool), 9) as tasks:
             for name, other in ("ab", "ba"):
-                tasks.add(name, together, tmp_path, name, other)
+                tasks.add(name, met, tmp_path, name, other)
             while not all((tmp_path / name).exists() for name in "ab"):
                 time.sleep(0.01)  # with nobody waiting for a result
             assert tasks.result("a") and tasks.result("b")
