@@ -20,7 +20,7 @@ from comparisons.figures.uncertainty import (
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import by_repetition, uncertainties, values_of
+from comparisons.studies.contact import by_repetition, formal_order, uncertainties, values_of
 from comparisons.studies.study import Solved, Study
 
 NAME = "comparison"
@@ -70,7 +70,8 @@ def differences_of(
         quantity, tolerance = QUANTITIES[name], problem.scene.tolerances.get(name)
         resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
         values = tuple(of_level[name] for of_level in history)
-        convergence = grid_convergence(values, quantity.formal_order, resolution)
+        order = formal_order(name, finest, friction)
+        convergence = grid_convergence(values, order, resolution)
         unsolved = iteration(*finest)
         if not quantity.of_pair:
             unsolved *= max(1.0, abs(1.0 + difference))

@@ -3,7 +3,7 @@
 In: solved levels of each model. Out: figures of the finest one with their uncertainties, patches,
 and what the levels took."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from comparisons.common.numbers import Scale, plain
 from comparisons.drawing import style
 from comparisons.drawing.curves import hertz_text
-from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.convergence import LOWEST_ORDER, grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement, columns_of
 from comparisons.figures.quantity import LABELS, WHOLE, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
@@ -46,6 +46,7 @@ AT_HARDNESS = 1.0 - 1e-9  # times the hardness: a pressure held there
 AS_UNCERTAIN = {"von_mises_max": "tau1_max", "contact_ratio_extent": "contact_length"}
 UNITS = {"pitch": "m", "seconds": "s", "expected_seconds": "s"}  # of what a level took
 UNITS |= {"peak_memory": "byte", "expected_memory": "byte"}
+AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
 EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
 
 
@@ -100,12 +101,25 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
         if name in LENGTHS:
             resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
             resolution *= value / run.finest.contact_length
-        convergence = grid_convergence(values, COMPARED[name].formal_order, resolution)
+        order = formal_order(name, run.levels, friction)
+        convergence = grid_convergence(values, order, resolution)
         scale = abs(value) or COMPARED[name].scale(problem.hertz)
         domain, increments = (size / scale for size in repeated[name])
         parts = iteration(run.finest), convergence.uncertainty / scale, domain, increments
         stated[name] = numerical(*parts, convergence)
     return stated
+
+
+def formal_order(name: str, levels: Sequence[Level], friction: float) -> float:
+    """Of a quantity under refinement. Where friction brings a largest stress to the surface, there
+    it stands at an end of contact, next to which stresses go with the square root of the distance:
+    half an order, whatever the elements."""
+    key = EXTREMES.get(name)
+    if key is not None:
+        depths = (level.stress(friction).extremes[key].z for level in levels)
+        if any(z <= AT_SURFACE * level.grid.pitch for z, level in zip(depths, levels, strict=True)):
+            return LOWEST_ORDER
+    return COMPARED[name].formal_order
 
 
 def by_repetition(

@@ -29,7 +29,7 @@ from comparisons.figures.uncertainty import (
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.contact import uncertainties, values_of
+from comparisons.studies.contact import formal_order, uncertainties, values_of
 from comparisons.studies.model_error.contributions import EffectContributions
 from comparisons.studies.model_error.laws import LawSolutions, LawSpread
 from comparisons.studies.model_error.quantities_of_interest import (
@@ -224,6 +224,11 @@ class _Solutions:
         sizes = spread.middle * over, spread.half * over * ratio, spread.scatter * over * ratio
         return LawSpread(*map(float, sizes))
 
+    def _order(self, name: str) -> float:
+        """Of convergence under refinement."""
+        finest = [run.finest for run in self.runs.values()]
+        return formal_order(name, finest, self.friction)
+
     def _estimate(self, name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
         """The relative size of changes, one a level, of a quantity at an asperity."""
         if QUANTITIES[name].of_pair:
@@ -237,7 +242,7 @@ class _Solutions:
         if not any(values):
             return Estimate(0.0, 0.0)
         resolution = self.resolutions.get(name, 0.0)
-        refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
+        refined = grid_convergence(values, self._order(name), resolution)
         return Estimate(values[-1], refined.uncertainty + self.unsolved)
 
     def _effect(self, name: str, effect: str, at: int, numerical: float) -> Estimate:
@@ -251,12 +256,12 @@ class _Solutions:
 
     def _of_figure(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
         """Error of a figure, its uncertainty, and what both are relative to [SI]."""
-        figure, formal_order = self._figure(name, at), QUANTITIES[name].formal_order
+        figure = self._figure(name, at)
         scale = _scale(figure, name, self.problem)
         numerical *= _scale(self.values["finite_element"][name], name, self.problem) / scale
         if at != self.own[-1].leading(name):  # the comparison is at another asperity
             sequence = [level.figures[name][at] / scale for level in self.own]
-            refined = grid_convergence(sequence, formal_order)
+            refined = grid_convergence(sequence, self._order(name))
             numerical = max(numerical, self.unsolved + refined.uncertainty)
         lacking = self._estimate(name, self.missing, at).uncertainty
         half_plane = self.values["half_plane"][name]
