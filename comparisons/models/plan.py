@@ -46,7 +46,9 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     shared = finite_elements and _shares_factor(scene)
     uncoupled = [no_coupling(problem, friction) for friction in scene.load.friction]
     coupling = "half_plane" in models and not all(uncoupled)
-    unbounded = scene.body.thickness is None or scene.body.width is None or not scene.roller.rigid
+    # a disc is held by what the scene says
+    half_plane = not scene.roller.rigid and scene.finite_element.roller_body == "half-plane"
+    unbounded = scene.body.thickness is None or scene.body.width is None or half_plane
     domain_check = finite_elements and unbounded
     increments_check = finite_elements and scene.finite_element.plastic
     effects = set(models) == set(MODELS) and bool(scene.budget.effects) and bool(scene.tolerances)

@@ -19,6 +19,10 @@ from comparisons.studies.scatter.figures import by_inputs
 from comparisons.studies.scatter.show import beside_inputs
 from comparisons.studies.study import MODEL_ERROR, Run
 
+REMEDIES = {
+    "law_of_elasticity": "; body.law and roller.law can name one",
+    "roller_support": "; roller.support can name one",
+}
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
 
 
@@ -96,6 +100,8 @@ def remedies(run: Run) -> tuple[str, ...]:
     if largest == "law_of_elasticity":
         bodies = without_law(run.problem.scene)
         return tuple(f'[{name}]\nlaw = "neo-hookean"' for name in bodies)
+    if largest == "roller_support":
+        return ('[roller]\nsupport = "opposite"',)
     asked = "budget.effects" in selection.impossible.get(largest, "")
     return ('[budget]\neffects = "all"',) if asked else ()
 
@@ -157,7 +163,7 @@ def _inconclusive(errors: Sequence[Figure], several: bool) -> str:
     if not worst.unknown or worst.is_unresolved:
         return f"{_said(worst, several)}, an uncertainty that reaches across the tolerance"
     largest = max(worst.unknown, key=worst.unknown.get)
-    remedy = "; body.law and roller.law can name one" if largest == "law_of_elasticity" else ""
+    remedy = REMEDIES.get(largest, "")
     return (
         f"{_said(worst, several)}, but effects that are not modelled may change it by "
         f"{percent(worst.not_modelled)} (estimate), {EFFECTS[largest].label} most{remedy}"

@@ -1,14 +1,24 @@
 """The sections of a scene that both models need: bodies, load, fields, tolerances, resolution."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
 from analytic.material import LAWS, Law, Material
-from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME
+from comparisons.common.units import (
+    DIMENSIONLESS,
+    LENGTH,
+    LOAD,
+    MEMORY,
+    PRESSURE,
+    TIME,
+    describe,
+)
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.scenes.fields import (
     Extent,
     ExtentField,
+    FieldType,
     Fraction,
     Grid,
     Length,
@@ -25,6 +35,8 @@ from comparisons.scenes.finite_element import SEVERAL_FRICTIONS
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
+
+WIDEST_HUB = 0.95  # of the roller's radius
 
 Pressure = Annotated[float, Number(PRESSURE, above=0.0)]
 Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=0.0, at_most=1.5))]
@@ -54,9 +66,44 @@ class ElasticSection(SceneSection):
         return Material(self.youngs_modulus, self.poissons_ratio, law)
 
 
+@dataclass(frozen=True)
+class RollerSupport:
+    """What holds an elastic roller: one of PLACES, or a rigid hub or shaft of a radius [m]."""
+
+    place: str | None = None
+    hub: float | None = None
+
+    PLACES: ClassVar[tuple[str, ...]] = ("opposite", "half disc")
+
+    def plain(self) -> str | dict[str, float]:
+        """As a scene file has it."""
+        return self.place or {"hub": self.hub}
+
+
+@dataclass(frozen=True)
+class RollerSupportField(FieldType):
+    """A place, or a table {hub = …}."""
+
+    hub = Named(("hub",), Number(LENGTH, above=0.0))
+
+    def read(self, given: object) -> RollerSupport:
+        if isinstance(given, RollerSupport):
+            return given
+        if isinstance(given, dict):
+            return RollerSupport(hub=self.hub.read(given)["hub"])
+        if given not in RollerSupport.PLACES:
+            raise self.wrong(f"is {describe(given)}")
+        return RollerSupport(given)
+
+    def allowed(self) -> str:
+        places = ", ".join(f'"{place}"' for place in RollerSupport.PLACES)
+        return f'{places} or a table {{hub = …}}, the radius of a hub or shaft such as "2 mm"'
+
+
 class RollerSection(ElasticSection):
     radius: Length
     rigid: Annotated[bool, Truth()] = False
+    support: Annotated[RollerSupport, RollerSupportField()] | None = None
     youngs_modulus: Pressure | None = None
     poissons_ratio: PoissonsRatio | None = None
 
@@ -64,6 +111,11 @@ class RollerSection(ElasticSection):
         yield from super().broken_rules()
         if self.rigid and self.law is not None:
             yield "law", "is given beside rigid = true; allowed is one of the two"
+        if self.rigid and self.support is not None:
+            yield "support", "is given beside rigid = true; allowed is one of the two"
+        if self.support is not None and (self.support.hub or 0.0) > WIDEST_HUB * self.radius:
+            most = f"at most {WIDEST_HUB:g} of the radius, {WIDEST_HUB * self.radius:g} m"
+            yield "support", f"has a hub of {self.support.hub:g} m; allowed is {most}"
         for name in ("youngs_modulus", "poissons_ratio"):
             given = getattr(self, name) is not None
             if self.rigid and given:

@@ -29,6 +29,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
+from comparisons.studies.model_error.catalogue import UNKNOWN
 from comparisons.studies.model_error.contributions import (
     EffectContributions,
     NotComputedError,
@@ -164,7 +165,7 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
     selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
     if solved.plan.effects:
         return selection
-    asked = selection.added | set(selection.impossible) - {"law_of_elasticity"}
+    asked = selection.added | set(selection.impossible) - set(UNKNOWN)
     return selection.without(asked, "not asked for (budget.effects)")
 
 

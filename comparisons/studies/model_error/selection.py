@@ -94,6 +94,8 @@ def why_not(name: str, problem: Problem) -> str | None:
     scene = problem.scene
     if name == "law_of_elasticity":
         return "no law is given: it is taken for neo-Hookean"
+    if name == "roller_support":
+        return "no support is given: a sector of the disc is held at 0.4 of its radius"
     if name == "plastic_flow":
         if scene.body.yield_stress is None:
             return "the body has no yield stress"
