@@ -1,10 +1,12 @@
 """The assumptions of a scene's models in words: of both, or of the half-plane alone."""
 
+from comparisons.common.numbers import given
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_assumptions
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.scene import Scene
+from comparisons.scenes.sections import RollerSection
 
 LAW_NAMES = {
     "neo-hookean": "neo-Hookean",
@@ -19,7 +21,7 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     scene, settings = problem.scene, problem.scene.finite_element
     listed = ["elastic"] if scene.body.hardness is None and not settings.plastic else []
     listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(settings)]
-    listed.append(_roller(settings, rigid=scene.roller.rigid))
+    listed.append(_roller(settings, scene.roller))
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
         listed.append(_split("the body is of one material", coated))
@@ -87,10 +89,21 @@ def _boundary(settings: FiniteElementSection) -> str:
     )
 
 
-def _roller(settings: FiniteElementSection, rigid: bool) -> str:
+def support_text(roller: RollerSection) -> str:
+    """What holds an elastic roller, as a disc, in one phrase."""
+    support = roller.support
+    if support is None:
+        return "a sector, held at 0.4 of its radius (not given: roller.support)"
+    if support.hub is not None:
+        return f"held on a rigid hub of radius {given(support.hub, 'm')}"
+    words = {"opposite": "held opposite the contact", "half disc": "half a disc, held at its flat"}
+    return words[support.place]
+
+
+def _roller(settings: FiniteElementSection, roller: RollerSection) -> str:
     parts = ["an exact circle"] if settings.roller_shape == "circle" else []
-    if settings.roller_body == "disc" and not rigid:
-        parts.append("an elastic body of finite size")
+    if settings.roller_body == "disc" and not roller.rigid:
+        parts.append(f"an elastic body of finite size, {support_text(roller)}")
     parabola = "the roller is a parabola of the relative curvature"
     return _split(parabola, f"it is {' and '.join(parts)}") if parts else parabola
 

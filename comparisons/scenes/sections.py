@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
 from analytic.material import LAWS, Law, Material
+from comparisons.common.errors import nearest
 from comparisons.common.units import (
     DIMENSIONLESS,
     LENGTH,
@@ -92,7 +93,9 @@ class RollerSupportField(FieldType):
         if isinstance(given, dict):
             return RollerSupport(hub=self.hub.read(given)["hub"])
         if given not in RollerSupport.PLACES:
-            raise self.wrong(f"is {describe(given)}")
+            near = nearest(given, RollerSupport.PLACES, 0.6) if isinstance(given, str) else None
+            hint = f' (did you mean "{near}"?)' if near else ""
+            raise self.wrong(f"is {describe(given)}{hint}")
         return RollerSupport(given)
 
     def allowed(self) -> str:

@@ -169,9 +169,11 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
             near = CIRCLE * task.half_width
             along = np.minimum(np.abs(s), near)
             along = along + near * np.tanh((np.abs(s) - along) / near)
-            rise = along**2 / (r + np.sqrt(r**2 - along**2))
-            rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
-            places = np.stack([s, d + (0.0 if small else rise)], axis=1)
+            rise = np.zeros_like(along)
+            if not small:
+                rise = along**2 / (r + np.sqrt(r**2 - along**2))
+                rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
+            places = np.stack([s, d + rise], axis=1)
         above = Solid(roller, places, held, *task.roller, task.law)
     return SurfacePair(below, above, task.load, task.friction, reach, gap)
 

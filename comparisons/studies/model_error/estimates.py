@@ -150,21 +150,29 @@ def _exact_circle(problem: Problem) -> Sizes:
     return _equal(CIRCLE * square) | dict.fromkeys(NORMS, CIRCLE_IN_NORMS * square)
 
 
-# A sector of the roller, free above, in place of a half-plane: 0.3 % at a/R = 0.07.
-DISC, DISC_IN_NORMS = 0.8, 2.5
+# A disc in place of a half-plane: of a polymer 0.52 (a/R)^2 as a sector, -0.33 held opposite the
+# contact, 0.72 on a hub of half the radius; on larger hubs 0.25 to 0.34 times the square of a over
+# the ring's thickness.
+DISC, DISC_IN_NORMS, RING = 0.8, 2.5, 0.45
 
 
 def _finite_roller(problem: Problem) -> Sizes:
-    if problem.scene.roller.rigid:
+    roller = problem.scene.roller
+    if roller.rigid:
         return {}
     square = _curvature(problem) ** 2
+    if roller.support is not None and roller.support.hub is not None:
+        share = problem.modulus / roller.material.plane_strain_modulus
+        thickness = roller.radius - roller.support.hub
+        ratio = problem.hertz.half_width / thickness
+        square = max(square, RING / DISC * share * ratio**2)
     return _equal(DISC * square) | dict.fromkeys(NORMS, DISC_IN_NORMS * square)
 
 
 # How far supports from opposite the contact to a hub of half the radius are from the sector that is
 # taken where none is given, over (a/R)^2 and the roller's share of the compliance: in peak pressure
 # and length 0.5 at Poisson's ratio 0, 0.63 at 0.3, 0.9 at 0.4, 1.2 at 0.48.
-SUPPORT, SUPPORT_BY_RATIO = 0.55, 3.0  # of the ratio's square
+SUPPORT, SUPPORT_BY_RATIO = 0.6, 3.1  # of the ratio's square
 SUPPORT_IN_NORMS = {"pressure_l2": 2.6, "tau1_field_near": 5.0}
 
 

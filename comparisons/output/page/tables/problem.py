@@ -3,9 +3,10 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
+from comparisons.models.assumptions import support_text
 from comparisons.output.page.tables.text import wording
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.sections import BodySection, CoatingSection, RollerSection
+from comparisons.scenes.sections import BodySection, CoatingSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
@@ -121,7 +122,7 @@ def _materials(outcome: Run) -> Rows:
     scene = problem.scene
     rows = [
         ("roller", "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)),
-        *([] if scene.roller.rigid else [("the roller is", support_text(scene.roller))]),
+        *([] if scene.roller.rigid else [("roller as a disc", support_text(scene.roller))]),
         ("body", elastic_text(scene.body.material)),
         *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
         ("combined modulus E*", with_unit(problem.modulus, "Pa")),
@@ -137,18 +138,6 @@ def _materials(outcome: Run) -> Rows:
 def elastic_text(material: Material) -> str:
     """A material in one phrase."""
     return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
-
-
-def support_text(roller: RollerSection) -> str:
-    """What holds an elastic roller, in one phrase."""
-    support = roller.support
-    if support is None:
-        return "held as nobody says (roller.support)"
-    if support.hub is not None:
-        return f"held on a rigid hub of radius {given(support.hub, 'm')}"
-    return {"opposite": "held opposite the contact", "half disc": "held at its diameter"}[
-        support.place
-    ]
 
 
 def coating_text(coating: CoatingSection) -> str:
