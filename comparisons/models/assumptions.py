@@ -36,15 +36,19 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
 
 
 def without_law(scene: Scene) -> list[str]:
-    """The elastic bodies, `body` and `roller`, of which the scene says no law of elasticity."""
-    elastic = ("body",) if scene.roller.rigid else ("body", "roller")
-    return [name for name in elastic if getattr(scene, name).law is None]
+    """The `body`, the elastic `roller` and the `coating` of which the scene says no law of
+    elasticity."""
+    bodies = {"body": scene.body, "coating": scene.coating}
+    if not scene.roller.rigid:
+        bodies["roller"] = scene.roller
+    return [name for name, body in bodies.items() if body is not None and body.law is None]
 
 
 def laws(scene: Scene) -> str:
-    """The laws of elasticity of both bodies at finite strain, in words."""
-    materials = [body.material for body in (scene.body, scene.roller) if body.material is not None]
-    found = {material.law.name: None for material in materials}
+    """The laws of elasticity of all bodies at finite strain, in words."""
+    sections = (scene.body, scene.coating, scene.roller)
+    materials = [section.material for section in sections if section is not None]
+    found = {material.law.name: None for material in materials if material is not None}
     return " and ".join(LAW_NAMES[law] for law in found)
 
 

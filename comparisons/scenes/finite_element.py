@@ -103,8 +103,6 @@ class FiniteElementSection(SceneSection):
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
         if self.coupled and frictions != 1:
             yield "coupled", SEVERAL_FRICTIONS.format(frictions)
-        if finite and coated:
-            yield "deformation", 'is "finite" for a coated body; allowed without [coating]'
         if finite and profile is not None and self.geometry == "flat":
             yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
         if finite and apart:

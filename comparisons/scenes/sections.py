@@ -155,16 +155,12 @@ class BodySection(ElasticSection):
         return self.model_copy(update={"base": self.base or "bonded"}) if is_layer else self
 
 
-class CoatingSection(SceneSection):
+class CoatingSection(ElasticSection):
     """Bonded to the body."""
 
     thickness: Length
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
-
-    @property
-    def material(self) -> Material:
-        return Material(self.youngs_modulus, self.poissons_ratio)
 
 
 class LoadSection(SceneSection):

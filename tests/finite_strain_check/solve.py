@@ -28,6 +28,7 @@ CIRCLE = 6.0  # half-widths to each side in which a half-plane has the roller's 
 SECTOR, RING, OPPOSITE = "sector", "ring", "opposite"
 SUPPORTS = {SECTOR: (0.6, 4, 2), RING: (np.pi / 3.0, 6, 1), OPPOSITE: (20.0, 4, 2)}
 HUB = float(np.exp(-np.pi / 3.0))  # of the ring, of the radius
+COATED = 12.0  # half-widths to each side within which elements follow a coating's lower side
 GROWTH = 0.25  # of elements per distance from the contact
 
 
@@ -39,6 +40,8 @@ class Task:
     radius    of the roller, load  per length, friction mu
     law       of both bodies (`solid`); with `linear` these are flat and the roller a parabola
     support   of a disc, one of SUPPORTS
+    coating   (modulus, ratio, thickness), bonded to the body, None where it has none; the thickness
+              is the elements' size at the surface times a power of two, so that edges follow it
     """
 
     x: np.ndarray
@@ -50,6 +53,7 @@ class Task:
     friction: float = 0.0
     law: str = "neo-hookean"
     support: str = SECTOR
+    coating: tuple[float, float, float] | None = None
 
     @property
     def modulus(self) -> float:
@@ -98,6 +102,23 @@ class Task:
         if self.support == OPPOSITE:
             return 2.0 * self.radius * np.tan(0.5 * angle)
         return angle / self._turned(np.ones(1))
+
+    def constants(self, mesh: Triangles) -> tuple:
+        """Young's modulus and Poisson's ratio of the body's elements."""
+        if self.coating is None:
+            return self.body
+        coated = mesh.corners[mesh.triangles, 1].mean(axis=1) < self.coating[2]
+        pairs = zip(self.coating[:2], self.body, strict=True)
+        return tuple(np.where(coated, above, below) for above, below in pairs)
+
+    def at_coating(self, place: np.ndarray) -> np.ndarray:
+        """The size (n,) that elements at places (n, 2) have, so that none crosses its lower side
+        within COATED half-widths of the middle."""
+        if self.coating is None:
+            return np.inf
+        (s, d), thickness = np.abs(place).T, self.coating[2]
+        beside = np.maximum(s - COATED * self.half_width, 0.0)
+        return np.maximum(thickness, np.maximum(d - thickness, beside))
 
     def surface(self, x: np.ndarray) -> np.ndarray:
         """Height of the rough body: the trace's spline, which fades out at its ends."""
@@ -149,7 +170,8 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
     deepest = d.max()
     shape = 0.0 if small else task.surface(s) * _smooth(np.clip(1.0 - d / FADE, 0.0, 1.0))
     held = (d == deepest) | (np.abs(s) == np.abs(s).max())
-    below = Solid(rough, np.stack([s, shape - d], axis=1), held, *task.body, task.law)
+    constants = task.constants(rough)
+    below = Solid(rough, np.stack([s, shape - d], axis=1), held, *constants, task.law)
     gap = (lambda x: x**2 / (2.0 * task.radius) - task.surface(x)) if small else None
     r = task.radius
     if roller is None:
@@ -189,10 +211,11 @@ def meshes(task: Task, wanted: ElementSizes, coarse: Meshes | None = None) -> Me
         disc = strip(task.square, *SUPPORTS[task.support][1:])
         coarse = block, (disc if task.is_disc else block) if task.roller else None
     rough, roller = coarse
+    rough = refined(rough, lambda at: np.minimum(wanted(at), task.at_coating(at)))
     if roller is None:
-        return refined(rough, wanted), None
+        return rough, None
     above = wanted.on_surface(task.under if task.is_disc else lambda x: x)
-    return refined(rough, wanted), refined(roller, above)
+    return rough, refined(roller, above)
 
 
 def carried(state: State, old: SurfacePair, new: SurfacePair) -> State:

@@ -217,12 +217,15 @@ LAW, LAW_OF_ASPERITIES, LAW_OF_DEPTH = 1.25, 2.1, 1.6
 
 
 def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
-    """Of the bodies whose law is not given, each by its share of what closes the gap."""
-    scene = problem.scene
-    bodies = [getattr(scene, name).material for name in without_law(scene)]
-    strained = sum(
-        problem.modulus / (body.plane_strain_modulus * body.youngs_modulus) for body in bodies
-    )
+    """Of the bodies whose law is not given, each by its share of what closes the gap; of a coating
+    by its depth."""
+    scene, strained = problem.scene, 0.0
+    for name in without_law(scene):
+        section = getattr(scene, name)
+        share = problem.modulus / section.material.plane_strain_modulus
+        if name == "coating":
+            share *= min(1.0, section.thickness / problem.hertz.half_width)
+        strained += share / section.youngs_modulus
     if scene.finite_element.plastic:
         return {}
     strained *= LAW if scene.profile is None else LAW_OF_ASPERITIES

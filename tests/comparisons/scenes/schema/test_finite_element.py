@@ -112,12 +112,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
         (
             RIGID,
             {"deformation": "finite"},
-            {"coating": {"thickness": 1e-5, **STEEL}},
-            'deformation: is "finite" for a coated body',
-        ),
-        (
-            RIGID,
-            {"deformation": "finite"},
             {"profile": WAVE},
             'geometry: is "flat" at finite deformation',
         ),

@@ -62,10 +62,6 @@ def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
     [
         ({"body": {"hardness": 6e9}}, "cap on the pressure"),
         (
-            {"coating": {"thickness": 1e-6, "youngs_modulus": 4e11, "poissons_ratio": 0.2}},
-            "coated",
-        ),
-        (
             {"body": {"yield_stress": 3e9}, "finite_element": {"plastic": True}},
             "flow is of small deformation",
         ),
