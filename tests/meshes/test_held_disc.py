@@ -28,11 +28,11 @@ def discs():
     """By name, the flat mesh and the disc's."""
     sizes = {"half": half_disc_size(RADIUS), "opposite": opposite_size(RADIUS)}
     blocks = {name: flat(size, size) for name, size in sizes.items()}
-    found = {name: (block, disc(block, RADIUS)) for name, block in blocks.items()}
+    made = {name: (block, disc(block, RADIUS)) for name, block in blocks.items()}
     for hub in HUBS:
         block = flat(*ring_size(RADIUS, hub * RADIUS))
-        found[f"hub {hub}"] = block, ring(block, RADIUS)
-    return found
+        made[f"hub {hub}"] = block, ring(block, RADIUS)
+    return made
 
 
 NAMES = ("half", "opposite", *(f"hub {hub}" for hub in HUBS))

@@ -69,11 +69,11 @@ def test_small_loads_are_the_linear_theorys():
     left = []
     for curvature in (0.04, 0.02, 0.01):
         solid = body(HARD)
-        linear, found = pressed(solid, curvature)
+        linear, finite = pressed(solid, curvature)
         own = nodal_stress(solid, linear.displacements[0], HATS, linear.pressure).values
         inside = np.abs(mesh().points[stress_nodes(solid).point]).max(axis=1) < 1.5
-        change = np.abs(found.cauchy.nodal.values - own)[inside].max() / np.abs(own[inside]).max()
-        pressure = np.abs(found.pressure - linear.pressure).max() / linear.pressure.max()
+        change = np.abs(finite.cauchy.nodal.values - own)[inside].max() / np.abs(own[inside]).max()
+        pressure = np.abs(finite.pressure - linear.pressure).max() / linear.pressure.max()
         left.append((pressure, change))
     for column in np.array(left).T:
         assert column[2] < 0.02
@@ -89,7 +89,7 @@ def test_each_region_has_its_own_law():
             ("neo", Law(), Law()), ("mixed", hencky, Law()), ("other", hencky, hencky)
         )
     }  # fmt: skip
-    peaks = {name: found.cauchy_pressure.max() for name, found in both.items()}
+    peaks = {name: finite.cauchy_pressure.max() for name, finite in both.items()}
     low, high = sorted((peaks["neo"], peaks["other"]))
     assert low < peaks["mixed"] < high and high / low > 1.005
     surface = both["mixed"].cauchy.nodal.values[:, 1].min()
