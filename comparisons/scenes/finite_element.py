@@ -90,8 +90,6 @@ class FiniteElementSection(SceneSection):
                 "plastic" if self.plastic else "deformation",
                 f"wants one friction coefficient, not {frictions}; allowed is a single number",
             )
-        if finite and body.hardness is not None:
-            yield "deformation", 'is "finite" for a body with a hardness; allowed without one'
         if self.roller_body == "disc" and roller.rigid:
             yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
         for bound in ("thickness", "width"):

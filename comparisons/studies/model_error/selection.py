@@ -104,7 +104,6 @@ def why_not(name: str, problem: Problem) -> str | None:
         return None
     reasons = {
         "flow is of small deformation": scene.finite_element.plastic,
-        "a cap on the pressure is of small deformation": scene.body.hardness is not None,
         "it is solved on one process": is_several() and not is_alone(),
     }
     return next((why for why, hindered in reasons.items() if hindered), None)

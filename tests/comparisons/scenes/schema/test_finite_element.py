@@ -135,12 +135,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
             "plastic: wants one friction coefficient, not 2",
         ),
         (
-            RIGID,
-            {"deformation": "finite"},
-            {"body": {"hardness": 1e9}},
-            'deformation: is "finite" for a body with a hardness',
-        ),
-        (
             ELASTIC,
             {"plastic": True, "coupled": False},
             {"body": {"yield_stress": 1e9}},
