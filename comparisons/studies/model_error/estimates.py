@@ -222,10 +222,10 @@ def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
     scene, strained = problem.scene, 0.0
     for name in without_law(scene):
         section = getattr(scene, name)
-        share = problem.modulus / section.material.plane_strain_modulus
-        if name == "coating":
-            share *= min(1.0, section.thickness / problem.hertz.half_width)
-        strained += share / section.youngs_modulus
+        stiffness = section.material.plane_strain_modulus * section.youngs_modulus
+        coat = name == "coating"
+        depth = min(1.0, section.thickness / problem.hertz.half_width) if coat else 1.0
+        strained += depth * (problem.modulus / stiffness)
     if scene.finite_element.plastic:
         return {}
     strained *= LAW if scene.profile is None else LAW_OF_ASPERITIES
