@@ -32,6 +32,9 @@ class BlockSpec:
     # (k,) ascending x of the vertices from the start of the first refined range to the end of the
     # last, in place of equal edges; sizes below follow these edges
     vertices: np.ndarray | None = None
+    # x of the two vertices between which the top side may be loaded, where it is not all of it:
+    # a disc's rim turns away
+    loaded: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,12 @@
 """The assumptions of a scene's models in words: of both, or of the half-plane alone."""
 
+from comparisons.common.numbers import given
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_assumptions
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.scene import Scene
+from comparisons.scenes.sections import RollerSection
 
 LAW_NAMES = {
     "neo-hookean": "neo-Hookean",
@@ -19,7 +21,7 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     scene, settings = problem.scene, problem.scene.finite_element
     listed = ["elastic"] if scene.body.hardness is None and not settings.plastic else []
     listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(settings)]
-    listed.append(_roller(settings, rigid=scene.roller.rigid))
+    listed.append(_roller(settings, scene.roller))
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
         listed.append(_split("the body is of one material", coated))
@@ -34,16 +36,19 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
 
 
 def without_law(scene: Scene) -> list[str]:
-    """The elastic bodies, `body` and `roller`, of which the scene says no law of elasticity."""
-    elastic = ("body",) if scene.roller.rigid else ("body", "roller")
-    return [name for name in elastic if getattr(scene, name).law is None]
+    """The `body`, the elastic `roller` and the `coating` of which the scene says no law of
+    elasticity."""
+    bodies = {"body": scene.body, "coating": scene.coating}
+    if not scene.roller.rigid:
+        bodies["roller"] = scene.roller
+    return [name for name, body in bodies.items() if body is not None and body.law is None]
 
 
 def laws(scene: Scene) -> str:
-    """The laws of elasticity of both bodies at finite strain, in words."""
+    """The laws of elasticity of all bodies at finite strain, in words."""
     found = {}
-    for section in (scene.body, scene.roller):
-        if section.material is not None:
+    for section in (scene.body, scene.coating, scene.roller):
+        if section is not None and section.material is not None:
             law = section.material.law
             measured = section.solid and law.murnaghan is not None
             found[f"{section.solid}'s measured" if measured else LAW_NAMES[law.name]] = None
@@ -91,10 +96,21 @@ def _boundary(settings: FiniteElementSection) -> str:
     )
 
 
-def _roller(settings: FiniteElementSection, rigid: bool) -> str:
+def support_text(roller: RollerSection) -> str:
+    """What holds an elastic roller, as a disc, in one phrase."""
+    support = roller.support
+    if support is None:
+        return "a sector, held at 0.4 of its radius (not given: roller.support)"
+    if support.hub is not None:
+        return f"held on a rigid hub of radius {given(support.hub, 'm')}"
+    words = {"opposite": "held opposite the contact", "half disc": "half a disc, held at its flat"}
+    return words[support.place]
+
+
+def _roller(settings: FiniteElementSection, roller: RollerSection) -> str:
     parts = ["an exact circle"] if settings.roller_shape == "circle" else []
-    if settings.roller_body == "disc" and not rigid:
-        parts.append("an elastic body of finite size")
+    if settings.roller_body == "disc" and not roller.rigid:
+        parts.append(f"an elastic body of finite size, {support_text(roller)}")
     parabola = "the roller is a parabola of the relative curvature"
     return _split(parabola, f"it is {' and '.join(parts)}") if parts else parabola
 

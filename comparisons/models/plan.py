@@ -43,7 +43,9 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     scene, settings = problem.scene, problem.scene.finite_element
     half_plane, finite_elements = (name in models for name in MODELS)
     uncoupled = [no_coupling(problem, friction) for friction in scene.load.friction]
-    unbounded = scene.body.thickness is None or scene.body.width is None or not scene.roller.rigid
+    # a disc is held by what the scene says
+    endless = not scene.roller.rigid and settings.roller_body == "half-plane"
+    unbounded = scene.body.thickness is None or scene.body.width is None or endless
     compares = half_plane and finite_elements
     plan = Plan(
         models,

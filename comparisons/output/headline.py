@@ -230,6 +230,10 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
     if "budget.effects" in why:
         given = '[budget]\neffects = "all"'
         return 'budget.effects = "all" computes it.', (given,)
+    if largest == "roller_support":
+        given = '[roller]\nsupport = "opposite"'
+        others = '"half disc" or {hub = "…"}'
+        return f'roller.support = "opposite", {others}: what holds the roller.', (given,)
     if largest == "plastic_flow":
         given = "[finite_element]\nplastic = true"
         missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"

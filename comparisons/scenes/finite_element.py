@@ -90,8 +90,6 @@ class FiniteElementSection(SceneSection):
                 "plastic" if self.plastic else "deformation",
                 f"wants one friction coefficient, not {frictions}; allowed is a single number",
             )
-        if finite and body.hardness is not None:
-            yield "deformation", 'is "finite" for a body with a hardness; allowed without one'
         if self.roller_body == "disc" and roller.rigid:
             yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
         for bound in ("thickness", "width"):
@@ -103,8 +101,6 @@ class FiniteElementSection(SceneSection):
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
         if self.coupled and frictions != 1:
             yield "coupled", SEVERAL_FRICTIONS.format(frictions)
-        if finite and coated:
-            yield "deformation", 'is "finite" for a coated body; allowed without [coating]'
         if finite and profile is not None and self.geometry == "flat":
             yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
         if finite and apart:

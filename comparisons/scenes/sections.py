@@ -1,11 +1,13 @@
 """The sections of a scene that both models need: bodies, load, fields, tolerances, resolution."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
 
 from analytic.material import LAWS, Law, Material
+from comparisons.common.errors import nearest
 from comparisons.common.units import (
     DIMENSIONLESS,
     LENGTH,
@@ -15,12 +17,14 @@ from comparisons.common.units import (
     TIME,
     Dimension,
     UnitError,
+    describe,
     to_si,
 )
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.scenes.fields import (
     Extent,
     ExtentField,
+    FieldType,
     Fraction,
     Grid,
     Length,
@@ -38,6 +42,8 @@ from comparisons.scenes.materials import ELASTIC, Solid, SolidName, solid_named,
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
+
+WIDEST_HUB = 0.95  # of the roller's radius
 
 Pressure = Annotated[float, Number(PRESSURE, above=0.0)]
 Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=0.0, at_most=1.5))]
@@ -126,9 +132,46 @@ class ElasticSection(SolidSection):
         return Material(self.youngs_modulus, self.poissons_ratio, law)
 
 
+@dataclass(frozen=True)
+class RollerSupport:
+    """What holds an elastic roller: one of PLACES, or a rigid hub or shaft of a radius [m]."""
+
+    place: str | None = None
+    hub: float | None = None
+
+    PLACES: ClassVar[tuple[str, ...]] = ("opposite", "half disc")
+
+    def plain(self) -> str | dict[str, float]:
+        """As a scene file has it."""
+        return self.place or {"hub": self.hub}
+
+
+@dataclass(frozen=True)
+class RollerSupportField(FieldType):
+    """A place, or a table {hub = …}."""
+
+    hub = Named(("hub",), Number(LENGTH, above=0.0))
+
+    def read(self, given: object) -> RollerSupport:
+        if isinstance(given, RollerSupport):
+            return given
+        if isinstance(given, dict):
+            return RollerSupport(hub=self.hub.read(given)["hub"])
+        if given not in RollerSupport.PLACES:
+            near = nearest(given, RollerSupport.PLACES, 0.6) if isinstance(given, str) else None
+            hint = f' (did you mean "{near}"?)' if near else ""
+            raise self.wrong(f"is {describe(given)}{hint}")
+        return RollerSupport(given)
+
+    def allowed(self) -> str:
+        places = ", ".join(f'"{place}"' for place in RollerSupport.PLACES)
+        return f'{places} or a table {{hub = …}}, the radius of a hub or shaft such as "2 mm"'
+
+
 class RollerSection(ElasticSection):
     radius: Length
     rigid: Annotated[bool, Truth()] = False
+    support: Annotated[RollerSupport, RollerSupportField()] | None = None
     youngs_modulus: Pressure | None = None
     poissons_ratio: PoissonsRatio | None = None
 
@@ -138,6 +181,11 @@ class RollerSection(ElasticSection):
             yield "material", "is given beside rigid = true; allowed is one of the two"
         if self.rigid and self.law is not None:
             yield "law", "is given beside rigid = true; allowed is one of the two"
+        if self.rigid and self.support is not None:
+            yield "support", "is given beside rigid = true; allowed is one of the two"
+        if self.support is not None and (self.support.hub or 0.0) > WIDEST_HUB * self.radius:
+            most = f"at most {WIDEST_HUB:g} of the radius, {WIDEST_HUB * self.radius:g} m"
+            yield "support", f"has a hub of {self.support.hub:g} m; allowed is {most}"
         for name in ("youngs_modulus", "poissons_ratio"):
             given = getattr(self, name) is not None
             if self.rigid and given:
@@ -174,16 +222,12 @@ class BodySection(ElasticSection):
         return self.model_copy(update={"base": self.base or "bonded"}) if is_layer else self
 
 
-class CoatingSection(SolidSection):
+class CoatingSection(ElasticSection):
     """Bonded to the body."""
 
     thickness: Length
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
-
-    @property
-    def material(self) -> Material:
-        return Material(self.youngs_modulus, self.poissons_ratio)
 
 
 class LoadSection(SceneSection):

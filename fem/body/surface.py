@@ -164,8 +164,11 @@ def hat_forces(
 
 
 def _ordered(flat: np.ndarray, spec: BlockSpec) -> np.ndarray:
-    """Numbers of the points (n, 2) on the flat block's top side, by x."""
+    """Numbers of the points (n, 2) on the flat block's top side, where it may be loaded, by x."""
     top = boundary_points(flat, spec).top
+    if spec.loaded is not None:
+        first, last = spec.loaded
+        top = top[(flat[top, 0] >= first) & (flat[top, 0] <= last)]
     return top[np.argsort(flat[top, 0])]
 
 

@@ -34,6 +34,8 @@ RESIDUAL = 1e-9
 MOST_ITERATIONS = 30
 # A step is bisected if it multiplies the residual by more or inverts an element.
 GROWTH = 10.0
+# A cap that has moved changes many hats' states at once: up to this residual, all may.
+CAPPED_RESIDUAL = 0.1
 MOST_BISECTIONS = 6
 LEAST_INCREMENT = 1e-3  # as a part of the way from the start to the load
 LONGER = 2.0  # factor on the next increment after a successful one
@@ -49,13 +51,19 @@ class HatStates:
     the number of violations has not fallen for PATIENCE exchanges, the part of them that change,
     the worst ones, is halved.
 
-    pressure   guessed (count,) [Pa]: hats are open where it is zero, else in contact
+    pressure   guessed (count,) [Pa]: hats are open where it is zero, else in contact or capped
+    hardness   [Pa] of all hats, or (count,) of each
     load       P [N/m]; None if the approach is prescribed"""
 
     def __init__(
-        self, pressure: np.ndarray, hardness: float, load: float | None, weights: np.ndarray
+        self,
+        pressure: np.ndarray,
+        hardness: float | np.ndarray,
+        load: float | None,
+        weights: np.ndarray,
     ) -> None:
         self.states = np.where(pressure > 0.0, CONTACT, OPEN)
+        self.states[pressure >= hardness] = CAPPED
         self.hardness, self.load, self.weights = hardness, load, weights
         self._fewest, self._patience, self._share = len(pressure) + 1, PATIENCE, 1.0
 
@@ -77,7 +85,7 @@ class HatStates:
         if self._share < 1.0 and count:
             off = np.where(joins | leaves, stiff * np.abs(gap), 0.0)
             off[lifts] = -pressure[lifts]
-            off[yields] = pressure[yields] - self.hardness
+            off[yields] = (pressure - self.hardness)[yields]
             some = max(1, int(self._share * count))
             violated &= off >= np.sort(off)[-some]
         self.states[violated & (joins | leaves)] = CONTACT
@@ -91,7 +99,7 @@ class HatStates:
         full = self.states == CAPPED
         if not full.any():
             self.states[np.argmin(gap)] = CONTACT
-        elif self.hardness * self.weights[full].sum() >= self.load:
+        elif np.sum((self.hardness * self.weights)[full]) >= self.load:
             self.states[full] = CONTACT
         else:
             self.states[~full] = CONTACT
@@ -131,7 +139,7 @@ class ContactProblem:
     bodies: Sequence[tuple[Response, Contact]]
     constant: np.ndarray
     weights: np.ndarray
-    hardness: float
+    hardness: float | np.ndarray  # of all hats, or (count,) of each
     flexible: np.ndarray | None = None  # C (count, count); None: zero
 
     @cached_property
@@ -151,6 +159,11 @@ class ContactProblem:
             diagonal = body.linearised(np.zeros(body.held.shape))[1].diagonal()
             soft += 1.0 / (body.softness * diagonal)[free].mean()
         return 1.0 / soft
+
+    @cached_property
+    def least_residual(self) -> float:
+        """From which a step may let the residual grow."""
+        return CAPPED_RESIDUAL if np.isfinite(self.hardness).any() else RESIDUAL
 
     @cached_property
     def stiff(self) -> float:
@@ -236,7 +249,7 @@ def _moved(
             why = str(error)
             continue
         residual = problem.residual(reached, load)
-        if residual <= GROWTH * max(before, RESIDUAL):
+        if residual <= GROWTH * max(before, problem.least_residual):
             return reached, residual
     raise FemError(f"no step is acceptable: {why}")
 
@@ -318,7 +331,7 @@ def solve_nonlinear_contact(
     start: ContactState,
     load: float | None = None,
     approach: float | None = None,
-    hardness: float = np.inf,
+    hardness: float | np.ndarray = np.inf,
     begin: Callable[[float], ContactState] | None = None,
     flexible: np.ndarray | None = None,
 ) -> NonlinearSolution:
@@ -330,7 +343,7 @@ def solve_nonlinear_contact(
     start      an equilibrium, or for bodies at rest (load 0) a guess of the solution: for linear
                bodies only the support of its pressure matters, others need the linear solution.
                Held components keep its displacements, in proportion to the load
-    hardness   H [Pa], cap on the pressure
+    hardness   H [Pa], cap on the pressure, of all hats or (count,) of each
     begin      guess of the solution under a part of the load, for bodies at rest that `start` in
                proportion does not lead on
     flexible   C (count, count) [m^2/Pa] of further bodies, linear, as a dense matrix
@@ -341,7 +354,7 @@ def solve_nonlinear_contact(
     """
     if (load is None) == (approach is None):
         raise ValueError("give either the load or the approach")
-    if load is not None and not 0.0 < load < hardness * weights.sum():
+    if load is not None and not 0.0 < load < np.sum(hardness * weights):
         raise ValueError(f"a load of {load:g} N/m is not between zero and what the hats can bear")
     problem = ContactProblem(bodies, gap, weights, hardness, flexible)
     first, goal = (start.load, load) if approach is None else (start.approach, approach)

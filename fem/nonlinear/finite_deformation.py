@@ -42,6 +42,8 @@ SECANTS, SECANT_RANK = 10, 1e-3
 MOST_CORRECTIONS = 25
 # Of Newton's method: mean slip of the surfaces that is left, of a hat, and solutions to get there.
 ASIDE, MOST_SETTINGS = 1e-3, 6
+MOST_CAPS = 15  # solutions until the cap on the pressure settles
+CAP_LEFT = 1e-8  # of a cap on the pressure that the last solution's stretch would change
 
 
 @dataclass
@@ -75,9 +77,14 @@ class FiniteDeformation:
         return at + np.interp(at, self.body.top.x, self._moved[:, 0])
 
     @cached_property
+    def stretch(self) -> np.ndarray:
+        """(count,) deformed over undeformed length along x at the hats' nodes."""
+        return self._stretched(self.hats[1:-1])
+
+    @cached_property
     def cauchy_pressure(self) -> np.ndarray:
         """(count,) [Pa] force per deformed area, at `place`."""
-        return self._on_deformed(self.hats[1:-1], self.pressure)
+        return self.pressure / self.stretch
 
     @cached_property
     def cauchy(self) -> CauchyRecovery:
@@ -91,17 +98,17 @@ class FiniteDeformation:
         load = SurfaceLoad(self.body, self.hats, self.pressure, self.friction, direction)
         nodal = np.concatenate([[0.0], self.pressure, [0.0]])
         x = self.body.top.x
-        pressure = self._on_deformed(x, np.interp(x, self.hats, nodal))
+        pressure = np.interp(x, self.hats, nodal) / self._stretched(x)
         return CauchyRecovery(self.body, self.displacement, load, pressure)
 
     @cached_property
     def _moved(self) -> np.ndarray:
         return self.body.at_points(self.displacement)[self.body.top.point]
 
-    def _on_deformed(self, x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-        """Pressure per deformed length of x at undeformed places x."""
+    def _stretched(self, x: np.ndarray) -> np.ndarray:
+        """Deformed over undeformed length along x at undeformed places x."""
         top = self.body.top.x
-        return pressure / np.interp(x, top, 1.0 + along_surface(top, self._moved)[:, 0])
+        return np.interp(x, top, 1.0 + along_surface(top, self._moved)[:, 0])
 
 
 class FiniteContact:
@@ -149,19 +156,35 @@ class FiniteContact:
     ) -> "FiniteDeformation":
         """Pressed on its own tangents, from the linear solution under `start`: by a load P [N/m],
         the vertical force, or to an `approach` d [m] of the roller's lowest point from z = 0,
-        positive into the body. `hardness` H [Pa] caps `pressure`. Raises FemError if it does not
-        converge, ValueError for a load that the hats cannot bear."""
+        positive into the body. `hardness` H [Pa] caps Cauchy's pressure: `pressure` by as much more
+        as the surface under a hat is stretched, which each solution tells the next. Raises FemError
+        if it does not converge, ValueError for a load that the hats cannot bear."""
         state = ContactState((self.linear,), self._start, approach=0.0)
-        constant, wanted = np.zeros_like(self.weights), (load, approach, hardness)
-        for _ in range(MOST_SETTINGS):
-            problem = [(self.response, self.contact)], constant, self.weights, state
-            solution = solve_nonlinear_contact(*problem, *wanted, self._begun(*wanted))
-            state = solution.state
+        constant, cap = np.zeros_like(self.weights), np.full_like(self.weights, hardness)
+        for _ in range(MOST_SETTINGS if np.isinf(hardness) else MOST_CAPS):
+            problem, wanted = [(self.response, self.contact)], (load, approach, cap)
+            start = constant, self.weights, state
+            begun = self._begun(load, approach, hardness)
+            solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
+            state, deformed = solution.state, self.deformed(solution)
             moved, aside = self.set_back(state.displacements[0], state.pressure)
-            if aside <= ASIDE * self.weights.mean():
-                break
+            is_settled = aside <= ASIDE * self.weights.mean()
             state = replace(state, displacements=(moved,))
-        return self.deformed(solution)
+            if np.isfinite(hardness):
+                stretched = hardness * deformed.stretch
+                change = np.abs(stretched - cap)[state.pressure > 0.0].max()
+                is_settled = is_settled and change <= CAP_LEFT * hardness
+                pressure = np.where(state.pressure >= cap, stretched, state.pressure)
+                state, cap = replace(state, pressure=pressure), stretched
+            if is_settled:
+                break
+        else:
+            if np.isfinite(hardness):
+                raise FemError(f"the cap on the pressure did not settle in {MOST_CAPS} solutions")
+        # what the last solution's stretch changes of a cap is none of its residual
+        return self.deformed(
+            replace(solution, state=replace(solution.state, pressure=state.pressure))
+        )
 
     def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
         """The displacement (n, 2) [m] with each body moved along x, so that in the mean of a

@@ -18,7 +18,7 @@ from fem.body.triangle import gradients, jacobians, reference_nodes, slopes
 from fem.nonlinear.laws import cauchy_stress, energy
 from fem.solver.compilation import compiled
 from fem.solver.mumps import FemError
-from fem.stress.recovery import Patches, Recovery, linear_stress
+from fem.stress.recovery import Patches, Recovery, linear_stress, stress_nodes
 from fem.stress.stress import NodalStress
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
@@ -26,7 +26,8 @@ CORNERS = reference_nodes(1)
 
 
 class HyperelasticBody:
-    """The response of `body` at finite strains, by its material's law. FemError in parallel."""
+    """The response of `body` at finite strains, by its material's law, and of its coating by that
+    one's. FemError in parallel."""
 
     symmetric, softness = True, np.ones(1)
 
@@ -44,7 +45,12 @@ class HyperelasticBody:
         mu, lame = (compat.cell_values(space.mesh, value) for value in constants)
         self._moved = fem.Function(space)
         v, w = ufl.TestFunction(space), ufl.TrialFunction(space)
-        density = energy(body.material.law, ufl.grad(self._moved), mu, lame, self._unit)
+        gradient = ufl.grad(self._moved)
+        density = energy(body.material.law, gradient, mu, lame, self._unit)
+        if body.surface_material.law != body.material.law:
+            coat = energy(body.surface_material.law, gradient, mu, lame, self._unit)
+            coated = compat.cell_values(space.mesh, body.coated[cell].astype(float))
+            density = ufl.conditional(ufl.gt(coated, 0.5), coat, density)
         # the stress is no polynomial even on straight edges: as many points as on curved ones
         points = {"quadrature_degree": quadrature_degree(body.degree, True)}
         work = ufl.derivative(density * ufl.dx(metadata=points), self._moved, v)
@@ -100,27 +106,28 @@ class HyperelasticBody:
 
 
 class CauchyRecovery(Recovery):
-    """Cauchy's stresses [Pa] at the deformed mesh points of a body without a coating, recovered
-    where they are asked for.
+    """Cauchy's stresses [Pa] at the deformed `stress_nodes` of a body, recovered where they are
+    asked for.
 
     The recovered linear stress of the same displacement, plus its difference from Cauchy's stress,
     of second order and averaged over the elements around a point. `load` is that of the linear
     theory. `pressure` (t,) [Pa] on the deformed surface at the points of `body.top` and its sliding
-    traction give the stresses across the surface. Raises FemError for a coated body.
+    traction give the stresses across the surface.
 
-    estimate  sx, sz, txz (k, 3) [Pa] at all mesh points: means of the elements around them
-    across    stress across the plane (k,) [Pa] at the mesh points, of these means"""
+    estimate  sx, sz, txz (k, 3) [Pa] at all nodes: means of the elements around them
+    across    stress across the plane (k,) [Pa] at the nodes, of these means"""
 
     def __init__(
         self, body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray
     ) -> None:
-        if body.coated.any():
-            raise FemError("stresses at finite deformations are not computed for a coated body")
         gradient = gradients(
             body.points[body.mesh.triangles], displacement[body.elements], reference_nodes(2)
         )
         constants = body.shear_modulus[:, None], body.lame[:, None]
         cauchy = cauchy_stress(gradient, *constants, body.material.law)
+        if body.surface_material.law != body.material.law:
+            coat = cauchy_stress(gradient, *constants, body.surface_material.law)
+            cauchy = np.where(body.coated[:, None, None], coat, cauchy)
         means = _averaged(body, np.concatenate([cauchy, linear_stress(gradient, *constants)], 2))
         self.estimate, self.across = means[:, :3], means[:, 3]
         self._second_order = means[:, :3] - means[:, 4:]
@@ -128,17 +135,19 @@ class CauchyRecovery(Recovery):
         along = along_surface(body.top.x, body.points[top] + body.at_points(displacement)[top])
         self._tangent = along / np.linalg.norm(along, axis=1)[:, None]
         self._pressure, self._shear = pressure, load.friction * pressure
-        self._place = np.full(len(body.points), -1)  # of the points on the surface, along it
-        self._place[top] = np.arange(len(top))
-        own = Recovery(body, displacement).at(top) + self._second_order[top]
-        known = self._on_surface(np.arange(len(top)), own) - self._second_order[top]
+        nodes = stress_nodes(body)
+        node = nodes.at_surface(top)
+        self._place = np.full(len(nodes.point), -1)  # of the nodes on the surface, along it
+        self._place[node] = np.arange(len(top))
+        own = Recovery(body, displacement).at(node) + self._second_order[node]
+        known = self._on_surface(np.arange(len(top)), own) - self._second_order[node]
         tractions = (load.pressure, load.friction, load.direction)
         super().__init__(body, displacement, _MatchedLoad(body, load.hats, *tractions, known))
 
     @property
     def nodal(self) -> NodalStress:
         """The same, and what interpolates them."""
-        nu = np.full(len(self.known), self.body.material.poissons_ratio)
+        nu = self.nodes.of_triangles(self.body.poissons_ratio)
         return NodalStress(self.nodes, nu, self.at, lambda: self.estimate, self.load.kinks)
 
     def _recover(self, patches: Patches) -> None:
@@ -170,9 +179,10 @@ class _MatchedLoad(SurfaceLoad):
 
 
 def _averaged(body: ElasticBody, value: np.ndarray) -> np.ndarray:
-    """Means (k, c) at the mesh points of values (m, 6, c) of the elements around them."""
-    point, count = body.mesh.triangles, len(body.points)
-    return nodal_sums(point, value, count) / np.bincount(point.ravel(), minlength=count)[:, None]
+    """Means (k, c) at the `stress_nodes` of values (m, 6, c) of the elements around them."""
+    nodes = stress_nodes(body)
+    node, count = nodes.triangles, len(nodes.point)
+    return nodal_sums(node, value, count) / np.bincount(node.ravel(), minlength=count)[:, None]
 
 
 def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:

@@ -84,6 +84,13 @@ class SurfacePair:
         return found[(np.abs(self.rough.mesh.nodes[found, 0]) < self.reach).all(axis=1)]
 
     @cached_property
+    def roller_edges(self) -> np.ndarray:
+        """Those of the roller's surface (k, 3) that are no steeper than 60 degrees."""
+        found = self.roller.mesh.surface
+        x, z = self.roller.places[found[:, [0, 2]]].T
+        return found[np.abs(z[1] - z[0]) < np.sqrt(3.0) * (x[1] - x[0])]
+
+    @cached_property
     def x(self) -> np.ndarray:
         """Undeformed places (k + 1,) of the pressures."""
         return self.rough.mesh.nodes[[*self.edges[:, 0], self.edges[-1, 2]], 0]
@@ -118,7 +125,7 @@ class SurfacePair:
         deformable = isinstance(self.roller, Solid)
         breaks = np.arange(len(self.edges) + 1.0)
         if deformable:
-            edges, above = self.roller.mesh.surface, self._now(1, state)
+            edges, above = self.roller_edges, self._now(1, state)
             corners = above[[*edges[:, 0], edges[-1, 2]], 0]
             met = (corners > now[self.edges[0, 0], 0]) & (corners < now[self.edges[-1, 2], 0])
             breaks = np.sort(np.concatenate([breaks, _met(now[self.edges, 0], corners[met])]))

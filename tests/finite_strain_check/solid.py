@@ -36,22 +36,23 @@ class Solid:
     mesh     its flat strip
     places   (n, 2) undeformed places of the nodes, [um] where moduli are in GPa
     held     (n,) nodes that do not move
-    modulus  Young's modulus, ratio Poisson's
+    modulus  Young's modulus, ratio Poisson's: of all elements, or (m,) of each
     law      see above
     """
 
     mesh: Triangles
     places: np.ndarray
     held: np.ndarray
-    modulus: float
-    ratio: float
+    modulus: float | np.ndarray
+    ratio: float | np.ndarray
     law: str
 
     @cached_property
-    def lame(self) -> tuple[float, float]:
-        """lambda and mu."""
-        e, v = self.modulus, self.ratio
-        return e * v / ((1 + v) * (1 - 2 * v)), e / (2 * (1 + v))
+    def lame(self) -> np.ndarray:
+        """lambda and mu (2, m) of each element."""
+        count = len(self.mesh.elements)
+        e, v = (np.broadcast_to(each, count) for each in (self.modulus, self.ratio))
+        return np.stack([e * v / ((1 + v) * (1 - 2 * v)), e / (2 * (1 + v))])
 
     @cached_property
     def gradients(self) -> tuple[np.ndarray, np.ndarray]:
@@ -69,9 +70,10 @@ class Solid:
             "eai,egaj->egij", u[self.mesh.elements[part]], self.gradients[0][part]
         )
 
-    def nominal(self, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """P (..., 2, 2) and dP/dF (..., 2, 2, 2, 2) of F."""
-        lam, mu = self.lame
+    def nominal(self, f: np.ndarray, part: slice = slice(None)) -> tuple[np.ndarray, np.ndarray]:
+        """P (m, 3, 2, 2) and dP/dF (m, 3, 2, 2, 2, 2) of F in a part of the elements."""
+        lam, mu = (each[part, None, None, None] for each in self.lame)
+        lam4, mu4 = (each[..., None, None] for each in (lam, mu))
         if self.law == "neo-hookean":
             det = f[..., 0, 0] * f[..., 1, 1] - f[..., 0, 1] * f[..., 1, 0]
             if (det <= 0.0).any():
@@ -80,24 +82,26 @@ class Solid:
             inv[..., 0, 0], inv[..., 1, 1] = f[..., 1, 1] / det, f[..., 0, 0] / det
             inv[..., 0, 1], inv[..., 1, 0] = -f[..., 0, 1] / det, -f[..., 1, 0] / det
             log = lam * np.log(det)[..., None, None]
+            log4 = log[..., None, None]
             stress = mu * f + (log - mu) * np.swapaxes(inv, -1, -2)
-            tangent = lam * np.einsum("...ji,...lk->...ijkl", inv, inv)
-            tangent += (mu - log)[..., None, None] * np.einsum("...jk,...li->...ijkl", inv, inv)
-            return stress, tangent + mu * np.einsum("ik,jl->ijkl", I2, I2)
+            tangent = lam4 * np.einsum("...ji,...lk->...ijkl", inv, inv)
+            tangent += (mu4 - log4) * np.einsum("...jk,...li->...ijkl", inv, inv)
+            return stress, tangent + mu4 * np.einsum("ik,jl->ijkl", I2, I2)
         if self.law == "linear":
-            moduli = lam * np.einsum("ij,kl->ijkl", I2, I2)
-            moduli = moduli + mu * (
+            moduli = lam4 * np.einsum("ij,kl->ijkl", I2, I2)
+            moduli = moduli + mu4 * (
                 np.einsum("ik,jl->ijkl", I2, I2) + np.einsum("il,jk->ijkl", I2, I2)
             )
-            stress = np.einsum("ijkl,...kl->...ij", moduli, f - I2)
+            stress = np.einsum("...ijkl,...kl->...ij", moduli, f - I2)
             return stress, np.broadcast_to(moduli, (*f.shape, 2, 2))
         green = 0.5 * (np.einsum("...ki,...kj->...ij", f, f) - I2)
-        second = lam * np.trace(green, axis1=-2, axis2=-1)[..., None, None] * I2 + 2 * mu * green
+        trace = np.trace(green, axis1=-2, axis2=-1)[..., None, None]
+        second = lam * trace * I2 + 2 * mu * green
         tangent = np.einsum("ik,...jl->...ijkl", I2, second)
-        tangent = tangent + lam * np.einsum("...ij,...kl->...ijkl", f, f)
+        tangent = tangent + lam4 * np.einsum("...ij,...kl->...ijkl", f, f)
         left = np.einsum("...im,...km->...ik", f, f)
-        tangent += mu * np.einsum("...ik,jl->...ijkl", left, I2)
-        tangent += mu * np.einsum("...il,...kj->...ijkl", f, f)
+        tangent += mu4 * np.einsum("...ik,jl->...ijkl", left, I2)
+        tangent += mu4 * np.einsum("...il,...kj->...ijkl", f, f)
         return f @ second, tangent
 
     @cached_property
@@ -132,7 +136,7 @@ class Solid:
         matrix = np.empty((len(elements), 6, 2, 6, 2))
         for start in range(0, len(elements), CHUNK):
             part = slice(start, start + CHUNK)
-            stress, tangent = self.nominal(self.deformation(u, part))
+            stress, tangent = self.nominal(self.deformation(u, part), part)
             d, w = gradient[part], weight[part]
             force[part] = np.einsum("egij,egaj,eg->eai", stress, d, w, optimize=True)
             flat = d.transpose(0, 2, 1, 3).reshape(len(d), 6, 6)

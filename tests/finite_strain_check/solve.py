@@ -21,7 +21,14 @@ AT_ENDS = 0.125  # of the size elsewhere in contact
 NOWHERE = np.full((1, 2), 1e9)  # um
 SMALL = 0.03  # of the radius: half-widths from which on the roller's size matters
 CIRCLE = 6.0  # half-widths to each side in which a half-plane has the roller's exact shape
-DISC = 0.6  # of the radius: depth of the squares that a disc is mapped from; their half-width twice
+# Of the radius: the side of the squares that a disc is mapped from. A sector: four across, two
+# down, held at 0.30 of the radius on an arc of 138 degrees between free rays. A ring: six across,
+# one down, held at 0.35, cut open opposite the contact. Opposite: four across, two down, held where
+# the half-plane beyond them ends up.
+SECTOR, RING, OPPOSITE = "sector", "ring", "opposite"
+SUPPORTS = {SECTOR: (0.6, 4, 2), RING: (np.pi / 3.0, 6, 1), OPPOSITE: (20.0, 4, 2)}
+HUB = float(np.exp(-np.pi / 3.0))  # of the ring, of the radius
+COATED = 12.0  # half-widths to each side within which elements follow a coating's lower side
 GROWTH = 0.25  # of elements per distance from the contact
 
 
@@ -32,6 +39,9 @@ class Task:
     profile   heights of x; roller  (modulus, ratio), None where rigid; body likewise
     radius    of the roller, load  per length, friction mu
     law       of both bodies (`solid`); with `linear` these are flat and the roller a parabola
+    support   of a disc, one of SUPPORTS
+    coating   (modulus, ratio, thickness), bonded to the body, None where it has none; the thickness
+              is the elements' size at the surface times a power of two, so that edges follow it
     """
 
     x: np.ndarray
@@ -42,6 +52,8 @@ class Task:
     load: float
     friction: float = 0.0
     law: str = "neo-hookean"
+    support: str = SECTOR
+    coating: tuple[float, float, float] | None = None
 
     @property
     def modulus(self) -> float:
@@ -56,9 +68,57 @@ class Task:
 
     @property
     def is_disc(self) -> bool:
-        """Whether the roller is a disc held at its core, else a half-plane with the circle on it.
+        """Whether the roller is a disc, else a half-plane with the circle on it.
         Friction turns a disc, and with it the places that the shift along x goes by."""
         return self.law != "linear" and self.half_width > SMALL * self.radius
+
+    def on_disc(self, s: np.ndarray, d: np.ndarray) -> np.ndarray:
+        """Places (n, 2) of a disc's nodes from those on the squares: maps that keep angles."""
+        r = self.radius
+        if self.support == OPPOSITE:
+            plane = s + 1j * d
+            place = plane / (1.0 - 0.5j * plane / r)
+            return np.stack([place.real, place.imag], axis=1)
+        angle, inner = self._turned(s), r * np.exp(-self._turned(d))
+        places = np.stack([inner * np.sin(angle), r - inner * np.cos(angle)], axis=1)
+        flat = d == 0.0
+        places[flat, 1] = 2.0 * r * np.sin(0.5 * angle[flat]) ** 2
+        return places
+
+    def _turned(self, s: np.ndarray) -> np.ndarray:
+        """The angle of a length of the squares; a ring's meet opposite the contact."""
+        if self.support == SECTOR:
+            return s / self.radius
+        return np.pi * s / (3.0 * self.square)
+
+    @property
+    def square(self) -> float:
+        """Side of the squares that a disc is mapped from."""
+        return SUPPORTS[self.support][0] * self.radius
+
+    def under(self, x: np.ndarray) -> np.ndarray:
+        """s of a disc's surface at x."""
+        angle = np.arcsin(np.clip(x / self.radius, -1.0, 1.0))
+        if self.support == OPPOSITE:
+            return 2.0 * self.radius * np.tan(0.5 * angle)
+        return angle / self._turned(np.ones(1))
+
+    def constants(self, mesh: Triangles) -> tuple:
+        """Young's modulus and Poisson's ratio of the body's elements."""
+        if self.coating is None:
+            return self.body
+        coated = mesh.corners[mesh.triangles, 1].mean(axis=1) < self.coating[2]
+        pairs = zip(self.coating[:2], self.body, strict=True)
+        return tuple(np.where(coated, above, below) for above, below in pairs)
+
+    def at_coating(self, place: np.ndarray) -> np.ndarray:
+        """The size (n,) that elements at places (n, 2) have, so that none crosses its lower side
+        within COATED half-widths of the middle."""
+        if self.coating is None:
+            return np.inf
+        (s, d), thickness = np.abs(place).T, self.coating[2]
+        beside = np.maximum(s - COATED * self.half_width, 0.0)
+        return np.maximum(thickness, np.maximum(d - thickness, beside))
 
     def surface(self, x: np.ndarray) -> np.ndarray:
         """Height of the rough body: the trace's spline, which fades out at its ends."""
@@ -110,7 +170,8 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
     deepest = d.max()
     shape = 0.0 if small else task.surface(s) * _smooth(np.clip(1.0 - d / FADE, 0.0, 1.0))
     held = (d == deepest) | (np.abs(s) == np.abs(s).max())
-    below = Solid(rough, np.stack([s, shape - d], axis=1), held, *task.body, task.law)
+    constants = task.constants(rough)
+    below = Solid(rough, np.stack([s, shape - d], axis=1), held, *constants, task.law)
     gap = (lambda x: x**2 / (2.0 * task.radius) - task.surface(x)) if small else None
     r = task.radius
     if roller is None:
@@ -121,19 +182,20 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
     else:
         s, d = roller.nodes.T
         held = d == d.max()
-        if task.is_disc:  # conformal: squares stay squares
-            inner = r * np.exp(-d / r)
-            places = np.stack([inner * np.sin(s / r), r - inner * np.cos(s / r)], axis=1)
-            flat = d == 0.0
-            places[flat, 1] = 2.0 * r * np.sin(0.5 * s[flat] / r) ** 2
+        if task.is_disc:
+            places = task.on_disc(s, d)
+            if task.support == OPPOSITE:
+                held |= np.abs(s) == np.abs(s).max()
         else:
             held |= np.abs(s) == np.abs(s).max()
             near = CIRCLE * task.half_width
             along = np.minimum(np.abs(s), near)
             along = along + near * np.tanh((np.abs(s) - along) / near)
-            rise = along**2 / (r + np.sqrt(r**2 - along**2))
-            rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
-            places = np.stack([s, d + (0.0 if small else rise)], axis=1)
+            rise = np.zeros_like(along)
+            if not small:
+                rise = along**2 / (r + np.sqrt(r**2 - along**2))
+                rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
+            places = np.stack([s, d + rise], axis=1)
         above = Solid(roller, places, held, *task.roller, task.law)
     return SurfacePair(below, above, task.load, task.friction, reach, gap)
 
@@ -143,18 +205,17 @@ Meshes = tuple[Triangles, Triangles | None]
 
 def meshes(task: Task, wanted: ElementSizes, coarse: Meshes | None = None) -> Meshes:
     """Of both bodies, bisected from coarser ones."""
-    r = task.radius
     if coarse is None:
         side = wanted.fine * 2.0 ** np.ceil(np.log2(BLOCK * task.half_width / wanted.fine))
         block = strip(side, 2, 1)
-        side = wanted.fine * 2.0 ** np.round(np.log2(DISC * r / wanted.fine))
-        coarse = block, (strip(side, 4, 2) if task.is_disc else block) if task.roller else None
+        disc = strip(task.square, *SUPPORTS[task.support][1:])
+        coarse = block, (disc if task.is_disc else block) if task.roller else None
     rough, roller = coarse
+    rough = refined(rough, lambda at: np.minimum(wanted(at), task.at_coating(at)))
     if roller is None:
-        return refined(rough, wanted), None
-    disc = task.is_disc
-    above = wanted.on_surface(lambda x: r * np.arcsin(np.clip(x / r, -1, 1)) if disc else x)
-    return refined(rough, wanted), refined(roller, above)
+        return rough, None
+    above = wanted.on_surface(task.under if task.is_disc else lambda x: x)
+    return rough, refined(roller, above)
 
 
 def carried(state: State, old: SurfacePair, new: SurfacePair) -> State:

@@ -5,8 +5,14 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scenes import problem
 
 import comparisons as crosscheck
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.plan import make_plan
+from comparisons.models.window import window_of
 from comparisons.notebook import scene_of
 from tests.finite_strain_check import cases, check
 from tests.finite_strain_check.contact import State, SurfacePair
@@ -94,6 +100,32 @@ def test_meshes_are_conforming_and_carry_quadratics_exactly():
         return np.stack([s**2 - s * d, 3.0 * d**2 + s], axis=1)
 
     assert interpolated(coarse, fine, field(coarse)) == pytest.approx(field(fine), abs=1e-9)
+
+
+def test_a_coated_body_is_that_of_the_projects_own_elements():
+    """Under a rigid roller at a/R = 0.2, three times as stiff to a depth of 0.64 half-widths: the
+    peak is 25 % above Hertz's, of which finite strain takes 1.4 %."""
+    body, coating = (1.0, 0.3), (3.0, 0.2, 64.0)
+    task = replace(smooth(0.2, "neo-hookean"), coating=coating)
+    *_, last = solutions(task, (8.0, 4.0), 200.0)
+    found, peak = figures(*last), 2.0 * task.load / (100.0 * np.pi)
+    scene = problem(
+        {
+            "roller": {"radius": 500e-6, "rigid": True},
+            "body": {"youngs_modulus": 1e9, "poissons_ratio": body[1]},
+            "coating": {"thickness": 64e-6, "youngs_modulus": 3e9, "poissons_ratio": coating[1]},
+            "load": {"hertz_peak_pressure": 1e9 * peak},
+            "finite_element": {"deformation": "finite", "roller_shape": "circle"},
+            "stress": {},
+        }
+    )
+    plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
+    pitch = scene.hertz.half_width / 32.0
+    level = finite_element_level(scene, plan, Refinement(pitch), window, Stages())
+    assert level.solution.pressure.max() == pytest.approx(1e9 * found.peak, rel=1e-3)
+    assert level.contact_length == pytest.approx(1e-6 * found.deformed_length, rel=5e-3)
+    [stress] = level.stresses
+    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * found.txz, rel=4e-3)
 
 
 def test_small_strains_meet_the_half_plane_on_a_rough_body():

@@ -21,9 +21,14 @@ from comparisons.models.finite_element.contact import roller_of
 from comparisons.models.finite_element.mesh import (
     Refinement,
     block_spec,
-    levelled,
-    roller_spec,
     rough_mesh,
+)
+from comparisons.models.finite_element.roller import (
+    disc_support,
+    is_disc,
+    levelled,
+    roller_mesh,
+    roller_spec,
 )
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.problem import Problem
@@ -31,7 +36,7 @@ from fem.body.support import Support, held_components
 from fem.body.surface import boundary_points
 from meshes.block import EDGES, BlockMesh, BlockSpec, real_points, structured
 from meshes.build import build_block
-from meshes.real_shape import bent, roughen
+from meshes.real_shape import roughen
 from meshes.size_law import surface_edge
 
 MM, MPA, N_PER_MM = 1e3, 1e-6, 1e-3  # of 1 m, 1 Pa, 1 N/m
@@ -141,7 +146,7 @@ def _roller(
     problem: Problem, spec: BlockSpec, flat: BlockMesh, shaped: bool, flatter: float
 ) -> DeckBody:
     """The body above, its lowest point at the origin: flat, or of its own shape."""
-    scene, settings = problem.scene, problem.scene.finite_element
+    scene = problem.scene
     reach = float(np.abs(problem.extent).max())
     support, material = Support("bonded", UNBOUNDED_SIDES), scene.roller.material or RIGID
     if scene.roller.rigid:
@@ -157,9 +162,8 @@ def _roller(
         if wanted is not spec:  # nodes face nodes, also where a coating asks for shorter edges
             flat = build_block(replace(wanted, surface_size=surface_edge(spec)))
         mesh = flat
-        if settings.roller_body == "disc":
-            mesh = bent(mesh, scene.roller.radius)
-            support = Support("bonded", "free")
+        if is_disc(problem):
+            mesh, support = roller_mesh(problem, flat), disc_support(problem)
         elif shaped:
             mesh = roughen(mesh, levelled(roller_of(problem), reach))
     return _deck_body(problem, mesh, [material], support, flatter)

@@ -20,12 +20,10 @@ from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.scene import Scene
-from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.catalogue import EFFECTS, UNKNOWN
 from comparisons.studies.model_error.selection import select_effects
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
-
-LAW = "law_of_elasticity"  # an unknown of the body, no error of the half-plane
 
 
 @dataclass(frozen=True)
@@ -129,7 +127,9 @@ def first_answer(problem: Problem) -> list[str]:
     effects = select_effects(problem, float(level.solution.pressure.max()), ()).estimates
     bounds = []
     for name in problem.scene.tolerances:
-        sizes = {effect: s[name] for effect, s in effects.items() if name in s and effect != LAW}
+        sizes = {
+            effect: s[name] for effect, s in effects.items() if name in s and effect not in UNKNOWN
+        }
         if sizes:
             total, most = sum(sizes.values()), max(sizes, key=sizes.get)
             bound = f"{100.0 * total:.2g} %" if total < 1.0 else "100 % or more"

@@ -13,11 +13,15 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.mesh import (
     Refinement,
     block_spec,
+    rough_key,
+    rough_mesh,
+)
+from comparisons.models.finite_element.roller import (
+    disc_support,
+    is_disc,
     roller_key,
     roller_mesh,
     roller_spec,
-    rough_key,
-    rough_mesh,
 )
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
@@ -124,8 +128,8 @@ def bodies_of(
     shape = _key(wanted) if mesh is flat else (_key(wanted), roller_key(problem))
     within = beyond * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", UNBOUNDED_SIDES, within)
-    if settings.roller_body == "disc":
-        support = Support("bonded", "free", (np.inf, beyond * wanted.depth))
+    if is_disc(problem):
+        support = disc_support(problem)
     roller = body(mesh, shape, scene.roller.material, support)
     return BodyPair(rough, roller, 0.0)
 

@@ -13,6 +13,7 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
 from comparisons.models.finite_element.bodies import BodyPair
+from comparisons.models.finite_element.roller import is_disc
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from fem.body.elasticity import ElasticBody
@@ -73,8 +74,8 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
         down, up = roller_normal(problem), roller_normal(problem, mirrored=True)
 
     def compliance(body: ElasticBody, direction: Direction | None) -> FiniteElementCompliance:
-        far = None
-        if settings.far_field == "half-plane" and body.support.sides == "fixed":
+        far, unbounded = None, body is bodies.rough or not is_disc(problem)
+        if settings.far_field == "half-plane" and unbounded and body.support.sides == "fixed":
             far = FarField(body, hats[0], hats[-1])
         return FiniteElementCompliance(body, hats, direction, far)
 

@@ -1,17 +1,17 @@
 """The meshes of a scene's bodies: what to ask for, and how many displacements they will have."""
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from comparisons.common.errors import SceneError
+from comparisons.models.finite_element.roller import roller_spec
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
-from fem.contact.rigid_roller import Roller, circle, parabola
 from fem.nonlinear.press_plastic import TRAVEL
 from meshes.block import BlockMesh, BlockSpec
-from meshes.real_shape import bent, roughen
+from meshes.real_shape import roughen
 from meshes.refined_ranges import refined_ranges
 from meshes.size_law import estimate_unknowns
 
@@ -26,9 +26,6 @@ LAYER_EXTENT = 12.0  # thicknesses beyond the contact: a layer's displacements d
 # elements of the first level, four of the shortest waves; largest heights of the profile, which
 # keeps the fading's own slope below 0.4. Peak pressures change by less than 3e-6 from 10 to 160.
 FADE_HATS, FADE_HEIGHTS = 40.0, 5.0
-# The slope of a roller on a block fades over this multiple of the extent of pressures.
-LEVELS_OFF = 2.0
-DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of the roller
 
 
 @dataclass(frozen=True)
@@ -87,65 +84,9 @@ def rough_key(problem: Problem) -> Hashable:
     return profile.x.tobytes(), profile.height.tobytes(), problem.extent, problem.pitches[0]
 
 
-def roller_key(problem: Problem) -> Hashable:
-    """What shapes the boundary of a roller, beside its flat mesh."""
-    scene, settings = problem.scene, problem.scene.finite_element
-    return scene.roller.radius, settings.roller_shape, settings.roller_body, problem.extent
-
-
 def is_rough(problem: Problem) -> bool:
     """Whether the trace is the body's boundary, and not in the gap alone."""
     return problem.scene.finite_element.geometry == "rough" and problem.scene.profile is not None
-
-
-def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
-    """The mesh of an elastic roller, refined as the body's `spec` is: a block, or the flat of a
-    disc's sector. Raises SceneError for a disc that the pressures reach beyond."""
-    scene, depth = problem.scene, problem.block
-    half_width = 0.5 * depth
-    disc = scene.finite_element.roller_body == "disc"
-    if not disc and (spec.half_width, spec.depth, spec.interface) == (half_width, depth, None):
-        return spec  # one mesh serves both
-    if disc:
-        radius = scene.roller.radius
-        depth = min(depth, DISC_DEPTH * radius)
-        half_width = min(half_width, DISC_HALF_WIDTH * radius)
-        farthest = np.abs(problem.extent).max()
-        if farthest > half_width:
-            raise SceneError(
-                f'{scene.source}: finite_element.roller_body: is "disc", but pressures may reach '
-                f"to {farthest:.3g} m from the centre of a sector of {half_width:.3g} m; allowed "
-                "is a lighter load, a larger radius or a larger finite_element.block"
-            )
-    return replace(spec, half_width=half_width, depth=depth, window=None, interface=None)
-
-
-def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
-    """The roller's mesh from the flat one: bent to its circle where it is a disc; at finite
-    deformation a block with the roller's shape on it, which levels off beside the extent."""
-    settings, radius = problem.scene.finite_element, problem.scene.roller.radius
-    if settings.roller_body == "disc":
-        return bent(flat, radius)
-    if settings.deformation == "linear":
-        return flat
-    shape = circle if settings.roller_shape == "circle" else parabola
-    return roughen(flat, levelled(shape(radius), np.abs(problem.extent).max()))
-
-
-def levelled(roller: Roller, reach: float) -> Callable[[np.ndarray], np.ndarray]:
-    """Heights [m] of a roller on a half-plane, zero at its lowest point: its shape to `reach` [m]
-    on either side, beyond which its slope fades over LEVELS_OFF as much."""
-    length = LEVELS_OFF * reach
-    edge, slope, _ = roller(np.array([reach]))
-
-    def height(x: np.ndarray) -> np.ndarray:
-        inside = np.clip(x, -reach, reach)
-        beyond = np.minimum((np.abs(x) - np.abs(inside)) / length, 1.0)
-        # the integral of (1 - t)^2 (1 + 2 t)
-        faded = slope * length * beyond * (1.0 - beyond**2 + 0.5 * beyond**3)
-        return -(np.where(beyond > 0.0, edge, roller(inside)[0]) + faded)
-
-    return height
 
 
 def expected_unknowns(

@@ -53,8 +53,11 @@ def pressed_finitely(
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
     initial = found.initial_gap * weights
+    pressure = found.pressure
+    if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
+        pressure, weights = found.cauchy_pressure, weights * found.stretch
     moved = (found.gap + found.approach) * weights - initial
-    given = moved, found.pressure, initial, weights, found.approach, constraints, counts
+    given = moved, pressure, initial, weights, found.approach, constraints, counts
     solution = assessed(*given, FINITE_TOLERANCE)
     patches = contact_patches(x, solution.pressure, solution.gap)
     solution = replace(solution, pressure=found.cauchy_pressure)
@@ -65,7 +68,7 @@ def pressed_finitely(
     loaded = LoadedBody(
         rough.body,
         solution,
-        depth * weights,
+        depth * grid.weights,
         lambda frictions: (nodal,) * len(frictions),
         patches,
         found.cauchy.across,
@@ -102,6 +105,8 @@ def finite_contact(
         roller = operator.parts[1].compliance
     friction, start = problem.scene.load.friction[0], linear.pressure
     contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far)
+    if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
+        return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
     bodies = FiniteCompliance(contact)
     given = bodies, model, contact.gap, contact.weights, constraints, start
     try:

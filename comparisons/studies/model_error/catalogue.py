@@ -55,6 +55,8 @@ def _any_of(scene: Scene, parts: Iterable[str]) -> bool:
 
 _TABLE = tomllib.loads(Path(__file__).with_name("effects.toml").read_text(encoding="utf-8"))
 EFFECTS = {name: Effect(**described) for name, described in _TABLE.items()}
+# What a scene does not say: no finite elements have another one.
+UNKNOWN = tuple(name for name, effect in EFFECTS.items() if not (effect.sets or effect.takes))
 
 # What finite deformation contains in any scene, and with a profile.
 IN_FINITE_STRAIN = "deformed_gap"

@@ -28,6 +28,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
+from comparisons.studies.model_error.catalogue import UNKNOWN
 from comparisons.studies.model_error.contributions import (
     EffectContributions,
     NotComputedError,
@@ -173,7 +174,7 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
     selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
     asked = solved.problem.scene.budget.effects
     if not solved.plan.effects:
-        left_out = selection.added | set(selection.impossible)
+        left_out = selection.added | set(selection.impossible) - set(UNKNOWN)
         return selection.without(left_out, "not asked for (budget.effects)")
     if asked != "all" and flow_assessment(solved.problem, solved.runs).beyond_doubt:
         why = f"the body flows, an elastic one cannot hold ({ASKED})"

@@ -43,7 +43,7 @@ from comparisons.studies.model_error.quantities_of_interest import (
 from comparisons.studies.model_error.variants import ModelVariant
 
 EFFECT = "law_of_elasticity"
-BODIES = ("body", "roller")
+BODIES = ("body", "roller", "coating")
 COVERED = 2.0  # standard errors
 NOT_STATED = 0.1  # standard error of a constant whose source has none: as of those that have one
 # Relative changes on the coarsest level move by less of themselves on finer ones: peaks and shears
@@ -106,7 +106,8 @@ def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
     found: dict[OpenLaw, list[str]] = {}
     for name in BODIES:
         section = getattr(scene, name)
-        if section.material is not None and (law := _open_law(section)) is not None:
+        elastic = section is not None and section.material is not None
+        if elastic and (law := _open_law(section)) is not None:
             found.setdefault(law, []).append(name)
     return tuple(replace(law, bodies=tuple(names)) for law, names in found.items())
 
@@ -225,7 +226,8 @@ def trust(problem: Problem, whole: Level, friction: float) -> str | None:
     pressure = float(whole.solution.pressure[peak])
     tau1 = OF_THE_PEAK * pressure if stress is None else stress.extremes["tau1"].value
     for name in BODIES:
-        material = getattr(problem.scene, name).material
+        section = getattr(problem.scene, name)
+        material = section and section.material
         if material is None or material.law.murnaghan is None:
             continue
         nu = material.poissons_ratio

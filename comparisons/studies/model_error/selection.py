@@ -96,6 +96,8 @@ def select_effects(
 def why_not(name: str, problem: Problem) -> str | None:
     """Why an effect cannot be computed in a scene, or None."""
     scene = problem.scene
+    if name == "roller_support":
+        return "no support is given: a sector of the disc is held at 0.4 of its radius"
     if name == "plastic_flow":
         if scene.body.yield_stress is None:
             return "the body has no yield stress"
@@ -104,8 +106,6 @@ def why_not(name: str, problem: Problem) -> str | None:
         return None
     reasons = {
         "flow is of small deformation": scene.finite_element.plastic,
-        "a cap on the pressure is of small deformation": scene.body.hardness is not None,
-        "the body is coated": scene.coating is not None,
         "it is solved on one process": is_several() and not is_alone(),
     }
     return next((why for why, hindered in reasons.items() if hindered), None)

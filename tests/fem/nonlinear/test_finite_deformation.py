@@ -258,8 +258,10 @@ def test_the_approach_and_units_lead_to_the_same(body):
 def test_pressure_is_capped_at_the_hardness(body):
     hardness = 0.7 * peak(0.1)
     _, found = pressed(body, 0.1, hardness=hardness)
-    full = found.pressure == hardness
+    full = found.cauchy_pressure > hardness * (1.0 - 1e-5)
+    assert np.all(found.cauchy_pressure < hardness * (1.0 + 1e-5))
     assert 15 < full.sum() < 25
+    assert np.ptp(found.pressure[full]) > 1e-4 * hardness  # by undeformed area it is no constant
     assert np.all(found.gap[full] < 1e-9)
     assert found.solution.state.load == pytest.approx(EDGE * found.pressure.sum(), rel=1e-9)
 

@@ -3,6 +3,7 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
+from comparisons.models.assumptions import support_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, CoatingSection
@@ -127,6 +128,7 @@ def _materials(problem: Problem) -> Rows:
     scene = problem.scene
     rows = [
         ("roller", "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)),
+        *([] if scene.roller.rigid else [("roller as a disc", support_text(scene.roller))]),
         ("body", elastic_text(scene.body.material)),
         *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
         ("combined modulus E*", with_unit(problem.modulus, "Pa")),

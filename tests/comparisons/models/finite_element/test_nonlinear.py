@@ -16,6 +16,7 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely
 from comparisons.models.plan import make_plan
+from comparisons.models.window import window_of
 from fem.nonlinear import finite_deformation
 from fem.solver.mumps import FemError
 
@@ -118,6 +119,36 @@ def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():
     assert half_widths == pytest.approx([0.666, 0.666], abs=2e-3)
     assert peaks[1] == pytest.approx(419e3, rel=5e-3)
     assert peaks[0] == pytest.approx(peaks[1], rel=1e-2)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.2])
+def test_a_cap_holds_by_deformed_area_and_small_loads_are_the_linear_theorys(friction):
+    """Of a body capped at 0.7 times Hertz's peak: shears differ as the strains do."""
+    left = []
+    for curvature in (0.08, 0.02):
+        peak = 0.5 * curvature * 210e9 / 0.91
+        tables = {
+            "roller": {"radius": 8e-3, "rigid": True},
+            "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "hardness": 0.7 * peak},
+            "load": {"hertz_peak_pressure": peak, "friction": friction},
+            "stress": {"points": [30, 20]},
+        }
+        shears = {}
+        for deformation in ("linear", "finite"):
+            switches = {"deformation": deformation, "coupled": friction > 0.0}
+            scene = problem(tables | {"finite_element": switches})
+            plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
+            refinement = Refinement(scene.hertz.half_width / 20.0)
+            level = finite_element_level(scene, plan, refinement, window, Stages())
+            pressure = level.solution.pressure
+            assert level.solution.converged
+            assert pressure.max() == pytest.approx(0.7 * peak, rel=1e-12)
+            assert np.count_nonzero(pressure > 0.7 * peak * (1.0 - 1e-9)) > 30
+            [stress] = level.stresses
+            shears[deformation] = stress.extremes["txz"].value
+        left.append(abs(shears["finite"] / shears["linear"] - 1.0))
+    # under friction the difference changes its sign between these loads
+    assert left[0] < 0.03 and left[1] < (4e-3 if friction else 0.4 * left[0])
 
 
 def test_a_disc_that_the_pressures_reach_beyond_is_an_error():

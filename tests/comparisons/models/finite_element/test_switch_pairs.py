@@ -53,8 +53,6 @@ REFUSED = {
     frozenset(pair)
     for pair in [
         ("finite", "plastic"),
-        ("finite", "coated"),
-        ("finite", "hard"),
         ("finite", "P1"),
         ("finite", "P3"),
         ("plastic", "P1"),

@@ -112,12 +112,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
         (
             RIGID,
             {"deformation": "finite"},
-            {"coating": {"thickness": 1e-5, **STEEL}},
-            'deformation: is "finite" for a coated body',
-        ),
-        (
-            RIGID,
-            {"deformation": "finite"},
             {"profile": WAVE},
             'geometry: is "flat" at finite deformation',
         ),
@@ -139,12 +133,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
             {"plastic": True},
             {"body": {"yield_stress": 1e9}, "load": {"friction": [0.0, 0.1]}},
             "plastic: wants one friction coefficient, not 2",
-        ),
-        (
-            RIGID,
-            {"deformation": "finite"},
-            {"body": {"hardness": 1e9}},
-            'deformation: is "finite" for a body with a hardness',
         ),
         (
             ELASTIC,
@@ -225,6 +213,23 @@ def test_laws_of_elasticity_are_the_bodies_own():
             "roller.law: is given beside rigid",
         ),
         (
+            {"roller": {"support": "oposite"}},
+            r'roller.support: is "oposite" \(did you mean "opposite"\?\); allowed is "opposite", ',
+        ),
+        ({"roller": {"support": {"hub": "9 mm"}}}, "roller.support: has a hub of 0.009 m; allowed"),
+        ({"roller": {"support": {"shaft": "2 mm"}}}, 'roller.support: holds "shaft"'),
+        (
+            {"roller": {"support": {"hub": 0.0}}},
+            r"roller.support: is 0\.0; allowed is a length above",
+        ),
+        (
+            {
+                "roller": {"rigid": True, "youngs_modulus": None, "poissons_ratio": None}
+                | {"support": "opposite"}
+            },
+            "roller.support: is given beside rigid = true; allowed is one of the two",
+        ),
+        (
             {"resolution": {"pitch": "1 um", "elements": 8}},
             "resolution.elements: is given beside pitch; allowed is one of the two",
         ),
@@ -233,6 +238,17 @@ def test_laws_of_elasticity_are_the_bodies_own():
 def test_bodies_that_cannot_be(sections, complaint):
     with pytest.raises(SceneError, match=complaint):
         scene_of(ELASTIC, **sections)
+
+
+@pytest.mark.parametrize("support", ["opposite", "half disc", {"hub": "2 mm"}])
+def test_a_support_of_the_roller_comes_back_as_it_was_given(support):
+    scene = scene_of(ELASTIC, roller={"support": support})
+    written = scene.tables["roller"]["support"]
+    assert written == (support if isinstance(support, str) else {"hub": 2e-3})
+    assert type(scene).of(scene.tables).roller.support == scene.roller.support
+    disc = scene.changed("finite_element.roller_body", "disc")
+    spoken = "\n".join(assumptions_of(problem_of(disc)))
+    assert "held" in spoken and "not given: roller.support" not in spoken
 
 
 @pytest.mark.parametrize(

@@ -83,7 +83,7 @@ SCENES = {
             "coating": COATING,
             "load": {"hertz_peak_pressure": 2.5e9, "friction": 0.2},
         },
-        CIRCLE | {"coupled": True},
+        STRAINED | {"coupled": True},
     ),
 }
 

@@ -57,23 +57,10 @@ def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
     assert "deformed_gap" in selection.whole
 
 
-@pytest.mark.parametrize(
-    ("tables", "why"),
-    [
-        ({"body": {"hardness": 6e9}}, "cap on the pressure"),
-        (
-            {"coating": {"thickness": 1e-6, "youngs_modulus": 4e11, "poissons_ratio": 0.2}},
-            "coated",
-        ),
-        (
-            {"body": {"yield_stress": 3e9}, "finite_element": {"plastic": True}},
-            "flow is of small deformation",
-        ),
-    ],
-)
-def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_with, tables, why):
+def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_with):
+    tables = {"body": {"yield_stress": 3e9}, "finite_element": {"plastic": True}}
     selection = chosen(problem_with(**tables))
-    assert why in selection.impossible["finite_strain"]
+    assert "flow is of small deformation" in selection.impossible["finite_strain"]
     assert selection.not_modelled("peak_pressure")["finite_strain"] > 0.0
 
 
@@ -115,7 +102,7 @@ def test_finite_deformation_is_chosen_as_one(problem_with):
     parts = {"deformed_gap", "rough_boundary"}
     assert not parts & (selection.added | set(selection.estimates))
     capped = chosen(problem_with(**RIGID, profile=wavy, body={"hardness": 6e9}))
-    assert not parts & capped.added and "finite_strain" in capped.impossible
+    assert not parts & capped.added and "finite_strain" in capped.added
 
 
 def test_an_open_law_is_solved_where_it_matters_and_counts_with_its_estimate_else(problem_with):

@@ -1,0 +1,106 @@
+"""The elastic roller: its mesh, and what holds it.
+
+A half-plane, a block that ends far away; or a disc (`finite_element.roller_body`), held by what
+`roller.support` says. Where nothing is said, the disc is a sector, free on its rays and held on its
+inner arc. A disc's support is its own: no far boundary that stands for an unbounded body."""
+
+from collections.abc import Callable, Hashable
+from dataclasses import replace
+
+import numpy as np
+
+from comparisons.common.errors import SceneError
+from comparisons.models.problem import Problem
+from fem.body.support import Support
+from fem.contact.rigid_roller import Roller, circle, parabola
+from meshes.block import BlockMesh, BlockSpec
+from meshes.disc import disc, half_disc_size, opposite_size, ring, ring_size
+from meshes.real_shape import bent, roughen
+
+# The slope of a roller on a block fades over this multiple of the extent of pressures.
+LEVELS_OFF = 2.0
+SECTOR = 0.7, 0.6  # of the radius: half-width and depth of the sector where no support is given
+# Of the radius: pressures reach no farther on a disc that is held as the scene says.
+FARTHEST = 0.6
+
+
+def roller_key(problem: Problem) -> Hashable:
+    """What shapes the boundary of a roller, beside its flat mesh."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    shape = settings.roller_shape, settings.roller_body, scene.roller.support
+    return scene.roller.radius, *shape, problem.extent
+
+
+def is_disc(problem: Problem) -> bool:
+    """Whether the roller is an elastic body of finite size."""
+    scene = problem.scene
+    return scene.finite_element.roller_body == "disc" and not scene.roller.rigid
+
+
+def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
+    """The mesh of an elastic roller, refined as the body's `spec` is: a block, or the flat of a
+    disc. Raises SceneError for a disc that the pressures reach beyond."""
+    if is_disc(problem):
+        half_width, depth, farthest = _disc_size(problem)
+        reached = np.abs(problem.extent).max()
+        if reached > farthest:
+            raise SceneError(
+                f'{problem.scene.source}: finite_element.roller_body: is "disc", but pressures may '
+                f"reach to {reached:.3g} m from its centre, farther than {farthest:.3g} m; allowed "
+                "is a lighter load or a larger radius"
+            )
+    else:
+        half_width, depth = 0.5 * problem.block, problem.block
+        if (spec.half_width, spec.depth, spec.interface) == (half_width, depth, None):
+            return spec  # one mesh serves both
+    return replace(spec, half_width=half_width, depth=depth, window=None, interface=None)
+
+
+def _disc_size(problem: Problem) -> tuple[float, float, float]:
+    """Half-width and depth of the flat of a disc, and how far pressures may reach on it [m]."""
+    radius, support = problem.scene.roller.radius, problem.scene.roller.support
+    if support is None:
+        half_width, depth = (share * radius for share in SECTOR)
+        return half_width, depth, half_width
+    if support.hub is not None:
+        return *ring_size(radius, support.hub), FARTHEST * radius
+    size = {"half disc": half_disc_size, "opposite": opposite_size}[support.place](radius)
+    return size, size, FARTHEST * radius
+
+
+def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
+    """The roller's mesh from the flat one: that of a disc; at finite deformation a block with the
+    roller's shape on it, which levels off beside the extent."""
+    settings, roller = problem.scene.finite_element, problem.scene.roller
+    if is_disc(problem):
+        shaped = bent if roller.support is None else ring if roller.support.hub else disc
+        return shaped(flat, roller.radius)
+    if settings.deformation == "linear":
+        return flat
+    shape = circle if settings.roller_shape == "circle" else parabola
+    return roughen(flat, levelled(shape(roller.radius), np.abs(problem.extent).max()))
+
+
+def disc_support(problem: Problem) -> Support:
+    """How the flat of a disc is held."""
+    support = problem.scene.roller.support
+    if support is None:
+        return Support("bonded", "free")
+    # a ring's sides meet in one line, which stays where it is by symmetry
+    return Support("bonded", "rollers" if support.hub else "fixed")
+
+
+def levelled(roller: Roller, reach: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Heights [m] of a roller on a half-plane, zero at its lowest point: its shape to `reach` [m]
+    on either side, beyond which its slope fades over LEVELS_OFF as much."""
+    length = LEVELS_OFF * reach
+    edge, slope, _ = roller(np.array([reach]))
+
+    def height(x: np.ndarray) -> np.ndarray:
+        inside = np.clip(x, -reach, reach)
+        beyond = np.minimum((np.abs(x) - np.abs(inside)) / length, 1.0)
+        # the integral of (1 - t)^2 (1 + 2 t)
+        faded = slope * length * beyond * (1.0 - beyond**2 + 0.5 * beyond**3)
+        return -(np.where(beyond > 0.0, edge, roller(inside)[0]) + faded)
+
+    return height
