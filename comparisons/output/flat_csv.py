@@ -42,10 +42,13 @@ from comparisons.studies import problem as asked
 from comparisons.studies.answers import study as answers
 from comparisons.studies.model_error.account import INTERACTION, JUMP
 from comparisons.studies.model_error.catalogue import EFFECTS, UNKNOWN
+from comparisons.studies.model_error.laws import EFFECT as LAW_OF_ELASTICITY
 from comparisons.studies.study import MODEL_ERROR
 
 FILE = "result.json"
-EFFECT_COLUMNS = {name: f"effect_{name}" for name in EFFECTS if name not in UNKNOWN}
+EFFECT_COLUMNS = {
+    name: f"effect_{name}" for name in EFFECTS if name not in UNKNOWN or name == LAW_OF_ELASTICITY
+}
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity", "model_error_verdict")
 TEXTS += ("answer", "study", "source", "against")

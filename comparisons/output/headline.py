@@ -224,8 +224,9 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
         if worst.total <= AT_TOLERANCE * worst.tolerance:
             said = f"{tolerance} holds: the error lies at the tolerance, and more digits decide "
             return f"{said}nothing that matters.", (tolerance,)
-        given = f"[budget]\ntime = {2.0 * run.problem.scene.budget.time:g}"
-        return f"{given.replace(chr(10), ' ')}: finer levels, for a smaller uncertainty.", (given,)
+        time = 2.0 * run.problem.scene.budget.time
+        said = f"budget = {{time = {time:g}}}, finer levels for a smaller uncertainty."
+        return said, (f"[budget]\ntime = {time:g}",)
     why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
     if "budget.effects" in why:
         given = '[budget]\neffects = "all"'
