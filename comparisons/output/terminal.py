@@ -96,10 +96,11 @@ def _comparison(run: Run) -> "Table":
 
 def _model_errors(run: Run) -> "Table":
     """Of the half-plane in what is judged, and what most of it comes from."""
-    numbers = ("mu", "half-\nplane", "whole\nmodel", "error\n%", "uncert.\n%", "tol.\n%")
+    numbers = ("mu", "half-\nplane", "whole\nmodel", "error\n%", "+-\n%", "tol.\n%")
     table = plain_table("quantity", numbers=numbers)
     table.add_column("mostly by, %", overflow="fold")
     table.title = "model error of the half-plane"
+    table.padding = 0  # what it is mostly made of fits into 80 columns
     for row in model_error_rows(run, judged=True):
         cells = (row.friction, row.half_plane, row.whole, row.error, row.uncertainty, row.tolerance)
         parts = "".join(row.contributions[:1]).replace(" %", ""), row.note

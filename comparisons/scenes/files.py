@@ -1,6 +1,7 @@
 """Where a scene's file is, and what it says as TOML; the scenes that come with the project."""
 
 import os
+import re
 import tomllib
 from pathlib import Path
 
@@ -8,6 +9,15 @@ from comparisons.common.errors import SceneError, nearest, one_line
 
 SCENES = Path(__file__).parent / "library"
 LARGEST_FILE = 2**20  # bytes; a scene has a few hundred
+MOST_PARTS = 32  # of a dotted key; a scene has two, and the time of reading grows by their square
+STRINGS = re.compile(
+    r'"""(?:\\.|[^\\])*?"""|'
+    r"'''.*?'''|"
+    r'"(?:\\.|[^"\\\n])*+"|'
+    r"'[^'\n]*+'|#[^\n]*+",
+    re.DOTALL,
+)
+LONG_KEY = re.compile(rf"(?<![\w.-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
 
 
 def scene_names() -> list[str]:
@@ -58,7 +68,12 @@ def read_toml(path: Path) -> dict:
             raise wrong(f"is {kind}; allowed is a TOML file")
         if size > LARGEST_FILE:
             raise wrong(f"has {size} bytes; allowed are {LARGEST_FILE} for a scene")
-        tables = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+        text = path.read_bytes().decode("utf-8-sig")
+        if LONG_KEY.search(STRINGS.sub("s", text)):
+            raise wrong(
+                f"has a key of more than {MOST_PARTS} parts; allowed are a section's and one"
+            )
+        tables = tomllib.loads(text)
     except SceneError:
         raise
     except OSError as error:

@@ -37,7 +37,7 @@ def scene_paths() -> dict[str, Path]:
     return {path.stem: path for path in sorted(HERE.glob("scenes/*.toml"))}
 
 
-def task_of(scene: Scene, friction: float, law: str = "neo-hookean") -> Task:
+def task_of(scene: Scene, friction: float, law: str | tuple[float, float] = "neo-hookean") -> Task:
     """The scene's trace, bodies and load per length."""
 
     def constants(material) -> tuple[float, float]:

@@ -3,6 +3,7 @@
     linear          sigma = lambda tr(e) I + 2 mu e
     neo-hookean     W = mu/2 (tr(F'F) - 2) - mu ln J + lambda/2 (ln J)^2
     st-venant       W = lambda/2 tr(E)^2 + mu E:E,  E = (F'F - I) / 2
+    (l, m) over mu  Murnaghan's: (l - m)/3 tr(E)^3 + m tr(E) E:E beside the last
 
 F = I + grad u, J = det F, P = dW/dF nominal and sigma = P F' / J Cauchy's stress. Total Lagrangian,
 three integration points an element. Bonet and Wood, Nonlinear Continuum Mechanics, ch. 6.
@@ -45,7 +46,7 @@ class Solid:
     held: np.ndarray
     modulus: float | np.ndarray
     ratio: float | np.ndarray
-    law: str
+    law: str | tuple[float, float]
 
     @cached_property
     def lame(self) -> np.ndarray:
@@ -96,13 +97,20 @@ class Solid:
             return stress, np.broadcast_to(moduli, (*f.shape, 2, 2))
         green = 0.5 * (np.einsum("...ki,...kj->...ij", f, f) - I2)
         trace = np.trace(green, axis1=-2, axis2=-1)[..., None, None]
-        second = lam * trace * I2 + 2 * mu * green
+        ell, m = (each * mu for each in (self.law if isinstance(self.law, tuple) else (0.0, 0.0)))
+        square = np.einsum("...ij,...ij->...", green, green)[..., None, None]
+        second = lam * trace + (ell - m) * trace**2 + m * square
+        lam4 = (lam + 2 * (ell - m) * trace)[..., None, None]
+        mu4 = (mu + m * trace)[..., None, None]
+        second = second * I2 + mu4[..., 0, 0] * 2 * green
         tangent = np.einsum("ik,...jl->...ijkl", I2, second)
         tangent = tangent + lam4 * np.einsum("...ij,...kl->...ijkl", f, f)
         left = np.einsum("...im,...km->...ik", f, f)
         tangent += mu4 * np.einsum("...ik,jl->...ijkl", left, I2)
         tangent += mu4 * np.einsum("...il,...kj->...ijkl", f, f)
-        return f @ second, tangent
+        strained = np.einsum("...ij,...kl->...ijkl", f, f @ green)
+        both = strained + np.einsum("...ijkl->...klij", strained)
+        return f @ second, tangent + 2 * m[..., None, None] * both
 
     @cached_property
     def numbers(self) -> np.ndarray:

@@ -51,7 +51,7 @@ class Task:
     radius: float
     load: float
     friction: float = 0.0
-    law: str = "neo-hookean"
+    law: str | tuple[float, float] = "neo-hookean"
     support: str = SECTOR
     coating: tuple[float, float, float] | None = None
 

@@ -10,11 +10,12 @@ own law and two others are three points; the plane through their figures holds e
 are solids themselves, that span the largest triangle with the whole's.
 
 Where the scene names no law, the error lies between those of the published solids of its kind.
-Where it names a solid whose constants were measured, each is moved by its standard error; two of
-them, independent of each other, are the 95 % of every other uncertainty."""
+Where it names a solid whose constants were measured, each is moved, and the change is scaled to its
+standard error; two of them, independent of each other, are the 95 % of every other uncertainty."""
 
 import math
-from collections.abc import Mapping
+import operator
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -45,6 +46,7 @@ from comparisons.studies.model_error.variants import ModelVariant
 EFFECT = "law_of_elasticity"
 BODIES = ("body", "roller", "coating")
 COVERED = 2.0  # standard errors
+MOVED = {"l": 5.0, "m": 3.0}  # by these times the shear modulus
 NOT_STATED = 0.1  # standard error of a constant whose source has none: as of those that have one
 # Relative changes on the coarsest level move by less of themselves on finer ones: peaks and shears
 # of smooth contacts by 0.03, lengths, which are read between nodes, by 0.17.
@@ -69,7 +71,8 @@ class OpenLaw:
     material: Material  # with the law that the whole has
     laws: tuple[Law, ...]  # of the solids that may be meant, with the body's own moduli
     named_probes: tuple[tuple[str, Law], ...]  # those of them that the whole is solved with
-    is_scatter: bool = False  # of measured constants: the probes are these moved, one by one
+    # of measured constants, which the probes move one by one: standard errors over the moves
+    shares: tuple[float, ...] = ()
     bodies: tuple[str, ...] = ()  # of BODIES
 
     @property
@@ -77,11 +80,20 @@ class OpenLaw:
         return dict(self.named_probes)
 
     @property
+    def is_scatter(self) -> bool:
+        """Of measured constants; else the solids that may be meant."""
+        return bool(self.shares)
+
+    def scatter(self, changes: Iterable[float]) -> float:
+        """What the standard errors change together, for 95 %, by what the probes change."""
+        return COVERED * math.hypot(*map(operator.mul, self.shares, changes))
+
+    @property
     def words(self) -> str:
         """For the account of effects."""
         solved = " and ".join(self.probes)
         if self.is_scatter:
-            return f"its constants were measured; the whole is solved again with {solved}"
+            return f"its constants were measured; for their errors it is solved with {solved}"
         return f"the scene names no measured solid; the whole is solved again as {solved}"
 
     @property
@@ -89,7 +101,7 @@ class OpenLaw:
         """The largest change of the peak of a smooth contact, over p0/E."""
         before = peak_change(self.material.law, self.material)
         changes = [peak_change(law, self.material) - before for law in self.laws]
-        return COVERED * math.hypot(*changes) if self.is_scatter else max(map(abs, changes))
+        return self.scatter(changes) if self.is_scatter else max(map(abs, changes))
 
     def range(self, changes: Mapping[str, float]) -> tuple[float, float]:
         """The least and the largest change that a solid makes, by those of the probes."""
@@ -134,14 +146,17 @@ def _is_measured(section: ElasticSection) -> bool:
 
 
 def _scattered(material: Material) -> OpenLaw:
-    """Each of l and m moved by its standard error."""
-    constants, moved = np.array(material.law.murnaghan), {}
+    """Each of l and m moved, by more than its standard error: a small change of a length, which is
+    read between nodes, would be noise."""
+    constants = np.array(material.law.murnaghan)
     errors = material.law.standard_errors or NOT_STATED * np.abs(constants)
-    for place, name in enumerate("lm"):
+    moved, shares = {}, []
+    for place, (name, times) in enumerate(MOVED.items()):
         step = np.zeros(3)
-        step[place] = errors[place]
-        moved[f"{name} moved by its standard error"] = Law("murnaghan", tuple(constants + step))
-    return OpenLaw(material, tuple(moved.values()), tuple(moved.items()), is_scatter=True)
+        step[place] = times * material.shear_modulus
+        moved[f"{name} moved"] = Law("murnaghan", tuple(constants + step))
+        shares.append(float(errors[place] / step[place]))
+    return OpenLaw(material, tuple(moved.values()), tuple(moved.items()), tuple(shares))
 
 
 def _probes(laws: Mapping[str, Law], material: Material) -> tuple[tuple[str, Law], ...]:
@@ -189,7 +204,7 @@ class LawSolutions:
             changes = {probe: self._change(number, probe, name, at) for probe in law.probes}
             sizes = list(changes.values())
             if law.is_scatter:
-                scatter += COVERED * float(np.hypot.reduce(sizes))
+                scatter += law.scatter(sizes)
             elif QUANTITIES[name].of_pair:  # a norm's change has no sign
                 low, high = low - max(sizes), high + max(sizes)
             else:

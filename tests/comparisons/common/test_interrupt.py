@@ -235,7 +235,7 @@ def test_an_ignored_interrupt_stays_ignored(folder):
     [
         ("paper", "paper.reproduce.paper", "nothing was written, the same command starts again"),
         (
-            *("stability", "robustness.run.run_robustness"),
+            *("stability", "cases.carry_out"),
             "finished cases are kept, the same command goes on from there",
         ),
     ],

@@ -85,6 +85,24 @@ def test_a_loop_of_links_is_called_one(tmp_path):
 
 
 @pytest.mark.parametrize(
+    "key", ["a." * 100_000 + "a", "a . " * 33 + "a", "[a" + ".a" * 40 + "]\nb"]
+)
+def test_a_key_of_many_parts_is_refused_before_it_is_read(tmp_path, key, monkeypatch):
+    monkeypatch.setattr("tomllib.loads", lambda text: pytest.fail("read"))
+    (tmp_path / "scene.toml").write_text(f"{key} = 1")
+    with pytest.raises(SceneError, match="has a key of more than 32 parts"):
+        read_toml(tmp_path / "scene.toml")
+
+
+@pytest.mark.parametrize(
+    "value", ['"' + "a." * 100 + '"', "1 # " + "a." * 100, "'" + "a." * 100 + "'", "'''\na.a'''"]
+)
+def test_dots_in_texts_and_comments_are_no_key(tmp_path, value):
+    (tmp_path / "scene.toml").write_text(f"a = {value}\n")
+    assert list(read_toml(tmp_path / "scene.toml")) == ["a"]
+
+
+@pytest.mark.parametrize(
     ("file", "name"),
     [(b"sc\xe9ne.toml", "sc\ufffdne"), ("scène.toml".encode(), "scène"), (b"a\nb.toml", "a b")],
 )

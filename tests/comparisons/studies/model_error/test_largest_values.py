@@ -51,6 +51,7 @@ def errors(
         uncertainties=lambda *given: stated,
         iteration=lambda *levels: 0.0,
         relative_resolution=lambda *levels: 0.0,
+        formal_order=lambda *of: 2.0,
     ):
         return {each.quantity: each for each in model_errors(problem, None, runs, rows, history)}
 

@@ -102,9 +102,13 @@ def test_a_known_law_is_not_open_and_measured_constants_scatter():
     [law] = open_laws(resolved(scene({"material": "rail steel"})))
     errors, constants = law.material.law.standard_errors, law.material.law.murnaghan
     assert law.is_scatter
-    for place, moved in enumerate(law.probes.values()):
+    for place, (moved, share) in enumerate(zip(law.probes.values(), law.shares, strict=True)):
         step = np.subtract(moved.murnaghan, constants)
-        assert step[place] == pytest.approx(errors[place]) and np.count_nonzero(step) == 1
+        assert np.count_nonzero(step) == 1
+        assert share * step[place] == pytest.approx(errors[place])
+    assert law.scatter((0.03, 0.04)) == pytest.approx(
+        2.0 * np.hypot(0.03 * law.shares[0], 0.04 * law.shares[1])
+    )
 
 
 def test_a_soft_body_lies_between_the_laws_of_rubbers():

@@ -1,0 +1,42 @@
+"""Twelve contacts as practitioners bring them: each names its solids, and says what decides it.
+
+All are solved in the table of measured figures; here those that take a few seconds."""
+
+import re
+
+import pytest
+from scenes import DATA, PROJECT
+
+from comparisons.figures.quantity import MODELS
+from comparisons.output.headline import headline
+from comparisons.runs.run import run
+from comparisons.scenes.scene import Scene
+
+CONTACTS = sorted((DATA / "contacts").glob("*.toml"))
+PAGE = PROJECT / "comparisons/docs/figures.md"
+
+
+def tabled() -> dict[str, str]:
+    """Verdicts by the names of the files, as the page has them."""
+    text = PAGE.read_text(encoding="utf-8").partition("## Twelve contacts")[2].partition("\n## ")[0]
+    return dict(re.findall(r"^\| `([a-z-]+)` \| [^|]* \| (\w+) \|", text, re.MULTILINE))
+
+
+def test_all_are_in_the_table_and_at_least_ten_are_decided():
+    verdicts = tabled()
+    assert list(verdicts) == [path.stem for path in CONTACTS] and len(verdicts) == 12
+    assert sum(verdict in ("HOLDS", "FAILS") for verdict in verdicts.values()) >= 10
+
+
+@pytest.mark.parametrize("path", CONTACTS, ids=lambda path: path.stem)
+def test_each_names_its_solids_and_keeps_the_default_tolerance(path):
+    scene = Scene.read(str(path))
+    assert scene.body.solid and (scene.roller.rigid or scene.roller.solid)
+    assert "tolerance" not in scene.given
+
+
+@pytest.mark.parametrize("name", ["nylon-gear", "thin-strip", "rail"])
+def test_verdicts_are_those_of_the_table(name):
+    said = headline(run(Scene.read(str(DATA / f"contacts/{name}.toml")), None, MODELS))
+    assert said.kind.upper() == tabled()[name]
+    assert said.next
