@@ -307,7 +307,7 @@ def test_shown_figures_are_the_half_planes_and_make_the_errors(unrun):
             number, unit = cell.split()
             values.append(float(number) * IN_UNITS[unit])
         assert values[0] == pytest.approx(unrun[float(friction)][name], rel=3e-3)
-        assert 100.0 * (values[0] / values[1] - 1.0) == pytest.approx(float(error), abs=0.06)
+        assert 100.0 * (values[0] / values[1] - 1.0) == pytest.approx(float(error), abs=0.11)
     assert len(shown_rows()) == 6
 
 
