@@ -11,7 +11,7 @@ D = (max f - min f) / 2 the data range parameter.
 
 The extrapolated value is f_0, the uncertainty of the finest value
 
-    U = F |c| + s,     F = 1.25 where s < D, else 3; at half an order 3 without an observed order
+    U = F |c| + s,     F = 1.25 where s < D, else 3; 3, too, where half an order is not reached
 
 but never less than the last change where the changes grow, or shrink more slowly than by
 LOWEST_ORDER. This departs from the paper by measurement. F is 3 by the deviation alone, not
@@ -84,7 +84,7 @@ def grid_convergence(
     power = formal_order if behaviour != "monotone" else min(order, formal_order)
     limit, coefficient, deviation = _fit(levels, power)
     factor = REGULAR if deviation < spread / (len(levels) - 1) else IRREGULAR
-    if formal_order <= LOWEST_ORDER and behaviour != "monotone":
+    if formal_order <= LOWEST_ORDER and order is not None and order < LOWEST_ORDER:
         factor = IRREGULAR
     uncertainty = max(factor * abs(coefficient) + deviation, resolution)
     if order is not None and order < LOWEST_ORDER:

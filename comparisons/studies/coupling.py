@@ -221,7 +221,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
     friction = max(run.problem.scene.load.friction, key=abs)
     if (why := run.found[NAME].said(WHY_NOT, friction=friction)) is not None:
         return [("coupling", f"not known: {why}")]
-    contained = "contained" if run.problem.scene.load.coupled else "not modelled"
+    contained = "contained" if run.problem.scene.load.coupled else "not in the half-plane"
     shift, of_a = _cells(run, SHIFT, friction, digits=3)
     peak, length = (_cells(run, n, friction)[1] for n in ("peak_pressure", "contact_length"))
     text = (

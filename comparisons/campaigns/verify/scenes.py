@@ -47,7 +47,7 @@ from comparisons.studies.comparison import relative_l2
 from comparisons.studies.contact import values_of
 from comparisons.studies.study import MODEL_ERROR, unsolved
 
-FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
+FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5)  # the last two shear the surface most
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
 SHARES = (0.95, 0.8, 0.6)  # of the peak pressure that a hardness leaves
 # a/h of the third level. With fewer the first level has too few open nodes to find an edge from.

@@ -175,6 +175,7 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
     asked = solved.problem.scene.budget.effects
     if not solved.plan.effects:
         left_out = selection.added | set(selection.impossible) - set(UNKNOWN)
+        left_out |= {LAW} if selection.laws else set()
         return selection.without(left_out, "not asked for (budget.effects)")
     if asked != "all" and flow_assessment(solved.problem, solved.runs).beyond_doubt:
         why = f"the body flows, an elastic one cannot hold ({ASKED})"

@@ -77,7 +77,8 @@ def select_effects(
     }
     if LAW in mattering:  # it shows in finite deformation alone
         mattering.add("finite_strain")
-    laws = open_laws(problem.scene) if LAW in mattering else ()
+    can_be_solved = LAW in mattering and why_not(LAW, problem) is None
+    laws = open_laws(problem.scene) if can_be_solved else ()
     for name, sizes in sized.items():
         if name in own or (name == LAW and laws and "finite_strain" in own):
             continue
