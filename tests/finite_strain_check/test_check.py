@@ -168,6 +168,28 @@ def test_measured_constants_are_those_of_the_projects_own_elements(name, surface
     assert stress.extremes["tau1"].value == pytest.approx(1e9 * found.tau1, rel=6e-3)
 
 
+def test_model_errors_under_friction_are_within_what_a_run_states():
+    """A smooth rigid roller that slides at 0.3, where the largest shear is about to come up to the
+    surface: peak, length and tau1."""
+    tables = {
+        "roller": {"radius": 2e-3, "rigid": True},
+        "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "law": "neo-hookean"},
+        "load": {"hertz_peak_pressure": 0.018 * 210e9, "friction": 0.3, "coupled": True},
+        "stress": {},
+    }
+    run = crosscheck.run(tables)
+    x = np.linspace(-500.0, 500.0, 101)
+    load = run.outcome.problem.hertz.load_per_length / 1e3
+    found = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.3), (2.0, 1.0))[-1]
+    for quantity in ("peak_pressure", "contact_length", "tau1_max"):
+        name, unit = cases.QUANTITIES[quantity]
+        half_plane = run.figure(quantity, "half_plane").value
+        stated = run.figure(quantity, "half_plane", "model_error")
+        error = half_plane / (getattr(found, name) * unit) - 1.0
+        assert stated.value == pytest.approx(error, abs=stated.total)
+        assert stated.total < 0.02
+
+
 def test_small_strains_meet_the_half_plane_on_a_rough_body():
     """Pressure, shear and orthogonal shear to 0.2 %, the length to both grids."""
     scene = scene_of(cases.scene_paths()["unrun-rigid"])
