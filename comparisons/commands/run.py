@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 BOTH = ",".join(HYPHENATED.values())
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
+Details = Annotated[
+    bool, Option("--details", help="Every compared quantity, where the models agree, too.")
+]
 
 
 @job
@@ -51,9 +54,7 @@ def run(
         list[str] | None,
         Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
     ] = None,
-    details: Annotated[
-        bool, Option("--details", help="Every compared quantity, where the models agree, too.")
-    ] = False,
+    details: Details = False,
     pdf: Annotated[bool, Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
