@@ -229,8 +229,8 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
         return said, (f"[budget]\ntime = {time:g}",)
     why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
     if "budget.effects" in why:
-        given = '[budget]\neffects = "all"'
-        return 'budget.effects = "all" computes it.', (given,)
+        asked = "true" if "not asked for" in why else '"all"'
+        return f"budget.effects = {asked} computes it.", (f"[budget]\neffects = {asked}",)
     if largest == "roller_support":
         given = '[roller]\nsupport = "opposite"'
         others = '"half disc" or {hub = "…"}'

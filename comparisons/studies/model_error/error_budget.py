@@ -174,8 +174,8 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
     selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
     asked = solved.problem.scene.budget.effects
     if not solved.plan.effects:
-        left_out = selection.added | set(selection.impossible) - set(UNKNOWN)
-        left_out |= {LAW} if selection.laws else set()
+        computed = {LAW} if selection.laws else set()  # beside the added
+        left_out = selection.added | computed | set(selection.impossible) - (set(UNKNOWN) - {LAW})
         return selection.without(left_out, "not asked for (budget.effects)")
     if asked != "all" and flow_assessment(solved.problem, solved.runs).beyond_doubt:
         why = f"the body flows, an elastic one cannot hold ({ASKED})"
