@@ -6,7 +6,7 @@ from comparisons.common.numbers import decimal, given, listed, plain, significan
 from comparisons.models.assumptions import support_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.sections import BodySection, CoatingSection
+from comparisons.scenes.sections import BodySection, CoatingSection, ElasticSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
@@ -127,9 +127,9 @@ def _pair_in_m(first: float, second: float) -> str:
 def _materials(problem: Problem) -> Rows:
     scene = problem.scene
     rows = [
-        ("roller", "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)),
+        ("roller", "rigid" if scene.roller.rigid else solid_text(scene.roller)),
         *([] if scene.roller.rigid else [("roller as a disc", support_text(scene.roller))]),
-        ("body", elastic_text(scene.body.material)),
+        ("body", solid_text(scene.body)),
         *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
         ("combined modulus E*", with_unit(problem.modulus, "Pa")),
         ("Dundurs' β", significant(problem.dundurs_beta, 3)),
@@ -141,6 +141,11 @@ def _materials(problem: Problem) -> Rows:
     return rows
 
 
+def solid_text(section: ElasticSection) -> str:
+    """The solid that a body is named after, and its constants."""
+    return ": ".join(filter(None, (section.solid, elastic_text(section.material))))
+
+
 def elastic_text(material: Material) -> str:
     """A material in one phrase."""
     return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
@@ -148,7 +153,7 @@ def elastic_text(material: Material) -> str:
 
 def coating_text(coating: CoatingSection) -> str:
     """A coating in one phrase."""
-    return f"{given(coating.thickness, 'm')} thick, {elastic_text(coating.material)}"
+    return f"{given(coating.thickness, 'm')} thick, {solid_text(coating)}"
 
 
 def yielding_text(body: BodySection) -> str:
