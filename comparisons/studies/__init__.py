@@ -12,6 +12,7 @@ from comparisons.studies import (
     contact,
     coupling,
     heat,
+    ladder,
     problem,
     quiescent_zone,
     running_in,
@@ -26,6 +27,7 @@ STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
+    ladder.STUDY,
 )
 
 
