@@ -78,24 +78,6 @@ class ModelError:
         return bool(sizes) and abs(self.interaction) > max(sizes)
 
 
-def model_errors(
-    problem: Problem,
-    window: Window | None,
-    runs: dict[str, ModelRun],
-    rows: list[Figure],
-    history: list[EffectContributions],
-    laws: LawSolutions | None = None,
-) -> list[ModelError]:
-    """One for each row, all of one friction coefficient.
-
-    rows     the models' comparison at that friction
-    history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
-             the last of these
-    laws     the whole there with other laws of elasticity; None: its own is known"""
-    solutions = Solutions(problem, window, runs, history, rows[0].friction, laws)
-    return [solutions.error(row) for row in rows]
-
-
 @dataclass(frozen=True)
 class Solutions:
     """What was solved at one friction coefficient, and the model errors that follow."""
@@ -103,9 +85,10 @@ class Solutions:
     problem: Problem
     window: Window | None
     runs: dict[str, ModelRun]
+    # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last
     history: list[EffectContributions]
     friction: float
-    laws: LawSolutions | None = None
+    laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
