@@ -6,7 +6,6 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import Quantity
 from comparisons.studies import (
     answers,
-    bulge,
     checks,
     comparison,
     contact,
@@ -14,13 +13,12 @@ from comparisons.studies import (
     heat,
     ladder,
     problem,
-    quiescent_zone,
     running_in,
     scatter,
     statistics,
-    yielding,
 )
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
+from comparisons.studies.subsurface import bulge, quiescent_zone, yielding
 
 # In the order in which they are done, and their figures shown.
 STUDIES = (

@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import WHOLE
-from comparisons.studies import comparison, yielding
+from comparisons.studies import comparison
 from comparisons.studies.ladder import show
 from comparisons.studies.ladder.rungs import HALF_PLANE, Rung, of_budget
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
+from comparisons.studies.subsurface import yielding
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:

@@ -45,7 +45,7 @@ from comparisons.studies.model_error.selection import EffectSelection, select_ef
 from comparisons.studies.model_error.solutions import SolvedVariants
 from comparisons.studies.model_error.variants import ModelVariant
 from comparisons.studies.study import Solved
-from comparisons.studies.yielding import flow_assessment
+from comparisons.studies.subsurface.yielding import flow_assessment
 
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
