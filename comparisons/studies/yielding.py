@@ -26,7 +26,8 @@ from comparisons.models.problem import Problem
 from comparisons.scenes.materials import kinds_of, typical_range
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.estimates import TABOR
-from comparisons.studies.study import Run, Solved, Study
+from comparisons.studies.model_error.selection import FLOW
+from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
@@ -92,7 +93,7 @@ class FlowCheck:
 class FlowAssessment:
     """All friction coefficients of a scene."""
 
-    # elastic | cap (on the pressure) | plastic (the finite elements flow)
+    # elastic | cap (on the pressure) | plastic (the finite elements flow, the scene's or the whole)
     flow: Literal["elastic", "cap", "plastic"]
     # Y [Pa]: the scene's, or a third of its hardness; None where neither is given
     yield_stress: float | None
@@ -120,6 +121,17 @@ class FlowAssessment:
         return max(tresca, mises or 0.0)
 
     @property
+    def is_certain(self) -> bool:
+        """Whether the body flows at its yield stress by both criteria, less the uncertainty."""
+        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
+        return self.yield_stress is not None and self._least > self.yield_stress / 3.0**0.5
+
+    @property
+    def _least(self) -> float:
+        """The largest tau1 [Pa] less its uncertainty."""
+        return self.worst.tau1 * (1.0 - self.worst.uncertainty)
+
+    @property
     def beyond_doubt(self) -> str:
         """What an elastic body exceeds for certain, less the uncertainty, where nothing in the
         scene stands for its flow: a sentence without its full stop, empty if nothing."""
@@ -136,17 +148,19 @@ class FlowAssessment:
     @property
     def exceeded(self) -> float | None:
         """The limit [Pa] that the largest tau1 of an elastic body exceeds for certain, if any."""
-        least = self.worst.tau1 * (1.0 - self.worst.uncertainty)
-        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
-        shear = inf if self.yield_stress is None else self.yield_stress / 3.0**0.5
-        limits = (shear, self.ideal_strength) if self.flow == "elastic" else ()
-        return next((limit for limit in limits if least > limit), None)
+        if self.flow != "elastic":
+            return None
+        if self.is_certain:
+            return self.yield_stress / 3.0**0.5
+        return self.ideal_strength if self._least > self.ideal_strength else None
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Figures by friction coefficient, of the scene, and what flows in words. What an elastic body
     exceeds for certain is judged where the models are compared."""
     flow = flow_assessment(solved.problem, solved.runs)
+    if MODEL_ERROR in before and FLOW in before[MODEL_ERROR].data.selection.whole:
+        flow = replace(flow, flow="plastic")
     source = "half_plane" if "half_plane" in solved.runs else "finite_element"
     of_scene = {
         "yield_stress": flow.yield_stress,

@@ -23,6 +23,7 @@ from comparisons.figures.uncertainty import (
     difference_of_figures,
     difference_of_norms,
     iteration,
+    of_increments,
     peak_resolution,
     relative_resolution,
 )
@@ -85,14 +86,17 @@ def model_errors(
     rows: list[Figure],
     history: list[EffectContributions],
     laws: LawSolutions | None = None,
+    longer: list[QuantitiesOfInterest] | None = None,
 ) -> list[ModelError]:
     """One for each row, all of one friction coefficient.
 
     rows     the models' comparison at that friction
     history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
              the last of these
-    laws     the whole there with other laws of elasticity; None: its own is known"""
-    solutions = _Solutions(problem, window, runs, history, rows[0].friction, laws)
+    laws     the whole there with other laws of elasticity; None: its own is known
+    longer   the whole on the coarsest level by longer increments of flow, the longest first; empty:
+             they have no solution; None: it does not flow, or the scene's own finite elements do"""
+    solutions = _Solutions(problem, window, runs, history, rows[0].friction, laws, longer)
     return [solutions.error(row) for row in rows]
 
 
@@ -106,6 +110,7 @@ class _Solutions:
     history: list[EffectContributions]
     friction: float
     laws: LawSolutions | None = None
+    longer: list[QuantitiesOfInterest] | None = None
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -150,7 +155,10 @@ class _Solutions:
 
     @cached_property
     def whole(self) -> QuantitiesOfInterest:
-        """The finest one: the scene's own finite elements there, and what they lack."""
+        """The finest one: the scene's own finite elements there, and what they lack. A whole that
+        flows beside them stands for itself: what flow takes depends on the level as they do."""
+        if self.longer is not None:
+            return self.wholes[-1]
         lacking = self.missing[-1].figures.items()
         figures = {name: self.own[-1].figures[name] + each for name, each in lacking}
         return QuantitiesOfInterest(figures, self.wholes[-1].pressure, self.wholes[-1].tau1)
@@ -184,7 +192,8 @@ class _Solutions:
             joint = [level.interaction(self.effects) for level in self.split_levels]
             interaction = self._estimate(name, joint, at).value
         if not QUANTITIES[name].of_pair:
-            value, uncertainty, scale = self._of_figure(name, row.numerical, at)
+            of_figure = self._of_figure if self.longer is None else self._of_flow
+            value, uncertainty, scale = of_figure(name, row.numerical, at)
             jump, moved = self._jump(name, row.numerical, at)
         elif not self.contains_all:
             value, uncertainty = self._of_norm(row)
@@ -270,6 +279,32 @@ class _Solutions:
             uncertainty += self._of_competitors(name, numerical, at) / scale
         return float((half_plane - figure) / scale), float(uncertainty), float(scale)
 
+    def _of_flow(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
+        """The same where the whole flows and the scene's own finite elements do not: each model by
+        its own levels, the far boundary by these elements."""
+        figure, half_plane = self._figure(name, at), self.values["half_plane"][name]
+        scale, of_models = _scale(figure, name, self.problem), self.runs.items()
+        stated = {n: uncertainties(run, self.problem, self.friction)[name] for n, run in of_models}
+        by_levels = self._estimate(name, self.wholes, at).uncertainty
+        reference = by_levels + stated["finite_element"].parts["domain"]
+        reference += self._increments([float(w.figures[name][at] / scale) for w in self._repeated])
+        ratio = half_plane / scale
+        own = stated["half_plane"].total * _scale(half_plane, name, self.problem) / scale
+        uncertainty = difference_of_figures(own, ratio, reference)
+        if name in LARGEST:
+            apart = max(numerical, reference)
+            uncertainty += self._of_competitors(name, apart, at) / scale
+        return float(ratio - figure / scale), float(uncertainty), float(scale)
+
+    @property
+    def _repeated(self) -> list[QuantitiesOfInterest]:
+        """The whole on the coarsest level by increments of flow that shorten."""
+        return [*(self.longer or []), self.wholes[0]]
+
+    def _increments(self, values: list[float]) -> float:
+        """Uncertainty by the increments of flow; unknown where longer ones have no solution."""
+        return of_increments(values) if self.longer else np.inf
+
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
         """What asperities that may have the largest value add to the uncertainty of a figure [SI].
 
@@ -306,6 +341,15 @@ class _Solutions:
         lacking = self._estimate(row.quantity, self.missing, 0).uncertainty
         there, stated = row.levels[len(self.history) - 1], row.uncertainty.parts
         beside = stated["domain"] + stated["increments"]
+        if self.longer is not None:
+            beside += self._increments(
+                [
+                    relative_sizes(self.half_plane[0] - w, w, self.problem, self.window)[
+                        row.quantity
+                    ]
+                    for w in self._repeated
+                ]
+            )
         parts = row.numerical, abs(there - row.value), lacking
         return norm.value, difference_of_norms(norm.uncertainty, beside, parts)
 
