@@ -134,10 +134,14 @@ class PlasticBody:
         self._stiffness = body.stiffness()
         self.state = PlasticState.virgin(self.areas.size)
 
+    def gradient(self, displacement: np.ndarray) -> np.ndarray:
+        """du_i/dx_j (3m, 2, 2) of a displacement (n, 2) [m]."""
+        nodal = displacement[self.body.elements]
+        return (nodal.transpose(0, 2, 1)[:, None] @ self._slopes).reshape(-1, 2, 2)
+
     def strain(self, displacement: np.ndarray) -> np.ndarray:
         """exx, ezz, gxz (3m, 3) of a displacement (n, 2) [m]."""
-        nodal = displacement[self.body.elements]
-        slope = (nodal.transpose(0, 2, 1)[:, None] @ self._slopes).reshape(-1, 2, 2)
+        slope = self.gradient(displacement)
         return np.column_stack([slope[:, 0, 0], slope[:, 1, 1], slope[:, 0, 1] + slope[:, 1, 0]])
 
     def step(self, displacement: np.ndarray) -> PlasticStep:
