@@ -9,7 +9,7 @@ value at another one, what lies between the two is the jump, no effect. Norms do
 error is the norm of the half-plane against the whole on the level of the effects, with the far
 boundary of the models' difference."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -79,37 +79,19 @@ class ModelError:
         return bool(sizes) and abs(self.interaction) > max(sizes)
 
 
-def model_errors(
-    problem: Problem,
-    window: Window | None,
-    runs: dict[str, ModelRun],
-    rows: list[Figure],
-    history: list[EffectContributions],
-    laws: LawSolutions | None = None,
-    longer: list[QuantitiesOfInterest] | None = None,
-) -> list[ModelError]:
-    """One for each row, all of one friction coefficient.
-
-    rows     the models' comparison at that friction
-    history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
-             the last of these
-    laws     the whole there with other laws of elasticity; None: its own is known
-    longer   the whole on the coarsest level by longer increments of flow, the longest first; empty:
-             they have no solution; None: it does not flow, or the scene's own finite elements do"""
-    solutions = _Solutions(problem, window, runs, history, rows[0].friction, laws, longer)
-    return [solutions.error(row) for row in rows]
-
-
 @dataclass(frozen=True)
-class _Solutions:
+class Solutions:
     """What was solved at one friction coefficient, and the model errors that follow."""
 
     problem: Problem
     window: Window | None
     runs: dict[str, ModelRun]
+    # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last
     history: list[EffectContributions]
     friction: float
-    laws: LawSolutions | None = None
+    laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
+    # the whole on the coarsest level by longer increments of flow, the longest first; empty: they
+    # have no solution; None: it does not flow, or the scene's own finite elements do
     longer: list[QuantitiesOfInterest] | None = None
 
     @cached_property
@@ -192,8 +174,7 @@ class _Solutions:
             joint = [level.interaction(self.effects) for level in self.split_levels]
             interaction = self._estimate(name, joint, at).value
         if not QUANTITIES[name].of_pair:
-            of_figure = self._of_figure if self.longer is None else self._of_flow
-            value, uncertainty, scale = of_figure(name, row.numerical, at)
+            value, uncertainty, scale = self._of_figure(name, row.numerical, at)
             jump, moved = self._jump(name, row.numerical, at)
         elif not self.contains_all:
             value, uncertainty = self._of_norm(row)
@@ -272,38 +253,33 @@ class _Solutions:
             sequence = [level.figures[name][at] / scale for level in self.own]
             refined = grid_convergence(sequence, self._order(name))
             numerical = max(numerical, self.unsolved + refined.uncertainty)
-        lacking = self._estimate(name, self.missing, at).uncertainty
-        half_plane = self.values["half_plane"][name]
+        lacking, half_plane = self._lacking(name, at), self.values["half_plane"][name]
+        if self.longer is not None:  # the half-plane on its finest level, the whole on another
+            stated = uncertainties(self.runs["half_plane"], self.problem, self.friction)[name]
+            numerical += stated.total * _scale(half_plane, name, self.problem) / scale
         uncertainty = difference_of_figures(numerical, half_plane / scale, lacking)
         if name in LARGEST:
             uncertainty += self._of_competitors(name, numerical, at) / scale
         return float((half_plane - figure) / scale), float(uncertainty), float(scale)
 
-    def _of_flow(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
-        """The same where the whole flows and the scene's own finite elements do not: each model by
-        its own levels, the far boundary by these elements."""
-        figure, half_plane = self._figure(name, at), self.values["half_plane"][name]
-        scale, of_models = _scale(figure, name, self.problem), self.runs.items()
-        stated = {n: uncertainties(run, self.problem, self.friction)[name] for n, run in of_models}
-        by_levels = self._estimate(name, self.wholes, at).uncertainty
-        reference = by_levels + stated["finite_element"].parts["domain"]
-        reference += self._increments([float(w.figures[name][at] / scale) for w in self._repeated])
-        ratio = half_plane / scale
-        own = stated["half_plane"].total * _scale(half_plane, name, self.problem) / scale
-        uncertainty = difference_of_figures(own, ratio, reference)
-        if name in LARGEST:
-            apart = max(numerical, reference)
-            uncertainty += self._of_competitors(name, apart, at) / scale
-        return float(ratio - figure / scale), float(uncertainty), float(scale)
+    def _lacking(self, name: str, at: int) -> float:
+        """Uncertainty of what the whole has beside the scene's own finite elements, relative. One
+        that flows beside them stands for itself: by its levels, and by its increments."""
+        alone = self.longer is None or QUANTITIES[name].of_pair
+        levels = self.missing if alone else self.wholes
+        return self._estimate(name, levels, at).uncertainty + self._increments(name, at)
 
-    @property
-    def _repeated(self) -> list[QuantitiesOfInterest]:
-        """The whole on the coarsest level by increments of flow that shorten."""
-        return [*(self.longer or []), self.wholes[0]]
-
-    def _increments(self, values: list[float]) -> float:
-        """Uncertainty by the increments of flow; unknown where longer ones have no solution."""
-        return of_increments(values) if self.longer else np.inf
+    def _increments(self, name: str, at: int) -> float:
+        """The part by increments of flow; unknown where longer ones have no solution."""
+        if not self.longer:
+            return 0.0 if self.longer is None else np.inf
+        repeated = [*self.longer, self.wholes[0]]
+        if not QUANTITIES[name].of_pair:
+            scale = self._scale_of(name, at)
+            return of_increments([float(each.figures[name][at] / scale) for each in repeated])
+        differences = ((self.half_plane[0] - each, each) for each in repeated)
+        sizes = (relative_sizes(*pair, self.problem, self.window) for pair in differences)
+        return of_increments([each[name] for each in sizes])
 
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
         """What asperities that may have the largest value add to the uncertainty of a figure [SI].
@@ -313,9 +289,8 @@ class _Solutions:
         stated = uncertainties(self.runs["finite_element"], self.problem, self.friction)
         alone = stated[largest].total  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
-        return _competing(
-            self.whole, name, at, alone, lambda k: self._estimate(largest, self.missing, k)
-        )
+        beside = self.missing if self.longer is None else self.wholes
+        return _competing(self.whole, name, at, alone, lambda k: self._estimate(largest, beside, k))
 
     def _jump(
         self, name: str, numerical: float, at: int
@@ -338,20 +313,68 @@ class _Solutions:
         levels = self.half_plane[: len(self.wholes)]
         differences = [a - b for a, b in zip(levels, self.wholes, strict=True)]
         norm = self._estimate(row.quantity, differences, 0)
-        lacking = self._estimate(row.quantity, self.missing, 0).uncertainty
+        lacking = self._lacking(row.quantity, 0)
         there, stated = row.levels[len(self.history) - 1], row.uncertainty.parts
         beside = stated["domain"] + stated["increments"]
-        if self.longer is not None:
-            beside += self._increments(
-                [
-                    relative_sizes(self.half_plane[0] - w, w, self.problem, self.window)[
-                        row.quantity
-                    ]
-                    for w in self._repeated
-                ]
-            )
         parts = row.numerical, abs(there - row.value), lacking
         return norm.value, difference_of_norms(norm.uncertainty, beside, parts)
+
+    def of_variants(self, name: str, levels: Sequence[QuantitiesOfInterest]) -> ModelError:
+        """Of finite elements with other effects, on the last of the levels of the effects."""
+        at = self.whole.leading(name)
+        if QUANTITIES[name].of_pair:
+            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=False)]
+            return self._plain_error(name, self._estimate(name, apart, 0), at)
+        scale, middle = self._scale_of(name, at), self._spread(name, at).middle
+        apart = [
+            (_leading(one, name) - (1.0 + middle) * _leading(whole, name)) / scale
+            for one, whole in zip(levels, self.wholes, strict=False)
+        ]
+        if not any(apart):
+            return self._plain_error(name, Estimate(0.0, 0.0), at)
+        resolution = self.resolutions.get(name, 0.0)
+        unsure = grid_convergence(apart, self._order(name), resolution).uncertainty + self.unsolved
+        return self._plain_error(name, Estimate(float(apart[-1]), float(unsure)), at)
+
+    def of_exact(
+        self, name: str, levels: Sequence[QuantitiesOfInterest], numerical: float
+    ) -> ModelError:
+        """Of a model without numerical error, on the levels of the effects.
+
+        numerical  relative uncertainty of the scene's own finite elements, or absolute of a norm"""
+        at = self.whole.leading(name)
+        lacking = self._lacking(name, at)
+        if QUANTITIES[name].of_pair:
+            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=True)]
+            norm = self._estimate(name, apart, 0)
+            unsure = norm.uncertainty + numerical + lacking
+            return self._plain_error(name, Estimate(norm.value, unsure), at)
+        scale, value = self._scale_of(name, at), _leading(levels[-1], name)
+        numerical *= abs(_leading(self.own[-1], name)) / scale
+        unsure = float(difference_of_figures(numerical, value / scale, lacking))
+        value = float((value - self._figure(name, at)) / scale)
+        return self._plain_error(name, Estimate(value, unsure), at)
+
+    def of_whole(self, name: str, numerical: float) -> ModelError:
+        """What is not known of the whole itself."""
+        at = self.whole.leading(name)
+        lacking = self._lacking(name, at)
+        return self._plain_error(name, Estimate(0.0, numerical + lacking), at)
+
+    def _scale_of(self, name: str, at: int) -> float:
+        return _scale(self._figure(name, at), name, self.problem)
+
+    def _plain_error(self, name: str, size: Estimate, at: int) -> ModelError:
+        scale = 1.0 if QUANTITIES[name].of_pair else self._scale_of(name, at)
+        law = self._law(name, at)
+        return ModelError(
+            name, self.friction, {}, 0.0, size.value, size.uncertainty, scale, law=law
+        )
+
+
+def _leading(quantities: QuantitiesOfInterest, name: str) -> float:
+    """A figure [SI] at the model's own largest value."""
+    return float(quantities.figures[name][quantities.leading(name)])
 
 
 def _competing(
