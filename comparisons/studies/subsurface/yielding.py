@@ -26,8 +26,10 @@ from comparisons.models.problem import Problem
 from comparisons.scenes.materials import kinds_of, typical_range
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.estimates import TABOR
+from comparisons.studies.model_error.model_error import Solutions
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
+from comparisons.studies.subsurface import pressure_cap
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
@@ -46,6 +48,7 @@ QUANTITIES = {
     "share_at_hardness": Quantity("contact at the hardness or above"),
     "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/2"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
+    **pressure_cap.QUANTITIES,
 }
 INDICES = "plasticity_index_summits", "plasticity_index_slope"
 OF_FIRST_FLOW = ("over_first_flow_tresca", "over_first_flow_von_mises", "share_at_hardness")
@@ -188,9 +191,17 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             figures.append(figure)
         figures += figures_of(NAME, "scene", {"shakedown_limit": check.shakedown}, None, at)
         said.append(Statement("read", FIELD if check.from_field else PEAK, source, at))
+    if flow.flow == "plastic":
+        for solutions in _solutions(before).values():
+            figures += pressure_cap.figures_of_caps(solved.problem, solutions)
     if flow.beyond_doubt:
         said.append(Statement(BEYOND_DOUBT, flow.beyond_doubt, source))
     return Findings(tuple(figures), statements=tuple(said), data=flow)
+
+
+def _solutions(before: Mapping[str, Findings]) -> Mapping[float, Solutions]:
+    """Of the model error, by friction coefficient; none without one."""
+    return before[MODEL_ERROR].data.solutions if MODEL_ERROR in before else {}
 
 
 def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAssessment:
@@ -325,7 +336,9 @@ def blocks(run: Run) -> list[Block]:
         note += f" {OF_A_YIELD_STRESS}" + f" {OF_A_TRACE}" * bool(scene.profile)
     else:
         note += " The scene has neither yield stress nor hardness: what flows is not known."
-    return [Block("yield", (flow_table(run), Note(note)), "Yield")]
+    capped = pressure_cap.cap_table(run.figures.of(study=NAME), scene.load.friction)
+    beside = () if capped is None else (capped, Note(pressure_cap.NOTE))
+    return [Block("yield", (flow_table(run), Note(note), *beside), "Yield")]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -338,7 +351,9 @@ def lines(run: Run) -> list[tuple[str, str]]:
     text = f"peak pressure {pressure} k, elastic shakedown up to {flow.worst.shakedown:.3g} k"
     indices = {"summits": flow.summit_index, "slope": flow.slope_index}
     known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
-    return [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
+    said = [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
+    cap = pressure_cap.cap_sentence(run.figures.of(study=NAME), run.deciding_friction)
+    return [*said, ("pressure cap", cap)] if cap else said
 
 
 STUDY = Study(NAME, QUANTITIES, solve, data=FlowAssessment, blocks=blocks, lines=lines)
