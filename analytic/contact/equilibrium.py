@@ -257,11 +257,11 @@ class EquilibriumProblem:
         load too small, that is the node that is reached first, of one too large the last."""
         if not self.by_load or active.free.any():
             return active
-        reach = self.weighted_gap / self.weights
+        reach, movable = self.weighted_gap / self.weights, self.constraints.hardness > 0.0
         if self._load_of(active.upper) < self.constraints.load:
-            node = np.argmin(np.where(active.lower & ~active.upper, reach, np.inf))
+            node = np.argmin(np.where(active.lower & movable, reach, np.inf))
         else:
-            node = np.argmax(np.where(active.upper & ~active.lower, reach, -np.inf))
+            node = np.argmax(np.where(active.upper & movable, reach, -np.inf))
         lower, upper = active.lower.copy(), active.upper.copy()
         lower[node] = upper[node] = False
         return ActiveSet(lower, upper)
@@ -285,12 +285,12 @@ class EquilibriumProblem:
         joining = active.lower & (state.weighted_gap < -state.overlap)
         if not np.all(np.isfinite(hardness)):  # no node is at it
             return Violations(tensile, active.upper, joining, active.upper)
-        held = active.lower & active.upper  # by a hardness of 0
+        movable = hardness > 0.0
         return Violations(
             tensile=tensile,
             excessive=active.free & (pressure > hardness + slack),
-            joining=joining & ~held,
-            softening=active.upper & ~held & (state.weighted_gap > state.overlap),
+            joining=joining & movable,
+            softening=active.upper & movable & (state.weighted_gap > state.overlap),
         )
 
     def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:

@@ -19,14 +19,14 @@ A step is exact, however long, where slip spreads without turning back; else it 
 first order in its length. Pressing unlike bodies makes tractions by itself (Spence 1975).
 
     p, q    pressure and traction on the body towards +x [Pa]       mu   friction
-    C, A    normal and tangential compliance of both surfaces [m^2/Pa]; of half-planes they are equal
+    C, A    normal and tangential compliance of both surfaces [m^2/Pa]; half-planes have A = C
     T       normal displacement under q, its transpose tangential displacement under p [m^2/Pa]
     s       slip, weighted by each hat [m^2]: of the roller over the body, towards +x
     d       tangential displacement of the roller in the step [m]   w    weights [m]
     e       strain of the body along x by a load elsewhere          P, Q  loads per length [N/m]"""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -43,7 +43,7 @@ Vectors = Callable[[np.ndarray], np.ndarray]
 # Of weighted gap, weights, constraints and a start
 Solve = Callable[[np.ndarray, np.ndarray, Constraints, np.ndarray | None], ContactSolution]
 
-SETTLED = 1e-8  # of the largest pressure: what the last turn of normal and tangential problem moves
+SETTLED = 1e-8  # of the largest pressure: what the last turn of both problems moves
 MOST_TURNS = 60
 
 
@@ -63,6 +63,15 @@ class SurfacePair:
     solve_tangential: Solve
     raised: Vectors | None = None
     dragged: Vectors | None = None
+    settled: float = SETTLED
+
+    def carried(self, pressure: np.ndarray, traction: np.ndarray) -> np.ndarray:
+        """Displacement (n,) [m] of the body's surface over the roller's along x, from their form
+        without load."""
+        moved = self.tangential(traction)
+        if self.dragged is not None:
+            moved = moved + self.dragged(pressure)
+        return moved / self.weights
 
 
 @dataclass(frozen=True)
@@ -131,7 +140,7 @@ def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipSt
                 np.max(np.abs(pressure - last)),
                 np.max(np.abs(traction - reached)) / pair.friction,
             )
-            <= SETTLED * pressure.max()
+            <= pair.settled * pressure.max()
         )
         if settled:
             break

@@ -32,7 +32,7 @@ from comparisons.studies import bulge, checks, comparison, contact, coupling, pr
 from comparisons.studies import quiescent_zone as zone
 from comparisons.studies import yielding as flow
 from comparisons.studies.answers import study as answers
-from comparisons.studies.coupling import Couplings
+from comparisons.studies.friction.coupling import Couplings
 from comparisons.studies.heat import study as heat
 from comparisons.studies.model_error import account
 from comparisons.studies.scatter import study as scatter

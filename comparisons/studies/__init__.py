@@ -10,7 +10,6 @@ from comparisons.studies import (
     checks,
     comparison,
     contact,
-    coupling,
     heat,
     problem,
     quiescent_zone,
@@ -19,6 +18,7 @@ from comparisons.studies import (
     statistics,
     yielding,
 )
+from comparisons.studies.friction import PARTIAL_SLIP, coupling
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 
 # In the order in which they are done, and their figures shown.
@@ -26,6 +26,7 @@ STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
+    PARTIAL_SLIP,
 )
 
 

@@ -150,7 +150,7 @@ def test_unlike_bodies_stick_as_spence_has_it(acts_back):
     errors = 1.0 - np.array(ratios) / punch
     print(errors)
     orders = -np.diff(np.log2(errors))
-    assert np.all((0.8 < orders) & (orders < 1.3)) and errors[-1] < 0.02
+    assert np.all((orders > 0.8) & (orders < 1.3)) and errors[-1] < 0.02
 
 
 def test_a_mirrored_contact_is_the_mirrored_solution():
