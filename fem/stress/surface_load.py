@@ -5,7 +5,7 @@ Nomenclature
     s_tt, s_nn, s_nt   stress along the surface, across it, shear
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -26,7 +26,8 @@ class SurfaceLoad:
     pressure: np.ndarray  # (count,) [Pa]
     friction: float | np.ndarray  # (c,); times the pressure is the sliding traction towards +x
     direction: Direction  # of the pressure, as in `fem.compliance.operator`
-    traction: np.ndarray | None = None  # (count,) [Pa] towards +x beside all of these
+    # (count,) [Pa] towards +x beside all of these
+    traction: np.ndarray | None = field(default=None, kw_only=True)
 
     @cached_property
     def kinks(self) -> Kinks:

@@ -105,7 +105,7 @@ def _with_mesh_stress(
     body, pressure = rough.body, state.normal.pressure
     displaced = scene.finite_element.gap == "displaced"
     direction = roller_normal(problem) if displaced else straight_down
-    load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), direction, state.traction)
+    load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), direction, traction=state.traction)
     moved = rough.displacement_of(pressure, state.traction)
     beside = [ends_stress(problem, slipped.grid, state)]
     [nodal] = nodal_stresses(moved[:, None], load, beside)
@@ -122,5 +122,5 @@ def _with_mesh_stress(
     )
     bounds = -window.extent, window.extent, window.z[-1]
     tau1 = maximum(body, whole, lambda stress: stress.tau1, bounds)
-    x = surface_places(slipped, window)
+    x = surface_places(problem, slipped, window)
     return replace(slipped, tau1=tau1, x=x, sx=evaluate(body, whole, x, load.surface(x)).sx)

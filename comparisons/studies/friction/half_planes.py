@@ -97,7 +97,7 @@ def half_plane_slip(
     slipped = slipped_level(problem, grid, pair, increments)
     if window is None:
         return slipped
-    state, x = slipped.states[-1], surface_places(slipped, window)
+    state, x = slipped.states[-1], surface_places(problem, slipped, window)
     beside = _traction_stress(problem, grid, state)
     searched, bulk = search_window(problem, window), bulk_stress(problem)
     spread = (searched.x[0], searched.x[-1]), searched.z
@@ -160,11 +160,13 @@ def slipped_level(
     )
 
 
-def surface_places(slipped: SlippedLevel, window: Window) -> np.ndarray:
+def surface_places(problem: Problem, slipped: SlippedLevel, window: Window) -> np.ndarray:
     """x (k,) [m] of grid, window and ends of contact, where sx of the surface is largest."""
     state = slipped.states[-1]
+    ends = ends_of(problem, slipped.grid, state.normal).patches
     patches = contact_patches(slipped.grid.x, state.normal.pressure, state.normal.gap)
-    x = np.unique(np.concatenate([window.x, slipped.grid.x, patches.ravel()]))
+    edges = patches.ravel(), *(patch.ends for patch in ends)
+    x = np.unique(np.concatenate([window.x, slipped.grid.x, *edges]))
     return x[np.abs(x) <= window.extent]
 
 
