@@ -90,7 +90,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     """Every level of every model that was run is loaded along the path."""
     problem, path = solved.problem, solved.problem.scene.partial_slip.path
     at, models, said = {"friction": friction_of(problem)}, {}, []
-    for name, solve_level in _solvers(solved).items():
+    for name, solve_level in solvers(solved).items():
         tasks.callback(f"partial slip: {name.replace('_', ' ')}")
         models[name] = _model_slip(solved, name, solve_level)
         settled = all(s.converged for level in models[name].levels for s in level.states)
@@ -106,7 +106,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     return Findings(tuple(figures), tuple(series), tuple(said), data)
 
 
-def _solvers(solved: Solved) -> dict[str, Solve]:
+def solvers(solved: Solved) -> dict[str, Solve]:
     """What loads a level of each model that was run, and can be."""
     problem, window, settings = solved.problem, solved.window, solved.problem.scene.finite_element
     solvers: dict[str, Solve] = {}
