@@ -9,7 +9,7 @@ from comparisons.figures.figure import Column, Figure, Findings, Series, Stateme
 from comparisons.figures.quantity import WHOLE
 from comparisons.studies import comparison
 from comparisons.studies.ladder import show
-from comparisons.studies.ladder.rungs import HALF_PLANE, Rung, of_budget
+from comparisons.studies.ladder.rungs import HALF_PLANE, Ladder, Rung
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
 from comparisons.studies.subsurface import yielding
@@ -20,9 +20,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     if not budget.solutions:
         why = budget.unsplit or "the whole model has no solution"
         return Findings(statements=(Statement(WHY_NOT, why),))
-    rungs = of_budget(solved, budget, before[comparison.NAME].figures)
-    flows = before[yielding.NAME].said(yielding.BEYOND_DOUBT)
-    figures = tuple(figure for rung in rungs for figure in rung.figures)
+    compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
+    flow = before[yielding.NAME]
+    rungs = Ladder(solved, budget, tuple(compared), flow.data).rungs()
+    flows = flow.said(yielding.BEYOND_DOUBT)
+    figures = tuple(figure for rung in rungs for figure in (*rung.figures, *rung.beside))
     columns = {
         "rung": Column(tuple(rung.name for rung in rungs)),
         "model": Column(tuple(rung.words for rung in rungs)),
