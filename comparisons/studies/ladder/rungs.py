@@ -3,7 +3,7 @@
 In: an error budget, whose finite elements are solved already. Out: a rung a model. Hertz's contact
 is a closed form; every other rung is what the run has solved for its verdict."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -14,6 +14,7 @@ from analytic.exact.hertz import HertzContact, hertz_extremes, hertz_stress
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.models.level import ModelRun
+from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import uncertainties
@@ -101,26 +102,17 @@ class Ladder:
         refuted = self.flow.beyond_doubt or any(rung.verdict == "fails" for rung in same)
         if not held or refuted or why_no_stresses(problem, window) is not None:
             return None
-        problem, finite_elements = problem_carrying(problem, held), self.solved.runs[OTHER]
-        frictions, errors, compared = list(self.budget.solutions), [], []
-        seconds, memory = 0.0, 0
-        for group in [(mu,) for mu in frictions] if COUPLED in held else [tuple(frictions)]:
-            model = OperatorModel(problem, group, group[0] if COUPLED in held else 0.0)
-            try:
-                levels = [model.level(level.grid.pitch, window) for level in finite_elements.levels]
-            except ContactError:  # the cap takes a contact that the pressures' extent does not hold
-                return None
-            if not all(level.solution.converged for level in levels):
-                return None
-            run = ModelRun(OPERATORS, tuple(levels))
-            seconds, memory = seconds + sum(run.seconds.values()), run.finest.peak_memory
-            for friction in group:
-                new = self._beside(run, friction)
-                errors += [error for _, error in new]
-                compared += [renamed(row, OPERATORS) for row, _ in new]
+        finite_elements, errors, compared = self.solved.runs[OTHER], [], []
+        runs = operator_runs(problem, held, finite_elements, window)
+        if runs is None:
+            return None
+        for friction, run in runs.items():
+            for row, error in self._beside(run, friction):
+                errors.append(error)
+                compared.append(renamed(row, OPERATORS))
         figures = self._figures(OPERATORS, errors)
         beside = tuple(compared) if selection.contained == held else ()
-        return Rung(OPERATORS, OPERATORS, words_of(held), figures, seconds, memory, held, beside)
+        return Rung(OPERATORS, OPERATORS, words_of(held), figures, *cost_of(runs), held, beside)
 
     def _beside(self, run: ModelRun, friction: float) -> list[tuple[Figure, ModelError]]:
         """Differences from the scene's own finite elements, and errors against the whole, of a
@@ -212,6 +204,32 @@ class Ladder:
 
     def _rows(self, friction: float) -> list[Figure]:
         return [row for row in self.compared if row.friction == friction]
+
+
+def operator_runs(
+    problem: Problem, held: frozenset[str], like: ModelRun, window: Window | None
+) -> dict[float, ModelRun] | None:
+    """The half-plane with what an operator carries, by friction coefficient, on the pressure
+    elements of another model; None where it has no solution."""
+    problem, frictions = problem_carrying(problem, held), problem.scene.load.friction
+    runs = {}
+    for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
+        model = OperatorModel(problem, group, group[0] if COUPLED in held else 0.0)
+        try:
+            levels = [model.level(level.grid.pitch, window) for level in like.levels]
+        except ContactError:  # the cap takes a contact that the pressures' extent does not hold
+            return None
+        if not all(level.solution.converged for level in levels):
+            return None
+        runs |= dict.fromkeys(group, ModelRun(OPERATORS, tuple(levels)))
+    return runs
+
+
+def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
+    """Seconds and largest memory [bytes] of runs by friction coefficient, some of them one."""
+    each = {id(run): run for run in runs.values()}.values()
+    memory = max(run.finest.peak_memory for run in each)
+    return sum(sum(run.seconds.values()) for run in each), memory
 
 
 def renamed(figure: Figure, rung: str) -> Figure:
