@@ -32,6 +32,7 @@ WHY_NOT, CONVERGED = "not done", "converged"
 REPEATED = "contact_ratio"  # says again what the contact length says
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
 SCATTER = "scatter"  # the study of uncertain inputs
+LADDER = "ladder"  # the study that judges other models beside it, which no run answers for
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,9 @@ class Run:
 
     @cached_property
     def judged(self) -> Figures:
-        return Figures(figure for figure in self.figures if figure.bounds is not None)
+        """What the run answers for."""
+        judged = (figure for figure in self.figures if figure.bounds is not None)
+        return Figures(figure for figure in judged if figure.study != LADDER)
 
     @cached_property
     def model_errors(self) -> Figures:
