@@ -91,7 +91,7 @@ def run(
     scene, models = limited(scene, models)
     if may_stop_early(scene, models):
         first = run(scene, None, MODELS[:1], callback, known=known)
-        models = MODELS[:1] if first.found[LADDER].said(SUFFICES) else models
+        models = MODELS[:1] if first.findings[LADDER].said(SUFFICES) else models
     stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)

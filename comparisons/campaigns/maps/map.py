@@ -74,7 +74,7 @@ class MapRequest:
         """Of the scene, SI, without [budget], which limits runs alone; [finite_element] as the
         scene gives it: what follows there changes with groups."""
         tables = {name: table for name, table in self.scene.tables.items() if name != "budget"}
-        return tables | {"finite_element": self.scene.given.get("finite_element", {})}
+        return tables | {"finite_element": self.scene.written.get("finite_element", {})}
 
     @cached_property
     def points(self) -> tuple[Point, ...]:

@@ -45,37 +45,37 @@ def pressed_finitely(
     that along x of the deformed configuration. Raises FemError where there is
     no solution, and where contact reaches the grid's ends only at finite deformation."""
     rough, weights, x = operator.rough, grid.weights, grid.x
-    found = finite_contact(problem, operator, linear, constraints, model)
-    _refuse_cut_off(problem, grid, found.pressure, linear, "at finite deformation")
+    pressed = finite_contact(problem, operator, linear, constraints, model)
+    _refuse_cut_off(problem, grid, pressed.pressure, linear, "at finite deformation")
     counts = {
-        "increments": len(found.solution.residuals),
-        "newton_steps": found.solution.iterations,
-        "corrections": found.solution.corrections,
+        "increments": len(pressed.solution.residuals),
+        "newton_steps": pressed.solution.iterations,
+        "corrections": pressed.solution.corrections,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    initial = found.initial_gap * weights
-    pressure = found.pressure
+    initial = pressed.initial_gap * weights
+    pressure = pressed.pressure
     if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
-        pressure, weights = found.cauchy_pressure, weights * found.stretch
-    moved = (found.gap + found.approach) * weights - initial
-    given = moved, pressure, initial, weights, found.approach, constraints, counts
-    solution = assessed(*given, FINITE_TOLERANCE)
+        pressure, weights = pressed.cauchy_pressure, weights * pressed.stretch
+    moved = (pressed.gap + pressed.approach) * weights - initial
+    posed = moved, pressure, initial, weights, pressed.approach, constraints, counts
+    solution = assessed(*posed, FINITE_TOLERANCE)
     patches = contact_patches(x, solution.pressure, solution.gap)
-    solution = replace(solution, pressure=found.cauchy_pressure)
+    solution = replace(solution, pressure=pressed.cauchy_pressure)
     top = rough.body.top
-    down = rough.body.at_points(found.displacement)[top.point, 1]
+    down = rough.body.at_points(pressed.displacement)[top.point, 1]
     depth = np.interp(x, top.x, down)
-    nodal = found.cauchy.nodal
+    nodal = pressed.cauchy.nodal
     loaded = LoadedBody(
         rough.body,
         solution,
         depth * grid.weights,
         lambda frictions: (nodal,) * len(frictions),
         patches,
-        found.cauchy.across,
-        moved=found.displacement,
+        pressed.cauchy.across,
+        moved=pressed.displacement,
     )
-    return on_undeformed_grid(problem, grid, found.place, depth, loaded)
+    return on_undeformed_grid(problem, grid, pressed.place, depth, loaded)
 
 
 def _refuse_cut_off(
@@ -109,10 +109,10 @@ def finite_contact(
     if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
         return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
     bodies = FiniteCompliance(contact)
-    given = bodies, model, contact.gap, contact.weights, constraints, start
+    posed = bodies, model, contact.gap, contact.weights, constraints, start
     try:
         solver = solve_coupled if operator.coupled else solve_contact
-        solution = solve_with_model(*given, FINITE_TOLERANCE, solver, nearer=True)
+        solution = solve_with_model(*posed, FINITE_TOLERANCE, solver, nearer=True)
         if solution.converged:
             return contact.deformed(bodies.solution(solution.pressure, solution.approach))
     except FemError:
@@ -142,16 +142,16 @@ def pressed_plastically(
     body, loads = scene.body, (constraints.load, 0.0)
     hardening = Hardening(body.yield_stress, body.hardening_modulus or 0.0)
     metal = ElasticPlastic(body.material, hardening)
-    given = rough, metal, gap, weights
+    posed = rough, metal, gap, weights
     start = linear.pressure
-    body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, travel)
+    body, (loaded, released) = press_plastically(*posed, loads, start, friction, roller, travel)
     still = None
     if scene.stress is not None and scene.stress.bulge and scene.profile is not None:
-        _, [twin] = press_plastically(*given, loads[:1], start, 0.0, roller, travel)
+        _, [twin] = press_plastically(*posed, loads[:1], start, 0.0, roller, travel)
         still = twin.displacement
     _refuse_cut_off(problem, grid, loaded.pressure, linear, "of the flowing body")
-    own = rough.weighted(loaded.displacement)
-    both = own if roller is None else own + roller.apply(loaded.pressure, -friction)
+    moved = rough.weighted(loaded.displacement)
+    both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
     counts = {
         "linear_contacts": loaded.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
@@ -173,7 +173,7 @@ def pressed_plastically(
     return LoadedBody(
         rough.body,
         solution,
-        own,
+        moved,
         lambda frictions: (stress,) * len(frictions),
         patches,
         fields.sy,

@@ -107,7 +107,7 @@ def sections(run: Run, explorer: Explorer | None) -> list[Block]:
     """One block a section, which the studies' blocks are parts of."""
     blocks = [*_before(run), *_stresses(run, explorer), *_after(run)]
     for study in STUDIES:
-        if study.name in run.found:
+        if study.name in run.findings:
             blocks += study.blocks(run)
     blocks.sort(key=lambda block: ORDER.index(block.section if block.section in ORDER else ""))
     return [

@@ -75,7 +75,7 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
         number = len(run.data(NAME).curves[figure.source].zones[-1])
         zones = f"{percent(figure.value)} of the contact, in {number} zone{'s' * (number != 1)}"
         facts.append((f"sticks ({LABELS[figure.source]})", zones))
-    why = run.found[NAME].said(WHY_NOT)
+    why = run.findings[NAME].said(WHY_NOT)
     return facts + ([("not modelled", why)] if why else [])
 
 
@@ -92,7 +92,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
     if figure is not None:
         difference, uncertainty, _, verdict = judged_cells(figure)
         text += f": {difference} ± {uncertainty}, {verdict}"
-    if (why := run.found[NAME].said(WHY_NOT)) is not None:
+    if (why := run.findings[NAME].said(WHY_NOT)) is not None:
         text += f"; of the finite elements {why}"
     return [("partial slip", text)]
 

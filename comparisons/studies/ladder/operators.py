@@ -181,13 +181,13 @@ def _stresses(
     sides = _sides(problem, level, window)
     for friction in frictions:
         fields = [side.field(level, side.shown, friction).stress for side in sides if side.is_shown]
-        found = [side.maxima(problem, level, friction) for side in sides]
+        by_side = [side.maxima(problem, level, friction) for side in sides]
         maxima = {
-            name: _larger([one.cells[key] for one in found])
+            name: _larger([one.cells[key] for one in by_side])
             for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
         }
-        extremes = {name: highest(each) for name, each in maxima.items()}
-        extremes["von_mises"] = max((one.von_mises for one in found), key=lambda e: e.value)
+        extremes = {name: highest(places) for name, places in maxima.items()}
+        extremes["von_mises"] = max((one.von_mises for one in by_side), key=lambda e: e.value)
         parts = ([getattr(field, name) for field in fields] for name in ("sx", "sz", "txz"))
         state = StressState(*map(np.concatenate, parts))
         yield StressResult(friction, extremes, state, maxima)
@@ -206,7 +206,7 @@ def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
     )
     inside, below = (
         [replace(points, z=z) for points, z in zip((window, searched), depths, strict=True)]
-        for depths in zip(*(_split(each.z, thickness) for each in (window, searched)), strict=True)
+        for depths in zip(*(_split(part.z, thickness) for part in (window, searched)), strict=True)
     )
     goes_on = not body.rigid and len(below[1].z) > 0
     if goes_on:  # both sides of the interface are searched

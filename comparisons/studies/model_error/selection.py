@@ -73,16 +73,16 @@ def select_effects(
     """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure, `mean` the mean of
     its contact, by default the same; `no_flow` says why flow is not computed where it could be,
     None: it is."""
-    own, tolerance = contained(problem.scene), problem.scene.tolerances
-    found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
-    sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
+    own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
+    sized_effects = estimates(problem, peak, peak if mean is None else mean, own_effects, couplings)
+    sized = {name: sizes for name, sizes in sized_effects.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
     mattering = {
         name
         for name, sizes in sized.items()
         if any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
     }
-    flows = FLOW in own
+    flows = FLOW in own_effects
     if no_flow is None and not flows:
         flows = why_not(FLOW, problem) is None
         sized.setdefault(FLOW, {})
@@ -94,7 +94,7 @@ def select_effects(
     can_be_solved = LAW in mattering and why_not(LAW, problem, flows) is None
     laws = open_laws(problem.scene) if can_be_solved else ()
     for name, sizes in sized.items():
-        if name in own or (name == LAW and laws and "finite_strain" in own):
+        if name in own_effects or (name == LAW and laws and "finite_strain" in own_effects):
             continue
         why = why_not(name, problem, flows) or (no_flow if name == FLOW else None)
         if name not in mattering:
@@ -103,9 +103,9 @@ def select_effects(
             impossible[name] = why
         elif name != LAW:
             added.add(name)
-    if any(problem.scene.load.friction) and (added | own) & set(NONLINEAR):
+    if any(problem.scene.load.friction) and (added | own_effects) & set(NONLINEAR):
         negligible.pop(COUPLED, None)  # these bodies have it
-    return EffectSelection(own, frozenset(added), negligible, impossible, sized, laws)
+    return EffectSelection(own_effects, frozenset(added), negligible, impossible, sized, laws)
 
 
 def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:

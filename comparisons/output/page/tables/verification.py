@@ -13,9 +13,9 @@ from pathlib import Path
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import (
-    given_percent,
     integer,
     percent,
+    percent_as_written,
     plain,
     scale_of,
     significant,
@@ -122,7 +122,7 @@ def _judged(sequence: JudgedSequence) -> tuple[str, ...]:
         known.behaviour,
         "none" if known.safety_factor is None else plain(known.safety_factor),
         percent(sequence.figure.uncertainty.parts["discretisation"]),
-        given_percent(COVERAGE),
+        percent_as_written(COVERAGE),
     )
 
 

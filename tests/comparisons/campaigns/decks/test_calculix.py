@@ -24,19 +24,19 @@ WAVES = {"kind": "self-affine", "hurst": 0.8, "rms_height": "0.15 um", "samples"
 WAVES |= {"length": "400 um", "seed": 3, "shortest_wavelength": "40 um"}
 FINITE = {"deformation": "finite", "geometry": "rough"}
 SCENES = {
-    "smooth": crosscheck.Scene.read("smooth").given,
-    "layer": crosscheck.Scene.read("layer").given,
+    "smooth": crosscheck.Scene.read("smooth").written,
+    "layer": crosscheck.Scene.read("layer").written,
     "coated": scenes.changed(
-        crosscheck.Scene.read("coated").given,
+        crosscheck.Scene.read("coated").written,
         load={"friction": 0.0},
         coating={"thickness": "40 um"},
     ),
     "waves": scenes.changed(
-        crosscheck.Scene.read("sinusoid").given | {"roller": {"radius": "10 mm", "rigid": True}},
+        crosscheck.Scene.read("sinusoid").written | {"roller": {"radius": "10 mm", "rigid": True}},
         body=SVK,
         finite_element=FINITE,
     ),
-    "rubber": scenes.changed(crosscheck.Scene.read("finite-strain").given, body=SVK),
+    "rubber": scenes.changed(crosscheck.Scene.read("finite-strain").written, body=SVK),
     "rough": {
         "roller": {"radius": "5 mm", "rigid": True},
         "body": scenes.STEEL,
@@ -122,7 +122,7 @@ def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
     """As `run --answer` twice: the stress on the surface and below it, on two resolutions."""
     pytest.importorskip("pyvista_frd", reason="answers of CalculiX: crosscheck[answers]")
     tables = scenes.changed(
-        crosscheck.Scene.read("smooth").given,
+        crosscheck.Scene.read("smooth").written,
         stress={"points": [120, 40]},
         finite_element={"growth": 0.5},
     )
@@ -141,7 +141,7 @@ def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
 
 def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):
     """Like bodies: shear is friction times pressure, towards +x on the rough body."""
-    sliding = crosscheck.Scene.read("smooth-sliding").given
+    sliding = crosscheck.Scene.read("smooth-sliding").written
     tables = {name: table for name, table in sliding.items() if name != "stress"}
     tables["finite_element"] = {"growth": 0.5}
     solved(tmp_path, coarse(tables), 1)

@@ -78,7 +78,7 @@ def test_what_is_judged_has_a_case_for_continuous_integration(rough):
         for name in ("flash_temperature", "mean_temperature", "fraction_into_body")
     }
     assert {case.result for case in cases.values()} == {"passed"}
-    heat = [replace(f, bounds=f.bounds and (-1e-9, 1e-9)) for f in rough.found["heat"].figures]
+    heat = [replace(f, bounds=f.bounds and (-1e-9, 1e-9)) for f in rough.findings["heat"].figures]
     differs = refound(rough, "heat", figures=tuple(heat))
     assert {f.verdict for f in differs.judged.of(study="heat")} == {"differ"}
     assert differs.exit_status == 1
