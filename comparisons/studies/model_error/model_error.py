@@ -72,12 +72,6 @@ class ModelError:
     # else None
     moved: tuple[float, float] | None = None
 
-    @property
-    def interacts(self) -> bool:
-        """Whether no effect explains the error: they change more jointly than any by itself."""
-        sizes = [abs(effect.value) for effect in self.effects.values()]
-        return bool(sizes) and abs(self.interaction) > max(sizes)
-
 
 @dataclass(frozen=True)
 class Solutions:
