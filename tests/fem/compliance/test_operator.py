@@ -80,7 +80,7 @@ def test_pressures_and_tractions_move_each_others_points_alike(fine):
     the surface tractions move it as pressures do across, but for the mesh."""
     pressure, traction = np.random.default_rng(7).uniform(size=(2, COUNT))
     none = np.zeros(COUNT)
-    pressed, dragged = fine.moved(pressure, none)
+    _, dragged = fine.moved(pressure, none)
     raised, along = fine.moved(none, traction)
     assert pressure @ raised == pytest.approx(traction @ dragged, rel=1e-10)
     both = fine.moved(pressure, 0.3 * pressure)
