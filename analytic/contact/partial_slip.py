@@ -113,7 +113,8 @@ def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipSt
         raise ValueError(
             f"the tangential load must be below {limit:g} N/m, not {loads.tangential:g} N/m"
         )
-    traction, pressed, displacement = np.zeros_like(pair.weights), 0.0, 0.0
+    traction, displacement = np.zeros_like(pair.weights), 0.0
+    pressed = np.zeros_like(traction)
     former, normal, pressure = Loads(0.0), None, None
     if before is not None:
         traction, displacement, former = before.traction, before.displacement, before.loads
@@ -145,13 +146,16 @@ def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipSt
         if settled:
             break
     slip = forward * tangential.gap
+    # what touched before: the others have moved while they were apart
+    touched = (pressure > 0.0) & (pressed > 0.0)
+    rubbing = np.where(touched, 0.5 * (pressure + pressed), 0.0)
     return SlipState(
         loads=loads,
         normal=normal,
         traction=traction,
         slip=slip,
         displacement=displacement - forward * tangential.approach,
-        work=float(traction @ (slip * pair.weights)),
+        work=float(pair.friction * (rubbing @ (np.abs(slip) * pair.weights))),
         residual=max(normal.residuals.worst, tangential.residuals.worst),
         converged=settled and normal.converged and tangential.converged,
     )

@@ -15,6 +15,7 @@ from comparisons.output.record import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 from comparisons.studies.friction.partial_slip import COMPARED, solvers
+from comparisons.studies.friction.show import slip_facts
 from comparisons.studies.study import unsolved
 
 SMOOTH = {
@@ -88,6 +89,27 @@ def test_bulk_stress_moves_the_zone_and_adds_itself():
     without = values(run(resolved(scene), None, ("half_plane",)))
     moved = values(outcome)["edge_tension"] - without["edge_tension"]
     assert BULK < moved < 2.0 * BULK  # the zone moves towards +x, off the trailing edge
+
+
+@pytest.mark.parametrize("factor, verdict", [(1.0, "agree"), (1.4, "differ")])
+def test_an_answer_from_outside_may_have_tractions(tmp_path, factor, verdict):
+    """The exact ones, and those of a load that is larger."""
+    scene = changed(SMOOTH, partial_slip={"loads": [0.5]}, load={"friction": 0.3})
+    hertz = problem(scene).hertz
+    x = np.linspace(-1.2, 1.2, 1201) * hertz.half_width
+    traction = SlippingContact(hertz, 0.3, 0.5 * factor).traction(x)
+    rows = 1e3 * x, 1e-6 * hertz.pressure(x), 1e-6 * traction
+    np.savetxt(tmp_path / "answer.csv", np.column_stack(rows), delimiter=",", header="x,p,q")
+    source = {"file": "answer.csv", "shear": 2, "units": {"length": "mm", "stress": "MPa"}}
+    scene = scene | {"answers": {"exact": source}}
+    scene.pop("stress")
+    outcome = run(resolved(scene, folder=tmp_path), None, ("half_plane",))
+    known = outcome.figures.of(study="partial_slip", source="exact")
+    assert known.one(quantity="stick_length", against="half_plane").verdict == verdict
+    norm = known.one(quantity="traction_l2")
+    assert (norm.value < norm.numerical < 0.03) == (verdict == "agree")
+    [said] = [text for name, text in slip_facts(outcome) if "from outside" in name]
+    assert said.endswith(verdict)
 
 
 @pytest.mark.parametrize(
