@@ -127,22 +127,18 @@ def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipSt
         last, reached = pressure, traction
         if normal is None or pair.raised is not None:
             lifted = 0.0 if pair.raised is None else pair.raised(traction)
-            given = pair.weighted_gap + lifted, pair.weights, constraints, pressure
-            normal = pair.solve_normal(*given)
+            gap = pair.weighted_gap + lifted
+            normal = pair.solve_normal(gap, pair.weights, constraints, pressure)
             pressure = normal.pressure
         dragged = 0.0 if pair.dragged is None else pair.dragged(pressure - pressed)
         rest = limit - forward * loads.tangential
         start = tangential and tangential.pressure
         tangential = _tangential(pair, pressure, forward * (moved + dragged), rest, start)
         traction = forward * (pair.friction * pressure - tangential.pressure)
-        settled = pair.raised is None or (
-            last is not None
-            and max(
-                np.max(np.abs(pressure - last)),
-                np.max(np.abs(traction - reached)) / pair.friction,
-            )
-            <= pair.settled * pressure.max()
-        )
+        settled = pair.raised is None
+        if last is not None and not settled:
+            changes = pressure - last, (traction - reached) / pair.friction
+            settled = np.max(np.abs(changes)) <= pair.settled * pressure.max()
         if settled:
             break
     slip = forward * tangential.gap
@@ -185,7 +181,11 @@ def half_planes(
     friction: float,
     hardness: float = np.inf,
 ) -> SurfacePair:
-    """Two half-planes, on whose surfaces A = C and T is a convolution."""
+    """Two half-planes, on whose surfaces A = C and T is a convolution.
+
+    weighted_gap  G (n,) [m^2]            modulus   E* [Pa]
+    dundurs_beta  of the body against the roller (`analytic.material.dundurs_constants`)
+    hardness      cap of the pressure [Pa]"""
     operator = HalfPlane(grid.count, grid.pitch, modulus)
     solve = partial(solve_contact, operator)
     raised = dragged = None
@@ -193,8 +193,18 @@ def half_planes(
         odd = dundurs_beta * grid.pitch**2 / modulus * hat_sign(np.arange(grid.count))
         raised = Convolution(odd, None, row=-odd).apply
         dragged = Convolution(-odd, None, row=odd).apply
-    given = weighted_gap, grid.weights, grid.x, friction, hardness
-    return SurfacePair(*given, operator.apply, solve, solve, raised, dragged)
+    return SurfacePair(
+        weighted_gap=weighted_gap,
+        weights=grid.weights,
+        x=grid.x,
+        friction=friction,
+        hardness=hardness,
+        tangential=operator.apply,
+        solve_normal=solve,
+        solve_tangential=solve,
+        raised=raised,
+        dragged=dragged,
+    )
 
 
 def pressed_in(load: float, steps: int) -> tuple[Loads, ...]:

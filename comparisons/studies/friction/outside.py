@@ -29,12 +29,12 @@ def outside_figures(
     way; the norm has what these points leave out of the model's own traction, and by how much that
     differs on the level before, which is of first order."""
     friction, grid, state = model.friction, levels[-1].grid, levels[-1].states[-1]
-    own = state.traction
-    size = float(np.linalg.norm(own)) or 1.0
+    traction = state.traction
+    size = float(np.linalg.norm(traction)) or 1.0
     refined = np.inf
     if len(levels) > 1:
         coarser = np.interp(grid.x, levels[-2].grid.x, levels[-2].states[-1].traction)
-        refined = REGULAR * float(np.linalg.norm(coarser - own)) / size
+        refined = REGULAR * float(np.linalg.norm(coarser - traction)) / size
 
     def stuck(pressure: np.ndarray, shear: np.ndarray) -> tuple[float, int]:
         """Length [m] and number of zones."""
@@ -42,7 +42,7 @@ def outside_figures(
         first, after = runs_of(held)
         return float(grid.pitch * (after - first).sum()), len(first)
 
-    reference, _ = stuck(state.normal.pressure, own)
+    reference, _ = stuck(state.normal.pressure, traction)
     for name, resolutions in answers.items():
         answer = resolutions[-1]
         if answer.shear is None:
@@ -57,10 +57,10 @@ def outside_figures(
             quantity=model.quantity,
             value=length,
             scale=scale,
-            uncertainty=Uncertainty({"own": read / scale}),
+            uncertainty=Uncertainty({"answer": read / scale}),
             **common,
         )
-        stated = Uncertainty({"own": read / model.scale, "model": model.numerical})
+        stated = Uncertainty({"answer": read / model.scale, "model": model.numerical})
         yield Figure(
             quantity=model.quantity,
             value=(length - reference) / model.scale,
@@ -70,13 +70,13 @@ def outside_figures(
             bounds=(-tolerance, tolerance),
             **common,
         )
-        seen = np.interp(answer.x, grid.x, own, left=0.0, right=0.0)
+        seen = np.interp(answer.x, grid.x, traction, left=0.0, right=0.0)
         coarse = np.interp(grid.x, answer.x, seen)
-        left = float(np.linalg.norm(coarse - own)) / size
+        left = float(np.linalg.norm(coarse - traction)) / size
         yield Figure(
             quantity="traction_l2",
-            value=float(np.linalg.norm(shear - own)) / size,
+            value=float(np.linalg.norm(shear - traction)) / size,
             against=model.source,
-            uncertainty=Uncertainty({"own": left, "model": refined}),
+            uncertainty=Uncertainty({"answer": left, "model": refined}),
             **common,
         )

@@ -210,7 +210,7 @@ def _uncertainty(
 def _beside(model: ModelSlip, other: ModelSlip) -> list[SlippedLevel]:
     """The model's levels on the pressure elements of the other's, or on the nearest."""
     return [
-        min(model.levels, key=lambda own: abs(own.grid.pitch - level.grid.pitch))
+        min(model.levels, key=lambda one: abs(one.grid.pitch - level.grid.pitch))
         for level in other.levels
     ]
 

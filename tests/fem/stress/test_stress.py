@@ -340,8 +340,8 @@ def test_a_traction_of_its_own_is_as_good_as_one_that_goes_with_the_pressure():
     operator = FiniteElementCompliance(body, hat_nodes(x[0], x[1] - x[0], len(x)), direction)
     pressure, whole = ellipse(x), []
     for friction, traction in ((0.3, None), (0.0, 0.3 * pressure)):
-        given = body, operator.hats, pressure, np.array([friction]), direction
-        load = SurfaceLoad(*given, traction=traction)
+        shares = np.array([friction])
+        load = SurfaceLoad(body, operator.hats, pressure, shares, direction, traction=traction)
         moved = operator.displacement_of(pressure, 0.3 * pressure)
         whole.append(nodal_stresses(moved[:, None], load)[0].values)
     one, other = whole
