@@ -108,7 +108,7 @@ def _values(solved: Solved, runs: Mapping[float, ModelRun]) -> Values:
 
 def _hertz(solved: Solved, friction: float) -> dict[str, float]:
     [known] = hertz_quantities(
-        solved.problem.hertz, [solved.runs[HALF_PLANE].finest.grid.x], friction, solved.window
+        solved.problem, [solved.runs[HALF_PLANE].finest.grid.x], friction, solved.window
     )
     return {name: float(value[0]) for name, value in known.figures.items()}
 
