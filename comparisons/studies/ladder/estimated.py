@@ -13,8 +13,8 @@ from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
-from comparisons.studies import coupling
 from comparisons.studies.contact import uncertainties, values_of
+from comparisons.studies.friction import coupling
 from comparisons.studies.ladder.operators import carried, why_no_stresses, words_of
 from comparisons.studies.ladder.rungs import (
     HALF_PLANE,

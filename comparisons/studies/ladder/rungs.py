@@ -294,6 +294,8 @@ def _kind_of(effects: Iterable[str]) -> str:
 
 def _words_of(kind: str, effects: Iterable[str]) -> str:
     """A kind with the linear effects that it is given beside it."""
-    implied = {"plastic_flow", *(KINEMATIC if kind == FINITE else ())}
+    is_finite = "finite_strain" in effects
+    implied = {"plastic_flow", *(KINEMATIC if is_finite else ())}
     beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in implied]
-    return f"{KINDS[kind]} with {', '.join(beside)}" if beside else KINDS[kind]
+    words = f"{KINDS[kind]} at finite deformation" if is_finite and kind == FLOW else KINDS[kind]
+    return f"{words} with {', '.join(beside)}" if beside else words
