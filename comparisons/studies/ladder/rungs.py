@@ -93,13 +93,18 @@ class Ladder:
         order = list(KINDS)
         return sorted(made, key=lambda rung: order.index(rung.kind))
 
+    @property
+    def flows(self) -> str:
+        """That the body flows beyond doubt, and no model of the run does: nothing can suffice."""
+        return "" if "plastic_flow" in self.budget.selection.whole else self.flow.beyond_doubt
+
     def _operators(self, made: list[Rung]) -> Rung | None:
         """Solved here, where it has anything that the half-plane has not and could be the answer:
         the same effects in finite elements are not refuted."""
         problem, window, selection = self.solved.problem, self.solved.window, self.budget.selection
         held = carried(problem, selection.whole, self.flow)
         same = [rung for rung in made if rung.effects == held]
-        refuted = self.flow.beyond_doubt or any(rung.verdict == "fails" for rung in same)
+        refuted = self.flows or any(rung.verdict == "fails" for rung in same)
         if not held or refuted or why_no_stresses(problem, window) is not None:
             return None
         finite_elements, errors, compared = self.solved.runs[OTHER], [], []
