@@ -87,7 +87,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
         from comparisons.common.interrupt import watched
 
-        return watched(lambda: _carry_out(arguments), f"interrupted; {WATCHED[arguments[0]]}")
+        return watched(lambda: _carry_out(arguments), WATCHED[arguments[0]])
     if is_own:  # not before a fork, which MPI does not survive
         forget_inherited_launcher()
     return as_one(lambda: _carry_out(arguments), FINISHED)
