@@ -11,11 +11,17 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from zipfile import BadZipFile, ZipFile
 
 import numpy as np
 
-from analytic.surface.readers.source import GZIP, MAX_BYTES, ProfileError, contents, shown
+from analytic.surface.readers.source import (
+    GZIP,
+    MAX_BYTES,
+    ProfileError,
+    check_unpacked,
+    contents,
+    shown,
+)
 from analytic.surface.readers.text import ProfileTable
 from analytic.surface.readers.topography import Topography
 
@@ -25,7 +31,6 @@ OTHER_PYTHON = "CROSSCHECK_SURFACE_PYTHON"
 # By its path, and without the working folder's modules (-P).
 WORKER = ("-P", str(Path(__file__).with_name("instrument_worker.py")))
 PATIENCE = 300.0  # s; the largest maps take ten
-MOST_UNPACKED = 2**29  # bytes: 67 million heights as doubles
 ROOT = Path(__file__).resolve().parents[3]
 
 
@@ -86,19 +91,6 @@ def read_instrument_file(path: Path, channel: str | None = None) -> Topography |
         channels=tuple(answer.get("channels", ())),
         channel=answer.get("channel"),
     )
-
-
-def check_unpacked(path: Path) -> None:
-    """Raise ProfileError for an archive, as an X3P is one, that unpacks to more than MOST_UNPACKED:
-    of zeros, 2 MB hold 2 GB."""
-    try:
-        with ZipFile(path) as archive:
-            size = sum(member.file_size for member in archive.infolist())
-    except (BadZipFile, OSError, ValueError, NotImplementedError):
-        return  # none, or one that is damaged or of another kind of ZIP, which its reader tells
-    if size > MOST_UNPACKED:
-        message = f"unpacks to {size / 1e9:.3g} GB; allowed are {MOST_UNPACKED / 1e9:.3g} GB"
-        raise ProfileError(path, message)
 
 
 def _table(path: Path, numbers: np.ndarray, first: int, answer: dict) -> ProfileTable:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import analytic.surface.readers.instruments as module
+import analytic.surface.readers.source as source
 from analytic.surface.readers.instruments import (
     AbsentReaderError,
     install_command,
@@ -215,7 +216,7 @@ def test_a_channel_that_is_no_height_is_refused(tmp_path, monkeypatch):
 
 def test_an_archive_that_unpacks_to_too_much_is_not_unpacked(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "_ask", lambda path, target: pytest.fail("unpacked"))
-    monkeypatch.setattr(module, "MOST_UNPACKED", 10**6)
+    monkeypatch.setattr(source, "MAX_UNPACKED", 10**6)
     path = tmp_path / "map.x3p"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("bindata/data.bin", bytes(2 * 10**6))
