@@ -19,7 +19,7 @@ from comparisons.commands.arguments import (
     out_option,
 )
 from comparisons.commands.output import progress, show_either
-from comparisons.common.errors import SceneError, tell
+from comparisons.common.errors import tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, models_named
 
@@ -77,15 +77,11 @@ def run(
     surface = from_first(lambda: surface_of(asked))
     directory = out or RESULTS / asked.name
     from_first(lambda: _check_places(directory, junit, chosen))
-    warnings = warnings_about(asked, surface)
-    if sys.stderr.isatty():  # before the user waits for the solution
-        _say_warnings(warnings)
+    _say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
+    if sys.stderr.isatty():
         _say_first_answer(asked, surface)
     with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
-        try:
-            outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
-        except SceneError as error:
-            raise SceneError("; ".join([str(error), *warnings])) from error
+        outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
         if pdf and is_first():
             callback("printing the report")
             _print(directory)
@@ -93,7 +89,7 @@ def run(
         write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), perf_counter() - began))
     content = content_of(outcome) if as_json else {}
     show_either(as_json, content, lambda: summary(outcome, details))
-    _say_warnings([*warnings, *warnings_about_result(outcome)])
+    _say_warnings(warnings_about_result(outcome))
     return outcome.exit_status
 
 
