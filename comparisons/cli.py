@@ -5,6 +5,7 @@ job to do; `main` does it, so that every error and interrupt of the work ends in
 command needs beyond the standard library its job imports: `crosscheck --help` loads typer alone."""
 
 import errno
+import logging
 import os
 import sys
 import traceback
@@ -76,6 +77,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Several processes under mpirun print, and end, as one."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)  # where no home can be written
     if COMPLETION in os.environ:
         return app(prog_name="crosscheck")  # answers the shell, and exits
     is_own = arguments is None
@@ -168,13 +170,14 @@ def _defect(error: Exception) -> ExitStatus:
         sys.stdout.flush()
     except OSError:
         drop(sys.stdout)
+    if _limit(error):
+        return ExitStatus.OUT_OF_MEMORY
     out_of_memory = (
         isinstance(error, MemoryError),
         getattr(error, "errno", None) == errno.ENOMEM,
         "INFOG(1)=-13" in str(error),  # MUMPS, while it solves
         # where the system maps no more memory, libraries say that a part of them is not there
         isinstance(error, ImportError) and (address_space() or "failed to map" in str(error)),
-        # without such a limit it is one on the number of processes
         address_space() and "can't start new thread" in str(error),
     )
     if any(out_of_memory):
@@ -182,8 +185,19 @@ def _defect(error: Exception) -> ExitStatus:
     return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
 
 
+def _limit(error: Exception) -> str:
+    """What the system lets the user have too few of, or nothing."""
+    number = getattr(error, "errno", None)
+    if number in (errno.EMFILE, errno.ENFILE) or "Too many open files" in str(error):
+        return "open files (ulimit -n)"
+    threads = "can't start new thread" in str(error) and not address_space()
+    return "processes (ulimit -u)" if number == errno.EAGAIN or threads else ""
+
+
 def _account(error: Exception, status: ExitStatus) -> str:
     """An error that is not the user's, and where in the program it was raised."""
+    if limit := _limit(error):
+        return f"the system allows this user no more {limit}; allowed is a higher limit"
     if status == ExitStatus.OUT_OF_MEMORY:
         limit = address_space()
         remedy = "allowed is a smaller scene (budget.memory, resolution, stress.points)"

@@ -219,9 +219,10 @@ def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, objec
 
 
 def _for_finite_elements() -> list[Preparation]:
-    from fem.solver.compilation import load_dolfinx
+    from fem.solver.compilation import load_dolfinx, see_to_cache
     from meshes.build import start_worker
 
+    see_to_cache()  # of all processes that start from here
     level = partial(import_module, "comparisons.models.finite_element.level")
     return [start_worker, load_dolfinx, level]
 

@@ -255,7 +255,7 @@ def _line(scene: type[SceneBase], problem: dict) -> str:
 
 def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
     """A name that no section has: the nearest one, in its own section if there is one alike."""
-    *section, name = map(str, location)
+    *section, name = (str(part) or '""' for part in location)
     place, sections = ".".join([*section, name]), sections_of(scene)
     hints = {table: scene.model_fields[table].annotation for table in sections}
     # but for those of which there may be several

@@ -1,5 +1,6 @@
 """The command line: what it hands on, what it prints where, and how it ends."""
 
+import errno
 import json
 import os
 import subprocess
@@ -352,7 +353,7 @@ def test_too_little_address_space_is_no_missing_library(tmp_path):
     ("allowed", "status", "said"),
     [
         (2 * 10**9, ExitStatus.OUT_OF_MEMORY, "thread; the process may have 2 GB of address space"),
-        (None, ExitStatus.DEFECT, "internal error: RuntimeError: can't start new thread"),
+        (None, ExitStatus.OUT_OF_MEMORY, "no more processes (ulimit -u); allowed is a higher"),
     ],
 )
 def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status, said):
@@ -360,6 +361,16 @@ def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status
     monkeypatch.setattr("comparisons.cli.address_space", lambda: allowed)
     assert main(["run", "smooth"]) == status
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("number", "said"), [(errno.EMFILE, "open files (ulimit -n)"), (errno.EAGAIN, "(ulimit -u)")]
+)
+def test_a_limit_of_the_system_is_named(solver, capsys, number, said):
+    solver.raises = OSError(number, os.strerror(number))
+    assert main(["run", "smooth"]) == ExitStatus.OUT_OF_MEMORY
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("crosscheck: the system allows this user no more") and said in line
 
 
 def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):

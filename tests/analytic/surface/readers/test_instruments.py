@@ -10,6 +10,7 @@ from importlib import metadata
 import numpy as np
 import pytest
 
+import analytic.surface.readers.child as child
 import analytic.surface.readers.instruments as module
 import analytic.surface.readers.source as source
 from analytic.surface.readers.instruments import (
@@ -182,11 +183,11 @@ def test_a_reader_that_crashes_is_a_message(tmp_path, monkeypatch):
     worker(monkeypatch, "import os; os.kill(os.getpid(), 11)")
     assert complaint(tmp_path).endswith("crashes on it (SIGSEGV; it said nothing)")
     worker(monkeypatch, "raise MemoryError('no room')")
-    assert complaint(tmp_path).endswith("crashes on it (MemoryError: no room)")
+    assert complaint(tmp_path).endswith("crashes on it: MemoryError: no room")
 
 
 def test_a_reader_that_hangs_is_a_message(tmp_path, monkeypatch):
-    monkeypatch.setattr(module, "PATIENCE", 0.2)
+    monkeypatch.setattr(child, "PATIENCE", 0.2)
     worker(monkeypatch, "import time; time.sleep(60)")
     assert complaint(tmp_path).endswith("SurfaceTopography has not read it within 0.2 s")
 
