@@ -85,20 +85,14 @@ def run(
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution or a process ends amid a task,
     MemoryError where the process may not have what they take; nothing is written then."""
-    stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)
     surface = known.surface or from_first(lambda: surface_of(scene))
     try:
-        if scene.running_in is not None:
-            with stages.stage("running-in", "running the surface in"):
-                surface = run_in_surface(scene, surface)
-        with stages.stage("set-up", "finding the reach of the contact"):
-            problem = _problem(scene, surface, models, known.levels, callback)
-        plan = make_plan(problem, models)
+        problem, plan = posed(scene, surface, models, known.levels, callback)
         callback(forecast(problem, plan).text)
-        posed = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
-        return solve(posed, out, callback, fields)
+        scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
+        return solve(scene_now, out, callback, fields)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
@@ -112,6 +106,23 @@ def run(
             f"{scene.source}: the finite elements found no solution: {error}; what may help is "
             f"{remedy}, or finer pressures (resolution.pitch)"
         ) from error
+
+
+def posed(
+    scene: Scene,
+    surface: SceneSurface,
+    models: tuple[str, ...],
+    levels: Levels | None = None,
+    callback: ProgressCallback = no_progress,
+) -> tuple[Problem, Plan]:
+    """The problem of a scene on its surface as measured, and the plan of the run that solves it."""
+    stages = Stages(callback)
+    if scene.running_in is not None:
+        with stages.stage("running-in", "running the surface in"):
+            surface = run_in_surface(scene, surface)
+    with stages.stage("set-up", "finding the reach of the contact"):
+        problem = _problem(scene, surface, models, levels, callback)
+    return problem, make_plan(problem, models)
 
 
 def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
