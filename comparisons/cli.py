@@ -37,6 +37,12 @@ WATCHED = {
 # Options that name a place. An empty one, as an unset variable leaves it, would mean the working
 # folder and replace what stands there.
 PLACES = ("--out", "--summary", "--junit", "--export", "--answers")
+# Of finite elements, which no wheel brings along.
+FINITE_ELEMENT_LIBRARIES = ("dolfinx", "basix", "ufl", "petsc4py", "mpi4py")
+NO_FINITE_ELEMENTS = (
+    "finite elements take {0}, which {1} does not have; allowed is --models half-plane, or: "
+    "conda install -c conda-forge fenics-dolfinx (on Debian and Ubuntu ./crosscheck of a checkout)"
+)
 FINISHED = (
     *(ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE),
     *(ExitStatus.NOT_CONVERGED, ExitStatus.INCONCLUSIVE),
@@ -157,6 +163,8 @@ def _carry_out(arguments: list[str]) -> int:
             return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
+        if (missing := getattr(error, "name", None)) in FINITE_ELEMENT_LIBRARIES:
+            return _end(ExitStatus.BAD_INPUT, NO_FINITE_ELEMENTS.format(missing, sys.executable))
         status = _defect(error)
         if os.environ.get(TRACEBACK):
             with suppress(OSError):

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
@@ -84,9 +85,10 @@ def run(
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution or a process ends amid a task,
-    MemoryError where the process may not have what they take; nothing is written then."""
+    MemoryError where the process may not have what they take, ModuleNotFoundError without their
+    libraries; nothing is written then."""
     _check_processes(scene, models)
-    _check_address_space(models)
+    _check_libraries(models)
     surface = known.surface or from_first(lambda: surface_of(scene))
     try:
         problem, plan = posed(scene, surface, models, known.levels, callback)
@@ -137,8 +139,11 @@ def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
         )
 
 
-def _check_address_space(models: tuple[str, ...]) -> None:
-    """Raise MemoryError where the finite elements' libraries would fail, each in its own words."""
+def _check_libraries(models: tuple[str, ...]) -> None:
+    """Raise MemoryError, or ModuleNotFoundError, where the finite elements' libraries would fail
+    amid the work, each in its own words."""
+    if "finite_element" in models and find_spec("dolfinx") is None:
+        raise ModuleNotFoundError("finite elements take dolfinx", name="dolfinx")
     allowed = address_space()
     if "finite_element" in models and allowed is not None and allowed < LEAST_ADDRESS_SPACE:
         least = LEAST_ADDRESS_SPACE / 1e9

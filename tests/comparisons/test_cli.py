@@ -373,6 +373,23 @@ def test_a_limit_of_the_system_is_named(solver, capsys, number, said):
     assert line.startswith("crosscheck: the system allows this user no more") and said in line
 
 
+def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(tmp_path):
+    code = (
+        "import sys; sys.modules.update(dict.fromkeys(('dolfinx', 'petsc4py', 'mpi4py')))\n"
+        "import importlib.util as util; found = util.find_spec\n"
+        "util.find_spec = lambda name, *more: None if name == 'dolfinx' else found(name, *more)\n"
+        "from comparisons.cli import main; sys.exit(main({!r}))"
+    )
+    out = str(tmp_path / "out")
+    done = python(code.format(["run", "smooth", "--out", out]), check=False)
+    assert (done.returncode, done.stdout) == (ExitStatus.BAD_INPUT, "")
+    (line,) = done.stderr.splitlines()
+    assert "finite elements take dolfinx" in line and "allowed is --models half-plane" in line
+    assert not (tmp_path / "out").exists()
+    done = python(code.format(["run", "smooth", "--models", "half-plane", "--out", out]))
+    assert "peak pressure    0  4.150 GPa" in done.stdout
+
+
 def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):
     monkeypatch.setattr("comparisons.commands.output.SILENCE", 60.0)
     clock = iter((0.0, 1.0, 61.0, 62.0, 125.4))  # as it begins, then at each stage
