@@ -22,8 +22,7 @@ from comparisons.commands.arguments import (
 from comparisons.commands.output import progress, show, show_either
 from comparisons.common.errors import ExitStatus, InputError, nearest, tell
 from comparisons.common.mpi import from_first, is_first
-from comparisons.figures.quantity import HYPHENATED, models_named
-from comparisons.scenes.sections import UP_TO
+from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
