@@ -87,7 +87,7 @@ class Call:
 
 def call(arguments: list[str], folder: Path) -> Call:
     """`crosscheck` with these arguments, in a folder."""
-    outcomes, original = [], run_module.run
+    outcomes, original = [], run_module.solve_scene
 
     def watched(scene: Scene, *arguments: object) -> Run:
         """With fewer points of the fields, which take half the time of all effects."""
@@ -96,7 +96,7 @@ def call(arguments: list[str], folder: Path) -> Call:
 
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
         patch.chdir(folder)
-        patch.setattr(run_module, "run", watched)
+        patch.setattr(run_module, "solve_scene", watched)
         status = main(arguments)
     return Call(status, printed.getvalue(), outcomes[0] if outcomes else None)
 
@@ -144,7 +144,7 @@ def test_first_command_runs_both_models_and_fills_the_folder_that_is_named(monke
         calls.append((scene.name, *rest[:2]))
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(run_module, "run", noted)
+    monkeypatch.setattr(run_module, "solve_scene", noted)
     monkeypatch.chdir(tmp_path)
     assert main(shlex.split(COMMANDS[0])[1:]) == ExitStatus.INTERRUPTED
     assert calls == [("ground-unrun", RESULTS / "ground-unrun", MODELS)]

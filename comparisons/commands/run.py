@@ -19,11 +19,14 @@ from comparisons.commands.arguments import (
     out_option,
 )
 from comparisons.commands.output import progress, show_either
-from comparisons.common.errors import SceneError, tell
+from comparisons.common.errors import SceneError, drop, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, models_named
 
 if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+    from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
 
@@ -62,13 +65,8 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
-        from comparisons.common.executors import cluster
-        from comparisons.output.junit import junit_xml, run_cases_of, write_junit
         from comparisons.output.plausibility import warnings_about, warnings_about_result
-        from comparisons.output.result_json import content_of
-        from comparisons.output.terminal import summary
-        from comparisons.runs.run import Known
-        from comparisons.runs.run import run as run_scene
+        from comparisons.runs.run import Known, finish, solve_scene
         from comparisons.scenes.surface import surface_of
 
     began = perf_counter()
@@ -81,20 +79,36 @@ def run(
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
         _say_first_answer(asked, surface)
-    with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
+    with progress() as callback, _workers(workers) as opens:
         try:
-            outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
+            solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
         except SceneError as error:
             raise SceneError("; ".join([str(error), *warnings])) from error
+    from comparisons.output.result_json import content_of
+    from comparisons.output.terminal import summary
+
+    gone, content = None, content_of(solved) if as_json else {}
+    try:
+        show_either(as_json, content, lambda: summary(solved, details))
+        sys.stdout.flush()  # the answer, before the report is drawn
+    except (BrokenPipeError, SystemExit) as error:  # as rich has it; the files are for others
+        gone = error
+        drop(sys.stdout)
+    _say_warnings([*warnings, *warnings_about_result(solved)])
+    with progress() as callback:
+        finish(solved, callback, fields)
         if pdf and is_first():
             callback("printing the report")
             _print(directory)
     if junit is not None:
-        write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), perf_counter() - began))
-    content = content_of(outcome) if as_json else {}
-    show_either(as_json, content, lambda: summary(outcome, details))
-    _say_warnings([*warnings, *warnings_about_result(outcome)])
-    return outcome.exit_status
+        from comparisons.output.junit import junit_xml, run_cases_of, write_junit
+
+        write_junit(junit, junit_xml(asked.name, run_cases_of(solved), perf_counter() - began))
+    if gone is not None:
+        raise gone
+    if not as_json:
+        print(f"written: {directory / 'report.html'}, result.json and the fields beside it")
+    return solved.exit_status
 
 
 def _read(scene: str, answers: Sequence[str], tolerance: float | None) -> "Scene":
@@ -109,13 +123,24 @@ def _read(scene: str, answers: Sequence[str], tolerance: float | None) -> "Scene
     return asked if tolerance is None else with_tolerance(asked, tolerance, "--tolerance")
 
 
+def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":
+    """Those of a Dask scheduler, or none but this machine's."""
+    if scheduler is None:
+        return nullcontext()
+    from comparisons.common.executors import cluster
+
+    return cluster(scheduler)
+
+
 def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) -> None:
     """Raise InputError unless the files can be written; say what one model alone replaces."""
     from comparisons.common.files import check_writable, holds_comparison
-    from comparisons.output.junit import check_place
 
     check_writable(directory)
-    check_place(junit)
+    if junit is not None:
+        from comparisons.output.junit import check_place
+
+        check_place(junit)
     if len(models) == 1 and holds_comparison(directory):
         tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
 
