@@ -24,6 +24,7 @@ from comparisons.common.provenance import (
 )
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
 from comparisons.figures.figure import Findings
+from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
@@ -36,7 +37,9 @@ from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
-from comparisons.studies.study import Run, Solved, studied, unsolved
+from comparisons.studies.ladder.limits import limited, may_stop_early
+from comparisons.studies.ladder.show import SUFFICES
+from comparisons.studies.study import LADDER, Run, Solved, studied, unsolved
 from fem.solver.communicator import is_alone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
@@ -95,12 +98,16 @@ def solve_scene(
     """Solve a scene, compare and judge. Of its files there is nothing yet (`finish`), but what is
     solved is kept beside `out`: a run that is stopped goes on from there.
 
-    models    of half_plane, finite_element
+    models    of half_plane, finite_element; fewer where budget.up_to asks for no more
     callback  gets each stage as it begins
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved, SolverError where the finite elements find
     no solution or a process ends amid a task, MemoryError where the process may not have what they
     take; nothing is kept then."""
+    scene, models = limited(scene, models)
+    if may_stop_early(scene, models):
+        first = solve_scene(scene, None, MODELS[:1], callback, known=known)
+        models = MODELS[:1] if first.found[LADDER].said(SUFFICES) else models
     stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)

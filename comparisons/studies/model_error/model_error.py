@@ -9,7 +9,7 @@ value at another one, what lies between the two is the jump, no effect. Norms do
 error is the norm of the half-plane against the whole on the level of the effects, with the far
 boundary of the models' difference."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -23,6 +23,7 @@ from comparisons.figures.uncertainty import (
     difference_of_figures,
     difference_of_norms,
     iteration,
+    of_increments,
     peak_resolution,
     relative_resolution,
 )
@@ -78,34 +79,20 @@ class ModelError:
         return bool(sizes) and abs(self.interaction) > max(sizes)
 
 
-def model_errors(
-    problem: Problem,
-    window: Window | None,
-    runs: dict[str, ModelRun],
-    rows: list[Figure],
-    history: list[EffectContributions],
-    laws: LawSolutions | None = None,
-) -> list[ModelError]:
-    """One for each row, all of one friction coefficient.
-
-    rows     the models' comparison at that friction
-    history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
-             the last of these
-    laws     the whole there with other laws of elasticity; None: its own is known"""
-    solutions = _Solutions(problem, window, runs, history, rows[0].friction, laws)
-    return [solutions.error(row) for row in rows]
-
-
 @dataclass(frozen=True)
-class _Solutions:
+class Solutions:
     """What was solved at one friction coefficient, and the model errors that follow."""
 
     problem: Problem
     window: Window | None
     runs: dict[str, ModelRun]
+    # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last
     history: list[EffectContributions]
     friction: float
-    laws: LawSolutions | None = None
+    laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
+    # the whole on the coarsest level by longer increments of flow, the longest first; empty: they
+    # have no solution; None: it does not flow, or the scene's own finite elements do
+    longer: list[QuantitiesOfInterest] | None = None
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -150,7 +137,10 @@ class _Solutions:
 
     @cached_property
     def whole(self) -> QuantitiesOfInterest:
-        """The finest one: the scene's own finite elements there, and what they lack."""
+        """The finest one: the scene's own finite elements there, and what they lack. A whole that
+        flows beside them stands for itself: what flow takes depends on the level as they do."""
+        if self.longer is not None:
+            return self.wholes[-1]
         lacking = self.missing[-1].figures.items()
         figures = {name: self.own[-1].figures[name] + each for name, each in lacking}
         return QuantitiesOfInterest(figures, self.wholes[-1].pressure, self.wholes[-1].tau1)
@@ -263,12 +253,33 @@ class _Solutions:
             sequence = [level.figures[name][at] / scale for level in self.own]
             refined = grid_convergence(sequence, self._order(name))
             numerical = max(numerical, self.unsolved + refined.uncertainty)
-        lacking = self._estimate(name, self.missing, at).uncertainty
-        half_plane = self.values["half_plane"][name]
+        lacking, half_plane = self._lacking(name, at), self.values["half_plane"][name]
+        if self.longer is not None:  # the half-plane on its finest level, the whole on another
+            stated = uncertainties(self.runs["half_plane"], self.problem, self.friction)[name]
+            numerical += stated.total * _scale(half_plane, name, self.problem) / scale
         uncertainty = difference_of_figures(numerical, half_plane / scale, lacking)
         if name in LARGEST:
             uncertainty += self._of_competitors(name, numerical, at) / scale
         return float((half_plane - figure) / scale), float(uncertainty), float(scale)
+
+    def _lacking(self, name: str, at: int) -> float:
+        """Uncertainty of what the whole has beside the scene's own finite elements, relative. One
+        that flows beside them stands for itself: by its levels, and by its increments."""
+        alone = self.longer is None or QUANTITIES[name].of_pair
+        levels = self.missing if alone else self.wholes
+        return self._estimate(name, levels, at).uncertainty + self._increments(name, at)
+
+    def _increments(self, name: str, at: int) -> float:
+        """The part by increments of flow; unknown where longer ones have no solution."""
+        if not self.longer:
+            return 0.0 if self.longer is None else np.inf
+        repeated = [*self.longer, self.wholes[0]]
+        if not QUANTITIES[name].of_pair:
+            scale = self._scale_of(name, at)
+            return of_increments([float(each.figures[name][at] / scale) for each in repeated])
+        differences = ((self.half_plane[0] - each, each) for each in repeated)
+        sizes = (relative_sizes(*pair, self.problem, self.window) for pair in differences)
+        return of_increments([each[name] for each in sizes])
 
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
         """What asperities that may have the largest value add to the uncertainty of a figure [SI].
@@ -278,9 +289,8 @@ class _Solutions:
         stated = uncertainties(self.runs["finite_element"], self.problem, self.friction)
         alone = stated[largest].total  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
-        return _competing(
-            self.whole, name, at, alone, lambda k: self._estimate(largest, self.missing, k)
-        )
+        beside = self.missing if self.longer is None else self.wholes
+        return _competing(self.whole, name, at, alone, lambda k: self._estimate(largest, beside, k))
 
     def _jump(
         self, name: str, numerical: float, at: int
@@ -303,11 +313,68 @@ class _Solutions:
         levels = self.half_plane[: len(self.wholes)]
         differences = [a - b for a, b in zip(levels, self.wholes, strict=True)]
         norm = self._estimate(row.quantity, differences, 0)
-        lacking = self._estimate(row.quantity, self.missing, 0).uncertainty
+        lacking = self._lacking(row.quantity, 0)
         there, stated = row.levels[len(self.history) - 1], row.uncertainty.parts
         beside = stated["domain"] + stated["increments"]
         parts = row.numerical, abs(there - row.value), lacking
         return norm.value, difference_of_norms(norm.uncertainty, beside, parts)
+
+    def of_variants(self, name: str, levels: Sequence[QuantitiesOfInterest]) -> ModelError:
+        """Of finite elements with other effects, on the last of the levels of the effects."""
+        at = self.whole.leading(name)
+        if QUANTITIES[name].of_pair:
+            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=False)]
+            return self._plain_error(name, self._estimate(name, apart, 0), at)
+        scale, middle = self._scale_of(name, at), self._spread(name, at).middle
+        apart = [
+            (_leading(one, name) - (1.0 + middle) * _leading(whole, name)) / scale
+            for one, whole in zip(levels, self.wholes, strict=False)
+        ]
+        if not any(apart):
+            return self._plain_error(name, Estimate(0.0, 0.0), at)
+        resolution = self.resolutions.get(name, 0.0)
+        unsure = grid_convergence(apart, self._order(name), resolution).uncertainty + self.unsolved
+        return self._plain_error(name, Estimate(float(apart[-1]), float(unsure)), at)
+
+    def of_exact(
+        self, name: str, levels: Sequence[QuantitiesOfInterest], numerical: float
+    ) -> ModelError:
+        """Of a model without numerical error, on the levels of the effects.
+
+        numerical  relative uncertainty of the scene's own finite elements, or absolute of a norm"""
+        at = self.whole.leading(name)
+        lacking = self._lacking(name, at)
+        if QUANTITIES[name].of_pair:
+            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=True)]
+            norm = self._estimate(name, apart, 0)
+            unsure = norm.uncertainty + numerical + lacking
+            return self._plain_error(name, Estimate(norm.value, unsure), at)
+        scale, value = self._scale_of(name, at), _leading(levels[-1], name)
+        numerical *= abs(_leading(self.own[-1], name)) / scale
+        unsure = float(difference_of_figures(numerical, value / scale, lacking))
+        value = float((value - self._figure(name, at)) / scale)
+        return self._plain_error(name, Estimate(value, unsure), at)
+
+    def of_whole(self, name: str, numerical: float) -> ModelError:
+        """What is not known of the whole itself."""
+        at = self.whole.leading(name)
+        lacking = self._lacking(name, at)
+        return self._plain_error(name, Estimate(0.0, numerical + lacking), at)
+
+    def _scale_of(self, name: str, at: int) -> float:
+        return _scale(self._figure(name, at), name, self.problem)
+
+    def _plain_error(self, name: str, size: Estimate, at: int) -> ModelError:
+        scale = 1.0 if QUANTITIES[name].of_pair else self._scale_of(name, at)
+        law = self._law(name, at)
+        return ModelError(
+            name, self.friction, {}, 0.0, size.value, size.uncertainty, scale, law=law
+        )
+
+
+def _leading(quantities: QuantitiesOfInterest, name: str) -> float:
+    """A figure [SI] at the model's own largest value."""
+    return float(quantities.figures[name][quantities.leading(name)])
 
 
 def _competing(

@@ -23,6 +23,7 @@ from comparisons.studies.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
+from comparisons.studies.model_error.selection import NONLINEAR
 from comparisons.studies.model_error.variants import ModelVariant, problem_with
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
@@ -47,7 +48,9 @@ class SolvedVariants:
     # why a variant has no solution, by variant and number of the level
     failed: dict[tuple[ModelVariant, int], NotComputedError] = field(default_factory=dict)
     seconds: float = 0.0  # that the variants took, of all processes together
-    # the same by the laws of cost [s], by variant and number of the level
+    # the same [s] by variant, and the largest memory of its process [bytes]
+    took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
+    # the seconds by the laws of cost [s], by variant and number of the level
     expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
     # the variants whose finest level is kept, with its fields; by these, the level
     wholes: dict[ModelVariant, Level | None] = field(default_factory=dict)
@@ -82,7 +85,7 @@ class SolvedVariants:
     ) -> list[tuple[ModelVariant, str]]:
         """Make those that are new on a level known to the tasks; each with its task's key."""
         new = [each for each in dict.fromkeys(asked) if self.is_open(each, number)]
-        new.sort(key=lambda variant: "finite_strain" not in variant.effects)  # the dearest first
+        new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
         return [(variant, self._add(variant, number, urgency)) for variant in new]
 
     def is_open(self, variant: ModelVariant, number: int) -> bool:
@@ -108,7 +111,7 @@ class SolvedVariants:
     def _is_own(self, variant: ModelVariant) -> bool:
         frictions = self.problem.scene.load.friction
         shaped = variant.friction is None or frictions == (variant.friction,)
-        changed = variant.quadratic or variant.laws
+        changed = variant.quadratic or variant.laws or variant.times > 1
         return shaped and not changed and variant.effects == self._own_effects
 
     def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
@@ -124,7 +127,10 @@ class SolvedVariants:
 
     def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
         """Note the solution of a variant on a level."""
-        self.seconds += sum(level.seconds.values())
+        seconds = sum(level.seconds.values())
+        self.seconds += seconds
+        before, memory = self.took.get(variant, (0.0, 0))
+        self.took[variant] = before + seconds, max(memory, level.peak_memory)
         if variant in self.wholes:
             self.wholes[variant] = level
         self.expected[variant, number] = level.expected_seconds
@@ -147,12 +153,13 @@ def _solved(
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
+    from fem.nonlinear.press_plastic import TRAVEL
 
     words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
     here.callback(f"error budget: finite elements with {words}, level {number}")
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    refinement, stages = Refinement(pitch), Stages()
+    refinement, stages = Refinement(pitch, travel=variant.times * TRAVEL), Stages()
     try:
         level = finite_element_level(
             problem, plan, refinement, window, stages, body_cache, LevelOptions(fields=fields)
