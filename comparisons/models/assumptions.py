@@ -67,6 +67,9 @@ def _split(half_plane: str, finite_elements: str) -> str:
 def _deformation(scene: Scene) -> str:
     settings = scene.finite_element
     linear, small = "linear elasticity", "small deformation"
+    if settings.plastic and settings.deformation == "finite":
+        flow = f"finite deformation, von Mises' yield by true strain{hardening_text(scene.body)}"
+        return f"plane strain; {_split(f'{linear}, {small}', flow)}"
     if settings.plastic:
         flow = f"von Mises' yield{hardening_text(scene.body)}"
         return f"{small}, plane strain; {_split(linear, flow)}"

@@ -98,12 +98,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
         ),
         (ELASTIC, {"plastic": True}, {}, "plastic: is true, but the body has no yield stress"),
         (
-            RIGID,
-            {"plastic": True, "deformation": "finite"},
-            {"body": {"yield_stress": 1e9}},
-            'plastic: is true beside deformation = "finite"',
-        ),
-        (
             ELASTIC,
             {"plastic": True, "element": "P3"},
             {"body": {"yield_stress": 1e9}},
