@@ -14,7 +14,8 @@ from comparisons.models.assumptions import laws, without_law
 from comparisons.models.forecast import time_with_flow
 from comparisons.scenes.materials import kinds_like, measured_solids
 from comparisons.scenes.sections import ElasticSection
-from comparisons.studies import contact, coupling
+from comparisons.studies import contact
+from comparisons.studies.friction import coupling
 from comparisons.studies.model_error.account import INPUTS, INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW

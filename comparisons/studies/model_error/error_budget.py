@@ -30,7 +30,7 @@ from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.coupling import Coupling
+from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
 from comparisons.studies.model_error.catalogue import UNKNOWN
 from comparisons.studies.model_error.contributions import (

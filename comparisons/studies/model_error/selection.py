@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from comparisons.common.mpi import is_several
 from comparisons.models.problem import Problem
-from comparisons.studies.coupling import Coupling
+from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
 from comparisons.studies.model_error.estimates import Sizes, estimates
 from comparisons.studies.model_error.laws import EFFECT as LAW
