@@ -151,8 +151,7 @@ def _flow(deck: DeckProblem) -> tuple[str, list[str]] | None:
             why = "is kinematic beside another law; allowed in a deck is one of both"
             raise SceneError(f"{scene.source}: body.hardening: {why}")
         law, kind = Hardening(law.yield_stress, law.kinematic), "KINEMATIC"
-    strains = np.concatenate([[0.0], np.geomspace(1e-6, OF_FLOW = 0.02  # of the load: an increment in which a body flows
-FARTHEST, FLOW_ROWS)])
+    strains = np.concatenate([[0.0], np.geomspace(1e-6, FARTHEST, FLOW_ROWS)])
     if law.table is not None:
         strains = np.array(law.table)[:, 0]
     elif law == Hardening(law.yield_stress, law.modulus):
