@@ -80,6 +80,15 @@ def test_the_same_scene_from_python_and_from_the_command_line(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
 
 
+def test_a_run_prints_in_ten_lines_and_shows_its_tables(tables):
+    finished = crosscheck.run(tables)
+    title, *figures, verdict, following = str(finished).splitlines()
+    assert title == tables["title"] and 3 <= len(figures) <= 7
+    assert figures[0].startswith("peak pressure") and "whole" in figures[0]
+    assert verdict.lower().startswith(finished.verdict) and following.startswith("Next: ")
+    assert "model error of the half-plane" in finished._repr_html_()
+
+
 def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("scene.toml").write_text(toml(SCENES["smooth, sliding"]))
