@@ -82,10 +82,11 @@ def test_the_same_scene_from_python_and_from_the_command_line(
 
 def test_a_run_prints_in_ten_lines_and_shows_its_tables(tables):
     finished = crosscheck.run(tables)
-    title, *figures, verdict, following = str(finished).splitlines()
-    assert title == tables["title"] and 3 <= len(figures) <= 7
-    assert figures[0].startswith("peak pressure") and "whole" in figures[0]
-    assert verdict.lower().startswith(finished.verdict) and following.startswith("Next: ")
+    title, first, *others = str(finished).splitlines()
+    assert title == tables["title"] and len(others) <= 8
+    assert first.startswith("peak pressure") and "whole" in first
+    assert any(line.lower().startswith(finished.verdict) for line in others)
+    assert any(line.startswith("Next:  ") for line in others)
     assert "model error of the half-plane" in finished._repr_html_()
 
 
