@@ -15,6 +15,7 @@ from comparisons.common.errors import one_line
 from comparisons.common.numbers import (
     given_percent,
     integer,
+    listed,
     percent,
     plain,
     scale_of,
@@ -43,6 +44,9 @@ from comparisons.studies.study import Run
 ALL_LEVELS = "all levels together: time"
 DIFFERENCE = "difference"  # of both models, in place of one
 NO_DATA = "no data"
+# Packages that a person who signs wants to know of.
+TO_SIGN = ("name, place, date", "signature")  # by hand
+SIGNED = ("crosscheck", "python", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh")
 PARTS = {
     "discretisation": "discretisation",
     "iteration": "iteration",
@@ -247,6 +251,40 @@ def _cost(run: Run, model: ModelRun) -> dict[str, str]:
         "peak memory of the process": with_unit(memory, "byte", 3),
         ALL_LEVELS: with_unit(sum(model.seconds.values()), "s", 3),
     }
+
+
+def signed_rows(run: Run) -> list[tuple[str, str]]:
+    """What a person signs who has read the report: the question, how sure, by what and when."""
+    scene, made, errors = run.problem.scene, run.record.get("made", {}), run.model_errors
+    judged = dict.fromkeys(
+        f"{label(e.quantity)} within {given_percent(e.tolerance)}" for e in errors
+    )
+    question = (
+        "May the half-plane's figures stand for those of a model with every effect that matters?"
+    )
+    if not errors:
+        question = "What are the figures of this contact? Nothing is judged against a tolerance."
+    unsure = f"every stated uncertainty covers {given_percent(COVERAGE)}"
+    if errors:
+        most = percent(max(error.numerical for error in errors))
+        unsure = f"at most {most} of a judged figure; {unsure}"
+        if any(error.not_modelled for error in errors):
+            most = percent(max(error.not_modelled for error in errors))
+            unsure += f"; what no model of the run has may add at most {most}"
+    solved = {n: v for n, v in run.record["versions"].items() if n in SIGNED and v}
+    by = ", ".join(f"{name} {value}" for name, value in solved.items())
+    rows = [
+        ("scene", f"{scene.title} ({one_line(scene.source)})"),
+        ("question", question),
+        (
+            "judged by",
+            f"{', '.join(judged)}; friction {listed(scene.load.friction)}" if judged else "",
+        ),
+        ("uncertainty", unsure),
+        ("solved by", ", ".join(filter(None, (by, f"revision {made.get('revision')}")))),
+        ("made", ", ".join(made[name] for name in ("date", "host") if made.get(name))),
+    ]
+    return [*((name, text) for name, text in rows if text), *((name, "") for name in TO_SIGN)]
 
 
 def record_rows(run: Run) -> list[tuple[str, str]]:
