@@ -110,7 +110,7 @@ def run(
     except FemError as error:
         remedy = "a lighter load"
         if scene.finite_element.plastic:
-            remedy += ", a higher body.yield_stress or body.hardening_modulus"
+            remedy += ", a higher body.yield_stress or more hardening"
         raise SolverError(
             f"{scene.source}: the finite elements found no solution: {error}; what may help is "
             f"{remedy}, or finer pressures (resolution.pitch)"
