@@ -21,6 +21,7 @@ from comparisons.common.numbers import (
     significant,
     with_unit,
 )
+from comparisons.common.provenance import PROJECT
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
 from comparisons.figures.figure import Figure, Figures
@@ -276,11 +277,13 @@ def refinement_text(run: Run) -> str:
 def commands(run: Run) -> list[tuple[str, str]]:
     """What to type to get this again."""
     scene, plan = run.problem.scene, run.plan
+    launcher = PROJECT / "crosscheck"  # of a checkout, which is on no path
+    program = shlex.quote(str(launcher)) if launcher.is_file() else "crosscheck"
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
     return [
-        ("repeats this run, in the folder of this page", "crosscheck rerun ."),
-        ("draws this page again, in the same folder", "crosscheck report ."),
-        ("runs the scene again", f"crosscheck run {shlex.quote(one_line(scene.source))}{models}"),
+        ("repeats this run, in the folder of this page", f"{program} rerun ."),
+        ("draws this page again, in the same folder", f"{program} report ."),
+        ("runs the scene again", f"{program} run {shlex.quote(one_line(scene.source))}{models}"),
     ]
 
 
