@@ -85,8 +85,8 @@ class Convolution:
 
     @made_once
     def coarsened(self) -> Self | None:
-        """The same on elements twice as wide, centred on nodes 1, 3, 5, …; `arguments` are what it was
-        made with beside their number and its `pitch`."""
+        """The same on elements twice as wide, centred on nodes 1, 3, 5, …; `arguments` are what it
+        was made with beside their number and its `pitch`."""
         return type(self)(self.count // 2, 2.0 * self.pitch, *self.arguments)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:

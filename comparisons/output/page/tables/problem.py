@@ -3,7 +3,7 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import as_written, decimal, listed, plain, significant, with_unit
-from comparisons.models.assumptions import support_text
+from comparisons.models.assumptions import hardening_text, support_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, CoatingSection, ElasticSection
@@ -163,7 +163,7 @@ def coating_text(coating: CoatingSection) -> str:
 def yielding_text(body: BodySection) -> str:
     """How a body flows, in one phrase."""
     modulus = body.hardening_modulus
-    harder = f", hardening by {as_written(modulus, 'Pa')}" if modulus else ""
+    harder = f", hardening by {as_written(modulus, 'Pa')}" if modulus else hardening_text(body)
     return f"at {as_written(body.yield_stress, 'Pa')}{harder}"
 
 
