@@ -37,9 +37,14 @@ class StressResult:
     friction: float
     # largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
     extremes: dict[str, Extremum]
-    field: StressState  # (m, k) on the common window
+    field: StressState | None  # (m, k) on the common window; None where maxima alone are asked for
     # largest tau1 and |txz| of each asperity: value, x and z (3, k); empty where there is one
     maxima: dict[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def tau1(self) -> np.ndarray | None:
+        """(m, k) [Pa] on the common window."""
+        return None if self.field is None else self.field.tau1
 
     def of_asperities(self, name: str, cells: tuple[float, ...]) -> np.ndarray:
         """Value [Pa], x and z [m] (3, k) of the largest tau1 or |txz| of each asperity; where that

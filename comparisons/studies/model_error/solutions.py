@@ -23,6 +23,7 @@ from comparisons.studies.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
+from comparisons.studies.model_error.selection import NONLINEAR
 from comparisons.studies.model_error.variants import ModelVariant, problem_with
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
@@ -84,7 +85,7 @@ class SolvedVariants:
     ) -> list[tuple[ModelVariant, str]]:
         """Make those that are new on a level known to the tasks; each with its task's key."""
         new = [each for each in dict.fromkeys(asked) if self.is_open(each, number)]
-        new.sort(key=lambda variant: "finite_strain" not in variant.effects)  # the dearest first
+        new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
         return [(variant, self._add(variant, number, urgency)) for variant in new]
 
     def is_open(self, variant: ModelVariant, number: int) -> bool:
@@ -110,7 +111,7 @@ class SolvedVariants:
     def _is_own(self, variant: ModelVariant) -> bool:
         frictions = self.problem.scene.load.friction
         shaped = variant.friction is None or frictions == (variant.friction,)
-        changed = variant.quadratic or variant.laws
+        changed = variant.quadratic or variant.laws or variant.times > 1
         return shaped and not changed and variant.effects == self._own_effects
 
     def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
@@ -152,12 +153,13 @@ def _solved(
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
+    from fem.nonlinear.press_plastic import TRAVEL
 
     words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
     here.callback(f"error budget: finite elements with {words}, level {number}")
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    refinement, stages = Refinement(pitch), Stages()
+    refinement, stages = Refinement(pitch, travel=variant.times * TRAVEL), Stages()
     try:
         level = finite_element_level(
             problem, plan, refinement, window, stages, body_cache, LevelOptions(fields=fields)
