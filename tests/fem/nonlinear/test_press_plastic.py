@@ -166,7 +166,7 @@ def test_what_is_condensed_changes_nothing(small, monkeypatch, elastic, friction
         way.state = state_at_rest(way._bodies, start)
     wholly = way.through([load * scene.hertz.load_per_length for load in loads])
     same(found, wholly, 1e-7, 1e-7)
-    same(quick, wholly, 1e-4, 1e-3)
+    same(quick, wholly, 1e-5, 1e-4)
 
 
 def test_flow_flattens_and_widens(loaded):
