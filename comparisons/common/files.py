@@ -3,9 +3,11 @@
 Unfinished files are inside the folder where it exists: its parent need not be writable, and no file
 moves to another file system. Else they are beside it: the folder appears with the results."""
 
+import csv
 import errno
 import fcntl
 import glob
+import io
 import json
 import os
 import shutil
@@ -100,6 +102,8 @@ def check_writable(out: Path, files: tuple[str, ...] = ALL_FILES) -> None:
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
     _check_folder(out, place)
+    if (unready := _unfinished(out)).is_symlink():
+        raise _cannot(out, f"{unready} is a symbolic link; allowed is a folder, or none")
     for folder in (_unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)
@@ -213,6 +217,13 @@ def write_whole(path: Path, text: str) -> None:
     """Write a file as UTF-8."""
     with whole_file(path) as part:
         part.write_text(text, encoding="utf-8")
+
+
+def csv_text(rows: Iterable[Iterable[object]]) -> str:
+    """Rows of a table as the text of a CSV file."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def remove_leftovers(folder: Path) -> None:

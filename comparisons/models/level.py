@@ -11,6 +11,9 @@ from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.stress_state import Extremum, StressState
+from comparisons.common.errors import SceneError
+from comparisons.common.mpi import from_first
+from comparisons.common.progress import machine_memory
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.problem import Problem, mean_height
 from fem.body.coating import Coating
@@ -21,6 +24,9 @@ if TYPE_CHECKING:
     from fem.stress.stress import NodalStress
 
 
+STRAIN = "equivalent_plastic_strain"  # a field of what flows
+
+
 @dataclass(frozen=True)
 class ExpectedCost:
     """What a level will take by measured laws; `memory` [bytes] at the peak."""
@@ -28,6 +34,23 @@ class ExpectedCost:
     unknowns: int
     memory: float
     seconds: float
+
+
+def refuse_too_large(problem: Problem, wanted: ExpectedCost, name: str, pitch: float) -> None:
+    """Raise SceneError where a model's level takes more memory than it may, or than there is."""
+    source, allowed = problem.scene.source, problem.scene.budget.memory
+    need = (
+        f"{name} on pressures of {pitch:.3g} m, {wanted.unknowns:.2g} unknowns, need "
+        f"about {wanted.memory:.2g} bytes and {wanted.seconds:.2g} s"
+    )
+    if wanted.memory > allowed:
+        remedy = "allowed is a larger budget, or coarser pressures (resolution.pitch)"
+        raise SceneError(f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; {remedy}")
+    there = from_first(machine_memory)
+    if wanted.memory > there:
+        remedy = "allowed are coarser pressures, or a smaller finite_element.block"
+        machine = f"this machine has {there:.2g} bytes"
+        raise SceneError(f"{source}: resolution.pitch: {need}, but {machine}; {remedy}")
 
 
 @dataclass(frozen=True)
@@ -173,6 +196,12 @@ class Level:
     def extent(self) -> float:
         """Distance from the first to the last contact [m]."""
         return float(self.patches[-1, 1] - self.patches[0, 0])
+
+    @property
+    def plastic_strain(self) -> float | None:
+        """The largest equivalent one under the load; None where nothing shows it."""
+        others = self.mesh_field.others if isinstance(self.mesh_field, MeshField) else {}
+        return float(others[STRAIN].max()) if STRAIN in others else None
 
     def stress(self, friction: float) -> StressResult | None:
         """Stresses under one friction coefficient, None without [stress]."""

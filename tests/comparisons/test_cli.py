@@ -1,5 +1,6 @@
 """The command line: what it hands on, what it prints where, and how it ends."""
 
+import errno
 import json
 import os
 import subprocess
@@ -29,14 +30,14 @@ HEAVY = (
 
 
 class Run:
-    """Stands for `runs.run`: remembers its call, then returns or raises `result`."""
+    """Stands for `runs.run.solve_scene`: remembers its call, then returns or raises `result`."""
 
     def __init__(self) -> None:
         self.calls = []
         self.status = ExitStatus.DONE
         self.raises = None
 
-    def run(self, scene, out, models, progress, fields, *further):
+    def run(self, scene, out, models, progress, *further):
         self.calls.append((scene, out, models))
         progress("solving [with] care")
         if self.raises:
@@ -51,7 +52,8 @@ class Run:
 @pytest.fixture
 def solver(monkeypatch, tmp_path):
     run = Run()
-    monkeypatch.setattr("comparisons.runs.run.run", lambda *arguments: run.run(*arguments))
+    monkeypatch.setattr("comparisons.runs.run.solve_scene", lambda *asked: run.run(*asked))
+    monkeypatch.setattr("comparisons.runs.run.finish", lambda *_: None)
     table = types.SimpleNamespace(summary=lambda outcome, details: "peak pressure agree")
     monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
     monkeypatch.setattr("comparisons.output.result_json.content_of", lambda run: run.result)
@@ -66,7 +68,8 @@ def test_run_hands_everything_on(solver, capsys):
     assert scene.name == "smooth"
     assert out == Path("there")
     assert models == ("half_plane",)
-    assert capsys.readouterr() == ("peak pressure agree\n", "")
+    written = "written: there/report.html, result.json and the fields beside it\n"
+    assert capsys.readouterr() == (f"peak pressure agree\n{written}", "")
 
 
 def test_run_goes_to_results_with_both_models(solver):
@@ -194,7 +197,7 @@ def test_progress_is_shown_to_a_terminal(solver, capsys, monkeypatch):
     monkeypatch.setenv("TERM", "xterm")
     assert main(["run", "smooth"]) == 0
     out, err = capsys.readouterr()
-    assert out == "peak pressure agree\n"
+    assert out.startswith("peak pressure agree\nwritten: ")
     assert "solving [with] care" in err
 
 
@@ -238,6 +241,16 @@ def test_help_loads_nothing_heavy(arguments):
     loaded = set(done.stderr.split())
     assert "comparisons.cli" in loaded
     assert loaded.isdisjoint(HEAVY)
+
+
+def test_the_half_plane_answers_before_pictures_are_imported(tmp_path):
+    code = f"""import sys
+from comparisons.runs import run
+run.finish = lambda *_: print({{"matplotlib", "PIL", "vtkmodules", "jinja2"}} & {{*sys.modules}})
+from comparisons.cli import main
+main(["run", "smooth", "--models", "half-plane", "--out", {str(tmp_path / "out")!r}])"""
+    out = python(code).stdout
+    assert "peak pressure" in out.partition("set()\n")[0] and "set()\n" in out
 
 
 @pytest.mark.parametrize(("wanted", "taken"), [(None, "1"), ("7", "7")])
@@ -352,7 +365,7 @@ def test_too_little_address_space_is_no_missing_library(tmp_path):
     ("allowed", "status", "said"),
     [
         (2 * 10**9, ExitStatus.OUT_OF_MEMORY, "thread; the process may have 2 GB of address space"),
-        (None, ExitStatus.DEFECT, "internal error: RuntimeError: can't start new thread"),
+        (None, ExitStatus.OUT_OF_MEMORY, "no more processes (ulimit -u); allowed is a higher"),
     ],
 )
 def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status, said):
@@ -362,12 +375,39 @@ def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("number", "said"), [(errno.EMFILE, "open files (ulimit -n)"), (errno.EAGAIN, "(ulimit -u)")]
+)
+def test_a_limit_of_the_system_is_named(solver, capsys, number, said):
+    solver.raises = OSError(number, os.strerror(number))
+    assert main(["run", "smooth"]) == ExitStatus.OUT_OF_MEMORY
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("crosscheck: the system allows this user no more") and said in line
+
+
+def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(tmp_path):
+    code = (
+        "import sys; sys.modules.update(dict.fromkeys(('dolfinx', 'petsc4py', 'mpi4py')))\n"
+        "import importlib.util as util; found = util.find_spec\n"
+        "util.find_spec = lambda name, *more: None if name == 'dolfinx' else found(name, *more)\n"
+        "from comparisons.cli import main; sys.exit(main({!r}))"
+    )
+    out = str(tmp_path / "out")
+    done = python(code.format(["run", "smooth", "--out", out]), check=False)
+    assert (done.returncode, done.stdout) == (ExitStatus.BAD_INPUT, "")
+    (line,) = done.stderr.splitlines()
+    assert "finite elements take dolfinx" in line and "allowed is --models half-plane" in line
+    assert not (tmp_path / "out").exists()
+    done = python(code.format(["run", "smooth", "--models", "half-plane", "--out", out]))
+    assert "peak pressure    0  4.150 GPa" in done.stdout
+
+
 def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):
     monkeypatch.setattr("comparisons.commands.output.SILENCE", 60.0)
-    clock = iter((0.0, 1.0, 61.0, 62.0, 125.4))  # as it begins, then at each stage
+    clock = iter((0.0, 1.0, 61.0, 62.0, 125.4, 126.0))  # as each begins, and at each stage
     monkeypatch.setattr("comparisons.commands.output.monotonic", lambda: next(clock))
 
-    def slow(scene, out, models, callback, fields, *further):
+    def slow(scene, out, models, callback, *further):
         for stage in ("first", "second", "third", "fourth"):
             callback(stage)
         return types.SimpleNamespace(result={}, exit_status=ExitStatus.DONE, directory=out)
@@ -375,5 +415,5 @@ def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, caps
     monkeypatch.setattr(solver, "run", slow)
     assert main(["run", "smooth"]) == 0
     out, err = capsys.readouterr()
-    assert out == "peak pressure agree\n"
+    assert out.startswith("peak pressure agree\nwritten: ")
     assert err == "crosscheck: after 61 s: second\ncrosscheck: after 125 s: fourth\n"

@@ -29,11 +29,15 @@ from comparisons.models.finite_element.contact import (
     mutual_compliance,
     solve_mutual,
 )
-from comparisons.models.finite_element.cost import expected, refuse_too_large
+from comparisons.models.finite_element.cost import expected
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
+from comparisons.models.finite_element.nonlinear import (
+    pressed_finitely,
+    pressed_plastically,
+    pressed_plastically_finitely,
+)
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
-from comparisons.models.level import Level
+from comparisons.models.level import Level, refuse_too_large
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem, problem_of
@@ -79,7 +83,7 @@ def finite_element_level(
     solving.load_libraries()
     ranges, start = solving.predicted_contact()
     cost = expected(problem, plan, refinement, ranges)
-    refuse_too_large(problem, cost, refinement.pitch)
+    refuse_too_large(problem, cost, "finite elements", refinement.pitch)
     meshed = solving.meshed_contact(ranges, start, body_cache or BodyCache())
     pressed = solving.pressed(meshed)
     level = Level(
@@ -204,12 +208,18 @@ class _LevelSolution:
         """Contact and bodies by the scene's laws, from that at small strains."""
         problem, grid = self.problem, self.grid
         operator, solution = contact.operator, contact.solution
+        flows = problem.scene.finite_element.plastic
+        if self.is_finite and flows:
+            with self.stages.stage("plastic flow", "finite elements: flow at finite deformation"):
+                return pressed_plastically_finitely(
+                    *(problem, operator, grid, solution, self.constraints, self.refinement.travel)
+                )
         if self.is_finite:
             with self.stages.stage("finite deformation", "finite elements: finite deformation"):
                 return pressed_finitely(
                     problem, operator, grid, solution, self.constraints, self.model
                 )
-        if problem.scene.finite_element.plastic:
+        if flows:
             with self.stages.stage("plastic flow", "finite elements: plastic flow"):
                 return pressed_plastically(
                     problem,

@@ -6,7 +6,6 @@ of its plane elements. x is the file's first axis. Signs of normal stresses are 
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -15,16 +14,15 @@ from scipy.sparse.csgraph import connected_components
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+from comparisons.scenes.fields import LARGEST, SMALLEST
 from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import OutsideStress
-from comparisons.studies.answers.meshes import read_mesh
-
-if TYPE_CHECKING:
-    from pyvista import PolyData, UnstructuredGrid
+from comparisons.studies.answers.meshes import Faces, read_mesh
 
 FEWEST = 5  # points that show a pressure
 PLANES = 3  # of nodes of one layer of elements
 SAME = 1e-6  # of the mesh's extent: nodes of one plane
+SAME_PLACE = 1e-12  # of the length: x closer than this coincide
 FACING = 0.5  # cosine between the normal of a top edge and the way up
 OFF_THE_SURFACE = 0.5  # half-widths: farther from the mean line no top is the scene's
 # Components along the file's axes 0, 1, 2: of a tensor by the number of its components.
@@ -87,20 +85,20 @@ def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[n
     x, pressure, *others = (values[order] for values in (x, pressure, *others))
     if len(x) < FEWEST:
         raise ValueError(f"has {len(x)} points; allowed are {FEWEST} or more along the contact")
-    if not np.all(np.diff(x) > 0.0):
-        twice = x[:-1][np.diff(x) <= 0.0][0]
+    if not max(np.abs(x).max(), np.abs(pressure).max()) <= LARGEST:
+        raise ValueError(f"holds a place or a pressure beyond {LARGEST:g} in SI units")
+    apart = np.diff(x) > max(SMALLEST, SAME_PLACE * np.ptp(x))
+    if not np.all(apart):
+        twice = x[:-1][~apart][0]
         raise ValueError(f"has x = {twice:g} m twice; allowed is one pressure at each place")
     if not np.any(pressure):
         raise ValueError("has no pressure but 0; allowed is that of a contact")
     return x, pressure, *others
 
 
-def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float) -> PlaneMesh:
+def plane_mesh(faces: Faces, source: AnswerSection, friction: float) -> PlaneMesh:
     """The rough body of a mesh: what hangs together and lies below the surface."""
-    if mesh.cell_data:
-        mesh = mesh.cell_data_to_point_data()
-    surface = _faces(mesh)
-    points = np.asarray(surface.points, dtype=float) * source.length
+    points = np.asarray(faces.points, dtype=float) * source.length
     vertical, sign = _up(points, source)
     level, tolerance = points[:, 3 - vertical], SAME * float(np.ptp(points))
     planes = len(np.unique(np.round(level / tolerance)))
@@ -109,15 +107,16 @@ def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float)
             f"its nodes stand in {planes} planes along {'xyz'[3 - vertical]}; allowed is a mesh in "
             "a plane, or one layer of elements"
         )
-    triangles = surface.faces.reshape(-1, 4)[:, 1:]
+    triangles = faces.triangles
     triangles = triangles[np.all(level[triangles] < level.min() + tolerance, axis=1)]
     x, z = points[:, 0] - source.x_origin, source.z_origin - sign * points[:, vertical]
     triangles = _below(x, z, triangles)
     used, triangles = np.unique(triangles, return_inverse=True)
-    arrays = {name: np.asarray(values)[used] for name, values in surface.point_data.items()}
+    arrays = {name: np.asarray(values)[used] for name, values in faces.arrays.items()}
     stress = [source.stress * part for part in _stress_of(arrays, vertical, sign, friction)]
-    if not np.all(np.isfinite(stress)):
-        raise ValueError("holds a stress that is no number; allowed is one at every node")
+    if not np.all(np.abs(stress) <= LARGEST):
+        most = f"allowed is one up to {LARGEST:g} Pa at every node"
+        raise ValueError(f"holds a stress that is no number, or too large; {most}")
     pressure = shear = None
     if source.pressure is not None:
         pressure = source.stress * _component(arrays, source.pressure)
@@ -127,18 +126,6 @@ def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float)
         shear = sense * _component(arrays, name.removeprefix("-"))
     shape = x[used], z[used], triangles.reshape(-1, 3)
     return PlaneMesh(*shape, StressState(*stress), pressure, shear)
-
-
-def _faces(mesh: "UnstructuredGrid") -> "PolyData":
-    """The mesh's outer faces as triangles between all of their nodes; a plane mesh is all face."""
-    import pyvista
-    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
-
-    faces = vtkDataSetSurfaceFilter()
-    faces.SetInputData(mesh)
-    faces.SetNonlinearSubdivisionLevel(1)
-    faces.Update()
-    return pyvista.wrap(faces.GetOutput()).triangulate()
 
 
 def _up(points: np.ndarray, source: AnswerSection) -> tuple[int, int]:

@@ -185,8 +185,11 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     monkeypatch.setattr("comparisons.output.page.page.render", interrupted)
     assert main(["run", "scene.toml", "--models", "half-plane", "--out", "out"]) == 130
-    assert capsys.readouterr().err == (
-        "crosscheck: interrupted; finished levels are kept, the same command goes on from there\n"
+    out, err = capsys.readouterr()
+    assert "peak pressure" in out and "NOT COMPARED" in out
+    assert err == (
+        "crosscheck: interrupted; nothing was written, but all is solved and kept: the same "
+        "command writes the files\n"
     )
     assert (folder / ".out.unfinished/run" / "half_plane-1.npz").exists()
 
@@ -195,6 +198,17 @@ def test_a_crash_of_the_only_process_stays_a_crash(folder):
     process = started(folder, ALONE + CRASH.format(name="SEGV"))
     process.communicate(timeout=PATIENT)
     assert process.returncode == -signal.SIGSEGV
+
+
+def test_a_command_whose_process_is_killed_has_a_status_of_its_own(folder):
+    """1 would mean that a judged figure differs."""
+    process = started(folder, ALONE + CRASH.format(name="KILL"))
+    out, err = process.communicate(timeout=PATIENT)
+    assert (process.returncode, out) == (ExitStatus.KILLED, "")
+    assert err == (
+        "crosscheck: the process that worked was killed, as the system does where memory ends; "
+        "finished levels are kept, the same command goes on from there\n"
+    )
 
 
 def test_the_end_of_the_process_of_a_level_is_one_line(folder):
