@@ -87,8 +87,12 @@ class FiniteElementCompliance:
 
     def matrix(self, friction: float = 0.0) -> np.ndarray:
         """C dense (count, count) [m^2/Pa]: one back-substitution a hat."""
+        return self.columns(np.arange(self.count), friction)
+
+    def columns(self, hats: np.ndarray, friction: float = 0.0) -> np.ndarray:
+        """Columns (count, k) [m^2/Pa] of C, of hats (k,)."""
         forces = self.normal + friction * self.tangential if friction else self.normal
-        starts = range(0, self.count, BATCH)
+        forces, starts = forces[:, hats], range(0, len(hats), BATCH)
         return np.vstack([self._columns(forces[:, i : i + BATCH].toarray()) for i in starts]).T
 
     def _columns(self, force: np.ndarray) -> np.ndarray:

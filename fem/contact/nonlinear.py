@@ -280,7 +280,7 @@ def _step(
     rows[-2][-2], closed = csr_matrix((len(hats), len(hats))), 0.0
     if problem.flexible is not None:
         rows[-2][-2] = csr_matrix(problem.flexible[np.ix_(hats, hats)] * (-stiff / width**2))
-        closed = problem.flexible[hats] @ (fixed - pressure)
+        closed = (problem.flexible @ (fixed - pressure))[hats]
     right.append((gap[hats] + closed) / width)
     if load is not None:
         share = csr_matrix(weights[hats, None] / width)

@@ -2,28 +2,59 @@
 
 Nomenclature: C compliance [m^2/Pa] of hat pressures p [Pa], w integrals of the hats [m]."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from fem.contact.nonlinear import CONTACT, HatStates
 from fem.solver.mumps import FemError
 
-MOST_HATS = 3000  # for which compliances are formed: a back-substitution each, 72 MB a matrix
 MOST_EXCHANGES = 100  # of hats that touch and hats that do not
+
+
+class Condensed:
+    """C (count, count) [m^2/Pa] of which only the columns of hats under pressure are formed, when
+    they are first asked for: a back-substitution each, of less than half of a rough trace's hats.
+
+    columns  gives those (count, k) of hats (k,)"""
+
+    def __init__(self, columns: Callable[[np.ndarray], np.ndarray], count: int) -> None:
+        self._form, self._known = columns, np.zeros((count, 0))
+        self._place = np.full(count, -1)
+
+    def of(self, hats: np.ndarray) -> np.ndarray:
+        """Columns (count, k) of hats (k,)."""
+        new = hats[self._place[hats] < 0]
+        if len(new):
+            self._place[new] = self._known.shape[1] + np.arange(len(new))
+            self._known = np.hstack([self._known, self._form(new)])
+        return self._known[:, self._place[hats]]
+
+    def __matmul__(self, pressure: np.ndarray) -> np.ndarray:
+        """C p (count,) [m^2]."""
+        hats = np.flatnonzero(pressure)
+        return self.of(hats) @ pressure[hats]
+
+    def __getitem__(self, block: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+        """The block of `numpy.ix_` of rows and columns."""
+        rows, hats = block
+        return self.of(hats.ravel())[rows.ravel()]
 
 
 class ElasticContact:
     """Contact on a compliance C (count, count) [m^2/Pa] of both surfaces together."""
 
-    def __init__(self, flexible: np.ndarray, weights: np.ndarray) -> None:
+    def __init__(self, flexible: np.ndarray | Condensed, weights: np.ndarray) -> None:
         self.flexible, self._weights = flexible, weights
 
     def __call__(self, gap: np.ndarray, load: float, start: np.ndarray) -> tuple[np.ndarray, float]:
         """Pressure (count,) [Pa] and approach [m] under a load [N/m] > 0, for a weighted gap
         (count,) [m^2], from a guessed pressure. Raises FemError where the active set cycles."""
         weights, flexible = self._weights, self.flexible
-        stiff = weights.mean() / flexible.diagonal().mean()
         hats = HatStates(start, np.inf, load, weights)
         hats.keep_one_in_contact(gap / weights)
+        one = np.flatnonzero(hats.states == CONTACT)[:1]
+        stiff = weights.mean() / float(flexible[np.ix_(one, one)][0, 0])
         for _ in range(MOST_EXCHANGES):
             before, on = hats.states.copy(), np.flatnonzero(hats.states == CONTACT)
             system = np.zeros((len(on) + 1, len(on) + 1))

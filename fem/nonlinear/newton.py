@@ -103,7 +103,7 @@ def newton_by_contacts(
         goal, _, _ = newton(problem, guess, load)
         moves = [u - v for u, v in zip(goal.displacements, state.displacements, strict=True)]
         rise = goal.pressure - state.pressure
-        elastic_work = 0.0 if flexible is None else float(rise @ flexible @ rise)
+        elastic_work = 0.0 if flexible is None else float(rise @ (flexible @ rise))
         starts = [tangent.start for tangent, _ in near]
         part, forces, applied = _length(bodies, state, moves, goal, starts, elastic_work)
         change = ContactState(tuple(moves), rise, goal.approach - state.approach)

@@ -167,8 +167,6 @@ class _FiniteHistory(LoadHistory):
         self._former = self.state.load, self.body.state
         self._response.accept(found.displacements[0])
         self.state = found
-        if self._elastic is None:
-            return
         linear = self._linear(found.pressure, self.body.state)
         self._beyond = found.displacements[0] - found.aside - linear
         gap, _ = self._contact.contact.loaded(found.displacements[0], found.pressure)

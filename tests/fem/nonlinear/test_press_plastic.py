@@ -11,8 +11,11 @@ from analytic.material import Material
 from analytic.material.hardening import Hardening
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.nonlinear import state_at_rest
+from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.nonlinear.press_plastic import (
+    LoadHistory,
     PlasticContact,
     _released,
     averaged_pressure,
@@ -153,8 +156,15 @@ def test_what_is_condensed_changes_nothing(small, monkeypatch, elastic, friction
     _, quick = scene.press(loads, friction, np.inf)
     monkeypatch.setattr("fem.nonlinear.press_plastic.ON_THE_WAY", 1e-9)
     _, found = scene.press(loads, friction, np.inf)
-    monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_HATS", 0)
-    _, wholly = scene.press(loads, friction, np.inf)
+    roller, start = scene.pressed if elastic else None, scene.hertz.pressure(scene.x)
+    way = LoadHistory(
+        *(scene.pressed, scene.metal, scene.gap, scene.weights, start, friction, roller, np.inf)
+    )
+    way._flexible, way._elastically, way._ahead = None, lambda target: 0, lambda load: way.state
+    if elastic:
+        way._bodies.append((LinearResponse(roller.body), LinearContact(roller, -friction)))
+        way.state = state_at_rest(way._bodies, start)
+    wholly = way.through([load * scene.hertz.load_per_length for load in loads])
     same(found, wholly, 1e-7, 1e-7)
     same(quick, wholly, 1e-5, 1e-4)
 
