@@ -45,13 +45,13 @@ class GmshWorker:
     """A process of `meshes.gmsh_worker`, which has gmsh loaded and forks for every mesh."""
 
     def __init__(self, environment: dict[str, str]) -> None:
-        self.given, self.seconds = (os.getpid(), WORKER, environment), 0.0
+        self.made_for, self.seconds = (os.getpid(), WORKER, environment), 0.0
         pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
         self.process = subprocess.Popen(WORKER, env=environment, **pipes)
 
     def serves(self, environment: dict[str, str]) -> bool:
         """Whether it is alive, of this process, and would be started so again."""
-        return self.given == (os.getpid(), WORKER, environment) and self.process.poll() is None
+        return self.made_for == (os.getpid(), WORKER, environment) and self.process.poll() is None
 
     def filled(self, task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
         """As `run_worker`."""
@@ -91,7 +91,7 @@ class GmshWorker:
 
     def close(self) -> None:
         """End the process, where it is this one's."""
-        if self.given[0] == os.getpid():
+        if self.made_for[0] == os.getpid():
             self.process.kill()
             self.process.wait()
         for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):

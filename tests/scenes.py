@@ -66,7 +66,7 @@ def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:
 
 def refound(run: "Run", study: str, **changes: object) -> "Run":
     """A finished run with other findings of a study: its figures, series, statements or data."""
-    return replace(run, found={**run.found, study: replace(run.found[study], **changes)})
+    return replace(run, findings={**run.findings, study: replace(run.findings[study], **changes)})
 
 
 def posed(run: "Run", **changes: object) -> "Run":
@@ -91,4 +91,4 @@ def budgeted(run: "Run", budget: object) -> "Run":
     from comparisons.studies.model_error.account import NAME, findings_of
 
     found = findings_of(budget, run.problem, run.runs)
-    return replace(run, found={**run.found, NAME: found})
+    return replace(run, findings={**run.findings, NAME: found})

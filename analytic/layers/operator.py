@@ -36,7 +36,7 @@ class LayeredSurface(Convolution):
     ) -> None:
         self.pitch, self.body = pitch, body
         self.datum = (count + 1) * pitch + 4.0 * _spread(body) if datum is None else datum
-        self.given = body, self.datum
+        self.arguments = body, self.datum
         log_datum = float(np.log(self.datum / pitch))
         scale = pitch**2 / (2.0 * np.pi * body.material.shear_modulus)
         column = scale * hat_compliance(count, pitch / body.thickness, body.contrast, log_datum)
@@ -58,7 +58,7 @@ class TangentialLayer(Convolution):
     body   the layer and its base"""
 
     def __init__(self, count: int, pitch: float, body: LayeredBody) -> None:
-        self.pitch, self.body, self.given = pitch, body, (body,)
+        self.pitch, self.body, self.arguments = pitch, body, (body,)
         scale = pitch**2 / (2.0 * np.pi * body.material.shear_modulus)
         column = scale * hat_coupling(count, pitch / body.thickness, body.contrast)
         column[0] = 0.0  # odd, but for rounding

@@ -85,9 +85,9 @@ class Convolution:
 
     @made_once
     def coarsened(self) -> Self | None:
-        """The same on elements twice as wide, centred on nodes 1, 3, 5, …; `given` are what it was
-        made with beside their number and its `pitch`."""
-        return type(self)(self.count // 2, 2.0 * self.pitch, *self.given)
+        """The same on elements twice as wide, centred on nodes 1, 3, 5, …; `arguments` are what it
+        was made with beside their number and its `pitch`."""
+        return type(self)(self.count // 2, 2.0 * self.pitch, *self.arguments)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""

@@ -84,7 +84,7 @@ class HalfPlane(Convolution):
     ) -> None:
         self.pitch, self.modulus, self.element = pitch, modulus, element
         self.datum = (count + 1) * pitch if datum is None else datum
-        self.given = modulus, self.datum, element
+        self.arguments = modulus, self.datum, element
         self._further = max(0.0, np.log(self.datum / ((count + 1) * pitch)))
         kernel = hat_galerkin if element == "hat" else strip_displacement
         log_integral = at_whole_offsets(kernel, count)

@@ -32,7 +32,7 @@ class PeriodicHalfPlane(Convolution):
     modulus  E* [Pa], or E' of one body"""
 
     def __init__(self, count: int, pitch: float, modulus: float) -> None:
-        self.pitch, self.modulus, self.given = pitch, modulus, (modulus,)
+        self.pitch, self.modulus, self.arguments = pitch, modulus, (modulus,)
         self._mean = count * pitch**2 / (np.pi * modulus)  # h Z
         cycles = np.arange(count // 2 + 1) / count
         column = irfft(self._symbol(cycles), count)

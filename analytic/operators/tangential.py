@@ -80,7 +80,7 @@ class CoupledHalfPlane(CoupledConvolution):
     ) -> None:
         self.pitch, self.modulus, self.friction_dundurs = pitch, modulus, friction_dundurs
         self.datum = (count + 1) * pitch if datum is None else datum
-        self.given, self.skew = (modulus, friction_dundurs, self.datum), friction_dundurs != 0.0
+        self.arguments, self.skew = (modulus, friction_dundurs, self.datum), friction_dundurs != 0.0
         self.normal = HalfPlane(count, pitch, modulus, self.datum)
         even = self.normal.column
         odd = friction_dundurs * pitch**2 / modulus * hat_sign(np.arange(count))
@@ -103,7 +103,7 @@ class TangentialHalfPlane(Convolution):
     sign      1.0 of the body; -1.0 of the roller, which takes the traction's other side"""
 
     def __init__(self, count: int, pitch: float, material: Material, sign: float = 1.0) -> None:
-        self.pitch, self.given = pitch, (material, sign)
+        self.pitch, self.arguments = pitch, (material, sign)
         nu = material.poissons_ratio
         moves = sign * (1.0 - 2.0 * nu) * (1.0 + nu) / (2.0 * material.youngs_modulus)
         column = moves * pitch**2 * hat_sign(np.arange(count))

@@ -130,7 +130,7 @@ def _read(scene: str, answers: Sequence[str], tolerance: str | None) -> "Scene":
 
     asked = Scene.read(scene)
     if answers:
-        asked = asked.changed("answers", answers_named(answers, asked.given.get("answers")))
+        asked = asked.changed("answers", answers_named(answers, asked.written.get("answers")))
     return asked if tolerance is None else with_tolerance(asked, _relative(tolerance))
 
 

@@ -83,7 +83,7 @@ def init(
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(made))
-    tables = made.scene.given
+    tables = made.scene.written
     examples = {
         "roller.radius": radius is None and tables["roller"]["radius"],
         "load.hertz_peak_pressure": (load, peak_pressure) == (None, None)

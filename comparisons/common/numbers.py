@@ -54,7 +54,7 @@ def with_unit(value: float | None, unit: str, digits: int = 4) -> str:
     return scale_of([value], unit).text(value, digits)
 
 
-def given(value: float | None, unit: str) -> str:
+def as_written(value: float | None, unit: str) -> str:
     """A figure [SI] as a scene gives it: no digit more than it has, at most six."""
     scale = scale_of([value], unit)
     return scale.named(plain(None if value is None else value / scale.factor))
@@ -109,7 +109,7 @@ def _leading(size: float, digits: int) -> int:
     return int(f"{size:.{digits - 1}e}".partition("e")[2])
 
 
-def given_percent(value: float) -> str:
+def percent_as_written(value: float) -> str:
     """A ratio of the scene in percent, no digit more than it has."""
     return f"{100.0 * value:.6g} %"
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from comparisons.common.numbers import given_percent, percent, scale_of, significant
+from comparisons.common.numbers import percent, percent_as_written, scale_of, significant
 from comparisons.figures.figure import Figure
 
 
@@ -94,7 +94,7 @@ def judged_cells(difference: Figure, is_norm: bool = False) -> tuple[str, str, s
     return (
         percent(difference.value, signed=not is_norm, uncertainty=size),
         percent(size),
-        "" if difference.bounds is None else given_percent(difference.tolerance),
+        "" if difference.bounds is None else percent_as_written(difference.tolerance),
         difference.verdict or "",
     )
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import given, with_unit
+from comparisons.common.numbers import as_written, with_unit
 from comparisons.drawing import style
 from comparisons.figures.quantity import LABELS
 from comparisons.models.problem import Problem
@@ -85,7 +85,7 @@ def over(axes: "Sequence[Axes]", label: str, ends: Sequence[float] | None = None
 
 def load_text(problem: Problem) -> str:
     """Load per length, in the digits of the scene where the scene gives it."""
-    write = given if problem.scene.load.kind == "per_length" else with_unit
+    write = as_written if problem.scene.load.kind == "per_length" else with_unit
     return write(problem.hertz.load_per_length, "N/m")
 
 

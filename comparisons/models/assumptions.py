@@ -1,6 +1,6 @@
 """The assumptions of a scene's models in words: of both, or of the half-plane alone."""
 
-from comparisons.common.numbers import given
+from comparisons.common.numbers import as_written
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_assumptions
@@ -46,13 +46,13 @@ def without_law(scene: Scene) -> list[str]:
 
 def laws(scene: Scene) -> str:
     """The laws of elasticity of all bodies at finite strain, in words."""
-    found = {}
+    laws = {}
     for section in (scene.body, scene.coating, scene.roller):
         if section is not None and section.material is not None:
             law = section.material.law
             measured = section.solid and law.murnaghan is not None
-            found[f"{section.solid}'s measured" if measured else LAW_NAMES[law.name]] = None
-    return " and ".join(found)
+            laws[f"{section.solid}'s measured" if measured else LAW_NAMES[law.name]] = None
+    return " and ".join(laws)
 
 
 def _law(scene: Scene) -> str:
@@ -118,7 +118,7 @@ def support_text(roller: RollerSection) -> str:
     if support is None:
         return "a sector, held at 0.4 of its radius (not given: roller.support)"
     if support.hub is not None:
-        return f"held on a rigid hub of radius {given(support.hub, 'm')}"
+        return f"held on a rigid hub of radius {as_written(support.hub, 'm')}"
     words = {"opposite": "held opposite the contact", "half disc": "half a disc, held at its flat"}
     return words[support.place]
 

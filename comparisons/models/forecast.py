@@ -124,18 +124,18 @@ def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
     plan, (first, second, *_) = make_plan(flowing, MODELS), problem.pitches
     solved = [Refinement(first), Refinement(second)]
     solved += [Refinement(first, travel=times * TRAVEL) for times in LONGER]
-    seconds = sum(expected(flowing, plan, each, patches).seconds for each in solved)
+    seconds = sum(expected(flowing, plan, refinement, patches).seconds for refinement in solved)
     return len(problem.scene.load.friction) * seconds
 
 
 def time_with_flow(problem: Problem, plan: Plan, patches: np.ndarray) -> float:
     """Of the levels asked for, and of flow [s], in contact on `patches` (k, 2) [m]."""
-    own = (
+    seconds_of_parts = (
         expected_level(name, problem, plan, pitch, patches).seconds
         for name in plan.models
         for pitch in problem.pitches
     )
-    return sum(own) + flow_seconds(problem, patches)
+    return sum(seconds_of_parts) + flow_seconds(problem, patches)
 
 
 def _cost(levels: tuple[PlannedLevel, ...]) -> str:

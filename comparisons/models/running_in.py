@@ -12,7 +12,7 @@ from analytic.profile import Profile
 from analytic.running_in import run_in
 from analytic.surface.roughness import roughness, shortest_wavelength
 from comparisons.common.errors import SceneError
-from comparisons.common.numbers import given, with_unit
+from comparisons.common.numbers import as_written, with_unit
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
 
@@ -81,8 +81,8 @@ def running_in_assumptions(scene: Scene, surface: SceneSurface) -> list[str]:
     """The assumptions of running-in, and where it fell short."""
     done, settings = surface.run_in, scene.running_in
     listed = [
-        f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "
-        "friction; what flows is lost, nothing rises beside it and nothing hardens"
+        f"running-in: at {as_written(settings.hardness, 'Pa')} asperities of a half-plane flow "
+        "without friction; what flows is lost, nothing rises beside it and nothing hardens"
     ]
     if done is None:
         return listed
@@ -99,7 +99,7 @@ def running_in_assumptions(scene: Scene, surface: SceneSurface) -> list[str]:
             f"{len(settings.places(surface.position))} positions"
         )
     if ended(surface):
-        places = ", ".join(given(place, "m") for place in ended(surface))
+        places = ", ".join(as_written(place, "m") for place in ended(surface))
         ends = "the roller touches the end of the trace, beyond which nothing carries it"
         listed.append(f"running-in: from {places} {ends}")
     return listed

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
+from comparisons.common.numbers import percent, percent_as_written, plain, significant, with_unit
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text, label
 from comparisons.models.assumptions import laws, without_law
@@ -48,7 +48,7 @@ def verdict_of(run: Run) -> tuple[Kind, str]:
         return "not compared", f"only the {HYPHENATED[name]} model was run"
     kind, why = validity(run.model_errors)
     why += _law_leaned_on(run)
-    if flows := run.found[yielding.NAME].said(yielding.BEYOND_DOUBT):
+    if flows := run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
         return "fails", f"{flows}; {why}"
     return kind, why
 
@@ -99,7 +99,7 @@ def headline(run: Run) -> Headline:
     if kind == "not compared":
         both = f"--models {','.join(HYPHENATED.values())}"
         return Headline(kind, _one_model(run), f"{both} compares both models.", (both,))
-    if flows := run.found[yielding.NAME].said(yielding.BEYOND_DOUBT):
+    if flows := run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
         return Headline(kind, f"{flows[0].upper()}{flows[1:]}.", *_next_of_flow(run))
     return Headline(kind, f"{_sentence_of(run, kind)}{_inputs(run)}", *_next(run, kind))
 
@@ -192,7 +192,7 @@ def _said(error: Figure, several: bool) -> str:
         size = f"{by_law} by the law of elasticity"
     return (
         f"its model error in the {label(error.quantity)}{where} is {size} (tolerance "
-        f"{given_percent(error.tolerance)}, uncertainty {percent(error.numerical)})"
+        f"{percent_as_written(error.tolerance)}, uncertainty {percent(error.numerical)})"
     )
 
 
@@ -211,8 +211,8 @@ def _dominant(error: Figure) -> str:
 def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
     """What would decide or improve a verdict on elastic bodies: a sentence, and text to paste."""
     if not run.model_errors:
-        given = "[tolerance]\npeak_pressure = 0.02"
-        return "a tolerance, to judge by: tolerance = {peak_pressure = 0.02}.", (given,)
+        paste = "[tolerance]\npeak_pressure = 0.02"
+        return "a tolerance, to judge by: tolerance = {peak_pressure = 0.02}.", (paste,)
     if kind != "inconclusive":
         unknown = yielding.may_flow(run, at_any=kind == "fails")
         if unknown:
@@ -239,17 +239,17 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
         asked = "true" if "not asked for" in why else '"all"'
         return f"budget.effects = {asked} computes it.", (f"[budget]\neffects = {asked}",)
     if largest == "roller_support":
-        given = '[roller]\nsupport = "opposite"'
+        paste = '[roller]\nsupport = "opposite"'
         others = '"half disc" or {hub = "…"}'
-        return f'roller.support = "opposite", {others}: what holds the roller.', (given,)
+        return f'roller.support = "opposite", {others}: what holds the roller.', (paste,)
     if largest == "finite_strain" and FLOW in run.data(MODEL_ERROR).selection.whole:
-        given = '[finite_element]\nplastic = true\ndeformation = "finite"'
+        paste = '[finite_element]\nplastic = true\ndeformation = "finite"'
         both = 'plastic = true, deformation = "finite"'
-        return f"finite_element = {{{both}}} computes it.", (given,)
+        return f"finite_element = {{{both}}} computes it.", (paste,)
     if largest == "plastic_flow":
-        given = "[finite_element]\nplastic = true"
+        paste = "[finite_element]\nplastic = true"
         missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"
-        return f"finite_element.plastic = true{missing} computes it.", (given,)
+        return f"finite_element.plastic = true{missing} computes it.", (paste,)
     return f"{tolerance} holds.", (tolerance,)
 
 
@@ -258,12 +258,12 @@ def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[st
     scene = run.problem.scene
     ranges = (law for law in run.data(MODEL_ERROR).selection.laws if not law.is_scatter)
     sections = {name: getattr(scene, name) for law in ranges for name in law.bodies}
-    unnamed = {name: each for name, each in sections.items() if each.solid is None}
+    unnamed = {name: part for name, part in sections.items() if part.solid is None}
     if unnamed:
-        given = tuple(f'[{name}]\nmaterial = "{_like(each)}"' for name, each in unnamed.items())
+        paste = tuple(f'[{name}]\nmaterial = "{_like(part)}"' for name, part in unnamed.items())
         fields = " and ".join(f'{n}.material = "{_like(s)}"' for n, s in unnamed.items())
-        return f"{fields}, or what it is (crosscheck materials), for its moduli.", given
-    unmeasured = dict.fromkeys(each.solid for each in sections.values())
+        return f"{fields}, or what it is (crosscheck materials), for its moduli.", paste
+    unmeasured = dict.fromkeys(part.solid for part in sections.values())
     known = f"no third-order constants of {' or '.join(unmeasured)} are published"
     return f"{tolerance} holds; {known}.", (tolerance,)
 

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_first
-from comparisons.common.numbers import given_percent, percent, with_unit
+from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.figures.figure import Figure, Verdict
 from comparisons.output.headline import headline
 from comparisons.studies import meaning
@@ -96,5 +96,5 @@ def _said(figure: Figure) -> str:
         )
         return f"{figure.verdict}: {value} with an uncertainty of {unsure}, at most {most}"
     size = percent(figure.value, signed=not quantity.of_pair, uncertainty=figure.total)
-    allowed = f"tolerance {given_percent(figure.tolerance)}"
+    allowed = f"tolerance {percent_as_written(figure.tolerance)}"
     return f"{figure.verdict}: {size} with an uncertainty of {unsure}, {allowed}"

@@ -9,7 +9,7 @@ from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
 from analytic.surface.outliers import spikes
 from analytic.surface.roughness import shortest_wavelength
-from comparisons.common.numbers import given, significant, with_unit
+from comparisons.common.numbers import as_written, significant, with_unit
 from comparisons.scenes.materials import solids
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
@@ -30,10 +30,12 @@ def warnings_about(scene: Scene, surface: SceneSurface) -> list[str]:
     """One sentence each, before anything is solved."""
     warnings, radius = [], scene.roller.radius
     if radius > LARGEST_RADIUS:
-        warnings.append(f"roller.radius is {given(radius, 'm')}: a number without unit is in m")
+        warnings.append(
+            f"roller.radius is {as_written(radius, 'm')}: a number without unit is in m"
+        )
     for section, material in (("body", scene.body.material), ("roller", scene.roller.material)):
         if material is not None and not SOFTEST <= material.youngs_modulus <= STIFFEST:
-            modulus = f"{section}.youngs_modulus is {given(material.youngs_modulus, 'Pa')}"
+            modulus = f"{section}.youngs_modulus is {as_written(material.youngs_modulus, 'Pa')}"
             warnings.append(f"{modulus}: a number without unit is in Pa")
     warnings += _of_solids(scene)
     return [*warnings, *_of_load(scene), *warnings_about_surface(surface.info)]

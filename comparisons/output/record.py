@@ -127,7 +127,7 @@ def _levels(path: Path, content: dict, result: Result) -> Levels:
     levels = _part(path, content, "levels", int)
     if not 1 <= levels <= MOST_LEVELS:
         raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
-    cost = result.found[MODEL_ERROR].table("cost") if MODEL_ERROR in result.found else None
+    cost = result.findings[MODEL_ERROR].table("cost") if MODEL_ERROR in result.findings else None
     effects = None if cost is None else cost.columns["levels"].values[0]
     if effects is not None and not (type(effects) is int and 0 <= effects <= MOST_LEVELS):
         where = f"{path.parent / 'result.json'}: levels of the whole model"

@@ -46,29 +46,29 @@ class Result:
     verdict: str  # holds | fails | inconclusive | not compared | not converged
     why: str
     next: tuple[str, ...]  # what would decide or improve it, as text to paste
-    found: Mapping[str, Findings]  # by study
+    findings: Mapping[str, Findings]  # by study
 
     @cached_property
     def figures(self) -> Figures:
-        return Figures(figure for study in self.found.values() for figure in study.figures)
+        return Figures(figure for study in self.findings.values() for figure in study.figures)
 
     @property
     def ladder(self) -> Findings:
         """Which model suffices; empty where the run compares nothing."""
-        return self.found.get(LADDER, Findings())
+        return self.findings.get(LADDER, Findings())
 
 
 def result_of(run: Run) -> Result:
     verdict, why = verdict_of(run)
     record = {name: run.record[name] for name in RECORDED}
     scene = run.problem.surface.as_dict(run.problem.scene)
-    return Result(scene, record, verdict, why, headline(run).paste, run.found)
+    return Result(scene, record, verdict, why, headline(run).paste, run.findings)
 
 
 def content_of(run: Run) -> dict:
     """The content of a run's result.json."""
     result = result_of(run)
-    findings = result.found.items()
+    findings = result.findings.items()
     return {
         "schema": SCHEMA,
         **{name: getattr(result, name) for name in KINDS},
@@ -106,7 +106,7 @@ def read_content(content: Mapping) -> Result:
     return Result(
         **{name: content[name] for name in KINDS},
         next=tuple(content["next"]),
-        found={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
+        findings={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
     )
 
 

@@ -375,8 +375,10 @@ def _answers(old: Mapping) -> Items:
     for answer, content in old.get("answers", {}).items():
         for name, rows in content["comparison"].items():
             for row in rows:
-                own, total = row["own_uncertainty"], _number(row["uncertainty"])
-                parts = {"model": total} if own is None else {"model": total - own, "own": own}
+                stated, total = row["own_uncertainty"], _number(row["uncertainty"])
+                parts = (
+                    {"model": total} if stated is None else {"model": total - stated, "own": stated}
+                )
                 of_row = answers.AnswerRow(
                     *(name, row["friction"], row["answer"], row["reference"], row["difference"]),
                     *(Uncertainty(parts), row["tolerance"]),
@@ -467,7 +469,7 @@ def parts_of_schema_2(
         MODEL_ERROR: old["budget"],
         scatter.NAME: old["scatter"],
         answers.NAME: answers.OutsideAnswers(
-            {each.name: each.answers for each in old["answers"] or ()}
+            {answer.name: answer.answers for answer in old["answers"] or ()}
         ),
         heat.NAME: old["heat"],
         flow.NAME: flow.flow_assessment(posed.problem, posed.runs),

@@ -181,7 +181,7 @@ def _facts(outcome: Run) -> "Table":
     if surface.info is not None:
         rows.append(("surface", surface_text(surface.info, run_in=surface.run_in is not None)))
     for study in STUDIES:
-        if study.name in outcome.found:
+        if study.name in outcome.findings:
             rows += study.lines(outcome)
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())

@@ -99,12 +99,12 @@ def _items(result: Result) -> dict[str, Item]:
     and what converged."""
     said = {
         f"{study}.{CONVERGED} {said.source} {said.at or ''}".strip(): said.text
-        for study, findings in result.found.items()
+        for study, findings in result.findings.items()
         for said in findings.statements
         if said.name == CONVERGED
     }
     numbers = dict(_numbers(result.scene, "scene"))
-    return items_of(result.found, numbers | said | {"verdict": result.verdict})
+    return items_of(result.findings, numbers | said | {"verdict": result.verdict})
 
 
 def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:

@@ -108,7 +108,7 @@ def solve_scene(
     scene, models = limited(scene, models)
     if may_stop_early(scene, models):
         first = solve_scene(scene, None, MODELS[:1], callback, known=known)
-        models = MODELS[:1] if first.found[LADDER].said(SUFFICES) else models
+        models = MODELS[:1] if first.findings[LADDER].said(SUFFICES) else models
     _check_processes(scene, models)
     _check_libraries(models)
     surface = known.surface or from_first(lambda: surface_of(scene))

@@ -35,7 +35,7 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
             tasks.add(f"files of {name}", _write_level, folder, name, fields)
         tasks.add(FILE, _save_shown, folder / FILE)
         for study in STUDIES:
-            files = study.files(outcome) if study.name in outcome.found else {}
+            files = study.files(outcome) if study.name in outcome.findings else {}
             for path, columns in files.items():
                 _write_csv(folder / path, ",".join(columns), *columns.values())
         (folder / "result.json").write_text(as_json(content_of(outcome)), encoding="utf-8")

@@ -1,6 +1,6 @@
 """What a section of a scene file is: fields of a few types, checked by pydantic, and rules.
 
-Every type of field has `read(given)`, which returns the value or raises ValueError with "problem;
+Every type of field has `read(entry)`, which returns the value or raises ValueError with "problem;
 allowed is …", and `allowed()`, which is the last part alone, for a missing field."""
 
 import operator

@@ -109,12 +109,12 @@ class Solid:
 class SolidName(FieldType):
     """The name of a solid, or one of its other names; it is read as the first."""
 
-    def read(self, given: object) -> str:
-        solid = solid_named(given) if isinstance(given, str) else None
+    def read(self, entry: object) -> str:
+        solid = solid_named(entry) if isinstance(entry, str) else None
         if solid is None:
-            near = nearest_name(given) if isinstance(given, str) else None
+            near = nearest_name(entry) if isinstance(entry, str) else None
             hint = f'; the nearest is "{near}"' if near else ""
-            raise self.wrong(f"is {describe(given)}, which is no known solid{hint}")
+            raise self.wrong(f"is {describe(entry)}, which is no known solid{hint}")
         return solid.name
 
     def allowed(self) -> str:
@@ -195,8 +195,8 @@ def typical_range(name: str, solid: str | None, kinds: Iterable[str]) -> tuple[f
     """From which to which value [SI] a strength of TYPICAL goes, of a solid where it is known, else
     of the classes; None where nothing is known."""
     of_solid = [solids()[solid]] if solid is not None else []
-    for those in (of_solid, [each for each in solids().values() if each.kind in set(kinds)]):
-        known = [each.typical[name] for each in those if name in each.typical]
+    for those in (of_solid, [other for other in solids().values() if other.kind in set(kinds)]):
+        known = [other.typical[name] for other in those if name in other.typical]
         if known:
             ends = [value.span or (value.value, value.value) for value in known]
             return min(low for low, _ in ends), max(high for _, high in ends)

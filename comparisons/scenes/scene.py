@@ -66,7 +66,7 @@ class SceneBase(SceneSection):
     resolution: ResolutionSection = ResolutionSection()
     budget: BudgetSection = BudgetSection()
 
-    _given: dict = PrivateAttr(default_factory=dict)
+    _written: dict = PrivateAttr(default_factory=dict)
     _origin: Origin = PrivateAttr(default=Origin())
 
     @classmethod
@@ -87,13 +87,13 @@ class SceneBase(SceneSection):
             raise _scene_error(cls, error, origin.source) from error
         follows = {name: section.completed(checked) for name, section in checked.sections()}
         scene = checked.model_copy(update={"title": checked.title or origin.name, **follows})
-        scene._given, scene._origin = copy.deepcopy(dict(tables)), origin
+        scene._written, scene._origin = copy.deepcopy(dict(tables)), origin
         return scene
 
     def changed(self, fields: str | Mapping[str, object], value: object = None) -> Self:
         """The scene with another value of a field such as "load.friction", or of several by name,
         checked as a file is; None takes one away. What was not given follows again."""
-        tables = self.given
+        tables = self.written
         pairs = fields if isinstance(fields, Mapping) else {fields: value}
         for name, value in pairs.items():
             *path, last = name.split(".")
@@ -121,7 +121,7 @@ class SceneBase(SceneSection):
 
     def __repr__(self) -> str:
         """The title, and a line for each section that was given, as it was."""
-        sections = ((n, table) for n, table in self._given.items() if isinstance(table, Mapping))
+        sections = ((n, table) for n, table in self._written.items() if isinstance(table, Mapping))
         lines = (
             f"{name:<14} " + ", ".join(f"{field} {_shown(value)}" for field, value in table.items())
             for name, table in sections
@@ -131,9 +131,9 @@ class SceneBase(SceneSection):
     __str__ = __repr__
 
     @property
-    def given(self) -> dict:
+    def written(self) -> dict:
         """The tables as they were given; paths in them count from `folder`."""
-        return copy.deepcopy(self._given)
+        return copy.deepcopy(self._written)
 
     @property
     def name(self) -> str:

@@ -154,16 +154,16 @@ class RollerSupportField(FieldType):
 
     hub = Named(("hub",), Number(LENGTH, above=0.0))
 
-    def read(self, given: object) -> RollerSupport:
-        if isinstance(given, RollerSupport):
-            return given
-        if isinstance(given, dict):
-            return RollerSupport(hub=self.hub.read(given)["hub"])
-        if given not in RollerSupport.PLACES:
-            near = nearest(given, RollerSupport.PLACES, 0.6) if isinstance(given, str) else None
+    def read(self, entry: object) -> RollerSupport:
+        if isinstance(entry, RollerSupport):
+            return entry
+        if isinstance(entry, dict):
+            return RollerSupport(hub=self.hub.read(entry)["hub"])
+        if entry not in RollerSupport.PLACES:
+            near = nearest(entry, RollerSupport.PLACES, 0.6) if isinstance(entry, str) else None
             hint = f' (did you mean "{near}"?)' if near else ""
-            raise self.wrong(f"is {describe(given)}{hint}")
-        return RollerSupport(given)
+            raise self.wrong(f"is {describe(entry)}{hint}")
+        return RollerSupport(entry)
 
     def allowed(self) -> str:
         places = ", ".join(f'"{place}"' for place in RollerSupport.PLACES)
@@ -189,10 +189,10 @@ class RollerSection(ElasticSection):
             most = f"at most {WIDEST_HUB:g} of the radius, {WIDEST_HUB * self.radius:g} m"
             yield "support", f"has a hub of {self.support.hub:g} m; allowed is {most}"
         for name in ("youngs_modulus", "poissons_ratio"):
-            given = getattr(self, name) is not None
-            if self.rigid and given:
+            is_there = getattr(self, name) is not None
+            if self.rigid and is_there:
                 yield name, "is given beside rigid = true; allowed is one of the two"
-            if not self.rigid and not given:
+            if not self.rigid and not is_there:
                 both = "youngs_modulus with poissons_ratio, or rigid = true"
                 yield name, f"is missing; allowed is {both}"
 

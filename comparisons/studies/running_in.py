@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.surface.roughness import roughness
-from comparisons.common.numbers import given, scale_of, significant, with_unit
+from comparisons.common.numbers import as_written, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Pictures
 from comparisons.drawing.curves import over, panels
@@ -74,12 +74,12 @@ def running_in_in_words(scene: Scene, surface: SceneSurface) -> str:
     took = f"{len(run_in.passes)} passes ({sweeps} over {places} place{'s' * (places > 1)})"
     unfinished = "" if run_in.status == "settled" else "; it has not settled"
     sentence = (
-        f"In {took} at {given(scene.running_in.hardness, 'Pa')} plastic flow took "
+        f"In {took} at {as_written(scene.running_in.hardness, 'Pa')} plastic flow took "
         f"{area(run_in.volume)} off it, up to {with_unit(run_in.largest_lowering, 'm', 3)} deep"
         f"{unfinished}."
     )
     if ended(surface):
-        ends = ", ".join(given(place, "m") for place in ended(surface))
+        ends = ", ".join(as_written(place, "m") for place in ended(surface))
         sentence += f" From {ends} the roller touched an end of the trace, where support ends."
     return sentence
 

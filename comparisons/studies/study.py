@@ -59,7 +59,7 @@ class Run:
     """A finished run: all that its files, tables and page are made of."""
 
     solved: Solved
-    found: Mapping[str, Findings]  # by the study's name, in the order in which they are shown
+    findings: Mapping[str, Findings]  # by the study's name, in the order in which they are shown
     record: dict  # the content of record.json
     directory: Path | None  # where the files are, None for a run without files
 
@@ -82,7 +82,7 @@ class Run:
     @cached_property
     def figures(self) -> Figures:
         """Every number that is a result."""
-        return Figures(f for findings in self.found.values() for f in findings.figures)
+        return Figures(f for findings in self.findings.values() for f in findings.figures)
 
     @cached_property
     def judged(self) -> Figures:
@@ -97,12 +97,12 @@ class Run:
 
     def data(self, study: str) -> object | None:
         """What the pictures of a study are drawn from; None where the run has not done it."""
-        return self.found[study].data if study in self.found else None
+        return self.findings[study].data if study in self.findings else None
 
     @property
     def converged(self) -> bool:
         """Whether every solution met its contact conditions, and running-in did."""
-        said = (words for findings in self.found.values() for words in findings.statements)
+        said = (words for findings in self.findings.values() for words in findings.statements)
         return all(words.text == "yes" for words in said if words.name == CONVERGED)
 
     def levels(self, friction: float) -> dict[str, Level]:

@@ -11,7 +11,7 @@ from comparisons.campaigns.cost.measure import OK, CostRow, measuring_machine
 from comparisons.campaigns.cost.methods import FINEST, METHODS
 from comparisons.campaigns.cost.reference import Reference, errors_of, references
 from comparisons.common.errors import SceneError
-from comparisons.common.numbers import given_percent, integer, percent, with_unit
+from comparisons.common.numbers import integer, percent, percent_as_written, with_unit
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.finite_element.mesh import COARSER_GROWTH, STEEPEST_GROWTH
@@ -157,7 +157,7 @@ def _sentence(
     aim = "all tolerances of the scene"
     if len(tolerances) == 1:
         [(name, tolerance)] = tolerances.items()
-        aim = f"{given_percent(tolerance)} of the {QUANTITIES[name].label}"
+        aim = f"{percent_as_written(tolerance)} of the {QUANTITIES[name].label}"
     uncertain = [name for name, tolerance in tolerances.items() if floors[name] >= tolerance]
     if uncertain:
         names = ", ".join(f"{QUANTITIES[n].label} ({percent(floors[n])})" for n in uncertain)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from comparisons.campaigns.cost.measure import FAILED, OK, CostRow
 from comparisons.campaigns.cost.methods import METHODS
 from comparisons.campaigns.cost.recommend import Cost, needs_stress, scene_sections
-from comparisons.common.numbers import given_percent, integer, percent, with_unit
+from comparisons.common.numbers import integer, percent, percent_as_written, with_unit
 from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, drawing, figure
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.html import STYLES as POLICY
@@ -287,7 +287,9 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
     tolerance = cost.problem.scene.tolerances.get(quantity)
     if tolerance is not None:
         axes.axhline(tolerance, **REFERENCE)
-        axes.annotate(f"tolerance {given_percent(tolerance)}", (first, tolerance), (3, 3), **SMALL)
+        axes.annotate(
+            f"tolerance {percent_as_written(tolerance)}", (first, tolerance), (3, 3), **SMALL
+        )
     part = "stresses included" if stresses else "contact alone"
     axes.set(xlim=(first, last), xlabel=f"processor time [s], {part}", ylabel="relative error")
     drawn.legend(loc="upper left", ncol=4, bbox_to_anchor=(0.1, 1.0), columnspacing=1.2)

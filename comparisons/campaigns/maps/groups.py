@@ -107,7 +107,7 @@ def scene_with(scene: Scene, values: Mapping[str, float]) -> Scene:
 
 def finite_elements(scene: Scene, names: Iterable[str]) -> dict:
     """The scene's [finite_element] without the assumptions that the named groups are about."""
-    settings = scene.given.get("finite_element", {})
+    settings = scene.written.get("finite_element", {})
     for name in names:
         settings |= GROUPS[name].finite_element
     if settings.get("deformation") == "finite" and scene.profile is not None:

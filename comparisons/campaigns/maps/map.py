@@ -75,7 +75,7 @@ class MapRequest:
         """Of the scene, SI, without [budget], which limits runs alone; [finite_element] as the
         scene gives it: what follows there changes with groups."""
         tables = {name: table for name, table in self.scene.tables.items() if name != "budget"}
-        return tables | {"finite_element": self.scene.given.get("finite_element", {})}
+        return tables | {"finite_element": self.scene.written.get("finite_element", {})}
 
     @cached_property
     def points(self) -> tuple[Point, ...]:
@@ -174,8 +174,8 @@ def misfit(content: dict, scene: Scene) -> str:
     if ("profile" in content["scene"]) != (scene.profile is not None):
         kinds = ("rough", "smooth") if scene.profile is not None else ("smooth", "rough")
         return "is {}, and the map is of a {} surface".format(*kinds)
-    alike = all(study.is_alike(scene, content["scene"]) for study in STUDIES)
-    return "" if alike else "has another [heat] than the map's scene"
+    other = [s.SECTION for s in STUDIES if not s.is_alike(scene, content["scene"])]
+    return f"has another [{other[0]}] than the map's scene" if other else ""
 
 
 def mark_of(content: dict, problem: Problem) -> tuple[str, tuple[float, float]]:

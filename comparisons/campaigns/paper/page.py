@@ -25,7 +25,7 @@ from comparisons.campaigns.paper.claims import (
 from comparisons.common.numbers import (
     MINUS,
     UNKNOWN,
-    given,
+    as_written,
     integer,
     percent,
     significant,
@@ -79,7 +79,7 @@ def paper_page(paper: "Paper", callback: ProgressCallback) -> str:
         hertz=problem.hertz,
         load=load_text(problem),
         with_unit=with_unit,
-        given=given,
+        as_written=as_written,
     )
 
 

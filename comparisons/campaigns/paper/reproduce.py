@@ -130,8 +130,8 @@ def solve_surfaces(
         except (ContactError, FemError, MeshError) as error:
             raise SolverError(f"{name}: no solution was found: {error}") from error
         # figure 11 is drawn as the paper's, without the quiescent zone
-        shown = {study: f for study, f in run.found.items() if study != quiescent_zone.NAME}
-        runs[name] = replace(run, found=shown)
+        shown = {study: f for study, f in run.findings.items() if study != quiescent_zone.NAME}
+        runs[name] = replace(run, findings=shown)
     return runs
 
 

@@ -170,9 +170,9 @@ def solved(point: Point) -> dict:
 
     outcome = run(point.scene, None, point.asked)
     answer = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), point.scene.name))}
-    if zones := _zones(outcome.found.get(quiescent_zone.NAME)):
+    if zones := _zones(outcome.findings.get(quiescent_zone.NAME)):
         answer[quiescent_zone.NAME] = zones
-    if bulges := bulge.bulges_of(outcome.found.get(bulge.NAME)):
+    if bulges := bulge.bulges_of(outcome.findings.get(bulge.NAME)):
         answer[bulge.NAME] = list(map(_bulge, bulges))
     return answer
 

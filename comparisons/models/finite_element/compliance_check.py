@@ -21,7 +21,7 @@ import numpy as np
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ComplianceOperator, ModelOperator
 from analytic.operators.tangential import CoupledHalfPlane
-from comparisons.common.numbers import given_percent, percent
+from comparisons.common.numbers import percent, percent_as_written
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
@@ -98,33 +98,33 @@ class ComplianceCheck:
             "verdict": self.verdict,
             "because": self.because,
             "datum_removed": not self.datum,
-            **{name: list(found) for name, found in asdict(self.nearest).items()},
+            **{name: list(rows) for name, rows in asdict(self.nearest).items()},
             "not_modelled": list(self.not_modelled),
             "body_effect": effect,
         }
 
 
-def judged(found: Differences, not_modelled: tuple[str, ...]) -> tuple[str, str]:
+def judged(differences: Differences, not_modelled: tuple[str, ...]) -> tuple[str, str]:
     """Verdict and why. The body is not judged where something is `not_modelled`."""
-    long = [wave.difference for wave in found.waves if wave.elements >= 8.0]
+    long = [wave.difference for wave in differences.waves if wave.elements >= 8.0]
     shared = 0.0 if not_modelled else _shared(long)
-    for wave in found.waves:
+    for wave in differences.waves:
         bound = SHORT_WAVES.get(wave.elements)
         if bound is not None and wave.difference - shared < -bound:
             return "mesh", (
                 f"waves of {wave.elements:g} pressure elements are too stiff by "
-                f"{percent(shared - wave.difference)}, more than {given_percent(bound)}"
+                f"{percent(shared - wave.difference)}, more than {percent_as_written(bound)}"
             )
     if shared:
         off = percent(shared, signed=True)
         return "modulus", f"all waves are off by the same {off}: the elastic constants"
-    far = max(column.beyond for column in found.columns)
+    far = max(column.beyond for column in differences.columns)
     text = f"{percent(far)} of a column is off far from its load"
     if far > BEYOND and not_modelled:
         missing = " and ".join(not_modelled)
         return "geometry", f"{text}; the analytic surface does not model {missing}"
     if far > BEYOND:
-        bound = given_percent(BEYOND)
+        bound = percent_as_written(BEYOND)
         return "block", f"{text}, more than {bound}: the block's size, or how it is held"
     return "neither", "short waves and columns far from their load are right"
 

@@ -153,8 +153,8 @@ def solve_mutual(
     solver, dense = solve_contact, DenseCompliance
     if operator.coupled:
         solver, dense = solve_coupled, DenseCoupledCompliance
-    given = operator, model, gap, weights, constraints, start, tolerance
-    solution = solve_with_model(*given, solver=solver)
+    posed = operator, model, gap, weights, constraints, start, tolerance
+    solution = solve_with_model(*posed, solver=solver)
     if solution.converged or len(gap) > MOST_DENSE:
         return solution
     return solve_on(dense(operator.matrix()), gap, weights, constraints, solution.pressure)

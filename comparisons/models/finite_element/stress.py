@@ -61,24 +61,24 @@ def pressed_linearly(
     ends = ends_of(problem, grid, solution)
 
     def stresses(frictions: tuple[float, ...]) -> tuple[NodalStress, ...]:
-        moved = np.stack([rough.displacement(pressure, each) for each in frictions], axis=1)
+        moved = np.stack([rough.displacement(pressure, friction) for friction in frictions], axis=1)
         load = SurfaceLoad(rough.body, rough.hats, pressure, np.array(frictions), direction)
-        return nodal_stresses(moved, load, [ends.at(each) for each in frictions])
+        return nodal_stresses(moved, load, [ends.at(friction) for friction in frictions])
 
     def on_mesh(moved: np.ndarray, frictions: tuple[float, ...]) -> RecoverableField:
         body = rough.body
-        given = body.mesh, body.material, body.coating, body.degree, moved
-        return RecoverableField(*given, rough.hats, pressure, frictions, ends)
+        placed = body.mesh, body.material, body.coating, body.degree, moved
+        return RecoverableField(*placed, rough.hats, pressure, frictions, ends)
 
     dragged = problem.scene.load.friction[0] if settings.coupled else 0.0
     patches = contact_patches(x, pressure, solution.gap)
     if not displaced:
         if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap
             both = (solution.gap + solution.approach) * grid.weights - gap
-            own = both / operator.parts[0].factor
+            displacement = both / operator.parts[0].factor
         else:
-            own = rough.apply(pressure, dragged)
-        return LoadedBody(rough.body, solution, own, stresses, patches, on_mesh=on_mesh)
+            displacement = rough.apply(pressure, dragged)
+        return LoadedBody(rough.body, solution, displacement, stresses, patches, on_mesh=on_mesh)
     moved = rough.displacement(pressure, dragged)
     top = rough.body.top
     along, down = rough.body.at_points(moved)[top.point].T
@@ -140,18 +140,24 @@ def _stresses_of(
     bounds = (-window.extent, window.extent, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
     shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
-    for friction, each, on_window in zip(frictions, nodal, shown, strict=True):
-        samples = Samples(body, each)
-        given = bounds, asperities, samples
-        found = {name: maxima(body, each, of, *given) for name, of in shears.items()}
-        extremes = {name: highest(most) for name, most in found.items()}
+    for friction, stresses, on_window in zip(frictions, nodal, shown, strict=True):
+        samples = Samples(body, stresses)
+        searched = bounds, asperities, samples
+        highest_places = {
+            name: maxima(body, stresses, of, *searched) for name, of in shears.items()
+        }
+        extremes = {name: highest(most) for name, most in highest_places.items()}
         if pressed.across is not None:
-            extremes["von_mises"] = highest_node(body, each, pressed.across, bounds)
+            extremes["von_mises"] = highest_node(body, stresses, pressed.across, bounds)
         else:
             extremes["von_mises"] = maximum(
-                body, each, lambda stress: stress.von_mises(stress.poissons_ratio), bounds, samples
+                body,
+                stresses,
+                lambda stress: stress.von_mises(stress.poissons_ratio),
+                bounds,
+                samples,
             )
-        results.append(StressResult(friction, extremes, on_window, found))
+        results.append(StressResult(friction, extremes, on_window, highest_places))
     if not on_mesh:
         return tuple(results), None
     if pressed.moved is None:

@@ -115,7 +115,7 @@ def sections(run: Run, explorer: Explorer | None) -> list[Block]:
     """One block a section, which the studies' blocks are parts of."""
     blocks = [*_before(run), *_stresses(run, explorer), *_after(run)]
     for study in STUDIES:
-        if study.name in run.found:
+        if study.name in run.findings:
             blocks += study.blocks(run)
     order = (*ORDER, *FOLDED)
     blocks.sort(key=lambda block: order.index(block.section if block.section in order else ""))

@@ -12,7 +12,7 @@ from jinja2 import TemplateError
 
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import check_writable, write_whole
-from comparisons.common.numbers import given_percent, percent, significant, with_unit
+from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.common.progress import ProgressCallback
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
@@ -204,7 +204,7 @@ def _model_errors(run: Run) -> dict[str, Cell]:
     cells: dict[str, Cell] = {}
     for errors in grouped(run.model_errors, lambda error: error.quantity):
         worst = max(errors, key=lambda error: abs(error.value) + error.numerical)
-        note = f"± {percent(worst.numerical)}, tolerance {given_percent(worst.tolerance)}"
+        note = f"± {percent(worst.numerical)}, tolerance {percent_as_written(worst.tolerance)}"
         text = error_text(worst.quantity, worst.value, worst.numerical)
         cells[f"model_error_{worst.quantity}"] = Cell(text, abs(worst.value), note)
     return cells

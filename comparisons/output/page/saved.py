@@ -63,7 +63,7 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
     content = _read(folder / FILE)
     try:
         content["problem"] = _problem(content["problem"], folder)
-        data, findings = content.pop("data", None), result.found
+        data, findings = content.pop("data", None), result.findings
         if data is None:
             content, data, findings = schema_2.parts_of_schema_2(content, findings)
         solved = Solved(**content)
@@ -111,7 +111,7 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
         check = None if model.far_boundary_check is None else _reduced(model.far_boundary_check)
         longer = tuple(map(_reduced, model.longer_increments))
         runs[name] = ModelRun(name, levels, check, longer)
-    data = {name: study.data for name, study in run.found.items() if study.data is not None}
+    data = {name: study.data for name, study in run.findings.items() if study.data is not None}
     if MODEL_ERROR in data:
         shown = {friction: _reduced(level, True) for friction, level in wholes.items()}
         data[MODEL_ERROR] = replace(data[MODEL_ERROR], wholes=shown, solutions={})

@@ -34,8 +34,8 @@ UNITS = {"length": Unit(LENGTH), "stress": Unit(PRESSURE)}
 class Files(FieldType):
     """A path, or one for each resolution."""
 
-    def read(self, given: object) -> tuple[str, ...]:
-        values = given if isinstance(given, list | tuple) and given else [given]
+    def read(self, entry: object) -> tuple[str, ...]:
+        values = entry if isinstance(entry, list | tuple) and entry else [entry]
         return tuple(PATH.read(value) for value in values)
 
     def allowed(self) -> str:
@@ -46,10 +46,10 @@ class Files(FieldType):
 class Units(FieldType):
     """A table of the file's units, {length = "mm", stress = "MPa"}; those of SI where not named."""
 
-    def read(self, given: object) -> dict[str, str]:
-        if not isinstance(given, dict) or set(given) - set(UNITS):
-            raise self.wrong(f"is {describe(given)}")
-        return {name: UNITS[name].read(unit) for name, unit in given.items()}
+    def read(self, entry: object) -> dict[str, str]:
+        if not isinstance(entry, dict) or set(entry) - set(UNITS):
+            raise self.wrong(f"is {describe(entry)}")
+        return {name: UNITS[name].read(unit) for name, unit in entry.items()}
 
     def allowed(self) -> str:
         return 'a table such as {length = "mm", stress = "MPa"}'

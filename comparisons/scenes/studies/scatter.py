@@ -63,20 +63,20 @@ class SpreadField(FieldType):
     dimension: Dimension
     ways: tuple[str, ...] = ("absolute", "relative", "range")
 
-    def read(self, given: object) -> Spread:
-        if isinstance(given, dict) and "range" in self.ways:
-            return self._range(given)
-        way = "relative" if isinstance(given, str) and given.rstrip().endswith("%") else "absolute"
+    def read(self, entry: object) -> Spread:
+        if isinstance(entry, dict) and "range" in self.ways:
+            return self._range(entry)
+        way = "relative" if isinstance(entry, str) and entry.rstrip().endswith("%") else "absolute"
         if way not in self.ways:
-            raise self.wrong(f"is {describe(given)}")
-        value = self.in_si(given, self.dimension if way == "absolute" else DIMENSIONLESS)
+            raise self.wrong(f"is {describe(entry)}")
+        value = self.in_si(entry, self.dimension if way == "absolute" else DIMENSIONLESS)
         if not value > 0.0:
-            raise self.wrong(f"is {describe(given)}")
+            raise self.wrong(f"is {describe(entry)}")
         return Spread(value, relative=way == "relative")
 
-    def _range(self, given: dict) -> Spread:
-        ends = given.get("range")
-        if set(given) != {"range"} or not isinstance(ends, list | tuple) or len(ends) != 2:
+    def _range(self, entry: dict) -> Spread:
+        ends = entry.get("range")
+        if set(entry) != {"range"} or not isinstance(ends, list | tuple) or len(ends) != 2:
             raise self.wrong("is a table that is no range of two values")
         low, high = (self.in_si(end, self.dimension) for end in ends)
         if not low < high:

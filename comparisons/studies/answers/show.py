@@ -70,7 +70,7 @@ def blocks(run: Run) -> list[Block]:
     items: list = [Pictures(("answers",))]
     for name in answers_of(run):
         items += [Heading(name), answer_table(run, name), Names(answer_facts(run, name))]
-        if (measured := run.found[NAME].table(VALIDATION, name)) is not None:
+        if (measured := run.findings[NAME].table(VALIDATION, name)) is not None:
             items.append(_validation_table(measured))
     return [Block("answers", (*items, Note(NOTE)), "Answers from outside")]
 
@@ -99,7 +99,7 @@ def _cells(run: Run, known: Figures, difference: Figure) -> tuple[str, ...]:
 
 def answer_facts(run: Run, answer: str) -> list[tuple[str, str]]:
     """What an answer owes to no mesh: its load, the contact conditions, what explains it."""
-    findings, known = run.found[NAME], run.figures.of(study=NAME, source=answer)
+    findings, known = run.findings[NAME], run.figures.of(study=NAME, source=answer)
     spacing = with_unit(known.one(quantity="spacing").value, "m", 3)
     balance = percent(known.one(quantity="load_balance").value, signed=True, digits=3)
     facts = [

@@ -1,4 +1,4 @@
-"""What friction does beside heat: surfaces that it moves, and contacts that it holds."""
+"""What friction does by itself: surfaces that it moves, and contacts that it holds."""
 
 from comparisons.studies.friction import show
 from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES, SlipStudy, solve

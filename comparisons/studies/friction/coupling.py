@@ -219,7 +219,7 @@ def coupling_table(run: Run) -> TextTable | None:
 def lines(run: Run) -> list[tuple[str, str]]:
     """The change at the largest friction in one sentence."""
     friction = max(run.problem.scene.load.friction, key=abs)
-    if (why := run.found[NAME].said(WHY_NOT, friction=friction)) is not None:
+    if (why := run.findings[NAME].said(WHY_NOT, friction=friction)) is not None:
         return [("coupling", f"not known: {why}")]
     contained = "contained" if run.problem.scene.load.coupled else "not in the half-plane"
     shift, of_a = _cells(run, SHIFT, friction, digits=3)

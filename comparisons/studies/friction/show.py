@@ -82,7 +82,7 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
             length = with_unit(figure.value, QUANTITIES["stick_length"].unit)
             said = f"{length}, {moved} ± {uncertainty} against the {LABELS[last(run)]}, {verdict}"
             facts.append((f"sticks ({figure.source}, from outside)", said))
-    why = run.found[NAME].said(WHY_NOT)
+    why = run.findings[NAME].said(WHY_NOT)
     return facts + ([("not modelled", why)] if why else [])
 
 
@@ -110,7 +110,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
             listed = ", ".join(f"{QUANTITIES[f.quantity].label} {f.verdict}" for f in others)
             text += f"; {listed}"
         text += next_step(run)
-    if (why := run.found[NAME].said(WHY_NOT)) is not None:
+    if (why := run.findings[NAME].said(WHY_NOT)) is not None:
         text += f"; of the finite elements {why}"
     return [("partial slip", text)]
 

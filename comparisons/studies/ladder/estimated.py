@@ -46,8 +46,8 @@ def estimated_rungs(
     hertz = {mu: _hertz(solved, mu) for mu in problem.scene.load.friction}
     seconds = perf_counter() - began
     runs = dict.fromkeys(problem.scene.load.friction, half_plane)
-    own, left = _values(solved, runs), list(sizes.values())
-    figures = _figures(solved, HALF_PLANE, own, (runs, own), left)
+    values, left = _values(solved, runs), list(sizes.values())
+    figures = _figures(solved, HALF_PLANE, values, (runs, values), left)
     rungs, held = [], carried(problem, sizes, flow)
     if _asks_for_operators(solved, figures, held):
         better = operator_runs(problem, held, half_plane, solved.window)
@@ -56,7 +56,7 @@ def estimated_rungs(
             reference = runs, _values(solved, runs)
             judged = _figures(solved, OPERATORS, reference[1], reference, left)
             rungs = [Rung(OPERATORS, OPERATORS, words_of(held), judged, *cost_of(runs), held)]
-            figures = _figures(solved, HALF_PLANE, own, reference, left)
+            figures = _figures(solved, HALF_PLANE, values, reference, left)
     reference = runs, _values(solved, runs)
     by_hertz = _figures(solved, HERTZ, hertz, reference, left)
     cost = sum(half_plane.seconds.values()), half_plane.finest.peak_memory

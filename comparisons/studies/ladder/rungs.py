@@ -144,8 +144,8 @@ class Ladder:
             levels = hertz_quantities(problem, grids, friction, window)
             stated = uncertainties(finite_elements, problem, friction)
             for row in self._rows(friction):
-                own = stated.get(row.quantity)
-                numerical = row.numerical if own is None else own.total
+                uncertainty = stated.get(row.quantity)
+                numerical = row.numerical if uncertainty is None else uncertainty.total
                 errors.append(solutions.of_exact(row.quantity, levels, numerical))
         seconds = perf_counter() - began
         return Rung(HERTZ, HERTZ, KINDS[HERTZ], self._figures(HERTZ, errors), seconds, 0.0)
@@ -183,7 +183,7 @@ class Ladder:
             return None
         kind = _kind_of(contained)
         errors = [
-            solutions.of_variants(row.quantity, [level.own for level in solutions.history])
+            solutions.of_variants(row.quantity, [level.of_scene for level in solutions.history])
             for friction, solutions in every.items()
             for row in self._rows(friction)
         ]
@@ -197,8 +197,8 @@ class Ladder:
         for friction, solutions in self.budget.solutions.items():
             stated = uncertainties(run, self.solved.problem, friction)
             for row in self._rows(friction):
-                own = stated.get(row.quantity)
-                numerical = row.numerical if own is None else own.total
+                uncertainty = stated.get(row.quantity)
+                numerical = row.numerical if uncertainty is None else uncertainty.total
                 errors.append(solutions.of_whole(row.quantity, numerical))
         effects = self.budget.selection.whole
         inside = _words_of(_kind_of(effects), effects)
@@ -237,9 +237,9 @@ def has_norms(problem: Problem) -> bool:
 
 def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
     """Seconds and largest memory [bytes] of runs by friction coefficient, some of them one."""
-    each = {id(run): run for run in runs.values()}.values()
-    memory = max(run.finest.peak_memory for run in each)
-    return sum(sum(run.seconds.values()) for run in each), memory
+    once = {id(run): run for run in runs.values()}.values()
+    memory = max(run.finest.peak_memory for run in once)
+    return sum(sum(run.seconds.values()) for run in once), memory
 
 
 def renamed(figure: Figure, rung: str) -> Figure:

@@ -52,22 +52,22 @@ def is_norm(figure: Figure) -> bool:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """The cheapest model that holds, or that was not refuted."""
-    rungs, found = _rungs(run), run.found[LADDER]
+    rungs, findings = _rungs(run), run.findings[LADDER]
     if not rungs:
         return []
     by_name = {row["rung"]: _text(row, words, errors) for row, words, errors in rungs}
-    if (name := found.said(SUFFICES)) is not None:
-        by = f", by {found.said(BY)}" if found.said(BY) == ESTIMATES else ""
+    if (name := findings.said(SUFFICES)) is not None:
+        by = f", by {findings.said(BY)}" if findings.said(BY) == ESTIMATES else ""
         return [("cheapest that holds", f"{by_name[name]}{by}")]
     left = [row["rung"] for row, _, errors in rungs if verdict_of(errors) != "fails"]
-    why = f": {said}" if (said := found.said(NONE)) else ""
+    why = f": {said}" if (said := findings.said(NONE)) else ""
     beside = f"; cheapest that was not refuted: {by_name[left[0]]}" if left else ""
     return [("cheapest that holds", f"none{why}{beside}")]
 
 
 def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
     """Each rung's row of the series, its name in words, and its errors."""
-    table, known = run.found[LADDER].table(RUNGS), run.figures.of(study=LADDER)
+    table, known = run.findings[LADDER].table(RUNGS), run.figures.of(study=LADDER)
     rows = [] if table is None else table.rows()
     return [(row, row["model"], known.of(source=row["rung"], against=WHOLE)) for row in rows]
 

@@ -108,13 +108,13 @@ def _sideways(
 ) -> Iterator[Figure]:
     """How far the whole model's peaks lie beside the half-plane's, and what else they differ by."""
     other = runs["finite_element"].finest if whole is None else whole
-    own = runs["half_plane"].beside(other).solution.pressure
-    found = sideways_shift(other.grid, own, other.solution.pressure)
+    half_plane = runs["half_plane"].beside(other).solution.pressure
+    shift = sideways_shift(other.grid, half_plane, other.solution.pressure)
     values = {
-        "pressure_shift": found.shift,
-        "pressure_stretch": found.stretch,
-        "pressure_mean_shift": found.mean,
-        LEFT: found.left,
+        "pressure_shift": shift.shift,
+        "pressure_stretch": shift.stretch,
+        "pressure_mean_shift": shift.mean,
+        LEFT: shift.left,
     }
     itself = Uncertainty({"itself": 1.0})  # a difference is as sure as its order of size
     return iter(figures_of(NAME, "half_plane", values, itself, {"friction": friction}))

@@ -32,8 +32,8 @@ class Effect:
         """Whether a scene's finite elements have it, and its half-plane has not."""
         if "coupled" in self.sets and scene.load.coupled:
             return False
-        given = {name: getattr(scene.finite_element, name) for name in self.sets}
-        return given == self.sets if given else _any_of(scene, self.takes)
+        switches = {name: getattr(scene.finite_element, name) for name in self.sets}
+        return switches == self.sets if switches else _any_of(scene, self.takes)
 
     def applies(self, problem: Problem) -> bool:
         """Whether it could differ from the half-plane at all in a scene."""
@@ -85,10 +85,10 @@ def contained(scene: Scene) -> frozenset[str]:
 
 def is_taken_apart(scene: Scene) -> bool:
     """Whether the scene's finite elements are the plain ones with effects, and nothing else."""
-    own = scene
+    plain = scene
     if scene.finite_element.deformation == "finite":
-        own = EFFECTS[IN_FINITE_STRAIN].give(scene, scene)
-    return with_effects(scene, contained(scene)).tables == own.tables
+        plain = EFFECTS[IN_FINITE_STRAIN].give(scene, scene)
+    return with_effects(scene, contained(scene)).tables == plain.tables
 
 
 def plain(scene: Scene) -> Scene:

@@ -40,14 +40,14 @@ class SplitVariants:
     """The variants that the split takes at one friction coefficient."""
 
     whole: ModelVariant  # with all effects
-    own: ModelVariant | None  # that stands for the scene's own finite elements, None: these
+    of_scene: ModelVariant | None  # that stands for the scene's own finite elements, None: these
     nothing: ModelVariant  # without any effect
     pairs: dict[str, tuple[ModelVariant, ModelVariant]]  # by effect, with and without it
 
     @property
     def wholes(self) -> tuple[ModelVariant, ...]:
         """Those that the model error takes; the others split it."""
-        return (self.whole,) if self.own is None else (self.whole, self.own)
+        return (self.whole,) if self.of_scene is None else (self.whole, self.of_scene)
 
     @property
     def all(self) -> tuple[ModelVariant, ...]:
@@ -61,7 +61,7 @@ class EffectContributions:
     """At one friction coefficient, on one level."""
 
     whole: QuantitiesOfInterest  # the finite elements with all effects
-    own: QuantitiesOfInterest  # the scene's own
+    of_scene: QuantitiesOfInterest  # the scene's own
     # without any effect; None where nothing is split on this level
     nothing: QuantitiesOfInterest | None
     # by effect, the solutions with and without it, as far as there are any
@@ -71,7 +71,7 @@ class EffectContributions:
     @property
     def not_contained(self) -> QuantitiesOfInterest:
         """What the scene's own finite elements lack of the whole."""
-        return self.whole - self.own
+        return self.whole - self.of_scene
 
     def effect(self, name: str) -> QuantitiesOfInterest:
         """What an effect changes by itself."""
@@ -113,10 +113,10 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
         if name in chosen and not inside:
             beside = chosen & {COUPLED} if name in NONLINEAR else nothing
             pairs[name] = variant(grown(beside | {name})), variant(beside)
-    own = None
+    of_scene = None
     if quadratic:
-        own = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))
-    return SplitVariants(variant(grown(chosen)), own, variant(nothing), pairs)
+        of_scene = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))
+    return SplitVariants(variant(grown(chosen)), of_scene, variant(nothing), pairs)
 
 
 def contributions_of(
@@ -133,17 +133,19 @@ def contributions_of(
         return solutions.solution(variant, level, friction)
 
     whole = solved(split.whole)
-    own = solved(split.own) if split.own else solutions.scene_solution(level, friction)
+    of_scene = (
+        solved(split.of_scene) if split.of_scene else solutions.scene_solution(level, friction)
+    )
     if whole_alone:
-        return EffectContributions(whole, own, None, {})
+        return EffectContributions(whole, of_scene, None, {})
     try:
         nothing = solved(split.nothing)
     except NotComputedError as error:
-        return EffectContributions(whole, own, None, {}, str(error))
+        return EffectContributions(whole, of_scene, None, {}, str(error))
     pairs = {}
     for name, (with_it, without) in split.pairs.items():
         try:
             pairs[name] = solved(with_it), solved(without)
         except NotComputedError:
             continue
-    return EffectContributions(whole, own, nothing, pairs)
+    return EffectContributions(whole, of_scene, nothing, pairs)

@@ -199,12 +199,14 @@ def announce_effects(
     selection, variants = _selected(solved, couplings), _variants(solved, tasks, None)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.load.friction]
     variants.keep(split.whole for split in splits)
-    wholes = [each for split in splits for each in split.wholes]
-    every = [each for split in splits for each in split.all]
+    wholes = [variant for split in splits for variant in split.wholes]
+    every = [variant for split in splits for variant in split.all]
     again = [
-        each for split in splits for each in law_variants(split.whole, selection.laws).values()
+        variant
+        for split in splits
+        for variant in law_variants(split.whole, selection.laws).values()
     ]
-    again += [each for split in splits for each in longer_increments(split.whole, selection)]
+    again += [variant for split in splits for variant in longer_increments(split.whole, selection)]
     most = min(_most_levels(problem), len(half_plane.levels))
     if FLOW in selection.added:
         most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
@@ -221,10 +223,10 @@ def announce_effects(
     return partial(announce, LATER, LATER)
 
 
-def _variants(solved: Solved, tasks: Tasks, own: ModelRun | None) -> SolvedVariants:
+def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> SolvedVariants:
     """None of them solved yet; `own` are the scene's finite elements."""
     patches = solved.runs["half_plane"].levels[0].patches
-    return SolvedVariants(solved.problem, solved.window, own, tasks, patches)
+    return SolvedVariants(solved.problem, solved.window, of_scene, tasks, patches)
 
 
 def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelection:
@@ -295,10 +297,12 @@ class _Refinement:
         self.increments = {mu: longer_increments(s.whole, selection) for mu, s in splits.items()}
         self.longer: dict[float, list[QuantitiesOfInterest]] = {}
         self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
-        self.runs = {"half_plane": half_plane, "finite_element": solved.own}
-        self.most = min(_most_levels(solved.problem), len(solved.own.levels))
-        self.every = dict.fromkeys(each for split in splits.values() for each in split.all)
-        self.wholes = dict.fromkeys(each for split in splits.values() for each in split.wholes)
+        self.runs = {"half_plane": half_plane, "finite_element": solved.of_scene}
+        self.most = min(_most_levels(solved.problem), len(solved.of_scene.levels))
+        self.every = dict.fromkeys(variant for split in splits.values() for variant in split.all)
+        self.wholes = dict.fromkeys(
+            variant for split in splits.values() for variant in split.wholes
+        )
         frictions = solved.problem.scene.load.friction
         self.history: dict[float, list[EffectContributions]] = {mu: [] for mu in frictions}
 
@@ -426,8 +430,8 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
 def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant]) -> bool:
     """Whether a level of these variants would exceed the time, by the laws of cost: clocks would
     give another machine other figures."""
-    spent = sum(level.expected_seconds for level in solved.own.levels)
-    spent += sum(solved.expected_of(each) for each in range(1, number))
+    spent = sum(level.expected_seconds for level in solved.of_scene.levels)
+    spent += sum(solved.expected_of(level) for level in range(1, number))
     finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
     return spent + finer > solved.problem.time
 
@@ -440,11 +444,11 @@ def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:
     ]
 
 
-def _settled(rows: tuple[Figure, ...], own: list[ModelError]) -> bool:
+def _settled(rows: tuple[Figure, ...], errors: list[ModelError]) -> bool:
     """Whether the effects add little to the uncertainty of every judged figure."""
-    found = {(e.quantity, e.friction): e.uncertainty for e in own}
+    stated = {(e.quantity, e.friction): e.uncertainty for e in errors}
     return all(
-        found[row.quantity, row.friction]
+        stated[row.quantity, row.friction]
         <= (row.numerical if math.isfinite(row.numerical) else 0.0)
         + SHARE_OF_TOLERANCE * row.tolerance
         for row in rows
@@ -476,16 +480,16 @@ def sampling_changes(
     """By friction coefficient and quantity, the relative change from half the samples.
 
     levels  of the half-plane, coarse to fine; the third, or the last before it, is compared"""
-    level, found = levels[:SAMPLED][-1], {}
+    level, changes = levels[:SAMPLED][-1], {}
     for first, key in enumerate(_announce_sampling(problem, window, levels, tasks)):
         thinned, other = _thinned(problem, first), tasks.result(key)
         for friction in problem.scene.load.friction:
-            sizes = found.setdefault(friction, {})
+            sizes = changes.setdefault(friction, {})
             whole = quantities_of(level, problem, friction).largest()
             change = quantities_of(other, thinned, friction).largest() - whole
             for name, size in relative_sizes(change, whole, problem, window).items():
                 sizes[name] = max(sizes.get(name, 0.0), abs(size))
-    return found
+    return changes
 
 
 def _announce_sampling(

@@ -42,7 +42,7 @@ def estimates(
     mean       of its contact [Pa]: the pressure that the load stands under on average
     contained  names of the effects that the scene's own finite elements have
     couplings  of the half-plane, one a friction coefficient"""
-    found = {
+    estimate = {
         "finite_size": _finite_size(problem),
         "coating": _coating(problem),
         "exact_circle": _exact_circle(problem),
@@ -55,7 +55,7 @@ def estimates(
     }
     sized = {
         effect: {name: size for name, size in sizes.items() if size > 0.0}
-        for effect, sizes in found.items()
+        for effect, sizes in estimate.items()
     }
     return {effect: sizes for effect, sizes in sized.items() if sizes}
 
@@ -76,17 +76,17 @@ BROADER = 1.5  # reflected by free sides, of what a base reflects
 
 
 def _finite_size(problem: Problem) -> Sizes:
-    found = _equal(0.0)
+    estimate = _equal(0.0)
     for extent, factor in (("thickness", 1.0), ("width", BROADER)):
         length = getattr(problem.scene.body, extent)
         if length is None:
             continue
         ratio = problem.hertz.half_width / length
         square = BODY_SQUARE[extent] * ratio**2
-        for name in found:
-            found[name] += square + factor * REFLECTED.get(name, 0.0) * ratio
-        found["pressure_l2"] += square
-    return found
+        for name in estimate:
+            estimate[name] += square + factor * REFLECTED.get(name, 0.0) * ratio
+        estimate["pressure_l2"] += square
+    return estimate
 
 
 def _coating(problem: Problem) -> Sizes:
@@ -116,9 +116,9 @@ def _slope(problem: Problem) -> float:
 
 def _rough_boundary(problem: Problem) -> Sizes:
     slope = _slope(problem)
-    found = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
-    found["pressure_l2"] *= 2.0
-    return found | {name: factor * slope for name, factor in BOUNDARY.items()}
+    estimate = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
+    estimate["pressure_l2"] *= 2.0
+    return estimate | {name: factor * slope for name, factor in BOUNDARY.items()}
 
 
 # The roller's tilted normal: 0.3 to 0.5 % in peak pressure and half-width at a/R = 0.02. Once
@@ -133,13 +133,13 @@ def _deformed_gap(problem: Problem, peak: float) -> Sizes:
     body, curvature = problem.scene.body.material, _curvature(problem)
     strain = (1.0 - 2.0 * body.poissons_ratio) * (1.0 + body.poissons_ratio) / body.youngs_modulus
     size = TILT * curvature + strain * peak
-    found = _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
-    found["tau1_field_near"] += UNTURNED * curvature
+    estimate = _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
+    estimate["tau1_field_near"] += UNTURNED * curvature
     if problem.scene.profile is not None:
         wave = shortest_wavelength(problem.surface.profile)
         hertz = problem.hertz
-        found["pressure_l2"] += SHIFTED * strain * hertz.peak_pressure * hertz.half_width / wave
-    return found
+        estimate["pressure_l2"] += SHIFTED * strain * hertz.peak_pressure * hertz.half_width / wave
+    return estimate
 
 
 # The circle's next term is x^4 / (8 R^3): a^2 / (4 R^2) of the parabola at the contact's edge.
@@ -195,19 +195,19 @@ STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 
 def _finite_deformation(problem: Problem, peak: float, contained: set[str]) -> Sizes:
     pressure = peak / problem.scene.body.youngs_modulus
-    found = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
+    estimate = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
     parts = []
     if "deformed_gap" not in contained:
         parts.append(_deformed_gap(problem, peak))
     else:
-        found["tau1_field_near"] += UNTURNED * _curvature(problem)
+        estimate["tau1_field_near"] += UNTURNED * _curvature(problem)
     if "rough_boundary" not in contained:
         parts.append(_rough_boundary(problem))
     else:
         parts.append({name: factor * _slope(problem) for name, factor in UNFLATTENED.items()})
     for sizes in parts:
-        found = {name: size + sizes.get(name, 0.0) for name, size in found.items()}
-    return found
+        estimate = {name: size + sizes.get(name, 0.0) for name, size in estimate.items()}
+    return estimate
 
 
 # Of a body that flows, under the pressure that it bears. Small strains move its peaks by 0.5 % at
@@ -246,9 +246,9 @@ def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
             depth = min(1.0, thickness / problem.hertz.half_width)
             strained += depth * law.size * problem.modulus / stiffness
     strained *= 1.0 if scene.profile is None else OF_ASPERITIES
-    found = _equal(strained * mean)
-    found["tau1_max_depth"] *= LAW_OF_DEPTH
-    return found | dict.fromkeys(("peak_pressure", "tau1_max", "txz_max_abs"), strained * peak)
+    estimate = _equal(strained * mean)
+    estimate["tau1_max_depth"] *= LAW_OF_DEPTH
+    return estimate | dict.fromkeys(("peak_pressure", "tau1_max", "txz_max_abs"), strained * peak)
 
 
 # Coupling where it is not measured on the half-plane: 1.4 % in contact
@@ -264,9 +264,9 @@ FAR_SIDE, COAT_SIDE = 2.0, 3.0
 
 def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
     """The largest of any friction coefficient: measured, else estimated."""
-    found: Sizes = {}
+    estimate: Sizes = {}
     if problem.scene.load.coupled:
-        return found
+        return estimate
     measured = {coupling.friction: coupling.changes for coupling in couplings}
     for friction in problem.scene.load.friction:
         sizes = _coupled(friction * abs(problem.dundurs_beta))
@@ -277,10 +277,10 @@ def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
                     moved = change.value / QUANTITIES[name].scale(problem.hertz)
                 sizes[name] = abs(moved)
         layered = _coupled(friction * _layered_beta(problem))  # which no half-plane shows
-        found = {
-            name: max(size, layered[name], found.get(name, 0.0)) for name, size in sizes.items()
+        estimate = {
+            name: max(size, layered[name], estimate.get(name, 0.0)) for name, size in sizes.items()
         }
-    return found
+    return estimate
 
 
 def _coupled(size: float) -> Sizes:
@@ -293,15 +293,15 @@ def _layered_beta(problem: Problem) -> float:
     """In place of Dundurs' beta for a layer or a coating: that of the coating by its depth, and
     that of the body alone by the nearness of its far side."""
     scene, half_width = problem.scene, problem.hertz.half_width
-    found = 0.0
+    estimate = 0.0
     if scene.coating is not None:
         beta = dundurs_constants(scene.coating.material, scene.roller.material)[1]
-        found += abs(beta) * min(1.0, COAT_SIDE * scene.coating.thickness / half_width)
+        estimate += abs(beta) * min(1.0, COAT_SIDE * scene.coating.thickness / half_width)
     if scene.body.thickness is not None:
         alone = abs(dundurs_constants(scene.body.material, None)[1])
         share = 2.0 * problem.modulus / scene.body.material.plane_strain_modulus
-        found += alone * share * min(1.0, FAR_SIDE * half_width / scene.body.thickness)
-    return found
+        estimate += alone * share * min(1.0, FAR_SIDE * half_width / scene.body.thickness)
+    return estimate
 
 
 # Below first yield, p0 = 1.79 Y at a hardness of 2.8 Y to 3 Y, nothing flows; where the cap holds

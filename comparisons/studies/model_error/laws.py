@@ -115,13 +115,13 @@ class OpenLaw:
 
 def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
     """Those of a scene's elastic bodies; bodies of equal constants and laws vary together."""
-    found: dict[OpenLaw, list[str]] = {}
+    bodies: dict[OpenLaw, list[str]] = {}
     for name in BODIES:
         section = getattr(scene, name)
         elastic = section is not None and section.material is not None
         if elastic and (law := _open_law(section)) is not None:
-            found.setdefault(law, []).append(name)
-    return tuple(replace(law, bodies=tuple(names)) for law, names in found.items())
+            bodies.setdefault(law, []).append(name)
+    return tuple(replace(law, bodies=tuple(names)) for law, names in bodies.items())
 
 
 def _open_law(section: ElasticSection) -> OpenLaw | None:
@@ -179,11 +179,11 @@ def law_variants(
     return {
         (number, probe): replace(
             whole,
-            laws=tuple((body, law) for body in each.bodies),
-            laws_name=f"{'-and-'.join(each.bodies)}-{'-'.join(probe.split())}",
+            laws=tuple((body, law) for body in open_law.bodies),
+            laws_name=f"{'-and-'.join(open_law.bodies)}-{'-'.join(probe.split())}",
         )
-        for number, each in enumerate(laws)
-        for probe, law in each.probes.items()
+        for number, open_law in enumerate(laws)
+        for probe, law in open_law.probes.items()
     }
 
 

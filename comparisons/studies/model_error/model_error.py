@@ -72,12 +72,6 @@ class ModelError:
     # else None
     moved: tuple[float, float] | None = None
 
-    @property
-    def interacts(self) -> bool:
-        """Whether no effect explains the error: they change more jointly than any by itself."""
-        sizes = [abs(effect.value) for effect in self.effects.values()]
-        return bool(sizes) and abs(self.interaction) > max(sizes)
-
 
 @dataclass(frozen=True)
 class Solutions:
@@ -117,7 +111,7 @@ class Solutions:
         return self._levels("half_plane")
 
     @cached_property
-    def own(self) -> list[QuantitiesOfInterest]:
+    def of_scene(self) -> list[QuantitiesOfInterest]:
         """The scene's own finite elements, by level."""
         return self._levels("finite_element")
 
@@ -142,7 +136,7 @@ class Solutions:
         if self.longer is not None:
             return self.wholes[-1]
         lacking = self.missing[-1].figures.items()
-        figures = {name: self.own[-1].figures[name] + each for name, each in lacking}
+        figures = {name: self.of_scene[-1].figures[name] + value for name, value in lacking}
         return QuantitiesOfInterest(figures, self.wholes[-1].pressure, self.wholes[-1].tau1)
 
     @cached_property
@@ -249,8 +243,8 @@ class Solutions:
         figure = self._figure(name, at)
         scale = _scale(figure, name, self.problem)
         numerical *= _scale(self.values["finite_element"][name], name, self.problem) / scale
-        if at != self.own[-1].leading(name):  # the comparison is at another asperity
-            sequence = [level.figures[name][at] / scale for level in self.own]
+        if at != self.of_scene[-1].leading(name):  # the comparison is at another asperity
+            sequence = [level.figures[name][at] / scale for level in self.of_scene]
             refined = grid_convergence(sequence, self._order(name))
             numerical = max(numerical, self.unsolved + refined.uncertainty)
         lacking, half_plane = self._lacking(name, at), self.values["half_plane"][name]
@@ -276,10 +270,10 @@ class Solutions:
         repeated = [*self.longer, self.wholes[0]]
         if not QUANTITIES[name].of_pair:
             scale = self._scale_of(name, at)
-            return of_increments([float(each.figures[name][at] / scale) for each in repeated])
-        differences = ((self.half_plane[0] - each, each) for each in repeated)
+            return of_increments([float(value.figures[name][at] / scale) for value in repeated])
+        differences = ((self.half_plane[0] - value, value) for value in repeated)
         sizes = (relative_sizes(*pair, self.problem, self.window) for pair in differences)
-        return of_increments([each[name] for each in sizes])
+        return of_increments([value[name] for value in sizes])
 
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
         """What asperities that may have the largest value add to the uncertainty of a figure [SI].
@@ -351,7 +345,7 @@ class Solutions:
             unsure = norm.uncertainty + numerical + lacking
             return self._plain_error(name, Estimate(norm.value, unsure), at)
         scale, value = self._scale_of(name, at), _leading(levels[-1], name)
-        numerical *= abs(_leading(self.own[-1], name)) / scale
+        numerical *= abs(_leading(self.of_scene[-1], name)) / scale
         unsure = float(difference_of_figures(numerical, value / scale, lacking))
         value = float((value - self._figure(name, at)) / scale)
         return self._plain_error(name, Estimate(value, unsure), at)

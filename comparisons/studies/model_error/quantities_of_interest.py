@@ -57,8 +57,8 @@ class QuantitiesOfInterest:
 
     def largest(self) -> QuantitiesOfInterest:
         """The same with the leading asperity alone."""
-        found = {name: each[[self.leading(name)]] for name, each in self.figures.items()}
-        return QuantitiesOfInterest(found, self.pressure, self.tau1)
+        leading = {name: values[[self.leading(name)]] for name, values in self.figures.items()}
+        return QuantitiesOfInterest(leading, self.pressure, self.tau1)
 
 
 def quantities_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
@@ -95,12 +95,12 @@ def relative_sizes(
     """A difference relative to a reference, by quantity in the order of QUANTITIES. Figures keep
     their sign, largest values are those of the reference's leading asperity; norms are relative L2.
     What vanishes is measured by the Hertz contact."""
-    found = {}
+    values = {}
     for name, value in difference.figures.items():
         at = reference.leading(name)
         scale = abs(reference.figures[name][at]) or QUANTITIES[name].scale(problem.hertz)
-        found[name] = float(value[at] / scale)
+        values[name] = float(value[at] / scale)
     moved = reference + difference
     pressures, tau1 = (moved.pressure, reference.pressure), (moved.tau1, reference.tau1)
-    found |= pair_norms(pressures, tau1, problem, window)
-    return {name: found[name] for name in QUANTITIES if name in found}
+    values |= pair_norms(pressures, tau1, problem, window)
+    return {name: values[name] for name in QUANTITIES if name in values}

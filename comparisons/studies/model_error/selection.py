@@ -86,12 +86,12 @@ def select_effects(
     """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure, `mean` the mean of
     its contact, by default the same; `no_flow` says why flow is not computed where it could be,
     None: it is."""
-    own, tolerance = contained(problem.scene), problem.scene.tolerances
-    found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
+    own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
+    found = estimates(problem, peak, peak if mean is None else mean, own_effects, couplings)
     sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
     mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
-    flows = FLOW in own
+    flows = FLOW in own_effects
     if no_flow is None and not flows:
         flows = why_not(FLOW, problem) is None
         sized.setdefault(FLOW, {})
@@ -103,7 +103,7 @@ def select_effects(
     can_be_solved = LAW in mattering and why_not(LAW, problem, flows) is None
     laws = open_laws(problem.scene) if can_be_solved else ()
     for name, sizes in sized.items():
-        if name in own or (name == LAW and laws and "finite_strain" in own):
+        if name in own_effects or (name == LAW and laws and "finite_strain" in own_effects):
             continue
         why = why_not(name, problem, flows) or (no_flow if name == FLOW else None)
         if name not in mattering:
@@ -112,9 +112,9 @@ def select_effects(
             impossible[name] = why
         elif name != LAW:
             added.add(name)
-    if any(problem.scene.load.friction) and (added | own) & set(NONLINEAR):
+    if any(problem.scene.load.friction) and (added | own_effects) & set(NONLINEAR):
         negligible.pop(COUPLED, None)  # these bodies have it
-    return EffectSelection(own, frozenset(added), negligible, impossible, sized, laws)
+    return EffectSelection(own_effects, frozenset(added), negligible, impossible, sized, laws)
 
 
 def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import given_percent, listed, percent, scale_of, with_unit
+from comparisons.common.numbers import listed, percent, percent_as_written, scale_of, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.figures.figure import Figure, grouped
@@ -68,7 +68,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
     """What is not modelled, and which largest values stand at another asperity."""
     missing = not_modelled_line(run)
     said = [("not modelled", missing)] if missing else []
-    if (strained := run.found[MODEL_ERROR].said(TRUST)) is not None:
+    if (strained := run.findings[MODEL_ERROR].said(TRUST)) is not None:
         said.append((TRUST, strained))
     for row in model_error_rows(run, judged=True):
         if row.moved:
@@ -128,7 +128,7 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
                     whole=whole,
                     error=error,
                     uncertainty=uncertainty,
-                    tolerance="" if bound is None else given_percent(bound),
+                    tolerance="" if bound is None else percent_as_written(bound),
                     contributions=(*without, *contributions),
                     note=_not_known(same[0]),
                     moved=_moved(same[0]),
@@ -243,7 +243,7 @@ def not_modelled_line(run: Run) -> str:
             for name, size in zip(same, sizes, strict=True)
         )
         parts.append(f"{named}: {selection.impossible[same[0]]}")
-    if (left := run.found[MODEL_ERROR].said("left out")) is not None:
+    if (left := run.findings[MODEL_ERROR].said("left out")) is not None:
         parts.append(f"left out is {left}")
     return "; ".join(parts)
 
@@ -251,12 +251,12 @@ def not_modelled_line(run: Run) -> str:
 def effects_table(run: Run) -> TextTable | None:
     """What became of each effect that the half-plane does not model; None without any."""
     rows = []
-    for found in run.found[MODEL_ERROR].table("effects").rows():
-        if found["status"] != "does not apply":
-            effect = EFFECTS[found["effect"]]
-            estimate = {name: found[name] for name in QUANTITIES if found[name] is not None}
+    for row in run.findings[MODEL_ERROR].table("effects").rows():
+        if row["status"] != "does not apply":
+            effect = EFFECTS[row["effect"]]
+            estimate = {name: row[name] for name in QUANTITIES if row[name] is not None}
             largest = percent(_largest(run, estimate)) if estimate else ""
-            rows.append((effect.label, effect.words, found["status"], largest, found["because"]))
+            rows.append((effect.label, effect.words, row["status"], largest, row["because"]))
     head = ("effect", "not modelled by the half-plane", "status", "estimate, at most", "because")
     return TextTable("", head, tuple(rows), "comparison prose") if rows else None
 
@@ -287,13 +287,13 @@ class Waterfall:
 
 def waterfalls(run: Run) -> list[Waterfall]:
     """Of what is judged, or of everything; coefficients of equal figures together."""
-    found, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
+    panels, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
     names = dict.fromkeys(error.quantity for error in run.model_errors or errors)
     for quantity in (name for name in QUANTITIES if name in names):
         for same in grouped(errors.of(quantity=quantity), _drawn_of):
             some = len(same) < len(run.problem.scene.load.friction)
             frictions = listed(error.friction for error in same)
-            found.append(
+            panels.append(
                 Waterfall(
                     quantity=quantity,
                     name=label(quantity) + (f", μ = {frictions}" if some else ""),
@@ -304,7 +304,7 @@ def waterfalls(run: Run) -> list[Waterfall]:
                     tolerance=same[0].tolerance,
                 )
             )
-    return found
+    return panels
 
 
 def _drawn_of(error: Figure) -> tuple:

@@ -60,7 +60,7 @@ def sideways_shift(grid: HatGrid, pressure: np.ndarray, reference: np.ndarray) -
     best = min(starts, key=left)
     simplex = best + np.array([[0.0, 0.0], [0.5, 0.0], [0.0, 0.5 * APART]])
     options = {"xatol": SETTLED, "fatol": 1.0, "initial_simplex": simplex}
-    found = minimize(left, best, method="Nelder-Mead", options=options).x
-    shift, stretch = map(float, min((best, found), key=left) * per_pitch)
+    nearest = minimize(left, best, method="Nelder-Mead", options=options).x
+    shift, stretch = map(float, min((best, nearest), key=left) * per_pitch)
     mean = float(np.average(np.abs(shift + stretch * x) / (1.0 + stretch), weights=reference))
     return SidewaysShift(shift, stretch, mean, left(np.array([shift, stretch]) / per_pitch))

@@ -37,7 +37,7 @@ class SolvedVariants:
 
     problem: Problem
     window: Window | None
-    own: ModelRun | None  # the scene's own finite elements; None while they are not solved yet
+    of_scene: ModelRun | None  # the scene's own finite elements; None while they are not solved yet
     tasks: Tasks  # that solve the variants
     # (k, 2) [m] of the half-plane's contact: what the variants' tasks will take
     patches: np.ndarray
@@ -61,7 +61,7 @@ class SolvedVariants:
 
     def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
         """Of the scene's own finite elements."""
-        return quantities_of(self.own.levels[number - 1], self.problem, friction)
+        return quantities_of(self.of_scene.levels[number - 1], self.problem, friction)
 
     def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
         """Of a variant on a level, solved where it is new; raises NotComputedError."""
@@ -84,7 +84,7 @@ class SolvedVariants:
         self, asked: Iterable[ModelVariant], number: int, urgency: int = LATER
     ) -> list[tuple[ModelVariant, str]]:
         """Make those that are new on a level known to the tasks; each with its task's key."""
-        new = [each for each in dict.fromkeys(asked) if self.is_open(each, number)]
+        new = [variant for variant in dict.fromkeys(asked) if self.is_open(variant, number)]
         new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
         return [(variant, self._add(variant, number, urgency)) for variant in new]
 
@@ -96,17 +96,19 @@ class SolvedVariants:
 
     def expected_of(self, number: int, asked: Iterable[ModelVariant] | None = None) -> float:
         """Seconds that the variants of a level take by the laws of cost, or those asked for."""
-        known = {each: cost for (each, level), cost in self.expected.items() if level == number}
-        return math.fsum(known.get(each, 0.0) for each in (known if asked is None else asked))
+        known = {
+            variant: cost for (variant, level), cost in self.expected.items() if level == number
+        }
+        return math.fsum(known.get(variant, 0.0) for variant in (known if asked is None else asked))
 
     def keep(self, wholes: Iterable[ModelVariant]) -> None:
         """Take these for `wholes`, from their first level on."""
         self.wholes = dict.fromkeys(wholes)
-        self.solved = {key: each for key, each in self.solved.items() if key[0] not in self.wholes}
+        self.solved = {key: kept for key, kept in self.solved.items() if key[0] not in self.wholes}
 
     def finest(self, variant: ModelVariant) -> Level:
         """The finest level of one of the `wholes`."""
-        return self.own.finest if self._is_own(variant) else self.wholes[variant]
+        return self.of_scene.finest if self._is_own(variant) else self.wholes[variant]
 
     def _is_own(self, variant: ModelVariant) -> bool:
         frictions = self.problem.scene.load.friction
@@ -135,8 +137,8 @@ class SolvedVariants:
             self.wholes[variant] = level
         self.expected[variant, number] = level.expected_seconds
         problem = problem_with(self.problem, variant)
-        for each in problem.scene.load.friction:
-            self.solved[variant, number, each] = quantities_of(level, problem, each)
+        for coefficient in problem.scene.load.friction:
+            self.solved[variant, number, coefficient] = quantities_of(level, problem, coefficient)
 
 
 def _solved(

@@ -253,7 +253,7 @@ def _solve_batch(
 
 
 def blocks(run: Run) -> list[Block]:
-    findings = run.found[NAME]
+    findings = run.findings[NAME]
     [counts] = findings.table(SAMPLES).rows()
     why = findings.said("first failure")
     failures = f" {counts['failed']} had no solution, the first because: {why}."

@@ -49,7 +49,7 @@ counts the patches above a plastic strain."""
 
 
 def blocks(run: Run) -> list[Block]:
-    section, findings = run.problem.scene.statistics, run.found[NAME]
+    section, findings = run.problem.scene.statistics, run.findings[NAME]
     models = [LABELS[patches.source] for patches in _patches(findings)]
     kinds = ("", *(f"{model}, {how}" for model in models for how in ("book", "exact")))
     asperities = "Asperities by relative penetration; after a semicolon, how many of them flow"
@@ -72,7 +72,7 @@ def blocks(run: Run) -> list[Block]:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """Of the scene's own load, and of its asperities."""
-    findings, (*_, patches) = run.found[NAME], _patches(run.found[NAME])
+    findings, (*_, patches) = run.findings[NAME], _patches(run.findings[NAME])
     loads = findings.table("loads")
     row = loads.rows()[0]
     theory = with_unit(row[f"figures.moments.{PRESSURE}"], "Pa", 3)
@@ -149,12 +149,12 @@ def _kinds(findings: Findings, kind: str) -> tuple[str, ...]:
 
 def statistics_pictures(run: Run) -> list[style.Picture]:
     """None without [statistics]."""
-    return [_over_load(run), _asperities(run)] if NAME in run.found else []
+    return [_over_load(run), _asperities(run)] if NAME in run.findings else []
 
 
 def _over_load(run: Run) -> style.Picture:
     """As figure 4.5 of Seireg, with what the theory is held against."""
-    findings = run.found[NAME]
+    findings = run.findings[NAME]
     columns = findings.table("loads").columns
     load, hertz = columns["load"].numbers, columns["half_width"].numbers
     unit = scale_of(columns[f"figures.moments.{PRESSURE}"].values, "Pa")
@@ -188,7 +188,7 @@ def _over_load(run: Run) -> style.Picture:
 
 def _asperities(run: Run) -> style.Picture:
     """The profile, its patches of contact in the colour of their kind."""
-    (*_, patches), problem = _patches(run.found[NAME]), run.problem
+    (*_, patches), problem = _patches(run.findings[NAME]), run.problem
     x, spline = np.linspace(*problem.extent, POINTS), problem.surface.profile.spline()
     along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
     drawn, [axes] = panels(style.WIDE, [(0.35, 2.34)], foot=0.51)

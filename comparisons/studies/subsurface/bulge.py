@@ -351,7 +351,7 @@ def bulges_of(findings: Findings | None) -> list[Bulge]:
 
 def blocks(run: Run) -> list[Block]:
     """A row for each friction coefficient above 0 and each patch."""
-    heading, findings = Heading("Bulge ahead of the sliding contact"), run.found[NAME]
+    heading, findings = Heading("Bulge ahead of the sliding contact"), run.findings[NAME]
     if (why := findings.said(WHY_NOT)) is not None:
         table = TextTable("Not measured", ("because",), ((why,),))
         return [Block("stresses", (heading, table, Note(NOTE)))]
@@ -385,7 +385,7 @@ def _raised(values: Mapping[str, float], uncertainty: float, a: float) -> tuple[
 
 def bulge_picture(run: Run) -> style.Picture | None:
     """The surface ahead over the distance from it; None where the run has no bulge."""
-    bulges = bulges_of(run.found.get(NAME))
+    bulges = bulges_of(run.findings.get(NAME))
     if not bulges:
         return None
     a = run.problem.hertz.half_width

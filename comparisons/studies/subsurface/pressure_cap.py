@@ -97,23 +97,23 @@ def figures_of_caps(problem: Problem, solutions: Solutions) -> list[Figure]:
 def _figures(problem: Problem, solutions: Solutions) -> Iterator[Figure]:
     repeated, levels = _flowing(problem, solutions)
     scene, finest = problem.scene, levels[-1]
-    given = {OF_SCENE: scene.body.hardness} if scene.body.hardness else {}
-    fixed = given or {OF_TABOR: TABOR * scene.body.yield_stress}
-    rows = {BY_PEAK: lambda each: each.peak}
-    rows |= {name: lambda each, cap=cap: cap for name, cap in fixed.items()}
-    if all(each.by_length is not None for each in (*repeated, *levels)):
-        rows = {BY_LENGTH: lambda each: each.by_length} | rows
+    of_scene = {OF_SCENE: scene.body.hardness} if scene.body.hardness else {}
+    fixed = of_scene or {OF_TABOR: TABOR * scene.body.yield_stress}
+    rows = {BY_PEAK: lambda solution: solution.peak}
+    rows |= {name: lambda solution, cap=cap: cap for name, cap in fixed.items()}
+    if all(solution.by_length is not None for solution in (*repeated, *levels)):
+        rows = {BY_LENGTH: lambda solution: solution.by_length} | rows
     mean = problem.hertz.load_per_length / finest.length
     scales = {PEAK: finest.peak, LENGTH: finest.length, MEAN: mean}
     resolution = length_resolution(finest.grid.pitch, 1) / finest.length
     for name, cap_of in rows.items():
-        first = [each.values(cap_of(each)) for each in repeated]
-        there = [each.values(cap_of(each)) for each in levels]
+        first = [solution.values(cap_of(solution)) for solution in repeated]
+        there = [solution.values(cap_of(solution)) for solution in levels]
         for quantity, value in there[-1].items():
             differs = quantity in scales
             scale = 1.0 if differs else value
-            sequence = [each[quantity] / scale for each in there]
-            increments = [*(each[quantity] / scale for each in first), sequence[0]]
+            sequence = [solution[quantity] / scale for solution in there]
+            increments = [*(solution[quantity] / scale for solution in first), sequence[0]]
             least = resolution if quantity in (LENGTH, MEAN) else 0.0
             parts = {
                 "discretisation": grid_convergence(sequence, 1.0, least).uncertainty,
@@ -133,21 +133,21 @@ def _figures(problem: Problem, solutions: Solutions) -> Iterator[Figure]:
 
 def _flowing(problem: Problem, solutions: Solutions) -> tuple[list[_Flowing], list[_Flowing]]:
     """The whole by longer increments on the coarsest level, and on all of its levels."""
-    own = solutions.runs["finite_element"]
-    grids = [level.grid for level in own.levels]
-    levels = solutions.own if solutions.contains_all else solutions.wholes
+    elements = solutions.runs["finite_element"]
+    grids = [level.grid for level in elements.levels]
+    levels = solutions.of_scene if solutions.contains_all else solutions.wholes
     longer = solutions.longer
     if longer is None:  # the scene's own finite elements flow
-        again = own.longer_increments
+        again = elements.longer_increments
         longer = [quantities_of(level, problem, solutions.friction) for level in again]
 
-    def made(grid: HatGrid, each: object) -> _Flowing:
-        peak, length = each.figures[PEAK].max(), each.figures[LENGTH][0]
+    def made(grid: HatGrid, solution: object) -> _Flowing:
+        peak, length = solution.figures[PEAK].max(), solution.figures[LENGTH][0]
         return _Flowing(problem, grid, float(length), float(peak))
 
     return (
-        [made(grids[0], each) for each in longer],
-        [made(grid, each) for grid, each in zip(grids, levels, strict=False)],
+        [made(grids[0], solution) for solution in longer],
+        [made(grid, solution) for grid, solution in zip(grids, levels, strict=False)],
     )
 
 

@@ -241,7 +241,7 @@ def zones_of(findings: Findings | None) -> list[Zone]:
 
 def blocks(run: Run) -> list[Block]:
     """A table with a row for each friction coefficient and model."""
-    findings, a = run.found[NAME], run.problem.hertz.half_width
+    findings, a = run.findings[NAME], run.problem.hertz.half_width
     heading = Heading("Quiescent zone")
     if (why := findings.said(WHY_NOT)) is not None:
         table = TextTable("Not measured", ("because",), ((why,),))
@@ -263,7 +263,7 @@ def blocks(run: Run) -> list[Block]:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """The first model's zone at every friction coefficient."""
-    zones, a = zones_of(run.found[NAME]), run.problem.hertz.half_width
+    zones, a = zones_of(run.findings[NAME]), run.problem.hertz.half_width
     said = "; ".join(_said(zone, a) for zone in zones if zone.model == zones[0].model)
     return [("quiescent zone", said)] if said else []
 

@@ -333,7 +333,7 @@ def flow_table(run: Run) -> TextTable:
             texts.append(percent(value) if quantity == "share_at_hardness" else by_unit)
         return meaning.label, *texts
 
-    read = (run.found[NAME].said("read", friction=friction) for friction in frictions)
+    read = (run.findings[NAME].said("read", friction=friction) for friction in frictions)
     rows = [row("tau1_max"), row("von_mises_max"), ("found", *(FOUND[text] for text in read))]
     if known.one(quantity="yield_stress") is not None:
         rows += map(row, OF_FIRST_FLOW)

@@ -5,11 +5,11 @@ import math
 import pytest
 
 from comparisons.common.numbers import (
+    as_written,
     decimal,
-    given,
-    given_percent,
     integer,
     percent,
+    percent_as_written,
     plain,
     scale_of,
     significant,
@@ -105,10 +105,10 @@ def test_a_difference_ends_where_its_uncertainty_does(value, uncertainty, text):
 
 
 def test_figures_of_the_scene_come_back_as_they_were_typed():
-    assert given(7.5706e-3, "m") == "7.5706 mm"
-    assert given(207e9, "Pa") == "207 GPa"
-    assert given_percent(0.02) == "2 %"
-    assert given_percent(0.005) == "0.5 %"
+    assert as_written(7.5706e-3, "m") == "7.5706 mm"
+    assert as_written(207e9, "Pa") == "207 GPa"
+    assert percent_as_written(0.02) == "2 %"
+    assert percent_as_written(0.005) == "0.5 %"
     assert plain(0.1) == "0.1"
 
 

@@ -33,7 +33,7 @@ def moved(before, after, **other):
 
 
 def test_a_run_repeats_itself(smooth_outcome: Run):
-    items = items_of(smooth_outcome.found, OTHER)
+    items = items_of(smooth_outcome.findings, OTHER)
     found = movement(items, items)
     assert found.moved == () and found.rounding == found.new == 0
     assert found.same == len(items) > len(smooth_outcome.figures)

@@ -102,7 +102,7 @@ def test_a_single_model_has_its_figures_alone(runs, smooth_outcome):
 def test_below_a_rough_boundary_the_depth_is_the_terminals(finish, wavy_outcome, tmp_path):
     """It counts from the deformed boundary, of one model alone, too."""
     rough = wavy_outcome.problem.scene.changed("finite_element.geometry", "rough")
-    alone = finish(rough.given, ("finite_element",))
+    alone = finish(rough.written, ("finite_element",))
     depth = alone.figures.one(study="contact", quantity="tau1_max_depth", friction=0.0)
     [field] = alone.runs["finite_element"].finest.stresses[:1]
     assert abs(depth.value - field.extremes["tau1"].z) > 0.1e-6

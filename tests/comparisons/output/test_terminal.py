@@ -83,7 +83,7 @@ def test_a_difference_below_its_uncertainty_is_shown_as_nothing(wavy_outcome: Ru
 
 def test_peaks_that_the_hardness_limits_are_marked(wavy_outcome: Run):
     assert "capped" not in printed(wavy_outcome)
-    known = wavy_outcome.found["contact"].figures
+    known = wavy_outcome.findings["contact"].figures
     figures = (replace(f, notes=("capped",) * (f.quantity == "peak_pressure")) for f in known)
     text = printed(refound(wavy_outcome, "contact", figures=tuple(figures)))
     assert text.count("\ncapped in both") == 1
@@ -114,7 +114,7 @@ def test_where_the_models_agree_one_line_says_how_well(wavy_outcome: Run):
     assert "finite elements that assume the same agree: largest difference" in flat
     assert f"({SHORT[apart.quantity]}), uncertainty" in flat
     assert "finite elements) / finite elements" not in text
-    [first, *others] = wavy_outcome.found["comparison"].figures
+    [first, *others] = wavy_outcome.findings["comparison"].figures
     apart = refound(wavy_outcome, "comparison", figures=(replace(first, value=0.5), *others))
     assert printed(apart, details=False) == printed(apart)  # the whole table, then
 

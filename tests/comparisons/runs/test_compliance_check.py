@@ -48,7 +48,7 @@ def test_every_level_but_the_far_boundary_check_is_checked(outcome):
 
 
 def test_result(outcome):
-    checks = read_result(outcome.directory / "result.json").found["checks"]
+    checks = read_result(outcome.directory / "result.json").findings["checks"]
     levels = [level.operator for level in outcome.runs["finite_element"].levels]
     assert checks.said("compliance") == levels[-1].verdict == "neither"
     assert checks.said("compliance, by level") == ", ".join(
@@ -66,7 +66,7 @@ def test_result(outcome):
 
 
 def test_a_figure_of_it_may_move_by_its_own_size(outcome):
-    recorded = items_of(outcome.found, {})
+    recorded = items_of(outcome.findings, {})
     [name] = [n for n in recorded if "waves, nearest surface.difference" in n]
     for times, beyond in ((1.5, 0), (3.0, 1)):
         values = tuple(times * value for value in recorded[name].value)

@@ -32,7 +32,7 @@ def test_all_are_in_the_table_and_at_least_ten_are_decided():
 def test_each_names_its_solids_and_keeps_the_default_tolerance(path):
     scene = Scene.read(str(path))
     assert scene.body.solid and (scene.roller.rigid or scene.roller.solid)
-    assert "tolerance" not in scene.given
+    assert "tolerance" not in scene.written
 
 
 @pytest.mark.parametrize("name", ["nylon-gear", "thin-strip", "rail"])

@@ -23,7 +23,9 @@ def test_approach_prescribed_on_a_layer(tmp_path):
     [approach] = outcome.figures.of(study="contact", quantity="approach")
     assert approach.source == "finite_element"
     assert approach.value == pytest.approx(10e-6, rel=1e-3)
-    assert "known but for a constant" in outcome.found["contact"].said("no approach", "half_plane")
+    assert "known but for a constant" in outcome.findings["contact"].said(
+        "no approach", "half_plane"
+    )
     assert outcome.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 

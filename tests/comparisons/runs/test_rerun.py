@@ -90,11 +90,11 @@ def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, monkeyp
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
     monkeypatch.setattr("comparisons.studies.model_error.error_budget._settled", lambda *_: False)
-    assert whole_levels(read_result(both / "result.json").found) == 2
+    assert whole_levels(read_result(both / "result.json").findings) == 2
     before = contents(both)
     repetition = rerun(both)
     assert repetition.levels[1] > 2
-    assert whole_levels(repetition.outcome.found) == 2
+    assert whole_levels(repetition.outcome.findings) == 2
     assert repetition.movement.moved == ()
     assert repetition.movement.rounding == repetition.movement.new == 0
     assert repetition.movement.same > 150

@@ -99,7 +99,7 @@ class TestSmooth:
 
     def test_checks_and_iterations(self, smooth):
         for model in MODELS:
-            assert smooth.found["contact"].said("converged", model) == "yes"
+            assert smooth.findings["contact"].said("converged", model) == "yes"
             checks = smooth.figures.of(study="checks", source=model)
             assert len(checks) == 5 and max(figure.value for figure in checks) <= 1e-8
         steps = [
@@ -113,7 +113,7 @@ class TestSmooth:
         assert json.loads((out / "result.json").read_text()) == content_of(smooth)
         read = read_result(out / "result.json")
         assert read.figures == smooth.figures
-        assert read.found == {n: replace(f, data=None) for n, f in smooth.found.items()}
+        assert read.findings == {n: replace(f, data=None) for n, f in smooth.findings.items()}
         record = json.loads((out / "record.json").read_text())
         assert record["versions"]["fenics-dolfinx"]
         assert "<html" in (out / "report.html").read_text()
@@ -192,9 +192,9 @@ def test_one_model_alone_gives_its_own_figures(smooth, tmp_path):
     result = read_result(tmp_path / "out" / "result.json")
     alone = result.figures.of(study="contact")
     assert alone == smooth.figures.of(study="contact", source="half_plane")
-    assert {"comparison", "model_error"}.isdisjoint(result.found)
+    assert {"comparison", "model_error"}.isdisjoint(result.findings)
     assert result.verdict == "not compared"
-    why = result.found["problem"].said("skipped", "finite_element model")
+    why = result.findings["problem"].said("skipped", "finite_element model")
     assert why == "not asked for"
     assert not (tmp_path / "out" / "finite_element").exists()
 

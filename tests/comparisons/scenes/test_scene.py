@@ -261,7 +261,7 @@ def test_tolerances_of_stresses_are_written_out_with_stress_alone():
 def test_tables_are_a_copy():
     scene = resolved(BARE)
     scene.tables["load"]["friction"].append(0.5)
-    scene.given["load"]["friction"] = 0.5
+    scene.written["load"]["friction"] = 0.5
     assert scene.tables["load"]["friction"] == [0.0]
     assert scene.changed("load.coupled", True).load.friction == (0.0,)
 
@@ -274,7 +274,7 @@ class TestChanged:
         assert rough.changed("finite_element.gap", "reference").finite_element.gap == "reference"
         soft = plain.changed("body.poissons_ratio", 0.4999)
         assert (plain.finite_element.element, soft.finite_element.element) == ("P2", "P3")
-        assert soft.given["body"] == {"youngs_modulus": "207 GPa", "poissons_ratio": 0.4999}
+        assert soft.written["body"] == {"youngs_modulus": "207 GPa", "poissons_ratio": 0.4999}
         assert (plain.name, plain.source) == (soft.name, soft.source)
 
     def test_it_is_checked_as_a_file_is(self):
@@ -304,7 +304,7 @@ class TestChanged:
         odd = scene.unchecked({"finite_element.geometry": "rough", "body.thickness": 1.0})
         assert (odd.finite_element.geometry, odd.finite_element.gap) == ("rough", "reference")
         assert (odd.body.thickness, odd.body.base) == (1.0, None)
-        assert odd.given == scene.given and scene.body.thickness is None
+        assert odd.written == scene.written and scene.body.thickness is None
 
 
 def test_reading_a_scene_loads_no_physics():

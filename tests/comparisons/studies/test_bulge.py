@@ -37,7 +37,7 @@ def solved(tables, models=("finite_element",)):
 def bulge_of(outcome) -> dict:
     """The bulge at the one friction coefficient above 0: values by name, of the height and the end
     their uncertainties, the curve and the patches."""
-    [own] = bulges_of(outcome.found["bulge"])
+    [own] = bulges_of(outcome.findings["bulge"])
     found = {name: own.value(name) for name in QUANTITIES}
     height = own.figures["height"]
     found["uncertainty"] = height.numerical * height.scale
@@ -197,7 +197,7 @@ def test_what_cannot_be_measured_says_why(tables, models, why):
 
 
 def test_it_is_measured_where_it_is_asked_for(smooth, smooth_outcome):
-    assert bulge.NAME not in smooth_outcome.found and bulge_picture(smooth_outcome) is None
+    assert bulge.NAME not in smooth_outcome.findings and bulge_picture(smooth_outcome) is None
     [block] = bulge.blocks(smooth)
     heading, shown, table, note = block.items
     assert shown.names == ("bulge",) and heading.text and note.text

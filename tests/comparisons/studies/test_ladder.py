@@ -46,11 +46,11 @@ def test_hertz_stands_where_the_surface_is_smooth(smooth_outcome):
     length = known.one(quantity="contact_length")
     assert abs(length.value - (STIFFER**0.5 - 1.0)) <= length.numerical
     assert {figure.verdict for figure in known} == {"holds"}
-    assert smooth_outcome.found[LADDER].said(show.SUFFICES) == "hertz"
+    assert smooth_outcome.findings[LADDER].said(show.SUFFICES) == "hertz"
 
 
 def test_hertz_fails_and_the_half_plane_holds_on_a_wavy_surface(wavy_outcome):
-    known, found = wavy_outcome.figures.of(study=LADDER), wavy_outcome.found[LADDER]
+    known, found = wavy_outcome.figures.of(study=LADDER), wavy_outcome.findings[LADDER]
     assert "fails" in {figure.verdict for figure in known.of(source="hertz")}
     assert found.said(show.SUFFICES) == "half_plane"
     [(name, line)] = show.lines(wavy_outcome)
@@ -93,7 +93,7 @@ def test_a_table_of_the_page_has_every_rung(wavy_outcome):
     [block] = show.blocks(wavy_outcome)
     table = block.items[0]
     assert [row[0] for row in table.rows][:2] == ["Hertz's closed form", "half-plane"]
-    assert wavy_outcome.found[MODEL_ERROR].data.solutions
+    assert wavy_outcome.findings[MODEL_ERROR].data.solutions
 
 
 @pytest.mark.parametrize(
@@ -103,7 +103,7 @@ def test_estimates_say_what_holds_where_no_whole_is_solved(finish, smooth_tables
     """And that none is known to hold where they exceed a tolerance."""
     tables = smooth_tables | {"load": {"per_length": load}, "budget": {"up_to": "half-plane"}}
     alone = finish(tables, ("half_plane",))
-    assert alone.found[LADDER].said(show.SUFFICES) == name
+    assert alone.findings[LADDER].said(show.SUFFICES) == name
     [(_, line)] = show.lines(alone)
     assert line.endswith("by estimates") == (name is not None)
     assert (hertz_alone(alone.problem)[0]) == (name is not None)

@@ -59,7 +59,7 @@ def solve(solved, before, tasks):
 
 
 def blocks(run):
-    mean, _ = run.found[NAME].figures
+    mean, _ = run.findings[NAME].figures
     rows = (("mean", f"{1e-9 * mean.value:.2f} GPa"),)
     table = TextTable("Mean", ("", "pressure"), rows)
     return [Block("yield", (Heading("Mean pressure"), table, Note("A note.")))]
@@ -71,7 +71,7 @@ STUDY = Study(
     solve,
     applies=lambda solved: solved.problem.scene.mean_pressure is not None,
     blocks=blocks,
-    lines=lambda run: [("mean pressure", run.found[NAME].said("state"))],
+    lines=lambda run: [("mean pressure", run.findings[NAME].said("state"))],
 )
 '''
 SECTION = '''

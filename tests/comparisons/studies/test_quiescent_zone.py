@@ -107,7 +107,7 @@ def wavy():
 
 
 def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
-    still, sliding = q.zones_of(wavy.found[q.NAME])
+    still, sliding = q.zones_of(wavy.findings[q.NAME])
     assert (still.state, sliding.state) == (q.QUIESCENT, q.BRIDGED)
     values = {name: figure.value for name, figure in still.figures.items()}
     assert 0.0 < values["start"] < values["depth"] < values["stop"]
@@ -115,7 +115,7 @@ def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
     assert sliding.figures["level"].value > q.QUIET > values["ratio"]
     assert still.asperities == len(wavy.problem.asperities) + 1
     assert sliding.bridged > still.bridged
-    for each in wavy.found[q.NAME].table(q.ASPERITIES, friction=0.0).rows():
+    for each in wavy.findings[q.NAME].table(q.ASPERITIES, friction=0.0).rows():
         assert 0.0 < each["length"] < 25e-6
         assert abs(each["x"]) < wavy.problem.hertz.half_width
 
@@ -127,7 +127,7 @@ def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
 def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
     wavy, half_range, depth, points
 ):
-    stated = q.zones_of(wavy.found[q.NAME])[0].figures
+    stated = q.zones_of(wavy.findings[q.NAME])[0].figures
     other = WAVY | {"stress": {"half_range": half_range, "depth": depth, "points": points}}
     posed = problem(other)
     window = window_of(posed)
@@ -145,7 +145,7 @@ def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
 
 def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
     """Of the same levels, whose ratio is as far from a bound as it is uncertain, or farther."""
-    ratio = q.zones_of(wavy.found[q.NAME])[0].figures["ratio"]
+    ratio = q.zones_of(wavy.findings[q.NAME])[0].figures["ratio"]
     size = ratio.numerical * ratio.scale
     posed = wavy.problem, wavy.runs["half_plane"], wavy.window, 0.0
     for off, state in ((0.5, q.UNCLEAR), (3.0, q.QUIESCENT)):
@@ -154,16 +154,16 @@ def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
 
 
 def test_scenes_without_fields_or_roughness_have_none(finish, smooth_tables):
-    assert q.NAME not in finish(smooth_tables).found
+    assert q.NAME not in finish(smooth_tables).findings
     outcome = run(resolved({k: v for k, v in WAVY.items() if k != "stress"}), None, HALF_PLANE)
-    assert q.NAME not in outcome.found
+    assert q.NAME not in outcome.findings
 
 
 @pytest.mark.parametrize(("name", "value"), [("half_range", 0.9), ("depth", 0.6)])
 def test_a_field_that_ends_before_says_so(name, value):
     tables = WAVY | {"stress": {name: value, "points": [60, 20]}}
     outcome = run(resolved(tables), None, HALF_PLANE)
-    why = outcome.found[q.NAME].said(WHY_NOT)
+    why = outcome.findings[q.NAME].said(WHY_NOT)
     assert why == f"stress.{name} is less than {'1' if name == 'half_range' else '0.8'} a"
     [block] = q.blocks(outcome)
     assert block.items[1].rows == ((why,),) and q.lines(outcome) == []
@@ -176,6 +176,6 @@ def test_table_and_line_say_what_the_figures_are(wavy):
         ("0", "half-plane", q.QUIESCENT),
         ("0.3", "half-plane", q.BRIDGED),
     ]
-    level = q.zones_of(wavy.found[q.NAME])[0].figures["level"].value
+    level = q.zones_of(wavy.findings[q.NAME])[0].figures["level"].value
     assert float(table.rows[0][6].split()[0]) == pytest.approx(level, rel=5e-3)
     assert line.startswith("friction 0: 0.") and "; friction 0.3: bridged, least shear 0.8" in line

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import Scale, given_percent, percent, plain, significant
+from comparisons.common.numbers import Scale, percent, percent_as_written, plain, significant
 from comparisons.drawing import style
 from comparisons.drawing.field import colour_bar, cross, fill, round_bands
 from comparisons.figures.figure import Figure
@@ -138,7 +138,7 @@ def judged_picture(run: Run) -> style.Picture | None:
 def _said(error: Figure) -> str:
     unsure = percent(error.numerical)
     size = error_text(error.quantity, error.value, error.numerical)
-    return f"{size} ± {unsure}, tolerance {given_percent(error.tolerance)}, {error.verdict}"
+    return f"{size} ± {unsure}, tolerance {percent_as_written(error.tolerance)}, {error.verdict}"
 
 
 def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:

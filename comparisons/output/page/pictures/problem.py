@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import given, listed, plain, scale_of, with_unit
+from comparisons.common.numbers import as_written, listed, plain, scale_of, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.curves import load_text
 from comparisons.models.problem import Problem
@@ -42,7 +42,7 @@ def problem_picture(run: Run) -> style.Picture:
     sliding = f", sliding with friction {frictions}" if any(scene.load.friction) else ""
     return style.picture(
         drawn,
-        f"A roller of radius {given(scene.roller.radius, 'm')} pressed on {body} by "
+        f"A roller of radius {as_written(scene.roller.radius, 'm')} pressed on {body} by "
         f"{load_text(run.problem)}{sliding}; {'; '.join(_body_in_words(scene))}.",
         "The problem. Above: to scale. Below: roller and body where they first touch, "
         f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
@@ -92,7 +92,7 @@ def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], ro
     load = f"P = {load_text(problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
-    roller = f"roller\nR = {given(scene.roller.radius, 'm')}\n{material}"
+    roller = f"roller\nR = {as_written(scene.roller.radius, 'm')}\n{material}"
     axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
     rough = "rough body" if scene.profile is not None else "body"
     said = "\n".join([f"{rough}, {elastic_text(scene.body.material)}", *_body_in_words(scene)])
@@ -167,13 +167,13 @@ def _body_in_words(scene: Scene) -> list[str]:
     size = []
     if scene.body.thickness is not None:
         base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.body.base]
-        size.append(f"{given(scene.body.thickness, 'm')} thick, {base} a rigid base")
+        size.append(f"{as_written(scene.body.thickness, 'm')} thick, {base} a rigid base")
     elif scene.body.width is None:
         size.append("unbounded (half-plane)")
     else:
         size.append("unbounded in depth")
     if scene.body.width is not None:
-        size.append(f"{given(scene.body.width, 'm')} wide")
+        size.append(f"{as_written(scene.body.width, 'm')} wide")
     words = [", ".join(size)]
     if scene.coating is not None:
         words.append(f"coating {coating_text(scene.coating)}")

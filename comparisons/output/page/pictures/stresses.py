@@ -243,7 +243,7 @@ def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float)
     exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure
     axes.plot(at, exact, label="Hertz, exact", **style.REFERENCE)
     first = next(iter(run.runs))
-    for zone in zones_of(run.found.get(ZONE)):
+    for zone in zones_of(run.findings.get(ZONE)):
         if (zone.model, zone.friction) == (first, friction) and "start" in zone.figures:
             ends = (zone.figures[name].value / hertz.half_width for name in ("start", "stop"))
             axes.axvspan(*ends, color="#009E73", alpha=0.14, linewidth=0.0, label="quiescent zone")

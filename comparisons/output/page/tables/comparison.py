@@ -43,9 +43,9 @@ def comparison_rows(run: Run) -> list[ComparisonRow]:
     """In the order of quantities, then of friction coefficients."""
     rows, differences = [], run.figures.of(study=comparison.NAME)
     for name in QUANTITIES:
-        pairs = [(each, _values(run, each)) for each in differences.of(quantity=name)]
+        pairs = [(figure, _values(run, figure)) for figure in differences.of(quantity=name)]
         for same in grouped(pairs, _shown):
-            rows.append(_row(run, *same[0], listed(each.friction for each, _ in same)))
+            rows.append(_row(run, *same[0], listed(figure.friction for figure, _ in same)))
     return rows
 
 
@@ -75,7 +75,7 @@ def _values(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]
 
 def _shown(pair: tuple[Figure, tuple[Figure | None, ...]]) -> tuple:
     difference, values = pair
-    sizes = tuple(each and each.value for each in values)
+    sizes = tuple(figure and figure.value for figure in values)
     return difference.value, difference.numerical, *sizes
 
 

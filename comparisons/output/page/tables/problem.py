@@ -2,7 +2,7 @@
 
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
-from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
+from comparisons.common.numbers import as_written, decimal, listed, plain, significant, with_unit
 from comparisons.models.assumptions import hardening_text, support_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
@@ -34,18 +34,20 @@ def problem_sheet(run: Run) -> list[tuple[str, Rows]]:
 
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
-    rows = [("radius of relative curvature R", given(scene.roller.radius, "m"))]
+    rows = [("radius of relative curvature R", as_written(scene.roller.radius, "m"))]
     body = scene.body
     if body.thickness is None:
         rows.append(("body, thickness", "unbounded"))
     else:
         base = {"bonded": "bonded to", "frictionless": "free to slide on"}[body.base]
-        rows.append(("body, thickness t", f"{given(body.thickness, 'm')}, {base} a rigid base"))
-    width = "unbounded" if body.width is None else given(body.width, "m")
+        rows.append(
+            ("body, thickness t", f"{as_written(body.thickness, 'm')}, {base} a rigid base")
+        )
+    width = "unbounded" if body.width is None else as_written(body.width, "m")
     rows.append(("body, width w", width))
     if surface.info is None:
         return [*rows, ("surface", "smooth")]
-    place = ("place of the roller on the trace", given(surface.position, "m"))
+    place = ("place of the roller on the trace", as_written(surface.position, "m"))
     return [*rows, *_profile(surface.info), place]
 
 
@@ -73,7 +75,9 @@ def _profile(info: ProfileInfo) -> Rows:
 def filter_text(info: ProfileInfo) -> str:
     """Which waves were taken off the trace before it was pressed."""
     longer = info.cutoff and f"waves longer than {in_mm(info.cutoff)} removed"
-    shorter = info.short_cutoff and f"waves shorter than {given(info.short_cutoff, 'm')} removed"
+    shorter = (
+        info.short_cutoff and f"waves shorter than {as_written(info.short_cutoff, 'm')} removed"
+    )
     return ", ".join(filter(None, (longer, shorter))) or "none"
 
 
@@ -89,7 +93,7 @@ def _standard(info: ProfileInfo | None) -> Rows:
     standard = info.standard
     if standard is None:
         return [("parameters", f"none: {info.standard_why}")]
-    short = "none" if standard.short_cutoff is None else given(standard.short_cutoff, "m")
+    short = "none" if standard.short_cutoff is None else as_written(standard.short_cutoff, "m")
     width = "no whole element" if standard.rsm is None else with_unit(standard.rsm, "m")
     return [
         ("cut-offs λc, λs", f"{in_mm(standard.cutoff)}, {short}"),
@@ -115,7 +119,7 @@ def standard_text(info: ProfileInfo) -> str:
     standard = info.standard
     ends = f"waves longer than {in_mm(standard.cutoff)}"
     if standard.short_cutoff is not None:
-        ends += f" and shorter than {given(standard.short_cutoff, 'm')}"
+        ends += f" and shorter than {as_written(standard.short_cutoff, 'm')}"
     span = with_unit(standard.sections * standard.cutoff, "m")
     return f"{ends} are filtered off, and the middle {span} of {with_unit(info.length, 'm')} count"
 
@@ -135,7 +139,7 @@ def _materials(problem: Problem) -> Rows:
         ("Dundurs' β", significant(problem.dundurs_beta, 3)),
     ]
     if scene.body.hardness is not None:
-        rows.append(("hardness of the body", given(scene.body.hardness, "Pa")))
+        rows.append(("hardness of the body", as_written(scene.body.hardness, "Pa")))
     if scene.body.yield_stress is not None:
         rows.append(("body yields", yielding_text(scene.body)))
     return rows
@@ -148,25 +152,25 @@ def solid_text(section: ElasticSection) -> str:
 
 def elastic_text(material: Material) -> str:
     """A material in one phrase."""
-    return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
+    return f"E = {as_written(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
 
 
 def coating_text(coating: CoatingSection) -> str:
     """A coating in one phrase."""
-    return f"{given(coating.thickness, 'm')} thick, {solid_text(coating)}"
+    return f"{as_written(coating.thickness, 'm')} thick, {solid_text(coating)}"
 
 
 def yielding_text(body: BodySection) -> str:
     """How a body flows, in one phrase."""
     modulus = body.hardening_modulus
-    harder = f", hardening by {given(modulus, 'Pa')}" if modulus else hardening_text(body)
-    return f"at {given(body.yield_stress, 'Pa')}{harder}"
+    harder = f", hardening by {as_written(modulus, 'Pa')}" if modulus else hardening_text(body)
+    return f"at {as_written(body.yield_stress, 'Pa')}{harder}"
 
 
 def _load(problem: Problem) -> Rows:
     scene, hertz = problem.scene, problem.hertz
     label, unit = LOADS[scene.load.kind]
-    rows = [(f"{label} (given)", given(scene.load.value, unit))]
+    rows = [(f"{label} (given)", as_written(scene.load.value, unit))]
     if scene.load.kind != "per_length":
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))
     return [

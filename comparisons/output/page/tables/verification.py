@@ -13,10 +13,10 @@ from pathlib import Path
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import (
-    given_percent,
     integer,
     listed,
     percent,
+    percent_as_written,
     plain,
     scale_of,
     significant,
@@ -127,7 +127,7 @@ def _judged(sequence: JudgedSequence) -> tuple[str, ...]:
         known.behaviour,
         "none" if known.safety_factor is None else plain(known.safety_factor),
         percent(sequence.figure.uncertainty.parts["discretisation"]),
-        given_percent(COVERAGE),
+        percent_as_written(COVERAGE),
     )
 
 
@@ -257,14 +257,14 @@ def signed_rows(run: Run) -> list[tuple[str, str]]:
     """What a person signs who has read the report: the question, how sure, by what and when."""
     scene, made, errors = run.problem.scene, run.record.get("made", {}), run.model_errors
     judged = dict.fromkeys(
-        f"{label(e.quantity)} within {given_percent(e.tolerance)}" for e in errors
+        f"{label(e.quantity)} within {percent_as_written(e.tolerance)}" for e in errors
     )
     question = (
         "May the half-plane's figures stand for those of a model with every effect that matters?"
     )
     if not errors:
         question = "What are the figures of this contact? Nothing is judged against a tolerance."
-    unsure = f"every stated uncertainty covers {given_percent(COVERAGE)}"
+    unsure = f"every stated uncertainty covers {percent_as_written(COVERAGE)}"
     if errors:
         most = percent(max(error.numerical for error in errors))
         unsure = f"at most {most} of a judged figure; {unsure}"

@@ -24,7 +24,7 @@ KNOWN = {  # keywords of Abaqus/Standard that a deck may use
     *("END STEP", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "CONTACT PRINT"),
 }
 CALCULIX = {"NODE FILE", "EL FILE", "CONTACT FILE"}
-SLIDING = scenes.changed(crosscheck.Scene.read("coated").given, load={"friction": [0.0, 0.1]})
+SLIDING = scenes.changed(crosscheck.Scene.read("coated").written, load={"friction": [0.0, 0.1]})
 
 
 def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
@@ -125,7 +125,7 @@ def scenes_load(resolved) -> float:
 
 def test_a_linear_deck_is_the_scene_in_flatter_form():
     """Heights over, moduli times the same factor: the gap between the two tops is the scene's."""
-    problem = scenes.problem(crosscheck.Scene.read("sinusoid").given)
+    problem = scenes.problem(crosscheck.Scene.read("sinusoid").written)
     deck = deck_problem(problem, problem.pitches[0])
     top = deck.rough.points[deck.rough.surface]
     gap = 1e-3 * deck.flatter * (deck.roller.points[deck.roller.surface, 1].max() - top[:, 1])
@@ -141,11 +141,11 @@ STRETCHED |= {"partial_slip": {"load": 0.5, "bulk_stress": 1e8}}
 
 
 def test_what_a_code_cannot_have_is_refused(tmp_path):
-    hencky = scenes.changed(crosscheck.Scene.read("finite-strain").given, body={"law": "hencky"})
+    hencky = scenes.changed(crosscheck.Scene.read("finite-strain").written, body={"law": "hencky"})
     for tables, code, said in (
         (hencky, "calculix", "body.law"),
         (hencky, "fenicsx", "flat ones"),
-        (crosscheck.Scene.read("yielding").given, "fenicsx", "finite_element.plastic"),
+        (crosscheck.Scene.read("yielding").written, "fenicsx", "finite_element.plastic"),
         (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "abaqus", "body.hardness"),
         (STRETCHED, "calculix", "partial_slip.bulk_stress"),
     ):
@@ -160,7 +160,7 @@ def test_the_script_for_fenicsx_solves_the_scene(tmp_path, level):
     write_deck(scene_of("smooth"), "fenicsx", tmp_path, level)
     subprocess.run([sys.executable, "solve.py"], cwd=tmp_path, check=True, capture_output=True)
     x, pressure = np.loadtxt(tmp_path / "pressure.csv", delimiter=",", skiprows=1).T
-    hertz = scenes.problem(crosscheck.Scene.read("smooth").given).hertz
+    hertz = scenes.problem(crosscheck.Scene.read("smooth").written).hertz
     assert pressure.max() == pytest.approx(1e-6 * hertz.peak_pressure, rel=1e-3 / level)
     exact = np.sqrt(np.maximum(1.0 - (1e-3 * x / hertz.half_width) ** 2, 0.0)) * pressure.max()
     assert np.sqrt(np.mean((pressure - exact) ** 2)) < 0.03 / level * pressure.max()

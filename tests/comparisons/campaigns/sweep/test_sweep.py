@@ -121,7 +121,7 @@ def test_bulges_are_drawn_over_the_relative_penetration(tmp_path, capsys, launch
         '[roller]\nradius = 1e-2\nrigid = true\n[body]\nyoungs_modulus = "210 GPa"\n'
         'poissons_ratio = 0.3\n[load]\nhertz_peak_pressure = "1 GPa"\nfriction = [0, 0.3]\n'
         "[stress]\npoints = [60, 30]\nbulge = true\n[resolution]\nelements = 8\nlevels = 2\n"
-        "[budget]\ntime = 1\neffects = false\n"
+        "[budget]\ntime = 1\neffects = false\n[finite_element]\ngrowth = 0.5\n"
     )
     out = tmp_path / "out"
     asked = ["sweep", str(tmp_path / "slides.toml"), "--workers", "1", "--out", str(out)]

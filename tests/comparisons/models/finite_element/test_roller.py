@@ -116,7 +116,7 @@ def test_the_far_field_of_a_half_plane_is_given_to_the_body_alone():
 def test_there_is_no_far_boundary_where_every_body_has_its_own():
     scene = posed("polymer", 0.15, "opposite")
     bounded = scene.scene.changed({"body.thickness": 5e-3, "body.width": 40e-3})
-    assert not make_plan(problem(bounded.given), ("finite_element",)).domain_check
+    assert not make_plan(problem(bounded.written), ("finite_element",)).domain_check
 
 
 @pytest.mark.parametrize("support", ["opposite", "ring of the check"])

@@ -121,7 +121,7 @@ class TestRun:
         assert header == "x [m],height before running-in [m],height [m]"
         assert table[:, 0] == pytest.approx(worn.profile.x, rel=1e-11)
         assert table[:, 1] - table[:, 2] == pytest.approx(worn.lowering, abs=1e-17)
-        assert read_result(out / "result.json").found["running_in"].said("status") == "settled"
+        assert read_result(out / "result.json").findings["running_in"].said("status") == "settled"
         assert not (done.directory / "half_plane" / "run_in_profile.csv").exists()
 
     def test_the_record_holds_the_surface_before_and_repeats_the_run(self, done: Run, tmp_path):
@@ -137,7 +137,7 @@ class TestRun:
         again = run(scene, tmp_path / "again", ("half_plane",), known=known)
         assert again.record["hashes"] == done.record["hashes"]
         assert set(done.record["hashes"]) == {"half_plane_pressure", "run_in_profile"}
-        assert again.found["running_in"] == done.found["running_in"]
+        assert again.findings["running_in"] == done.findings["running_in"]
 
 
 def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness():

@@ -32,7 +32,7 @@ def outcome(finish: Callable[..., Run], wavy) -> Run:
 
 class TestTelling:
     def test_result(self, outcome: Run, hardness):
-        findings, run_in = outcome.found["running_in"], outcome.problem.surface.run_in
+        findings, run_in = outcome.findings["running_in"], outcome.problem.surface.run_in
         by_quantity = {f.quantity: f.value for f in findings.figures if f.source == "half_plane"}
         assert by_quantity["passes"] == len(run_in.passes) == 5 * by_quantity["sweeps"]
         volumes = findings.table("passes").columns["volume"].values
@@ -51,7 +51,7 @@ class TestTelling:
             assert peak.value < 1.03 * hardness
 
     def test_result_without_running_in(self, wavy_outcome: Run):
-        assert "running_in" not in wavy_outcome.found
+        assert "running_in" not in wavy_outcome.findings
         assert picture(wavy_outcome) is None
         assert "running-in" not in render(wavy_outcome)
 

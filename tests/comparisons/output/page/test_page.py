@@ -26,13 +26,10 @@ SECTIONS += ["problem", "convergence", "mesh", "cost", "checks", "skipped", "rec
 LINK = "{http://www.w3.org/1999/xlink}href"
 
 
-def test_drawn_side_by_side_as_in_one_process(wavy_outcome, monkeypatch):
-    pages = []
-    monkeypatch.setenv("OMP_NUM_THREADS", "1")
-    for cores in ({0}, {0, 1}):
-        monkeypatch.setattr(os, "sched_getaffinity", lambda process, cores=cores: cores)
-        pages.append(render(wavy_outcome))
-    assert pages[0] == pages[1]
+def test_drawn_side_by_side_as_in_one_process(wavy_outcome, wavy_page, monkeypatch):
+    others = {0, 1} if len(os.sched_getaffinity(0)) == 1 else {0}
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: others)
+    assert render(wavy_outcome) == wavy_page.source
 
 
 def test_a_new_study_shows_itself(wavy_outcome, page_of, no_pictures, monkeypatch):

@@ -34,7 +34,7 @@ def balance(outcome):
 
 
 def table(outcome, name, answer="other"):
-    series = outcome.found["answers"].table(name, answer)
+    series = outcome.findings["answers"].table(name, answer)
     return [] if series is None else series.rows()
 
 

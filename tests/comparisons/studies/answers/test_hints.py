@@ -8,7 +8,7 @@ from analytic.exact.hertz import hertz_from_load
 
 
 def hints(outcome):
-    series = outcome.found["answers"].table("hints")
+    series = outcome.findings["answers"].table("hints")
     return {row["kind"]: row for row in (series.rows() if series else ())}
 
 

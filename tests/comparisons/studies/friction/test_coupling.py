@@ -118,7 +118,7 @@ class TestFigures:
         assert length[0] / hertz.half_width == pytest.approx(2.0 * wider, rel=1e-3)
         assert found[SHIFT][1] == pytest.approx(shift, rel=1e-3)
         assert found[SHIFT][0] == pytest.approx(shift * hertz.half_width, rel=1e-3)
-        said = rigid.found[coupling.NAME].said("converged", friction=reference["mu"])
+        said = rigid.findings[coupling.NAME].said("converged", friction=reference["mu"])
         assert said == "yes"
 
     def test_the_model_s_own_figures_stay_without_it(self, rigid):
@@ -130,7 +130,7 @@ class TestFigures:
 
     def test_no_friction_no_change(self, rigid):
         assert change(rigid, 0.0) == {}
-        assert rigid.found[coupling.NAME].said(WHY_NOT, friction=0.0) == "there is no friction"
+        assert rigid.findings[coupling.NAME].said(WHY_NOT, friction=0.0) == "there is no friction"
         assert "coupling" not in {item.step for item in rigid.plan.skipped}
 
     def test_stresses_are_compared_too(self, rigid):
@@ -153,7 +153,7 @@ class TestFigures:
         assert changes["contact_ratio"] == Change(0.0, 0.0)
         assert changes["peak_pressure"].difference == pytest.approx(0.5)
         found = replace(rigid.data("coupling").changes[2], changes=changes)
-        figures = coupling.figures_of_changes(found, problem, rigid.found["contact"].figures)
+        figures = coupling.figures_of_changes(found, problem, rigid.findings["contact"].figures)
         figures = [figure for figure in figures if figure.quantity == "tau1_max_depth"]
         assert [(figure.value, figure.against) for figure in figures] == [(3e-5, None)]
         table = coupling.coupling_table(refound(rigid, coupling.NAME, figures=tuple(figures)))
@@ -169,7 +169,7 @@ class TestFigures:
         outcome = solved(ALIKE, friction=friction)
         [because] = [item.because for item in outcome.plan.skipped if item.step == "coupling"]
         assert why in because
-        assert coupling.NAME not in outcome.found and coupling.coupling_table(outcome) is None
+        assert coupling.NAME not in outcome.findings and coupling.coupling_table(outcome) is None
 
     def test_softer_roller_moves_the_contact_the_other_way(self):
         one = solved(RIGID, friction=0.3)

@@ -85,7 +85,7 @@ def test_bulk_stress_moves_the_zone_and_adds_itself():
     scene = changed(SMOOTH, partial_slip={"loads": [0.5], "bulk_stress": BULK})
     outcome = run(resolved(scene), None, ("half_plane",))
     exact = SlippingContact(outcome.problem.hertz, 0.3, 0.5, BULK)
-    zones = outcome.found["partial_slip"].table("stick_zones")
+    zones = outcome.findings["partial_slip"].table("stick_zones")
     start, stop = (zones.columns[end].values[0] for end in ("start", "stop"))
     pitch = outcome.runs["half_plane"].finest.grid.pitch
     assert 0.5 * (start + stop) == pytest.approx(exact.offset, abs=0.1 * pitch)

@@ -39,7 +39,7 @@ class MadeSolutions:
     without  variants that have no solution
     """
 
-    own: ModelVariant
+    of_scene: ModelVariant
     without: frozenset[ModelVariant] = frozenset()
     asked: list[ModelVariant] = field(default_factory=list)
 
@@ -54,7 +54,7 @@ class MadeSolutions:
         return QuantitiesOfInterest(figures, rng.normal(size=5), rng.normal(size=(2, 3)))
 
     def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
-        return self.solution(self.own, number, friction)
+        return self.solution(self.of_scene, number, friction)
 
 
 @pytest.fixture

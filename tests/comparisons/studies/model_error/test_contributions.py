@@ -113,11 +113,11 @@ class TestFiniteDeformation:
     def test_all_bodies_are_solved_as_it_is(self, problem_with):
         problem = problem_with(finite_element={"element": "P3"})
         split = split_variants(problem, selection_of(added={"finite_strain"}), 0.0)
-        assert split.own == split.nothing and all(variant.quadratic for variant in split.all)
+        assert split.of_scene == split.nothing and all(variant.quadratic for variant in split.all)
         scene = body_problem(problem, split.nothing).scene
         assert scene.finite_element.element == "P2"
         linear = split_variants(problem, selection_of(added={"exact_circle"}), 0.0)
-        assert linear.own is None and not any(variant.quadratic for variant in linear.all)
+        assert linear.of_scene is None and not any(variant.quadratic for variant in linear.all)
 
 
 class TestWithoutSolution:

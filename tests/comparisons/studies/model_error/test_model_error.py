@@ -133,11 +133,11 @@ class TestSmooth:
             sure, last = Uncertainty({"numerical": 1e-4}), outcomes[1]
             errors = [
                 replace(error, value=model_error, uncertainty=sure, unknown={})
-                for error in last.found["model_error"].figures
+                for error in last.findings["model_error"].figures
             ]
             rows = [
                 replace(row, value=difference, uncertainty=sure)
-                for row in last.found["comparison"].figures
+                for row in last.findings["comparison"].figures
             ]
             last = refound(last, "model_error", figures=tuple(errors))
             return refound(last, "comparison", figures=tuple(rows)).exit_status
@@ -151,14 +151,14 @@ class TestSmooth:
     def test_models_and_comparison_are_those_without_effects(self, outcomes):
         plain = outcome_of(smooth(2.0e9, budget={"effects": False}))
         for study in ("contact", "comparison", "problem"):
-            assert plain.found[study].figures == outcomes[0].found[study].figures
+            assert plain.findings[study].figures == outcomes[0].findings[study].figures
         assert plain.data("model_error").selection.added == frozenset()
         assert verdict_of(plain)[0] == "inconclusive"
 
 
 def status_of(outcome: Run, effect: str) -> tuple[str, str]:
     """What became of an effect, and why."""
-    rows = outcome.found["model_error"].table("effects").rows()
+    rows = outcome.findings["model_error"].table("effects").rows()
     return next((row["status"], row["because"]) for row in rows if row["effect"] == effect)
 
 

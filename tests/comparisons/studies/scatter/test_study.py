@@ -77,9 +77,9 @@ def test_the_result_has_it_by_quantity(outcome):
     low, high = figure.spread.interval
     assert low < figure.spread.mean < high
     assert set(figure.spread.shares) == set(INPUTS)
-    [counts] = outcome.found["scatter"].table("samples").rows()
+    [counts] = outcome.findings["scatter"].table("samples").rows()
     assert counts["solutions"] == 64 * (3 + 2) and counts["failed"] == 0
-    assert "scatter" not in run(resolved(SMOOTH), None, ("half_plane",)).found
+    assert "scatter" not in run(resolved(SMOOTH), None, ("half_plane",)).findings
 
 
 def test_it_is_the_same_again_and_by_any_executor(outcome):
@@ -176,7 +176,7 @@ class TestASample:
     def test_what_has_no_solution_is_counted(self):
         beyond = {"position": {"range": [0.0, 1.5e-3]}, "samples": 8}
         outcome = run(resolved(changed(ROUGH, scatter=beyond)), None, ("half_plane",))
-        findings = outcome.found["scatter"]
+        findings = outcome.findings["scatter"]
         [counts] = findings.table("samples").rows()
         assert 0 < counts["failed"] < counts["solutions"]
         assert "end of the trace" in findings.said("first failure")

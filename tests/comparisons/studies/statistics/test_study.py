@@ -35,14 +35,14 @@ def outcome():
 @pytest.fixture(scope="module")
 def loads(outcome):
     """Columns by name: values (7,) from the heaviest load down."""
-    columns = outcome.found["statistics"].table("loads").columns
+    columns = outcome.findings["statistics"].table("loads").columns
     return {name: column.numbers for name, column in columns.items()}
 
 
 @pytest.fixture(scope="module")
 def uncertainties(outcome):
     """The same of their uncertainties."""
-    columns = outcome.found["statistics"].table("loads").columns
+    columns = outcome.findings["statistics"].table("loads").columns
     return {name: column.sizes for name, column in columns.items()}
 
 
@@ -52,7 +52,7 @@ def pressure(source):
 
 def patches_of(outcome) -> dict[str, list[dict]]:
     """Rows by model."""
-    series = outcome.found["statistics"].series
+    series = outcome.findings["statistics"].series
     return {each.source: each.rows() for each in series if each.name == "patches"}
 
 
@@ -202,7 +202,7 @@ def test_a_run_says_it(tmp_path, capsys):
     page = (out / "report.html").read_text()
     words = " ".join(page.split())
     assert 'id="statistics"' in page and "below 0.0001, cutting above 0.3" in words
-    found = read_result(out / "result.json").found["statistics"]
+    found = read_result(out / "result.json").findings["statistics"]
     loads, (patches,) = found.table("loads"), [s for s in found.series if s.name == "patches"]
     assert found.table("traces").columns["traces"].values == (4,)
     assert len(loads.rows()) == 7
@@ -219,8 +219,8 @@ def test_without_the_section_nothing_of_it_runs(monkeypatch):
     monkeypatch.setitem(sys.modules, "analytic.statistics.rough_bodies", None)
     scene = resolved({name: part for name, part in SCENE.items() if name != "statistics"})
     found = run(scene, None, ("half_plane",))
-    assert "statistics" not in found.found
-    said = found.found["problem"].statements
+    assert "statistics" not in found.findings
+    said = found.findings["problem"].statements
     skipped = {each.source: each.text for each in said if each.name == "skipped"}
     assert skipped["statistics of rough contact"] == "the scene has no [statistics]"
     plan = make_plan(problem_of(resolved(SCENE)), ("finite_element",))

@@ -121,7 +121,7 @@ def test_every_effect_that_applies_is_in_the_table(split: Run):
 
 def test_one_model_has_no_budget(finish: Callable[..., Run], smooth_tables: dict):
     outcome = finish(smooth_tables, ("half_plane",))
-    assert outcome.data("model_error") is None and "model_error" not in outcome.found
+    assert outcome.data("model_error") is None and "model_error" not in outcome.findings
     with drawing():
         assert model_error_picture(outcome) is None
 

@@ -60,8 +60,10 @@ def test_the_quantities_of_v_and_v_20_are_named(wavy_outcome: Run):
 
 def test_one_model_has_no_comparison_error(smooth_outcome: Run):
     others = ("comparison", "model_error")
-    findings = {name: study for name, study in smooth_outcome.found.items() if name not in others}
-    alone = replace(smooth_outcome, found=findings)
+    findings = {
+        name: study for name, study in smooth_outcome.findings.items() if name not in others
+    }
+    alone = replace(smooth_outcome, findings=findings)
     assert validation_table(alone) is None and judged_table(alone) is not None
     assert {row[3] for row in validation_table(smooth_outcome).rows} == {"no trace"}
 
