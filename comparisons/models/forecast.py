@@ -1,6 +1,6 @@
 """What the levels of a run will take, by the laws of cost, before anything is meshed or solved."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -78,12 +78,15 @@ def expected_level(
     model: str, problem: Problem, plan: Plan, pitch: float, patches: np.ndarray
 ) -> ExpectedCost:
     """Of a model on pressure elements of a pitch [m], in contact on `patches` (k, 2) [m]."""
+    contacts = len(problem.scene.load.friction) if problem.friction_moves(model) else 1
     if model == "half_plane":
-        return expected_of(problem.grid(pitch).count)
-    from comparisons.models.finite_element.cost import expected
-    from comparisons.models.finite_element.mesh import Refinement
+        cost = expected_of(problem.grid(pitch).count)
+    else:
+        from comparisons.models.finite_element.cost import expected
+        from comparisons.models.finite_element.mesh import Refinement
 
-    return expected(problem, plan, Refinement(pitch), patches)
+        cost = expected(problem, plan, Refinement(pitch), patches)
+    return replace(cost, seconds=contacts * cost.seconds)
 
 
 def _cost(levels: tuple[PlannedLevel, ...]) -> str:

@@ -308,7 +308,7 @@ def _unconverged(run: Run) -> str:
         f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
         for name, model in run.runs.items()
         for level in model.levels
-        if not level.solution.converged
+        if not level.converged
     ]
     moved = run.data(coupling.NAME)
     said += [

@@ -43,6 +43,7 @@ MOST_CORRECTIONS = 25
 # Of Newton's method: mean slip of the surfaces that is left, of a hat, and solutions to get there.
 ASIDE, MOST_SETTINGS = 1e-3, 6
 MOST_CAPS = 15  # solutions until the cap on the pressure settles
+LEANING = 5e-8  # of the load: what friction on tilted tangents may still take of it
 CAP_LEFT = 1e-8  # of a cap on the pressure that the last solution's stretch would change
 
 
@@ -50,12 +51,13 @@ CAP_LEFT = 1e-8  # of a cap on the pressure that the last solution's stretch wou
 class FiniteDeformation:
     """A body in contact with a roller, in its deformed state.
 
-    pressure       (count,) [Pa] vertical force per undeformed length of x, as in the linear theory
+    pressure       (count,) [Pa] its vertical force per undeformed length of x, without friction's
     displacement   (n, 2) [m] at the body's nodes
     roller_displacement  (m, 2) [m] at those of an elastic roller, in its own frame; else empty
     approach       depth [m] of the roller's lowest point, before it deforms, below z = 0 of the
                    undeformed body
-    gap            (count,) [m] mean opening under each hat, along z"""
+    gap            (count,) [m] mean opening under each hat, along z
+    load           [N/m] vertical force of the pressure and of its friction"""
 
     body: ElasticBody
     hats: np.ndarray
@@ -63,6 +65,7 @@ class FiniteDeformation:
     friction: float
     solution: NonlinearSolution
     initial_gap: np.ndarray  # (count,) [m] that of the undeformed bodies, the approach apart
+    load: float
 
     def __post_init__(self) -> None:
         state = self.solution.state
@@ -160,15 +163,19 @@ class FiniteContact:
         as the surface under a hat is stretched, which each solution tells the next. Raises FemError
         if it does not converge, ValueError for a load that the hats cannot bear."""
         state = ContactState((self.linear,), self._start, approach=0.0)
+        asked = load and self.pressing(load, self.linear, self._start)
         constant, cap = np.zeros_like(self.weights), np.full_like(self.weights, hardness)
         for _ in range(MOST_SETTINGS if np.isinf(hardness) else MOST_CAPS):
-            problem, wanted = [(self.response, self.contact)], (load, approach, cap)
+            problem, wanted = [(self.response, self.contact)], (asked, approach, cap)
             start = constant, self.weights, state
-            begun = self._begun(load, approach, hardness)
+            begun = self._begun(asked, approach, hardness)
             solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
             state, deformed = solution.state, self.deformed(solution)
             moved, aside = self.set_back(state.displacements[0], state.pressure)
             is_settled = aside <= ASIDE * self.weights.mean()
+            if load is not None:
+                before, asked = asked, self.pressing(load, *state.displacements, state.pressure)
+                is_settled = is_settled and abs(asked - before) <= LEANING * load
             state = replace(state, displacements=(moved,))
             if np.isfinite(hardness):
                 stretched = hardness * deformed.stretch
@@ -185,6 +192,19 @@ class FiniteContact:
         return self.deformed(
             replace(solution, state=replace(solution.state, pressure=state.pressure))
         )
+
+    def borne(self, moved: np.ndarray, pressure: np.ndarray) -> float:
+        """The vertical force [N/m] on the body of pressures (count,) [Pa] and of their friction,
+        which pulls along the tangents: integral (1 - mu s') p dX."""
+        if not self.friction:
+            return float(self.weights @ pressure)
+        force = self.contact.loaded(moved, pressure)[1].reshape(-1, 2)
+        return float(force[: len(self.body.nodes), 1].sum())
+
+    def pressing(self, load: float, moved: np.ndarray, pressure: np.ndarray) -> float:
+        """What pressures alone press with [N/m] where they and their friction bear a `load` [N/m],
+        by the tangents of one state."""
+        return load * float(self.weights @ pressure) / self.borne(moved, pressure)
 
     def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
         """The displacement (n, 2) [m] with each body moved along x, so that in the mean of a
@@ -229,8 +249,11 @@ class FiniteContact:
         if isinstance(roller, FiniteElementCompliance):
             reached = solution.state.displacements[0][len(self.body.nodes) :]
             roller = DeformedSurface(roller.body, reached)
-        initial = self.gap / self.weights
-        return FiniteDeformation(self.body, self.hats, roller, self.friction, solution, initial)
+        state, initial = solution.state, self.gap / self.weights
+        load = self.borne(*state.displacements, state.pressure)
+        return FiniteDeformation(
+            self.body, self.hats, roller, self.friction, solution, initial, load
+        )
 
 
 class FiniteCompliance:

@@ -16,7 +16,13 @@ from analytic.operators.half_plane import ModelOperator
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
 from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
 from comparisons.models.problem import Problem
-from fem.nonlinear.finite_deformation import FiniteCompliance, FiniteContact, FiniteDeformation
+from fem.nonlinear.finite_deformation import (
+    LEANING,
+    MOST_SETTINGS,
+    FiniteCompliance,
+    FiniteContact,
+    FiniteDeformation,
+)
 from fem.nonlinear.plasticity import ElasticPlastic
 from fem.nonlinear.press_plastic import averaged_pressure, plastic_fields, press_plastically
 from fem.solver.mumps import FemError
@@ -57,8 +63,11 @@ def pressed_finitely(
     if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
         pressure, weights = found.cauchy_pressure, weights * found.stretch
     moved = (found.gap + found.approach) * weights - initial
+    if constraints.load is not None:  # of which friction on tilted tangents bears a part
+        share = float(grid.weights @ found.pressure) / found.load
+        constraints = replace(constraints, load=constraints.load * share)
     given = moved, pressure, initial, weights, found.approach, constraints, counts
-    solution = assessed(*given, FINITE_TOLERANCE)
+    solution = replace(assessed(*given, FINITE_TOLERANCE), load=found.load)
     patches = contact_patches(x, solution.pressure, solution.gap)
     solution = replace(solution, pressure=found.cauchy_pressure)
     top = rough.body.top
@@ -107,13 +116,20 @@ def finite_contact(
     contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far)
     if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
         return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
-    bodies = FiniteCompliance(contact)
-    given = bodies, model, contact.gap, contact.weights, constraints, start
+    bodies, load = FiniteCompliance(contact), constraints.load
+    asked = replace(constraints, load=load and contact.pressing(load, contact.linear, start))
+    solver = solve_coupled if operator.coupled else solve_contact
     try:
-        solver = solve_coupled if operator.coupled else solve_contact
-        solution = solve_with_model(*given, FINITE_TOLERANCE, solver, nearer=True)
-        if solution.converged:
-            return contact.deformed(bodies.solution(solution.pressure, solution.approach))
+        for _ in range(MOST_SETTINGS):
+            given = bodies, model, contact.gap, contact.weights, asked, start
+            solution = solve_with_model(*given, FINITE_TOLERANCE, solver, nearer=True)
+            if not solution.converged:
+                break
+            start = solution.pressure
+            pressing = load and contact.pressing(load, bodies.displacement, start)
+            if load is None or abs(pressing - asked.load) <= LEANING * load:
+                return contact.deformed(bodies.solution(start, solution.approach))
+            asked = replace(asked, load=pressing)
     except FemError:
         pass  # no equilibrium from there by the linear factors
     return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)

@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
+import numpy as np
+
 from analytic.profile import Profile
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
@@ -105,13 +107,14 @@ def error_budget(
             refined = refinement.result(frugal)
             if refinement.without_laws:
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
-            wholes = {mu: variants.finest(split.whole) for mu, split in splits.items()}
+            wholes = {mu: variants.finest(split.whole).under(mu) for mu, split in splits.items()}
             break
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
                 refined = _Refined(0, _unsplit(rows), str(error), None)
-                wholes = dict.fromkeys(splits, solved.runs["finite_element"].finest)
+                own = solved.runs["finite_element"].finest
+                wholes = {mu: own.under(mu) for mu in splits}
                 break
             selection = selection.without(dropped, str(error))
     sampling = {}
@@ -169,7 +172,8 @@ def _variants(solved: Solved, tasks: Tasks, own: ModelRun | None) -> SolvedVaria
 
 
 def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelection:
-    pressure = solved.runs["half_plane"].finest.solution.pressure
+    contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)
+    pressure = max(contacts, key=np.max)
     mean = float(pressure @ pressure / pressure.sum())
     selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
     asked = solved.problem.scene.budget.effects
@@ -294,7 +298,8 @@ class _Refinement:
         for mu, parts in self.history.items():
             there = [row for row in self.rows if row.friction == mu]
             laws, window = self.with_laws.get(mu), self.solved.window
-            errors += model_errors(self.problem, window, self.runs, there, parts, laws)
+            runs = {name: run.under(mu) for name, run in self.runs.items()}
+            errors += model_errors(self.problem, window, runs, there, parts, laws)
         return errors
 
     def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:

@@ -215,9 +215,12 @@ def check_table(run: Run) -> TextTable:
     models = run.runs.values()
     rows = []
     for name, words in WORDING["residuals"].items():
-        values = [getattr(model.finest.solution.residuals, name) for model in models]
+        values = [
+            max(getattr(level.solution.residuals, name) for level in model.finest.by_friction)
+            for model in models
+        ]
         rows.append((words, *(significant(value, 2) for value in values)))
-    converged = [all(level.solution.converged for level in model.levels) for model in models]
+    converged = [all(level.converged for level in model.levels) for model in models]
     below = f"all below {significant(KKT_TOLERANCE, 1)} on every level"
     rows.append((below, *("yes" if met else "no" for met in converged)))
     return TextTable("", ("", *(LABELS[name] for name in run.runs)), tuple(rows))
