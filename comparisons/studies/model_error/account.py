@@ -107,8 +107,8 @@ def _sideways(
     runs: Mapping[str, ModelRun], whole: Level | None, friction: float
 ) -> Iterator[Figure]:
     """How far the whole model's peaks lie beside the half-plane's, and what else they differ by."""
-    other = runs["finite_element"].finest if whole is None else whole
-    own = runs["half_plane"].beside(other).solution.pressure
+    other = runs["finite_element"].finest.under(friction) if whole is None else whole
+    own = runs["half_plane"].under(friction).beside(other).solution.pressure
     found = sideways_shift(other.grid, own, other.solution.pressure)
     values = {
         "pressure_shift": found.shift,
