@@ -62,9 +62,9 @@ def complete_groups(incomplete: str) -> list[str]:
 
 
 def complete_quantities(incomplete: str) -> list[str]:
-    from comparisons.figures.quantity import HEAT_QUANTITIES, QUANTITIES
+    from comparisons.campaigns.maps.groups import SHOWN
 
-    return _beginning((*QUANTITIES, *HEAT_QUANTITIES), incomplete)
+    return _beginning(SHOWN, incomplete)
 
 
 def complete_models(incomplete: str) -> list[str]:

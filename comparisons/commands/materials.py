@@ -13,16 +13,6 @@ if TYPE_CHECKING:
 
     from comparisons.scenes.materials import Solid, Value
 
-UNITS = {
-    "youngs_modulus": "Pa",
-    "poissons_ratio": "",
-    "density": "kg/m^3",
-    "conductivity": "W/m/K",
-    "specific_heat": "J/kg/K",
-    "expansion": "1/K",
-    "yield_stress": "Pa",
-    "hardness": "Pa",
-}
 UNKNOWN = "-"
 
 
@@ -78,9 +68,11 @@ def entry_of(solid: "Solid") -> dict:
 
 
 def _value(key: str, value: "Value") -> dict:
+    from comparisons.scenes.materials import DIMENSIONS
+
     return {
         "value": value.value,
-        "unit": UNITS[key],
+        "unit": DIMENSIONS[key].si_unit,
         "error": value.error,
         "span": value.span and list(value.span),
         "sources": list(value.sources),
@@ -175,11 +167,14 @@ def page(solid: "Solid") -> "Table":
 def _shown(key: str, value: "Value") -> str:
     """A value with its unit, and its standard error or its range."""
     from comparisons.common.numbers import significant, with_unit
+    from comparisons.scenes.materials import DIMENSIONS
+
+    unit = DIMENSIONS[key].si_unit
 
     def text(number: float) -> str:
-        return with_unit(number, "Pa") if UNITS[key] == "Pa" else f"{significant(number, 4)}"
+        return with_unit(number, unit) if unit == "Pa" else significant(number, 4)
 
-    shown = text(value.value) + ("" if UNITS[key] == "Pa" else f" {UNITS[key]}")
+    shown = text(value.value) + ("" if unit == "Pa" else f" {unit}")
     if value.error is not None:
         return f"{shown} ± {text(value.error)}"
     return shown if value.span is None else f"{shown} ({' to '.join(map(text, value.span))})"

@@ -78,9 +78,6 @@ QUANTITIES: dict[str, Quantity] = {
     "tau1_field_deep": _norm("tau1 deeper than 0.5 a", "tau1 deep"),
 }
 
-# Of [heat]: judged in a table of their own, and on maps.
-HEAT_QUANTITIES = ("flash_temperature", "mean_temperature", "fraction_into_body")
-
 _SYMBOLS = {
     "tau1_max": "largest principal shear stress τ₁",
     "tau1_max_depth": "depth of the largest τ₁",

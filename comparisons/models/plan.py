@@ -8,7 +8,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.finite_element.compliance_check import no_check
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import Scene
+from comparisons.scenes.scene import Scene, sections_of
 
 
 @dataclass(frozen=True)
@@ -60,17 +60,20 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     steps = [
         *((name not in models, f"{name} model", "not asked for") for name in MODELS),
         (scene.profile is None, "refinement under asperities", "the surface is smooth"),
-        (scene.heat is None, "frictional heat", "the scene has no [heat]"),
-        (not plan.stress, "subsurface stresses", "the scene has no [stress]"),
+        *(
+            (getattr(scene, name) is None, section.STEP, f"the scene has no [{name}]")
+            for name, section in sections_of(type(scene)).items()
+            if section.STEP is not None
+        ),
         (
             plan.stress and not any(scene.load.friction),
             "stresses of the sliding traction",
             "there is no friction",
         ),
         (
-            scene.statistics is None or not half_plane,
+            scene.statistics is not None and not half_plane,
             "statistics of rough contact",
-            "they take the half-plane" if scene.statistics else "the scene has no [statistics]",
+            "they take the half-plane",
         ),
         (scene.body.hardness is None, "hardness cap", "the body has no hardness"),
     ]

@@ -13,13 +13,14 @@ from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_t
 from comparisons.models.assumptions import laws, without_law
 from comparisons.scenes.materials import kinds_like, measured_solids
 from comparisons.scenes.sections import ElasticSection
-from comparisons.studies import contact, coupling, yielding
+from comparisons.studies import contact, coupling
 from comparisons.studies.model_error.account import INPUTS, INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.show import law_range
 from comparisons.studies.scatter.study import beside_inputs, by_inputs
 from comparisons.studies.study import MODEL_ERROR, SCATTER, Run
+from comparisons.studies.subsurface import yielding
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
 AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided

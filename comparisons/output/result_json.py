@@ -29,7 +29,8 @@ from comparisons.figures.figure import (
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
 from comparisons.output.headline import headline, verdict_of
 from comparisons.studies import meaning
-from comparisons.studies.study import Run
+from comparisons.studies.ladder.show import ESCALATE_TO, SUFFICES
+from comparisons.studies.study import LADDER, Run
 
 SCHEMA = 3
 KINDS = {"scene": dict, "record": dict, "verdict": str, "why": str}
@@ -51,6 +52,11 @@ class Result:
     def figures(self) -> Figures:
         return Figures(figure for study in self.found.values() for figure in study.figures)
 
+    @property
+    def ladder(self) -> Findings:
+        """Which model suffices; empty where the run compares nothing."""
+        return self.found.get(LADDER, Findings())
+
 
 def result_of(run: Run) -> Result:
     verdict, why = verdict_of(run)
@@ -67,6 +73,8 @@ def content_of(run: Run) -> dict:
         "schema": SCHEMA,
         **{name: getattr(result, name) for name in KINDS},
         "next": list(result.next),
+        "suffices": result.ladder.said(SUFFICES),
+        "escalate_to": result.ladder.said(ESCALATE_TO),
         "coverage": COVERAGE,
         "figures": [_figure(figure) for figure in result.figures],
         "series": [_series(study, item) for study, known in findings for item in known.series],

@@ -28,9 +28,7 @@ from comparisons.models.finite_element.compliance_check import ComplianceColumn
 from comparisons.models.plan import Plan
 from comparisons.output.result_json import Result
 from comparisons.scenes.surface import SceneSurface
-from comparisons.studies import bulge, checks, comparison, contact, coupling, problem, running_in
-from comparisons.studies import quiescent_zone as zone
-from comparisons.studies import yielding as flow
+from comparisons.studies import checks, comparison, contact, coupling, problem, running_in
 from comparisons.studies.answers import study as answers
 from comparisons.studies.coupling import Couplings
 from comparisons.studies.heat import study as heat
@@ -38,6 +36,9 @@ from comparisons.studies.model_error import account
 from comparisons.studies.scatter import study as scatter
 from comparisons.studies.statistics import study as statistics
 from comparisons.studies.study import CONVERGED, MODEL_ERROR, WHY_NOT, Solved
+from comparisons.studies.subsurface import bulge
+from comparisons.studies.subsurface import quiescent_zone as zone
+from comparisons.studies.subsurface import yielding as flow
 
 SCHEMA = 2
 STRESS = ("tau1_max", "txz_max_abs", "von_mises_max")

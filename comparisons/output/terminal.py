@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 SHORT = {name: quantity.short for name, quantity in QUANTITIES.items()}
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
-# Lines that have their place; those of other studies come before that of heat.
-ORDER = ("surface", "run in", "not modelled", "another asperity", "inputs", "statistics")
-ORDER += ("asperities", "coupling", "", "heat", "yield")
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 PLAIN |= {ord("±"): "+-", ord("σ"): "s"}
@@ -179,7 +176,6 @@ def _facts(outcome: Run) -> "Table":
     for study in STUDIES:
         if study.name in outcome.found:
             rows += study.lines(outcome)
-    rows.sort(key=lambda row: ORDER.index(row[0] if row[0] in ORDER else ""))
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())
     budget = outcome.data(MODEL_ERROR)

@@ -7,7 +7,7 @@ import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Self, get_args
+from typing import Annotated, ClassVar, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic.fields import FieldInfo
@@ -290,6 +290,7 @@ class SceneSection(BaseModel):
     """One section: unknown fields are errors."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    STEP: ClassVar[str | None] = None  # of a run, that is skipped where a scene has no such section
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         """Rules between fields that do not hold: the field to change, and what is wrong with it."""

@@ -42,6 +42,7 @@ THERMAL = {
     "expansion": EXPANSION,
 }
 TYPICAL = {"yield_stress": PRESSURE, "hardness": PRESSURE}
+DIMENSIONS = ELASTIC | THERMAL | TYPICAL
 MEASURED = {"longitudinal": SPEED, "transverse": SPEED, "poissons_ratio": DIMENSIONLESS}
 # The next wider class of one with fewer than two solids of known third-order constants.
 METAL, ANY = "metal", "solid"

@@ -6,26 +6,26 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import Quantity
 from comparisons.studies import (
     answers,
-    bulge,
     checks,
     comparison,
     contact,
     coupling,
     heat,
+    ladder,
     problem,
-    quiescent_zone,
     running_in,
     scatter,
     statistics,
-    yielding,
 )
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
+from comparisons.studies.subsurface import bulge, quiescent_zone, yielding
 
 # In the order in which they are done, and their figures shown.
 STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
+    ladder.STUDY,
 )
 
 

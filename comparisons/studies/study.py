@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,6 +32,7 @@ WHY_NOT, CONVERGED = "not done", "converged"
 REPEATED = "contact_ratio"  # says again what the contact length says
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
 SCATTER = "scatter"  # the study of uncertain inputs
+LADDER = "ladder"  # the study that judges other models beside it, which no run answers for
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,9 @@ class Run:
 
     @cached_property
     def judged(self) -> Figures:
-        return Figures(figure for figure in self.figures if figure.bounds is not None)
+        """What the run answers for."""
+        judged = (figure for figure in self.figures if figure.bounds is not None)
+        return Figures(figure for figure in judged if figure.study != LADDER)
 
     @cached_property
     def model_errors(self) -> Figures:
@@ -165,6 +169,12 @@ class Study:
     tabled: tuple[str, ...] = ()
     # files of its own in the run's folder, by path: columns (n,) of a CSV by their headings
     files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = lambda run: {}
+    # on maps of the half-plane's model error: a module with its QUANTITIES there, the SECTION of a
+    # scene that has them, `check`, which raises SceneError for what has no answer, `errors_of` both
+    # models' runs, whether its section `is_alike` in a scene and in the tables of another,
+    # `usual_axes`, and its GROUPS: by name what sets a scene's fields, of the half-width [m] that
+    # smooth bodies have, and what reads the group's value of a problem, or None
+    mapped: ModuleType | None = None
     # its lines of the terminal, each with its name
     lines: Callable[[Run], list[tuple[str, str]]] = lambda run: []
 

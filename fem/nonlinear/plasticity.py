@@ -1,8 +1,9 @@
-"""Plasticity of von Mises with linear isotropic hardening, in plane strain, and a body with it.
+"""Plasticity of von Mises with hardening, in plane strain, and a body with it.
 
-Return mapping: the elastic predictor of the stress is projected onto the yield surface along its
-deviator, in closed form for linear hardening (Simo and Hughes 1998, Computational Inelasticity, box
-3.2, with the consistent tangent, which makes Newton's method quadratic).
+Return mapping: the elastic predictor of the stress, less the back stress, is projected onto the
+yield surface along its deviator (Simo and Hughes 1998, Computational Inelasticity, boxes 3.1 and
+3.2, with the consistent tangent, which makes Newton's method quadratic). Linear kinematic hardening
+needs no state of its own: the back stress is (2/3) H' ep.
 
     f(u) = K u - sum_q w_q B_q' 2 G ep_q        K_t(u) = K - sum_q w_q B_q' (C - C_ep) B_q
 
@@ -15,9 +16,10 @@ load of a flat punch is right.
 Nomenclature
     e, g       strains exx, ezz and gxz = 2 exz; eyy = 0
     ep, k      plastic strain and equivalent plastic strain, sum of sqrt(2/3 dep:dep)
-    s, q       deviator of stress, and sqrt(3/2 s:s), the equivalent stress [Pa]
-    Y, H       yield stress in tension [Pa]; its derivative by k [Pa]
-    G, dk      shear modulus [Pa]; increment of k, (q - Y - H k) / (3 G + H)
+    s, q       deviator of stress less back stress, and sqrt(3/2 s:s), the equivalent stress [Pa]
+    Y(k), H    flow stress in tension [Pa] (`analytic.material.hardening`); its derivative [Pa]
+    H'         kinematic modulus [Pa]
+    G, dk      shear modulus [Pa]; increment of k, from q - (3 G + H') dk = Y(k + dk)
     C, C_ep    elastic and consistent tangent [Pa]
     u, B, w    displacement [m], strains of the shape functions [1/m], area of a point [m^2]"""
 
@@ -27,6 +29,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from analytic.material import Material
+from analytic.material.hardening import Hardening
 from fem.body.elasticity import ElasticBody
 from fem.body.sums import matrix_of, nodal_sums
 from fem.body.triangle import GAUSS, jacobians, shapes, slopes
@@ -38,20 +41,10 @@ GAUSS_WEIGHT = 1.0 / 6.0  # of each of the three points on the reference triangl
 
 @dataclass(frozen=True)
 class ElasticPlastic:
-    """A metal: `elastic` until its equivalent stress reaches `yield_stress` [Pa] > 0."""
+    """A metal: `elastic` until its equivalent stress reaches the yield stress of `hardening`."""
 
     elastic: Material
-    yield_stress: float
-    # derivative of the yield stress by the equivalent plastic strain [Pa] >= 0; a bar in tension
-    # has the tangent modulus E H / (E + H)
-    hardening_modulus: float = 0.0
-
-    def __post_init__(self) -> None:
-        if not 0.0 < self.yield_stress < np.inf:
-            raise ValueError(f"the yield stress must be positive, not {self.yield_stress:g} Pa")
-        hardening = self.hardening_modulus
-        if not 0.0 <= hardening < np.inf:
-            raise ValueError(f"the hardening modulus must not be negative, not {hardening:g} Pa")
+    hardening: Hardening
 
 
 @dataclass(frozen=True)
@@ -79,22 +72,24 @@ class PlasticStep:
 
 def return_mapping(metal: ElasticPlastic, strain: np.ndarray, before: PlasticState) -> PlasticStep:
     """The step from the state `before` to a strain (k, 3) exx, ezz, gxz."""
-    shear, hardening = metal.elastic.shear_modulus, metal.hardening_modulus
+    shear, hardening = metal.elastic.shear_modulus, metal.hardening
     trial = 2.0 * shear * (strain @ DEVIATOR.T - before.strain)
+    if hardening.kinematic:
+        trial -= 2.0 / 3.0 * hardening.kinematic * before.strain
     across = trial[:, 0] + trial[:, 1]
     square = trial[:, 0] ** 2 + trial[:, 1] ** 2 + across**2 + 2.0 * trial[:, 2] ** 2
     q = np.sqrt(1.5 * square)
-    excess = q - metal.yield_stress - hardening * before.equivalent
-    yields = excess > 0.0
+    yields = q > hardening.stress(before.equivalent)
     trial, q = trial[yields], q[yields]
-    rise = excess[yields] / (3.0 * shear + hardening)
+    stiffness = 3.0 * shear + hardening.kinematic
+    rise = hardening.increment(q, before.equivalent[yields], stiffness)
 
     plastic, equivalent = before.strain.copy(), before.equivalent.copy()
     along = 1.5 * trial / q[:, None]
     plastic[yields] += rise[:, None] * along
     equivalent[yields] += rise
     turned = 6.0 * shear**2 * rise / q
-    stiff = 4.0 * shear**2 / (3.0 * shear + hardening)
+    stiff = 4.0 * shear**2 / (stiffness + hardening.slope(equivalent[yields]))
     softening = turned[:, None, None] * DEVIATOR
     softening += (stiff - 2.0 / 3.0 * turned)[:, None, None] * along[:, :, None] * along[:, None]
     return PlasticStep(PlasticState(plastic, equivalent), yields, softening)
@@ -139,10 +134,14 @@ class PlasticBody:
         self._stiffness = body.stiffness()
         self.state = PlasticState.virgin(self.areas.size)
 
+    def gradient(self, displacement: np.ndarray) -> np.ndarray:
+        """du_i/dx_j (3m, 2, 2) of a displacement (n, 2) [m]."""
+        nodal = displacement[self.body.elements]
+        return (nodal.transpose(0, 2, 1)[:, None] @ self._slopes).reshape(-1, 2, 2)
+
     def strain(self, displacement: np.ndarray) -> np.ndarray:
         """exx, ezz, gxz (3m, 3) of a displacement (n, 2) [m]."""
-        nodal = displacement[self.body.elements]
-        slope = (nodal.transpose(0, 2, 1)[:, None] @ self._slopes).reshape(-1, 2, 2)
+        slope = self.gradient(displacement)
         return np.column_stack([slope[:, 0, 0], slope[:, 1, 1], slope[:, 0, 1] + slope[:, 1, 0]])
 
     def step(self, displacement: np.ndarray) -> PlasticStep:

@@ -177,6 +177,12 @@ def smooth_tables() -> dict:
 
 
 @pytest.fixture(scope="session")
+def wavy_tables() -> dict:
+    """A rough one with a hardness and two friction coefficients, as tables."""
+    return WAVY
+
+
+@pytest.fixture(scope="session")
 def smooth_outcome() -> Run:
     return finished_run(SMOOTH)
 

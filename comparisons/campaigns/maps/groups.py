@@ -24,6 +24,7 @@ from types import ModuleType
 import numpy as np
 
 from analytic.surface.roughness import shortest_wavelength
+from comparisons import studies
 from comparisons.common.errors import InputError, SceneError
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import Problem, problem_of
@@ -31,7 +32,6 @@ from comparisons.scenes.fields import plain
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.heat import mapped as heat
 
 # Fields of made profiles that are lengths along x, and the one that heights are proportional to.
 WAVES = {
@@ -65,10 +65,8 @@ class Group:
     vanishes: bool = True  # the effect goes to zero with the group
 
 
-# Beside the contact, what maps may show: modules, each with its QUANTITIES, the SECTION of a scene
-# that has them, `check`, which raises SceneError for what has no answer, `errors_of` both models'
-# runs, whether its section `is_alike` in a scene and in the tables of another, and `usual_axes`.
-STUDIES = (heat,)
+# What maps may show beside the contact.
+STUDIES = tuple(study.mapped for study in studies.STUDIES if study.mapped is not None)
 SHOWN = (*QUANTITIES, *(name for study in STUDIES for name in study.QUANTITIES))
 
 
@@ -232,8 +230,8 @@ def _set_slope(scene: Scene, value: float) -> Changes:
     return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 
-def _set_peclet(scene: Scene, value: float) -> Changes:
-    return heat.set_peclet(scene, value, _half_width(scene))
+def _set_by_study(set_to: Callable[..., Changes], scene: Scene, value: float) -> Changes:
+    return set_to(scene, value, _half_width(scene))
 
 
 def _set_coating(scene: Scene, value: float) -> Changes:
@@ -254,9 +252,12 @@ FUNCTIONS = {  # set_to, value_of
     "peak_pressure_over_hardness": (_set_hardness, _none),
     "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, _none),
     "modulus_ratio": (_set_modulus_ratio, _none),
-    "peclet": (_set_peclet, heat.peclet),
     "coating_over_a": (_set_coating, _none),
-    "conductivity_ratio": (heat.set_conductivity, _none),
+}
+FUNCTIONS |= {
+    name: (partial(_set_by_study, set_to), value_of)
+    for study in STUDIES
+    for name, (set_to, value_of) in study.GROUPS.items()
 }
 GROUPS = {
     name: Group(*FUNCTIONS[name], **fields)

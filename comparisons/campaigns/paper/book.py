@@ -16,6 +16,12 @@ from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.penetration import BOOK_POISSON, relative_penetration
 from analytic.statistics.rough_bodies import RoughContact, bearing_of, rough_contact
 
+# Numbers and titles of the page's sections; heading and figures of the last, without pictures.
+SECTIONS = {
+    "seireg": "Seireg, chapter 4: rough contact",
+    "seireg-heat": "Seireg, chapter 5: heat",
+}
+SHORT_FORMULAS = "Short formulas, and the partition", ("5.2", "5.3", "5.5", "ch. 5"), ()
 SPHERE = 10e-3  # m
 SETS = {
     "A": Summits(density=500e6, radius=0.2e-3, deviation=0.5e-6),

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.paper import pictures
+from comparisons.campaigns.paper.book import SECTIONS, SHORT_FORMULAS
 from comparisons.campaigns.paper.claims import (
     FIGURES,
     OUTCOMES,
@@ -58,7 +59,6 @@ COMPARED = {
 }
 DIGITS = 4  # of a number with an uncertainty
 PANELS = {"txz": "bcd", "tau1": "efg"}  # of figures 6 and 8 to 10
-BOOK = "seireg"  # begins the names of sections
 
 Block = tuple[str, tuple[str, ...], Sequence[Picture]]  # heading, figures of its claims, pictures
 Section = tuple[str, str, list[tuple[str, Sequence[Picture], list[dict]]]]  # number, title, blocks
@@ -174,7 +174,7 @@ def sections_of(paper: "Paper", callback: ProgressCallback) -> list[Section]:
     sections = []
     with drawing():
         for number, title, blocks in _planned(paper.runs):
-            drawn = "Seireg's figures" if number.startswith(BOOK) else f"figure {number}"
+            drawn = "Seireg's figures" if number in SECTIONS else f"figure {number}"
             callback(f"drawing {drawn}")
             rows = [
                 (heading, shown, [claim_row(j) for j in paper.judged if j.claim.figure in figures])
@@ -193,9 +193,8 @@ def _planned(runs: dict[str, Run]) -> Iterator[tuple[str, str, Iterable[Block]]]
         number, surface = FIGURES[scene], SURFACES[scene]
         yield number, f"Figure {number}: {surface}", _surface(runs[scene], scales, scene)
     yield "11", "Figure 11: principal shear over depth", _depths(runs)
-    yield BOOK, "Seireg, chapter 4: rough contact", _rough_spheres()
-    heat = "Short formulas, and the partition", ("5.2", "5.3", "5.5", "ch. 5"), ()
-    yield f"{BOOK}-heat", "Seireg, chapter 5: heat", [heat]
+    for section, blocks in zip(SECTIONS.items(), (_rough_spheres(), [SHORT_FORMULAS]), strict=True):
+        yield *section, blocks
 
 
 def _trace(run: Run, scales: pictures.Scales) -> Iterator[Block]:

@@ -25,7 +25,13 @@ from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import layer_thickness
-from comparisons.studies.quiescent_zone import QUIET, ShearDip, mean_shear, shear_dip, zone_of
+from comparisons.studies.subsurface.quiescent_zone import (
+    QUIET,
+    ShearDip,
+    mean_shear,
+    shear_dip,
+    zone_of,
+)
 
 NEAR, DEEP = 0.1, 0.5  # a: asperities shear above the one, the smooth contact below the other
 AGREEMENT = 0.05  # of the smooth maximum: fields nearer to each other than that agree

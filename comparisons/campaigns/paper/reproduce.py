@@ -30,9 +30,10 @@ from comparisons.models.problem import Levels, problem_of
 from comparisons.output.result_json import content_of
 from comparisons.runs.run import solve
 from comparisons.scenes.scene import Scene
-from comparisons.studies import comparison, contact, quiescent_zone
+from comparisons.studies import comparison, contact
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run, unsolved
+from comparisons.studies.subsurface import quiescent_zone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 

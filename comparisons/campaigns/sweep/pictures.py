@@ -11,8 +11,8 @@ from comparisons.common.units import DIMENSIONS, UnitError, to_si
 from comparisons.drawing import style
 from comparisons.drawing.curves import over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
-from comparisons.studies import bulge, quiescent_zone
-from comparisons.studies.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
+from comparisons.studies.subsurface import bulge, quiescent_zone
+from comparisons.studies.subsurface.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

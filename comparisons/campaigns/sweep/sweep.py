@@ -26,7 +26,7 @@ from comparisons.models.problem import problem_of
 from comparisons.output.flat_csv import COLUMNS, csv_text, harmless, rows_of
 from comparisons.output.result_json import result_of
 from comparisons.scenes.scene import Scene
-from comparisons.studies import bulge, quiescent_zone
+from comparisons.studies.subsurface import bulge, quiescent_zone
 
 if TYPE_CHECKING:
     from rich.console import Group

@@ -12,6 +12,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, assessed, solve_contact
 from analytic.grid import HatGrid
+from analytic.material.hardening import Hardening
 from analytic.operators.half_plane import ModelOperator
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
 from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
@@ -155,7 +156,8 @@ def pressed_plastically(
     friction = scene.load.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     body, loads = scene.body, (constraints.load, 0.0)
-    metal = ElasticPlastic(body.material, body.yield_stress, body.hardening_modulus or 0.0)
+    hardening = Hardening(body.yield_stress, body.hardening_modulus or 0.0)
+    metal = ElasticPlastic(body.material, hardening)
     given = rough, metal, gap, weights
     start = linear.pressure
     body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, travel)

@@ -115,7 +115,7 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
     data = {name: study.data for name, study in run.found.items() if study.data is not None}
     if MODEL_ERROR in data:
         shown = {friction: _reduced(level, [level]) for friction, level in wholes.items()}
-        data[MODEL_ERROR] = replace(data[MODEL_ERROR], wholes=shown)
+        data[MODEL_ERROR] = replace(data[MODEL_ERROR], wholes=shown, solutions={})
     surface = run.problem.surface
     if surface.info is not None:
         # the trace as read stands in record.json; the file that it came from is not everybody's

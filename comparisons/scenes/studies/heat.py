@@ -34,6 +34,7 @@ CONSTANTS = ("conductivity", "density", "specific_heat")
 class HeatSection(SceneSection):
     """By default the roller takes the contact with it: the body sees a moving source."""
 
+    STEP = "frictional heat"
     speed: Annotated[float, Number(SPEED, above=0.0)]  # [m/s] of sliding
     # speed over the mean of both surfaces' speeds past the contact: -2, the contact stays on the
     # body; 2, it stays on the roller

@@ -12,6 +12,7 @@ METALS = ("ferrous", "nonferrous")
 class StatisticsSection(SceneSection):
     """Random traces, cut-offs of the table of summits, and which thresholds of h/R hold."""
 
+    STEP = "statistics of rough contact"
     traces: Annotated[int, Whole(4, 256)] = 8
     seed: Annotated[int, Whole(0, 2**32 - 1)] = 0
     cutoffs: Annotated[tuple[float, ...], Several(Number(LENGTH, above=0.0))] | None = None

@@ -33,6 +33,7 @@ SLOWEST, FASTEST = 1e-3, 1e4
 # For thermal stresses, of the body: kappa/V is ten a then, a fortieth of what is meshed
 LEAST_STRESSED = 0.05
 BODIES = ("body", "roller")
+HEAT_QUANTITIES = ("flash_temperature", "mean_temperature", "fraction_into_body")
 # Of the roller's radius: the largest distance from the contact where it has its bulk temperature;
 # what is left of the disc farther off is a narrow lens.
 FARTHEST = 1.2

@@ -7,13 +7,12 @@ from collections.abc import Mapping
 
 from comparisons.common.errors import SceneError
 from comparisons.figures.figure import Figures
-from comparisons.figures.quantity import HEAT_QUANTITIES
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
-from comparisons.studies.heat.half_space import check_heat, peclet_numbers
+from comparisons.studies.heat.half_space import HEAT_QUANTITIES, check_heat, peclet_numbers
 
-# As `comparisons.campaigns.maps.groups.STUDIES` asks for them.
+# As `Study.mapped` has them; for GROUPS see the end.
 QUANTITIES, SECTION, check = HEAT_QUANTITIES, "heat", check_heat
 
 
@@ -64,6 +63,12 @@ def set_peclet(scene: Scene, value: float, half_width: float) -> dict[str, float
     return {"heat.speed": 2.0 * diffusivity * value / (half_width * abs(share))}
 
 
-def set_conductivity(scene: Scene, value: float) -> dict[str, float]:
+def set_conductivity(scene: Scene, value: float, half_width: float) -> dict[str, float]:
     """The coating's, at which it has a ratio to the body's."""
     return {"heat.coating_conductivity": value * scene.heat.body_conductivity}
+
+
+GROUPS = {
+    "peclet": (set_peclet, peclet),
+    "conductivity_ratio": (set_conductivity, lambda problem: None),
+}

@@ -13,12 +13,13 @@ import numpy as np
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
-from comparisons.figures.quantity import HEAT_QUANTITIES, MODELS, Quantity
+from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.heat.half_space import (
+    HEAT_QUANTITIES,
     HeatedContact,
     HeatedStress,
     check_heat,

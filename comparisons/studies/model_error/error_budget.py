@@ -24,6 +24,7 @@ from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
 from comparisons.figures.figure import Figure, is_decided
+from comparisons.figures.quantity import WHOLE
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -40,13 +41,13 @@ from comparisons.studies.model_error.contributions import (
 )
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import LawSolutions, OpenLaw, law_variants
-from comparisons.studies.model_error.model_error import ModelError, model_errors
+from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.quantities_of_interest import quantities_of, relative_sizes
 from comparisons.studies.model_error.selection import EffectSelection, select_effects
 from comparisons.studies.model_error.solutions import SolvedVariants
 from comparisons.studies.model_error.variants import ModelVariant
 from comparisons.studies.study import Solved
-from comparisons.studies.yielding import flow_assessment
+from comparisons.studies.subsurface.yielding import flow_assessment
 
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
@@ -71,6 +72,10 @@ class ErrorBudget:
     wholes: dict[float, Level] = field(default_factory=dict)
     # which further level of the whole cannot change a verdict, else None
     left_out: str | None = None
+    # by friction, what else is compared with the whole; empty where it has no solution, and on disk
+    solutions: dict[float, Solutions] = field(default_factory=dict)
+    # by effect, and of the whole beside the scene's own: seconds, and largest memory [bytes]
+    took: dict[str, tuple[float, int]] = field(default_factory=dict)
 
     def of(self, quantity: str, friction: float) -> ModelError:
         wanted = quantity, friction
@@ -129,7 +134,25 @@ def error_budget(
         seconds=variants.seconds,
         wholes=wholes,
         left_out=refined.left_out,
+        solutions=refined.solutions,
+        took=_took(splits, variants),
     )
+
+
+def _took(
+    splits: dict[float, SplitVariants], variants: SolvedVariants
+) -> dict[str, tuple[float, int]]:
+    """Of each effect by itself and of the whole, of all friction coefficients together."""
+    wanted: dict[str, dict[ModelVariant, None]] = {}
+    for split in splits.values():
+        wanted.setdefault(WHOLE, {}).update(dict.fromkeys(split.wholes))
+        for name, (with_it, _) in split.pairs.items():
+            wanted.setdefault(name, {})[with_it] = None
+    took = {}
+    for name, solved in wanted.items():
+        costs = [variants.took.get(variant, (0.0, 0)) for variant in solved]
+        took[name] = math.fsum(cost[0] for cost in costs), max(cost[1] for cost in costs)
+    return took
 
 
 def announce_effects(
@@ -200,6 +223,7 @@ class _Refined:
     errors: list[ModelError]
     unsplit: str | None  # why these are not split
     left_out: str | None  # which level cannot change a verdict
+    solutions: dict[float, Solutions] = field(default_factory=dict)  # by friction
 
 
 class _Refinement:
@@ -241,7 +265,7 @@ class _Refinement:
                 self._take(number, alone=False)
         parts = (level for of_friction in self.history.values() for level in of_friction)
         why = next((level.unsplit for level in parts if level.unsplit), None)
-        return _Refined(levels, self._errors(), why, left_out)
+        return _Refined(levels, self._errors(), why, left_out, self._solutions())
 
     def _take_wholes(self, frugal: EffectSelection | None) -> str | None:
         """As many levels of the wholes as it takes; which one cannot change a verdict."""
@@ -294,13 +318,19 @@ class _Refinement:
         return any(self.solved.is_open(variant, number) for variant in self.every)
 
     def _errors(self) -> list[ModelError]:
-        errors = []
+        return [
+            solutions.error(row)
+            for mu, solutions in self._solutions().items()
+            for row in self.rows
+            if row.friction == mu
+        ]
+
+    def _solutions(self) -> dict[float, Solutions]:
+        problem, window, made = self.problem, self.solved.window, {}
         for mu, parts in self.history.items():
-            there = [row for row in self.rows if row.friction == mu]
-            laws, window = self.with_laws.get(mu), self.solved.window
             runs = {name: run.under(mu) for name, run in self.runs.items()}
-            errors += model_errors(self.problem, window, runs, there, parts, laws)
-        return errors
+            made[mu] = Solutions(problem, window, runs, parts, mu, self.with_laws.get(mu))
+        return made
 
     def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:
         """Whether a finer solution leaves every verdict as it is."""

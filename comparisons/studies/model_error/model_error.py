@@ -9,7 +9,7 @@ value at another one, what lies between the two is the jump, no effect. Norms do
 error is the norm of the half-plane against the whole on the level of the effects, with the far
 boundary of the models' difference."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -78,34 +78,17 @@ class ModelError:
         return bool(sizes) and abs(self.interaction) > max(sizes)
 
 
-def model_errors(
-    problem: Problem,
-    window: Window | None,
-    runs: dict[str, ModelRun],
-    rows: list[Figure],
-    history: list[EffectContributions],
-    laws: LawSolutions | None = None,
-) -> list[ModelError]:
-    """One for each row, all of one friction coefficient.
-
-    rows     the models' comparison at that friction
-    history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
-             the last of these
-    laws     the whole there with other laws of elasticity; None: its own is known"""
-    solutions = _Solutions(problem, window, runs, history, rows[0].friction, laws)
-    return [solutions.error(row) for row in rows]
-
-
 @dataclass(frozen=True)
-class _Solutions:
+class Solutions:
     """What was solved at one friction coefficient, and the model errors that follow."""
 
     problem: Problem
     window: Window | None
     runs: dict[str, ModelRun]
+    # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last
     history: list[EffectContributions]
     friction: float
-    laws: LawSolutions | None = None
+    laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -308,6 +291,63 @@ class _Solutions:
         beside = stated["domain"] + stated["increments"]
         parts = row.numerical, abs(there - row.value), lacking
         return norm.value, difference_of_norms(norm.uncertainty, beside, parts)
+
+    def of_variants(self, name: str, levels: Sequence[QuantitiesOfInterest]) -> ModelError:
+        """Of finite elements with other effects, on the last of the levels of the effects."""
+        at = self.whole.leading(name)
+        if QUANTITIES[name].of_pair:
+            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=False)]
+            return self._plain_error(name, self._estimate(name, apart, 0), at)
+        scale, middle = self._scale_of(name, at), self._spread(name, at).middle
+        apart = [
+            (_leading(one, name) - (1.0 + middle) * _leading(whole, name)) / scale
+            for one, whole in zip(levels, self.wholes, strict=False)
+        ]
+        if not any(apart):
+            return self._plain_error(name, Estimate(0.0, 0.0), at)
+        resolution = self.resolutions.get(name, 0.0)
+        unsure = grid_convergence(apart, self._order(name), resolution).uncertainty + self.unsolved
+        return self._plain_error(name, Estimate(float(apart[-1]), float(unsure)), at)
+
+    def of_exact(
+        self, name: str, levels: Sequence[QuantitiesOfInterest], numerical: float
+    ) -> ModelError:
+        """Of a model without numerical error, on the levels of the effects.
+
+        numerical  relative uncertainty of the scene's own finite elements, or absolute of a norm"""
+        at = self.whole.leading(name)
+        lacking = self._estimate(name, self.missing, at).uncertainty
+        if QUANTITIES[name].of_pair:
+            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=True)]
+            norm = self._estimate(name, apart, 0)
+            unsure = norm.uncertainty + numerical + lacking
+            return self._plain_error(name, Estimate(norm.value, unsure), at)
+        scale, value = self._scale_of(name, at), _leading(levels[-1], name)
+        numerical *= abs(_leading(self.own[-1], name)) / scale
+        unsure = float(difference_of_figures(numerical, value / scale, lacking))
+        value = float((value - self._figure(name, at)) / scale)
+        return self._plain_error(name, Estimate(value, unsure), at)
+
+    def of_whole(self, name: str, numerical: float) -> ModelError:
+        """What is not known of the whole itself."""
+        at = self.whole.leading(name)
+        lacking = self._estimate(name, self.missing, at).uncertainty
+        return self._plain_error(name, Estimate(0.0, numerical + lacking), at)
+
+    def _scale_of(self, name: str, at: int) -> float:
+        return _scale(self._figure(name, at), name, self.problem)
+
+    def _plain_error(self, name: str, size: Estimate, at: int) -> ModelError:
+        scale = 1.0 if QUANTITIES[name].of_pair else self._scale_of(name, at)
+        law = self._law(name, at)
+        return ModelError(
+            name, self.friction, {}, 0.0, size.value, size.uncertainty, scale, law=law
+        )
+
+
+def _leading(quantities: QuantitiesOfInterest, name: str) -> float:
+    """A figure [SI] at the model's own largest value."""
+    return float(quantities.figures[name][quantities.leading(name)])
 
 
 def _competing(

@@ -47,7 +47,9 @@ class SolvedVariants:
     # why a variant has no solution, by variant and number of the level
     failed: dict[tuple[ModelVariant, int], NotComputedError] = field(default_factory=dict)
     seconds: float = 0.0  # that the variants took, of all processes together
-    # the same by the laws of cost [s], by variant and number of the level
+    # the same [s] by variant, and the largest memory of its process [bytes]
+    took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
+    # the seconds by the laws of cost [s], by variant and number of the level
     expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
     # the variants whose finest level is kept, with its fields; by these, the level
     wholes: dict[ModelVariant, Level | None] = field(default_factory=dict)
@@ -125,7 +127,10 @@ class SolvedVariants:
 
     def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
         """Note the solution of a variant on a level."""
-        self.seconds += sum(level.seconds.values())
+        seconds = sum(level.seconds.values())
+        self.seconds += seconds
+        before, memory = self.took.get(variant, (0.0, 0))
+        self.took[variant] = before + seconds, max(memory, level.peak_memory)
         if variant in self.wholes:
             self.wholes[variant] = level
         self.expected[variant, number] = level.expected_seconds

@@ -8,9 +8,14 @@ from comparisons.drawing.style import drawing
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
-from comparisons.studies import bulge
-from comparisons.studies.bulge import QUANTITIES, bulge_picture, bulges_of, elastic_energy
 from comparisons.studies.study import unsolved
+from comparisons.studies.subsurface import bulge
+from comparisons.studies.subsurface.bulge import (
+    QUANTITIES,
+    bulge_picture,
+    bulges_of,
+    elastic_energy,
+)
 
 RADIUS, PRESSURE = 10e-3, 1e9
 SLIDING = {

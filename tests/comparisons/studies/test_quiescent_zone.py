@@ -12,8 +12,8 @@ from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.window import window_of
 from comparisons.runs.run import run
-from comparisons.studies import quiescent_zone as q
 from comparisons.studies.study import WHY_NOT
+from comparisons.studies.subsurface import quiescent_zone as q
 
 Z = np.linspace(0.0, 1.0, 101) ** 2
 RIPPLE = 0.04 * np.cos(400.0 * Z) * np.exp(-((Z / 0.03) ** 2))  # near the surface, no zone's

@@ -9,7 +9,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.output.headline import headline, verdict_of
 from comparisons.output.junit import run_cases_of
 from comparisons.runs.run import run
-from comparisons.studies.yielding import flow_assessment, flow_sentence, flow_table
+from comparisons.studies.subsurface.yielding import flow_assessment, flow_sentence, flow_table
 
 GOLDEN = 0.5 * (1.0 + 5.0**0.5)
 SHEAR = GOLDEN**-2.5  # largest principal shear over the peak pressure, without friction

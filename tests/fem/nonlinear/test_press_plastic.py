@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Material
+from analytic.material.hardening import Hardening
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
@@ -39,7 +40,7 @@ class Scene:
         material = Material(STEEL.youngs_modulus * unit, NU)
         modulus = material.plane_strain_modulus / (1 + elastic)
         self.elastic = elastic
-        self.metal = ElasticPlastic(material, unit, hardening * unit)
+        self.metal = ElasticPlastic(material, Hardening(unit, hardening * unit))
         self.hertz = hertz_from_peak_pressure(ratio * unit, 0.5 * modulus / (ratio * unit), modulus)
         body = elastic_body(mesh, material, support or Support("bonded", "fixed"))
         pitch = 1.0 / edges
@@ -260,7 +261,7 @@ def test_units_do_not_matter(small):
 def test_fields_of_a_linear_stress_are_exact(structured_block):
     mesh = structured_block(np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 1.0, 4), seed=1)
     body = elastic_body(mesh, STEEL, Support())
-    plastic = PlasticBody(body, ElasticPlastic(STEEL, 1.0))
+    plastic = PlasticBody(body, ElasticPlastic(STEEL, Hardening(1.0)))
     x, z = body.nodes.T
     displacement = np.stack([x * z + x**2, z**2 - x * z], axis=-1)
     contact = PlasticContact(1.0, np.zeros(1), 0.0, displacement, plastic.state, 1)
@@ -406,7 +407,7 @@ def test_the_bulge_on_another_mesh(small):
         scene = Scene(mesh, 2.4, 6, hardening=10.0)
         rise, even = (bulge(scene, scene.press([1.0], mu)[1][0]) for mu in (0.3, 0.0))
         elastic = Scene(mesh, 2.4, 6, hardening=1e6)
-        elastic.metal = ElasticPlastic(elastic.metal.elastic, 1e3)
+        elastic.metal = ElasticPlastic(elastic.metal.elastic, Hardening(1e3))
         found.append(rise - bulge(elastic, elastic.press([1.0], 0.3)[1][0]))
         assert np.abs(even).max() < 0.05 * found[-1].max()
     assert found[0].max() == pytest.approx(found[1].max(), rel=0.05)

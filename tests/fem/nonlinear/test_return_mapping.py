@@ -6,14 +6,28 @@ from blocks import hooke
 from scipy.integrate import solve_ivp
 
 from analytic.material import Material
+from analytic.material.hardening import Hardening
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticState, return_mapping, stress
 
 E, Y = 200.0, 0.5
 HARDENING = [0.0, 15.0]
+LAWS = {
+    "perfect": Hardening(Y),
+    "linear": Hardening(Y, 15.0),
+    "table": Hardening(Y, table=((0.0, Y), (0.004, 0.7), (0.02, 0.9), (0.1, 1.0))),
+    "voce": Hardening(Y, voce=(0.9, 60.0)),
+    "ludwik": Hardening(Y, ludwik=(1.5, 0.3)),
+    "kinematic": Hardening(Y, voce=(0.9, 60.0), kinematic=15.0),
+}
+
+
+@pytest.fixture(params=LAWS)
+def law(request):
+    return ElasticPlastic(Material(E, 0.3), LAWS[request.param])
 
 
 def metal(hardening=0.0, poisson=0.3, unit=1.0):
-    return ElasticPlastic(Material(E * unit, poisson), Y * unit, hardening * unit)
+    return ElasticPlastic(Material(E * unit, poisson), Hardening(Y * unit, hardening * unit))
 
 
 def led(law, path):
@@ -143,12 +157,10 @@ def test_plane_strain_tension_converges_to_the_rates(hardening):
     assert errors[-1] < 2e-3
 
 
-@pytest.mark.parametrize("hardening", HARDENING)
 @pytest.mark.parametrize("size", [1.0, 30.0])
-def test_tangent_is_the_derivative(hardening, size):
+def test_tangent_is_the_derivative(law, size):
     """Central differences of the stress, from a state with a history, at every point at once."""
     random = np.random.default_rng(3)
-    law = metal(hardening)
     before = return_mapping(
         law, 4.0 * Y / E * random.normal(size=(40, 3)), PlasticState.virgin(40)
     ).state
@@ -171,21 +183,41 @@ def test_tangent_is_the_derivative(hardening, size):
     np.testing.assert_allclose(step.softening, step.softening.transpose(0, 2, 1), atol=1e-13 * E)
 
 
-@pytest.mark.parametrize("hardening", HARDENING)
-def test_stress_ends_on_the_yield_surface(hardening):
+def test_stress_ends_on_the_yield_surface(law):
     random = np.random.default_rng(5)
-    law = metal(hardening)
     strain = 10.0 * Y / E * random.normal(size=(200, 3))
     step = return_mapping(law, strain, PlasticState.virgin(200))
     inside, across = stress(law, strain, step.state)
-    reached = Y + hardening * step.state.equivalent
-    q = equivalent(inside.T, across)
+    reached = law.hardening.stress(step.state.equivalent)
+    exx, ezz, exz = 2.0 / 3.0 * law.hardening.kinematic * step.state.strain.T
+    q = equivalent(inside.T - [exx, ezz, exz], across + exx + ezz)
     np.testing.assert_allclose(q[step.yields], reached[step.yields], rtol=1e-12)
     assert np.all(q[~step.yields] < Y)
     assert 0 < np.count_nonzero(~step.yields) < 50
     # what was reached is elastic when it is reached again, but for rounding
     again = return_mapping(law, strain, step.state)
     np.testing.assert_allclose(again.state.strain, step.state.strain, atol=1e-14)
+
+
+def test_a_bar_sheared_to_and_fro():
+    """Linear: after a reversal the isotropic metal yields at the stress that it had reached, the
+    kinematic one when the stress has changed by 2 Y/sqrt 3; both harden by G H / (3 G + H)."""
+    shear, twist = E / 2.6, 5e-3
+    last = np.array([[0.0, 0.0, -twist]])
+    first = Y / np.sqrt(3.0)
+    slope = shear * 15.0 / (3.0 * shear + 15.0)
+    there = first + slope * (twist - first / shear)
+    for hardening, back in (
+        (Hardening(Y, 15.0), there),
+        (Hardening(Y, kinematic=15.0), 2.0 * first - there),
+    ):
+        law = ElasticPlastic(Material(E, 0.3), hardening)
+        (_, _, reached), _, state = led(law, -last)
+        assert reached == pytest.approx(there, rel=1e-12)
+        state = return_mapping(law, last, state).state
+        ((_, _, found),), _ = stress(law, last, state)
+        onset = twist - (there + back) / shear
+        assert found == pytest.approx(-back - slope * (onset + twist), rel=1e-12)
 
 
 def test_units_do_not_matter():
@@ -205,12 +237,3 @@ def test_no_stress_no_flow(poisson):
     step = return_mapping(metal(0.0, poisson), np.zeros((1, 3)), PlasticState.virgin(1))
     assert not step.yields.any()
     assert np.isfinite(step.state.strain).all()
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [((0.0, 0.0), "yield stress"), ((np.inf, 0.0), "yield stress"), ((1.0, -1.0), "hardening")],
-)
-def test_wrong_metals_are_refused(given, message):
-    with pytest.raises(ValueError, match=message):
-        ElasticPlastic(Material(E, 0.3), *given)

@@ -25,9 +25,9 @@ from comparisons.drawing.field import (
 )
 from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.studies.contact import peak_position
-from comparisons.studies.quiescent_zone import NAME as ZONE
-from comparisons.studies.quiescent_zone import zones_of
 from comparisons.studies.study import Run
+from comparisons.studies.subsurface.quiescent_zone import NAME as ZONE
+from comparisons.studies.subsurface.quiescent_zone import zones_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

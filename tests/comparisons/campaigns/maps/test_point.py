@@ -9,10 +9,10 @@ from comparisons.campaigns.grid import FAILED, SOLVED, Point, answered
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.point import is_open, solve_point
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import HEAT_QUANTITIES
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.problem import problem_of
 from comparisons.scenes.scene import Scene
+from comparisons.studies.heat.half_space import HEAT_QUANTITIES
 
 RIGID = {
     "roller": {"radius": 0.01, "rigid": True},

@@ -13,7 +13,7 @@ import pytest
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.studies.model_error.contributions import EffectContributions
-from comparisons.studies.model_error.model_error import ModelError, model_errors
+from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 
 PLACES = np.array([-30e-6, 0.0, 40e-6])
@@ -53,7 +53,8 @@ def errors(
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
     ):
-        return {each.quantity: each for each in model_errors(problem, None, runs, rows, history)}
+        solutions = Solutions(problem, None, runs, history, rows[0].friction)
+        return {row.quantity: solutions.error(row) for row in rows}
 
 
 def test_an_effect_that_moves_the_maximum_is_measured_where_the_whole_has_it(problem_with):

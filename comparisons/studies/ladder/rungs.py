@@ -1,0 +1,215 @@
+"""The models of a scene from the cheapest to the whole, each with its errors against the whole.
+
+In: an error budget, whose finite elements are solved already. Out: a rung a model. Hertz's contact
+is a closed form; every other rung is what the run has solved for its verdict."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+
+from analytic.exact.hertz import HertzContact, hertz_extremes, hertz_stress
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import WHOLE
+from comparisons.models.level import ModelRun
+from comparisons.models.window import Window
+from comparisons.studies.contact import uncertainties
+from comparisons.studies.model_error.account import figure_of
+from comparisons.studies.model_error.catalogue import EFFECTS, KINEMATIC
+from comparisons.studies.model_error.error_budget import ErrorBudget
+from comparisons.studies.model_error.model_error import ModelError, Solutions
+from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.studies.study import LADDER, Solved
+
+HERTZ, HALF_PLANE, LINEAR, FINITE, FLOW = "hertz", "half_plane", "linear", "finite", "flow"
+# Kinds of rungs, from the cheapest on; `--up-to` takes these names with hyphens.
+KINDS = {
+    HERTZ: "Hertz's closed form",
+    HALF_PLANE: "half-plane",
+    LINEAR: "linear finite elements",
+    FINITE: "finite deformation",
+    FLOW: "elastic-plastic finite elements",
+    WHOLE: "whole model",
+}
+NONLINEAR = {"finite_strain": FINITE, "plastic_flow": FLOW}  # kinds by effect; others are linear
+
+
+def verdict_of(errors: Iterable[Figure]) -> str:
+    """Of all errors of a rung: holds where all do, fails where one does."""
+    verdicts = {figure.verdict for figure in errors}
+    return next(v for v in ("fails", "inconclusive", "holds") if v in verdicts)
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One model and its errors in what the scene judges."""
+
+    name: str  # source of its figures
+    kind: str  # of KINDS
+    words: str
+    figures: tuple[Figure, ...]  # (rung - whole) / whole
+    seconds: float
+    memory: float  # [bytes] largest of the process that solved it; 0 of a closed form
+
+    @property
+    def verdict(self) -> str:
+        return verdict_of(self.figures)
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """What the rungs of one scene are made of."""
+
+    solved: Solved
+    budget: ErrorBudget
+    compared: tuple[Figure, ...]  # the models' comparison, those that are judged
+
+    def rungs(self) -> list[Rung]:
+        """From the cheapest to the whole."""
+        made = [self._hertz(), self._half_plane(), *self._effects(), self._own(), self._whole()]
+        order = list(KINDS)
+        return sorted(filter(None, made), key=lambda rung: order.index(rung.kind))
+
+    def _figures(self, name: str, errors: Iterable[ModelError]) -> tuple[Figure, ...]:
+        tolerances = self.solved.problem.scene.tolerances
+        judged = (figure_of(error, self.budget.selection, tolerances) for error in errors)
+        return tuple(renamed(figure, name) for figure in judged)
+
+    def _hertz(self) -> Rung:
+        began, problem, window = perf_counter(), self.solved.problem, self.solved.window
+        errors, finite_elements = [], self.solved.runs["finite_element"]
+        for friction, solutions in self.budget.solutions.items():
+            count = len(solutions.history)
+            grids = [level.grid.x for level in finite_elements.levels[:count]]
+            levels = hertz_quantities(problem.hertz, grids, friction, window)
+            stated = uncertainties(finite_elements, problem, friction)
+            for row in self._rows(friction):
+                own = stated.get(row.quantity)
+                numerical = row.numerical if own is None else own.total
+                errors.append(solutions.of_exact(row.quantity, levels, numerical))
+        seconds = perf_counter() - began
+        return Rung(HERTZ, HERTZ, KINDS[HERTZ], self._figures(HERTZ, errors), seconds, 0.0)
+
+    def _half_plane(self) -> Rung:
+        run = self.solved.runs["half_plane"]
+        errors = [self.budget.of(row.quantity, row.friction) for row in self.compared]
+        return _rung_of(run, HALF_PLANE, KINDS[HALF_PLANE], self._figures(HALF_PLANE, errors))
+
+    def _effects(self) -> Iterator[Rung]:
+        """Finite elements with one effect each, where they are neither the whole nor the scene's
+        own."""
+        every = self.budget.solutions.values()
+        for name in dict.fromkeys(name for solutions in every for name in solutions.effects):
+            kind = NONLINEAR.get(name, LINEAR)
+            if self.budget.selection.contained == {name} or all(
+                _is_whole(name, solutions) for solutions in every
+            ):
+                continue
+            errors = [
+                solutions.of_variants(row.quantity, _with_effect(name, solutions))
+                for friction, solutions in self.budget.solutions.items()
+                for row in self._rows(friction)
+            ]
+            words = f"{KINDS[kind]} alone"
+            if kind == LINEAR:
+                words = f"finite elements with {EFFECTS[name].label}"
+            yield Rung(name, kind, words, self._figures(name, errors), *self.budget.took[name])
+
+    def _own(self) -> Rung | None:
+        """The scene's own finite elements, where they have effects and are not the whole."""
+        contained, every = self.budget.selection.contained, self.budget.solutions
+        if not contained or all(solutions.contains_all for solutions in every.values()):
+            return None
+        kind = _kind_of(contained)
+        errors = [
+            solutions.of_variants(row.quantity, [level.own for level in solutions.history])
+            for friction, solutions in every.items()
+            for row in self._rows(friction)
+        ]
+        run, words = self.solved.runs["finite_element"], _words_of(kind, contained)
+        return _rung_of(run, "finite_element", words, self._figures("finite_element", errors), kind)
+
+    def _whole(self) -> Rung:
+        """What is not known of the reference itself."""
+        run, errors = self.solved.runs["finite_element"], []
+        for friction, solutions in self.budget.solutions.items():
+            stated = uncertainties(run, self.solved.problem, friction)
+            for row in self._rows(friction):
+                own = stated.get(row.quantity)
+                numerical = row.numerical if own is None else own.total
+                errors.append(solutions.of_whole(row.quantity, numerical))
+        effects = self.budget.selection.whole
+        inside = _words_of(_kind_of(effects), effects)
+        rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors), WHOLE)
+        seconds, memory = self.budget.took.get(WHOLE, (0.0, 0))
+        cost = rung.seconds + seconds, max(rung.memory, memory)
+        return Rung(WHOLE, WHOLE, rung.words, rung.figures, *cost)
+
+    def _rows(self, friction: float) -> list[Figure]:
+        return [row for row in self.compared if row.friction == friction]
+
+
+def renamed(figure: Figure, rung: str) -> Figure:
+    """A model error as a figure of the ladder."""
+    known = {name: getattr(figure, name) for name in ("quantity", "value", "at", "against")}
+    known |= {name: getattr(figure, name) for name in ("scale", "uncertainty", "unknown", "bounds")}
+    return Figure(study=LADDER, source=rung, **known)
+
+
+def hertz_quantities(
+    hertz: HertzContact, grids: Iterable[np.ndarray], friction: float, window: Window | None
+) -> list[QuantitiesOfInterest]:
+    """Hertz's contact on each grid of nodes (n,) [m], with its field on the window."""
+    largest = hertz_extremes(hertz, friction)
+    values = {
+        "peak_pressure": hertz.peak_pressure,
+        "contact_length": 2.0 * hertz.half_width,
+        "contact_ratio": 1.0,
+    }
+    tau1 = None
+    if window is not None:
+        values |= {"tau1_max": largest.tau1.value, "tau1_max_depth": largest.tau1.z}
+        values["txz_max_abs"] = max(abs(largest.txz_max.value), abs(largest.txz_min.value))
+        tau1 = hertz_stress(hertz, window.x, window.z[:, None], friction).tau1
+    figures = {name: np.array([value]) for name, value in values.items()}
+    return [QuantitiesOfInterest(figures, hertz.pressure(x), tau1) for x in grids]
+
+
+def _rung_of(
+    run: ModelRun, name: str, words: str, figures: tuple[Figure, ...], kind: str = ""
+) -> Rung:
+    """With what a model of the run took."""
+    memory = max(level.peak_memory for level in run.levels)
+    return Rung(name, kind or name, words, figures, sum(run.seconds.values()), memory)
+
+
+def _with_effect(name: str, solutions: Solutions) -> list[QuantitiesOfInterest]:
+    """The finite elements with one effect, or where it does nothing, without any."""
+    return [
+        level.pairs[name][0] if name in level.pairs else level.nothing
+        for level in solutions.split_levels
+    ]
+
+
+def _is_whole(name: str, solutions: Solutions) -> bool:
+    levels = solutions.split_levels
+    return all(level.pairs[name][0] is level.whole for level in levels if name in level.pairs)
+
+
+def _kind_of(effects: Iterable[str]) -> str:
+    kinds = {NONLINEAR.get(name, LINEAR) for name in effects}
+    return next(kind for kind in (FLOW, FINITE, LINEAR) if kind in kinds or kind == LINEAR)
+
+
+def _words_of(kind: str, effects: Iterable[str]) -> str:
+    """A kind with the linear effects that it is given beside it."""
+    implied = {"plastic_flow", *(KINEMATIC if kind == FINITE else ())}
+    beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in implied]
+    return f"{KINDS[kind]} with {', '.join(beside)}" if beside else KINDS[kind]
+
+
+def of_budget(solved: Solved, budget: ErrorBudget, compared: Iterable[Figure]) -> list[Rung]:
+    """The rungs of a finished comparison."""
+    judged = tuple(row for row in compared if row.bounds is not None)
+    return Ladder(solved, budget, judged).rungs()

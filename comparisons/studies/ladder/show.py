@@ -1,0 +1,77 @@
+"""The ladder as a table of the page, and as a line of the terminal."""
+
+from collections.abc import Sequence
+
+from comparisons.common.numbers import percent, with_unit
+from comparisons.drawing.blocks import Block, Note, TextTable
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.quantity import QUANTITIES, error_text, label
+from comparisons.studies.ladder.rungs import verdict_of
+from comparisons.studies.study import LADDER, Run
+
+RUNGS = "rungs"  # series: what each rung took
+# Statements: the cheapest rung that holds; why none does; the next one to try; what it drops.
+SUFFICES, NONE, ESCALATE_TO, NEXT = "suffices", "none", "escalate to", "next"
+NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
+figure that is nearest to its tolerance or farthest beyond, with its uncertainty. A model holds
+where every judged figure does. The last row is what is not known of the whole model itself. Time is
+that of all levels, of finite elements summed over cores; memory is the largest of the process."""
+
+
+def blocks(run: Run) -> list[Block]:
+    rows = [
+        (words, *_error_cells(_nearest(errors)), verdict_of(errors), _time(row), _memory(row))
+        for row, words, errors in _rungs(run)
+    ]
+    if not rows:
+        return []
+    head = ("model", "quantity", "error", "uncertainty", "verdict", "time", "memory")
+    line = "; ".join(f"{name}: {text}" for name, text in lines(run))
+    table = TextTable(line, head, tuple(rows), "comparison", words=False)
+    return [Block("model-error", (table, Note(NOTE)))]
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """The cheapest model that holds, or that was not refuted."""
+    rungs, found = _rungs(run), run.found[LADDER]
+    if not rungs:
+        return []
+    by_name = {row["rung"]: _text(row, words, errors) for row, words, errors in rungs}
+    if (name := found.said(SUFFICES)) is not None:
+        return [("cheapest that holds", by_name[name])]
+    left = [row["rung"] for row, _, errors in rungs if verdict_of(errors) != "fails"]
+    why = f": {said}" if (said := found.said(NONE)) else ""
+    beside = f"; cheapest that was not refuted: {by_name[left[0]]}" if left else ""
+    return [("cheapest that holds", f"none{why}{beside}")]
+
+
+def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
+    """Each rung's row of the series, its name in words, and its errors."""
+    table, known = run.found[LADDER].table(RUNGS), run.figures.of(study=LADDER)
+    rows = [] if table is None else table.rows()
+    return [(row, row["model"], known.of(source=row["rung"])) for row in rows]
+
+
+def _nearest(errors: Sequence[Figure]) -> Figure:
+    """The one farthest outside, or nearest to, its tolerance, uncertainty included."""
+    return max(errors, key=lambda error: (abs(error.value) + error.total) / error.tolerance)
+
+
+def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
+    worst = _nearest(errors)
+    size = error_text(worst.quantity, worst.value, worst.total).removesuffix(" %")
+    short = QUANTITIES[worst.quantity].short
+    return f"{words} ({_time(row)}, {short} {size} ± {percent(worst.total)})"
+
+
+def _error_cells(error: Figure) -> tuple[str, str, str]:
+    size = error_text(error.quantity, error.value, error.total)
+    return label(error.quantity), size, percent(error.total)
+
+
+def _time(row: dict) -> str:
+    return with_unit(row["seconds"], "s", 2)
+
+
+def _memory(row: dict) -> str:
+    return with_unit(row["peak_memory"], "byte", 2) if row["peak_memory"] else ""

@@ -1,0 +1,91 @@
+"""Which model suffices: errors of every rung against the whole, and what is said of them.
+
+The finished runs stand their finite elements in for by a half-plane that is one per cent stiffer:
+the whole is Hertz's contact at 1.01 E*."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from scenes import changed, refound
+
+from comparisons.common.errors import ExitStatus
+from comparisons.figures.figure import Statement
+from comparisons.output.result_json import content_of
+from comparisons.studies.ladder import show
+from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT
+
+STIFFER = 1.01
+
+
+TOLERANT = {"peak_pressure": 0.1, "contact_length": 0.1, "tau1_max": 0.1}
+
+
+@pytest.fixture(scope="module")
+def smooth_outcome(finish, smooth_tables):
+    """Under a load at which nothing else matters."""
+    return finish(changed(smooth_tables, load={"per_length": 1e4}))
+
+
+@pytest.fixture(scope="module")
+def wavy_outcome(finish, wavy_tables):
+    return finish(changed(wavy_tables, tolerance=TOLERANT))
+
+
+def test_hertz_stands_where_the_surface_is_smooth(smooth_outcome):
+    """p0 and tau1 go with the root of E*, the length with its inverse."""
+    known = smooth_outcome.figures.of(study=LADDER, source="hertz", against="whole")
+    softer = STIFFER**-0.5 - 1.0
+    assert known.one(quantity="peak_pressure").value == pytest.approx(softer, rel=0.02)
+    assert known.one(quantity="tau1_max").value == pytest.approx(softer, rel=1e-6)
+    length = known.one(quantity="contact_length")
+    assert abs(length.value - (STIFFER**0.5 - 1.0)) <= length.numerical
+    assert {figure.verdict for figure in known} == {"holds"}
+    assert smooth_outcome.found[LADDER].said(show.SUFFICES) == "hertz"
+
+
+def test_hertz_fails_and_the_half_plane_holds_on_a_wavy_surface(wavy_outcome):
+    known, found = wavy_outcome.figures.of(study=LADDER), wavy_outcome.found[LADDER]
+    assert "fails" in {figure.verdict for figure in known.of(source="hertz")}
+    assert found.said(show.SUFFICES) == "half_plane"
+    [(name, line)] = show.lines(wavy_outcome)
+    assert name == "cheapest that holds"
+    assert line.startswith("half-plane (")
+
+
+def test_the_half_plane_has_its_model_errors(wavy_outcome):
+    """And the whole no error but its uncertainty."""
+    known = wavy_outcome.figures.of(study=LADDER)
+    for error in wavy_outcome.model_errors:
+        rung = known.one(source="half_plane", quantity=error.quantity, at=error.at)
+        assert (rung.value, rung.total) == (error.value, error.total)
+        whole = known.one(source="whole", quantity=error.quantity, at=error.at)
+        assert whole.value == 0.0 < whole.numerical
+
+
+def test_a_run_answers_for_its_half_plane_alone(wavy_outcome):
+    """Hertz fails, the run does not; result.json names what suffices."""
+    assert wavy_outcome.exit_status == ExitStatus.DONE
+    content = json.loads(json.dumps(content_of(wavy_outcome)))
+    assert content["suffices"] == "half_plane"
+    assert content["escalate_to"] is None
+
+
+def test_nothing_suffices_where_no_rung_holds(wavy_outcome):
+    """The line names what was not refuted."""
+    errors = wavy_outcome.figures.of(study=LADDER)
+    looser = tuple(replace(error, unknown={"finite_strain": 0.3}) for error in errors)
+    said = (Statement(show.NONE, "the whole model is not known to the tolerance"),)
+    [(_, line)] = show.lines(refound(wavy_outcome, LADDER, figures=looser, statements=said))
+    assert line.startswith("none: the whole model is not known to the tolerance; cheapest that")
+    without = refound(
+        wavy_outcome, LADDER, figures=(), series=(), statements=(Statement(WHY_NOT, "no whole"),)
+    )
+    assert show.lines(without) == [] == show.blocks(without)
+
+
+def test_a_table_of_the_page_has_every_rung(wavy_outcome):
+    [block] = show.blocks(wavy_outcome)
+    table = block.items[0]
+    assert [row[0] for row in table.rows][:2] == ["Hertz's closed form", "half-plane"]
+    assert wavy_outcome.found[MODEL_ERROR].data.solutions
