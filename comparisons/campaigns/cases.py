@@ -289,6 +289,12 @@ class Campaign:
         return [*faults, verdict]
 
 
+def check_places(command: str, out: Path, junit: Path | None) -> None:
+    """Raise InputError where a command's results cannot be written."""
+    check_writable(out, (f"{command}.json", f"{command}.html"))
+    check_place(junit)
+
+
 def carry_out(
     command: str,
     cases: Sequence[Case],
@@ -301,8 +307,7 @@ def carry_out(
     in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written.
 
     concluded  the campaign of command, rows and seconds"""
-    check_writable(out, (f"{command}.json", f"{command}.html"))
-    check_place(junit)
+    check_places(command, out, junit)
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     if is_first():

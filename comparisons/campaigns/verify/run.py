@@ -21,6 +21,7 @@ from comparisons.campaigns.cases import (
     Row,
     bounds_text,
     carry_out,
+    check_places,
     holds,
     rows_table,
 )
@@ -174,6 +175,7 @@ def verify(
     fewest  informative figures that there must be, in all and of rough contacts"""
     if is_several():
         raise InputError("verify: runs in several processes; allowed is one, without mpirun")
+    check_places("verify", out, junit)  # before the scenes are made
     exact, others = cases or everything()
 
     def concluded(command: str, rows: tuple[Row, ...], seconds: float) -> Verification:

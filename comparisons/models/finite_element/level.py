@@ -261,8 +261,8 @@ def problem_of_approach(
     load = np.pi * modulus * half_width**2 / (4.0 * scene.roller.radius)
     if scene.finite_element.coupled and len(scene.load.friction) > 1:
         raise SceneError(
-            f"{scene.source}: load.friction: has {len(scene.load.friction)} coefficients, and under "
-            "each another load gives load.approach; allowed is one, or per_length"
+            f"{scene.source}: load.friction: has {len(scene.load.friction)} coefficients, each of "
+            "which takes another load for load.approach; allowed is one, or per_length"
         )
     body_cache, surface = BodyCache(), surface or surface_of(scene)
     asked = LevelOptions(approach=wanted)

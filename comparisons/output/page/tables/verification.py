@@ -36,7 +36,7 @@ from comparisons.figures.uncertainty import COVERAGE
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.studies import comparison, contact
-from comparisons.studies.model_error.account import INPUTS
+from comparisons.studies.model_error.account import SAMPLING
 from comparisons.studies.study import Run
 
 ALL_LEVELS = "all levels together: time"
@@ -130,7 +130,7 @@ def validation_table(run: Run) -> TextTable | None:
     """Each judged model error as ASME V&V 20 names its parts; None where none is judged."""
     rows = []
     for error in run.model_errors:
-        name, friction, inputs = error.quantity, error.friction, error.part(INPUTS)
+        name, friction, inputs = error.quantity, error.friction, error.part(SAMPLING)
         named = row_name(run, name, friction) or f"{label(name)}, friction {plain(friction)}"
         size, unsure = error_text(name, error.value, error.numerical), percent(error.numerical)
         by_inputs = "no trace" if inputs is None else percent(inputs.value)
