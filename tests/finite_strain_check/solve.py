@@ -42,6 +42,7 @@ class Task:
     support   of a disc, one of SUPPORTS
     coating   (modulus, ratio, thickness), bonded to the body, None where it has none; the thickness
               is the elements' size at the surface times a power of two, so that edges follow it
+    cap       of the pressure [GPa]
     """
 
     x: np.ndarray
@@ -54,6 +55,7 @@ class Task:
     law: str | tuple[float, float] = "neo-hookean"
     support: str = SECTOR
     coating: tuple[float, float, float] | None = None
+    cap: float = np.inf
 
     @property
     def modulus(self) -> float:
@@ -197,7 +199,7 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
                 rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
             places = np.stack([s, d + rise], axis=1)
         above = Solid(roller, places, held, *task.roller, task.law)
-    return SurfacePair(below, above, task.load, task.friction, reach, gap)
+    return SurfacePair(below, above, task.load, task.friction, reach, gap, task.cap)
 
 
 Meshes = tuple[Triangles, Triangles | None]
@@ -223,12 +225,14 @@ def carried(state: State, old: SurfacePair, new: SurfacePair) -> State:
     each = zip(old.solids, new.solids, state.moved, strict=True)
     moved = [interpolated(a.mesh, b.mesh, u) for a, b, u in each]
     pressure = np.interp(new.x, old.x, state.pressure)
-    return replace(state, moved=moved, pressure=pressure, active=pressure > 0.0)
+    capped = np.interp(new.x, old.x, state.capped) == 1.0
+    active = (pressure > 0.0) & ~capped
+    return replace(state, moved=moved, pressure=pressure, active=active, capped=capped)
 
 
 def next_refinement(pair: SurfacePair, state: State, fine: float) -> ElementSizes:
     """Where a solution touches, where its patches end and where its shear is large."""
-    at, margin = pair.x[state.active], 8.0 * fine
+    at, margin = pair.x[state.active | state.capped], 8.0 * fine
     starts = np.concatenate([[True], np.diff(at) > 2.0 * margin])
     first, last = at[starts], at[np.append(starts[1:], True)]
     large = [each > STRESSED * each.max() for each in shears(pair, state)]
