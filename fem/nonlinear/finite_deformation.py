@@ -11,7 +11,8 @@ Friction drags the bodies past each other, by an amount that for unbounded bodie
 constant: a held block or a disc gives ten times what the half-plane's own datum gives. Left to
 itself the roller would stand over another place of the trace. Both are moved back along x until the
 displacement of each surface along x is zero in the pressure's mean: under load the roller stands
-where the scene has put it."""
+where the scene has put it. A disc also turns, which moves its surface and not its shape: of a disc
+the middle of the circle that fits its deformed rim best is moved back."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -122,6 +123,7 @@ class FiniteContact:
                the same hats, its body in its own frame, z into it, with its shape as the boundary
     start      (count,) [Pa] linear pressure under the same load
     friction   q = friction p along the common tangent, towards +x on the body
+    disc       whether an elastic roller is one, its rim the boundary with the contact
     far        gives the body's outer boundary the half-plane's displacement under `start`; None:
                the support holds it. An elastic roller has its own
     gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
@@ -136,10 +138,11 @@ class FiniteContact:
         start: np.ndarray,
         friction: float = 0.0,
         far: FarField | None = None,
+        disc: bool = False,
     ) -> None:
         own = FiniteElementCompliance(body, hats, far=far)
         self.body, self.hats, self.friction, self._start = body, hats, friction, start
-        self._roller, self.elastic = roller, (body,)
+        self._roller, self.elastic, self._disc = roller, (body,), disc
         self.linear = _started(own, start, friction)
         if isinstance(roller, FiniteElementCompliance):
             self.elastic = body, roller.body
@@ -208,13 +211,17 @@ class FiniteContact:
 
     def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
         """The displacement (n, 2) [m] with each body moved along x, so that in the mean of a
-        pressure (count,) [Pa] its surface stays where it was; and by how much at most [m]."""
+        pressure (count,) [Pa] its surface stays where it was, or a disc's middle does; and by how
+        much at most [m]."""
         pieces, aside = np.split(moved, [len(self.body.nodes)]), 0.0
         at, force = self.hats[1:-1], pressure * self.weights
         for place, (body, piece) in enumerate(zip(self.elastic, pieces, strict=False)):
             surface = body.surface
-            along = np.interp(at, surface.x, piece[surface.point, 0])
-            mean = float(force @ along / force.sum())
+            if place and self._disc:
+                mean = _middle(*(body.nodes + piece)[surface.point].T)
+            else:
+                along = np.interp(at, surface.x, piece[surface.point, 0])
+                mean = float(force @ along / force.sum())
             pieces[place], aside = piece - (mean, 0.0), max(aside, abs(mean))
         return np.vstack(pieces), aside
 
@@ -335,6 +342,16 @@ class FiniteCompliance:
         )
         bodies = zip(self._contact.elastic, pieces, strict=True)
         return np.vstack([body.solve(piece) for body, piece in bodies])
+
+
+def _middle(x: np.ndarray, z: np.ndarray) -> float:
+    """x [m] of the middle of the circle that fits points (n,) [m] best, each with as much weight as
+    it has arc (Kasa 1976, IEEE Trans. Instrum. Meas. 25, 8)."""
+    size = np.ptp(x)
+    x, z = x / size, z / size
+    weight = np.sqrt(np.gradient(np.append(0.0, np.cumsum(np.hypot(np.diff(x), np.diff(z))))))
+    columns = np.column_stack([2.0 * x, 2.0 * z, np.ones_like(x)]) * weight[:, None]
+    return float(np.linalg.lstsq(columns, weight * (x**2 + z**2), rcond=None)[0][0] * size)
 
 
 def _started(

@@ -11,7 +11,8 @@ set changes with every step of Newton's method (Laursen, Computational
 Contact and Impact Mechanics, ch. 5). Small strains: the same with x = X and all slopes zero.
 
 The roller moves along x so that the mean tangential displacement between the surfaces, weighted by
-pressure, vanishes, as on half-planes: there no far boundary says how far friction drags.
+pressure, vanishes, as on half-planes: there no far boundary says how far friction drags. A disc
+also turns: in place of its surface's displacement there is that of its middle.
 """
 
 from collections.abc import Callable
@@ -66,6 +67,7 @@ class SurfacePair:
     gap            initial gap (of x) at small strains, None at finite ones
     load           vertical force per length, friction mu
     cap            of Cauchy's pressure; where it is reached, the bodies overlap
+    middle         (n, 2) what the displacements of a disc's nodes move its middle by along x
     """
 
     rough: Solid
@@ -75,6 +77,7 @@ class SurfacePair:
     reach: float
     gap: Callable[[np.ndarray], np.ndarray] | None = None
     cap: float = np.inf
+    middle: np.ndarray | None = None
 
     @property
     def solids(self) -> list[Solid]:
@@ -212,7 +215,11 @@ class SurfacePair:
             share = weight * pressure
             known = numbers >= 0
             parts = (share / share.sum())[:, None] * d
+            if self.middle is not None:
+                parts[:, 6:] = 0.0
             dragged = np.bincount(numbers[known], parts[known], count)
+            if self.middle is not None:
+                dragged[self.rough.count :] -= self.middle[~self.roller.held].ravel()
         moved = np.concatenate(
             [u[~s.held].ravel() for s, u in zip(self.solids, state.moved, strict=True)]
         )

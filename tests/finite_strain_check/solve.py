@@ -71,7 +71,7 @@ class Task:
     @property
     def is_disc(self) -> bool:
         """Whether the roller is a disc, else a half-plane with the circle on it.
-        Friction turns a disc, and with it the places that the shift along x goes by."""
+        Friction turns a disc."""
         return self.law != "linear" and self.half_width > SMALL * self.radius
 
     def on_disc(self, s: np.ndarray, d: np.ndarray) -> np.ndarray:
@@ -199,7 +199,21 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
                 rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
             places = np.stack([s, d + rise], axis=1)
         above = Solid(roller, places, held, *task.roller, task.law)
-    return SurfacePair(below, above, task.load, task.friction, reach, gap, task.cap)
+    middle = middle_of(places, np.flatnonzero(d == 0.0), r) if roller and task.is_disc else None
+    return SurfacePair(below, above, task.load, task.friction, reach, gap, task.cap, middle)
+
+
+def middle_of(places: np.ndarray, rim: np.ndarray, radius: float) -> np.ndarray:
+    """(n, 2) that times displacements of nodes at `places` (n, 2) gives the displacement along x of
+    the middle of the circle through the nodes of the rim: by their radial displacements."""
+    rim = rim[np.argsort(places[rim, 0])]
+    outward = (places[rim] - [0.0, radius]) / radius
+    steps = np.append(0.0, np.cumsum(np.hypot(*np.diff(places[rim], axis=0).T)))
+    weight = np.sqrt(np.gradient(steps))
+    columns = np.column_stack([outward, np.ones(len(rim))]) * weight[:, None]
+    middle = np.zeros_like(places)
+    middle[rim] = (np.linalg.pinv(columns)[0] * weight)[:, None] * outward
+    return middle
 
 
 Meshes = tuple[Triangles, Triangles | None]

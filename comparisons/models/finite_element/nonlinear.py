@@ -15,6 +15,7 @@ from analytic.grid import HatGrid
 from analytic.material.hardening import Hardening
 from analytic.operators.half_plane import ModelOperator
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
+from comparisons.models.finite_element.roller import is_disc
 from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
 from comparisons.models.problem import Problem
 from fem.nonlinear.finite_deformation import (
@@ -114,7 +115,8 @@ def finite_contact(
     if not problem.scene.roller.rigid:
         roller = operator.parts[1].compliance
     friction, start = problem.scene.load.friction[0], linear.pressure
-    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far)
+    disc = is_disc(problem)
+    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far, disc)
     if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
         return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
     bodies, load = FiniteCompliance(contact), constraints.load
