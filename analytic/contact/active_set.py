@@ -54,7 +54,7 @@ class ActiveSet:
     upper: np.ndarray
 
     @classmethod
-    def of(cls, pressure: np.ndarray, hardness: float) -> "ActiveSet":
+    def of(cls, pressure: np.ndarray, hardness: float | np.ndarray) -> "ActiveSet":
         return cls(pressure <= 0.0, pressure >= hardness)
 
     @cached_property
@@ -211,7 +211,7 @@ def _energy_lost(
 
 
 def _first_met(
-    pressure: np.ndarray, step: np.ndarray, hardness: float, free: np.ndarray
+    pressure: np.ndarray, step: np.ndarray, hardness: float | np.ndarray, free: np.ndarray
 ) -> np.ndarray:
     """Pressures where, along the step, the first free node meets a side of the box."""
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -220,5 +220,5 @@ def _first_met(
     first = np.min(room)
     moved = np.clip(pressure + first * step, 0.0, hardness)
     met = room <= first
-    moved[met] = np.where(step[met] < 0.0, 0.0, hardness)
+    moved[met] = np.where(step < 0.0, 0.0, hardness)[met]
     return moved

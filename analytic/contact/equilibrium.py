@@ -12,7 +12,7 @@ E extends those of the free nodes. Over a gap -1 < s < 1 between half-lines held
 has the least energy. With E bridging every gap in this way the number of iterations hardly depends
 on that of the patches, as it would with zeros, which jump at every edge."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -151,19 +151,31 @@ BISECTIONS = 100  # to a shift of pressures right to rounding
 
 @dataclass(frozen=True)
 class Constraints:
-    """Exactly one of `load` P [N/m] and `approach` d [m]; `hardness` H [Pa] caps the pressure."""
+    """Exactly one of `load` P [N/m] and `approach` d [m]; `hardness` H [Pa] caps the pressure, of
+    the nodes (n,) each by its own where it is an array, in which 0 holds a node at no pressure."""
 
     load: float | None = None
     approach: float | None = None
-    hardness: float = np.inf
+    hardness: float | np.ndarray = np.inf
 
     def __post_init__(self) -> None:
         if (self.load is None) == (self.approach is None):
             raise ValueError("prescribe either the load or the approach")
         if self.load is not None and not (np.isfinite(self.load) and self.load > 0.0):
             raise ValueError(f"the load per length must be positive, not {self.load:g} N/m")
-        if not self.hardness > 0.0:
-            raise ValueError(f"the hardness must be positive, not {self.hardness:g} Pa")
+        if not np.max(self.hardness) > 0.0:
+            raise ValueError(f"the hardness must be positive, not {np.max(self.hardness):g} Pa")
+
+    def coarsened(self) -> "Constraints":
+        """The same on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        if np.ndim(self.hardness) == 0:
+            return self
+        return replace(self, hardness=self.hardness[1::2])
+
+    def carried(self, nodes: np.ndarray, weights: np.ndarray) -> float:
+        """What the marked of the nodes (n,) carry at the hardness [N/m]."""
+        caps = np.broadcast_to(self.hardness, weights.shape)
+        return float(caps[nodes] @ weights[nodes]) if nodes.any() else 0.0
 
 
 @dataclass(frozen=True)
@@ -220,7 +232,7 @@ class EquilibriumProblem:
 
     def _load_of(self, nodes: np.ndarray) -> float:
         """What these nodes carry at the hardness [N/m]."""
-        return self.constraints.hardness * self.weights[nodes].sum() if nodes.any() else 0.0
+        return self.constraints.carried(nodes, self.weights)
 
     def feasible(self, pressure: np.ndarray, free: np.ndarray) -> np.ndarray:
         """Nearest pressures in the box that carry the load: one shift of the free nodes."""
@@ -230,13 +242,14 @@ class EquilibriumProblem:
             return feasible
         inside, weights = pressure[free], self.weights[free]
         wanted = self.constraints.load - self.weights[~free] @ feasible[~free]
-        mean = wanted / weights.sum()
-        low, high = -np.max(inside), min(hardness, mean) - np.min(inside)
+        caps = hardness if np.ndim(hardness) == 0 else hardness[free]
+        most = np.max(caps) if np.ndim(caps) else min(caps, wanted / weights.sum())
+        low, high = -np.max(inside), most - np.min(inside)
         for _ in range(BISECTIONS):
             shift = 0.5 * (low + high)
-            carried = weights @ np.clip(inside + shift, 0.0, hardness)
+            carried = weights @ np.clip(inside + shift, 0.0, caps)
             low, high = (shift, high) if carried < wanted else (low, shift)
-        feasible[free] = np.clip(inside + high, 0.0, hardness)
+        feasible[free] = np.clip(inside + high, 0.0, caps)
         return feasible
 
     def with_a_free_node(self, active: ActiveSet) -> ActiveSet:
@@ -244,11 +257,11 @@ class EquilibriumProblem:
         load too small, that is the node that is reached first, of one too large the last."""
         if not self.by_load or active.free.any():
             return active
-        reach = self.weighted_gap / self.weights
+        reach, movable = self.weighted_gap / self.weights, self.constraints.hardness > 0.0
         if self._load_of(active.upper) < self.constraints.load:
-            node = np.argmin(np.where(active.lower, reach, np.inf))
+            node = np.argmin(np.where(active.lower & movable, reach, np.inf))
         else:
-            node = np.argmax(np.where(active.upper, reach, -np.inf))
+            node = np.argmax(np.where(active.upper & movable, reach, -np.inf))
         lower, upper = active.lower.copy(), active.upper.copy()
         lower[node] = upper[node] = False
         return ActiveSet(lower, upper)
@@ -270,13 +283,14 @@ class EquilibriumProblem:
         slack = SET_TOLERANCE * max(pressure.max(), -pressure.min())
         tensile = active.free & (pressure < -slack)
         joining = active.lower & (state.weighted_gap < -state.overlap)
-        if not np.isfinite(hardness):  # no node is at it
+        if not np.all(np.isfinite(hardness)):  # no node is at it
             return Violations(tensile, active.upper, joining, active.upper)
+        movable = hardness > 0.0
         return Violations(
             tensile=tensile,
             excessive=active.free & (pressure > hardness + slack),
-            joining=joining,
-            softening=active.upper & (state.weighted_gap > state.overlap),
+            joining=joining & movable,
+            softening=active.upper & movable & (state.weighted_gap > state.overlap),
         )
 
     def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
@@ -285,7 +299,7 @@ class EquilibriumProblem:
         self.spent["exchanges"] += 1
         nodes = np.flatnonzero(active.free)
         pressure = np.zeros_like(start)
-        pressure[active.upper] = self.constraints.hardness
+        np.copyto(pressure, self.constraints.hardness, where=active.upper)
         found = self._solve(nodes, pressure)
         if found is not None:
             pressure[nodes] = found

@@ -34,11 +34,11 @@ def coarse_start(
         operator,
         restricted(problem.weighted_gap, periodic),
         restricted(problem.weights, periodic),
-        problem.constraints,
+        problem.constraints.coarsened(),
         problem.spent,
     )
     pressure = settle(coarse, coarse_start(coarse, settle, coarsest))
-    return prolonged(np.clip(pressure, 0.0, problem.constraints.hardness), count, periodic)
+    return prolonged(np.clip(pressure, 0.0, coarse.constraints.hardness), count, periodic)
 
 
 def foundation_start(problem: EquilibriumProblem) -> np.ndarray:

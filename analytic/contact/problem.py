@@ -75,7 +75,7 @@ def assessed(
     tolerance: float = KKT_TOLERANCE,
 ) -> ContactSolution:
     """Pressures (n,) [Pa] with their Cp (n,) [m^2] as a solution, `converged` to `tolerance`."""
-    hardness = constraints.hardness
+    hardness = np.broadcast_to(constraints.hardness, weights.shape)
     gap = (weighted_gap + weighted_displacement) / weights - approach
     lowered = weighted_displacement / weights
     largest = np.max(np.abs(lowered))
@@ -84,6 +84,7 @@ def assessed(
     load = weights @ pressure
     highest = np.max(pressure)
     free = pressure < hardness * (1.0 - SET_TOLERANCE)
+    capped = hardness > 0.0
     error = 0.0 if constraints.load is None else abs(load - constraints.load) / constraints.load
     apart = np.where(free, np.abs(gap), np.maximum(gap, 0.0))
     work = np.sum(weights * np.abs(pressure) * apart)
@@ -92,7 +93,7 @@ def assessed(
         complementarity=work / load / scale if load > 0.0 else 0.0,
         penetration=max(0.0, -np.min(gap[free], initial=0.0)) / scale,
         negative_pressure=max(0.0, -np.min(pressure)) / highest if highest > 0.0 else 0.0,
-        excess_pressure=max(0.0, highest / hardness - 1.0),
+        excess_pressure=max(0.0, np.max(pressure[capped] / hardness[capped]) - 1.0),
     )
     return ContactSolution(
         pressure=pressure,
@@ -136,7 +137,7 @@ def solve_contact(
 
 def check_load(constraints: Constraints, weights: np.ndarray) -> None:
     """Raise ContactError if a prescribed load exceeds what the hardness can carry."""
-    most = constraints.hardness * weights.sum()
+    most = constraints.carried(np.ones(len(weights), dtype=bool), weights)
     if constraints.load is not None and constraints.load >= most:
         raise ContactError(
             f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "

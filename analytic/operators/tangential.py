@@ -27,6 +27,7 @@ import scipy.linalg
 from numpy.typing import ArrayLike
 from scipy.linalg import LinAlgError, LinAlgWarning
 
+from analytic.material import Material
 from analytic.operators.convolution import DIRECT, Convolution, made_once
 from analytic.operators.half_plane import DenseCompliance, DenseMatrix, HalfPlane, ModelOperator
 
@@ -92,6 +93,22 @@ class CoupledHalfPlane(CoupledConvolution):
         even = seen * (c**-5 + (1.0 - c) ** -5 + (1.0 + c) ** -5)
         odd = seen * (c**-5 - (1.0 - c) ** -5 + (1.0 + c) ** -5)
         return self.pitch**2 / (np.pi * self.modulus) * (even - 1j * self.friction_dundurs * odd)
+
+
+class TangentialHalfPlane(Convolution):
+    """T of one half-plane, hat tractions (n,) [Pa] in +x to weighted displacements (n,) [m^2].
+
+    count     number of elements      pitch    h [m]
+    material  of the half-plane
+    sign      1.0 of the body; -1.0 of the roller, which takes the traction's other side"""
+
+    def __init__(self, count: int, pitch: float, material: Material, sign: float = 1.0) -> None:
+        self.pitch, self.given = pitch, (material, sign)
+        nu = material.poissons_ratio
+        moves = sign * (1.0 - 2.0 * nu) * (1.0 + nu) / (2.0 * material.youngs_modulus)
+        column = moves * pitch**2 * hat_sign(np.arange(count))
+        # no inverse to approximate
+        super().__init__(column, lambda cycles: np.full(len(cycles), np.inf), row=-column)
 
 
 class CoupledPair(CoupledConvolution):

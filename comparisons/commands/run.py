@@ -18,15 +18,18 @@ from comparisons.commands.arguments import (
     json_option,
     out_option,
 )
-from comparisons.commands.output import progress, show_either
-from comparisons.common.errors import SceneError, tell
+from comparisons.commands.output import progress, show, show_either
+from comparisons.common.errors import ExitStatus, InputError, SceneError, nearest, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, models_named
+from comparisons.scenes.sections import UP_TO
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
 
+
+HERTZ = "hertz"  # nothing is solved
 BOTH = ",".join(HYPHENATED.values())
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 Details = Annotated[
@@ -42,6 +45,10 @@ def run(
     tolerance: Annotated[
         float | None,
         Option(help="Relative, of all that is judged; refinement ends where it is met."),
+    ] = None,
+    up_to: Annotated[
+        str | None,
+        Option(help=f"No model beyond {HERTZ}, {', '.join(UP_TO)}; nor the first that holds."),
     ] = None,
     fields: Annotated[
         Fields, Option(help="File format of the stress fields; auto is by their size.")
@@ -74,7 +81,10 @@ def run(
     began = perf_counter()
     chosen = models_named(models, "--models")
     asked = from_first(lambda: _read(scene, answer or (), tolerance))
+    asked = asked if up_to in (None, HERTZ) else _limited(asked, up_to)
     surface = from_first(lambda: surface_of(asked))
+    if up_to == HERTZ:
+        return _hertz_alone(asked, surface)
     directory = out or RESULTS / asked.name
     from_first(lambda: _check_places(directory, junit, chosen))
     warnings = warnings_about(asked, surface)
@@ -107,6 +117,28 @@ def _read(scene: str, answers: Sequence[str], tolerance: float | None) -> "Scene
     if answers:
         asked = asked.changed("answers", answers_named(answers, asked.given.get("answers")))
     return asked if tolerance is None else with_tolerance(asked, tolerance, "--tolerance")
+
+
+def _limited(scene: "Scene", up_to: str) -> "Scene":
+    """The scene up to a rung. Raises InputError for one that there is not."""
+    allowed = HERTZ, *UP_TO
+    if up_to not in allowed:
+        near = nearest(up_to, allowed)
+        raise InputError(
+            f"--up-to: there is no model {up_to}; the nearest is {near}; allowed are "
+            f"{', '.join(allowed)}"
+        )
+    return scene.changed("budget.up_to", up_to)
+
+
+def _hertz_alone(scene: "Scene", surface: "SceneSurface") -> int:
+    """Whether Hertz's closed form suffices, by estimates; nothing is solved or written."""
+    from comparisons.models.problem import problem_of
+    from comparisons.studies.ladder.estimated import hertz_alone
+
+    holds, line = hertz_alone(problem_of(scene, surface))
+    show(line)
+    return ExitStatus.DONE if holds else ExitStatus.INCONCLUSIVE
 
 
 def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) -> None:

@@ -6,9 +6,10 @@ import numpy as np
 
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
+from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import ExpectedCost
-from comparisons.models.plan import Plan
+from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem
 
 
@@ -33,6 +34,9 @@ class Forecast:
     # pressure elements to the shortest wave on the last of them; None for smooth bodies
     per_wave: float | None
     ends: str  # why there are no more
+    # [s] of flow beside finite elements that have none, where it may be found; None: it cannot
+    flow: float | None = None
+    leaves_out_flow: bool = False  # the budget is too small for it
 
     @property
     def text(self) -> str:
@@ -45,6 +49,10 @@ class Forecast:
             text += f", up to {len(self.levels)} where a figure needs them ({_cost(self.levels)})"
         if self.per_wave is not None:
             text += f" with {significant(self.per_wave, 2)} pressure elements to the shortest wave"
+        if self.flow is not None:
+            more = "would take" if self.leaves_out_flow else "takes"
+            text += f"; flow, where it is beyond doubt, {more} {with_unit(self.flow, 's', 2)} more"
+            text += " and is left out (budget.time)" * self.leaves_out_flow
         return f"{text}; {self.ends}"
 
 
@@ -70,8 +78,18 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
         levels.append(PlannedLevel(pitch, elements, unknowns, seconds, memory))
     wave = None if scene.profile is None else shortest_wavelength(problem.surface.profile)
     per_wave = None if wave is None or np.isinf(wave) else float(wave / levels[-1].pitch)
-    asked = len(problem.pitches)
-    return Forecast(tuple(levels), asked, per_wave, ends or f"{len(levels)} levels are the most")
+    asked, flow = len(problem.pitches), None
+    if problem.flows and plan.effects and not scene.finite_element.plastic:
+        flow = flow_seconds(problem, np.array([problem.extent]))
+    return Forecast(
+        levels=tuple(levels),
+        asked=asked,
+        per_wave=per_wave,
+        ends=ends or f"{len(levels)} levels are the most",
+        flow=flow,
+        leaves_out_flow=flow is not None
+        and time_with_flow(problem, plan, everywhere) > problem.time,
+    )
 
 
 def expected_level(
@@ -87,6 +105,31 @@ def expected_level(
 
         cost = expected(problem, plan, Refinement(pitch), patches)
     return replace(cost, seconds=contacts * cost.seconds)
+
+
+def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
+    """Of flow on the first two levels and of the check of its increments, for every friction
+    coefficient, by the laws of cost."""
+    from comparisons.models.finite_element.cost import expected
+    from comparisons.models.finite_element.mesh import LONGER, Refinement
+    from fem.nonlinear.press_plastic import TRAVEL
+
+    flowing = replace(problem, scene=problem.scene.unchecked({"finite_element.plastic": True}))
+    plan, (first, second, *_) = make_plan(flowing, MODELS), problem.pitches
+    solved = [Refinement(first), Refinement(second)]
+    solved += [Refinement(first, travel=times * TRAVEL) for times in LONGER]
+    seconds = sum(expected(flowing, plan, each, patches).seconds for each in solved)
+    return len(problem.scene.load.friction) * seconds
+
+
+def time_with_flow(problem: Problem, plan: Plan, patches: np.ndarray) -> float:
+    """Of the levels asked for, and of flow [s], in contact on `patches` (k, 2) [m]."""
+    own = (
+        expected_level(name, problem, plan, pitch, patches).seconds
+        for name in plan.models
+        for pitch in problem.pitches
+    )
+    return sum(own) + flow_seconds(problem, patches)
 
 
 def _cost(levels: tuple[PlannedLevel, ...]) -> str:

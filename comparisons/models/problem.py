@@ -72,6 +72,7 @@ class Problem:
     # (k,) [m] where one ends and the next begins: largest values are compared at the same asperity
     asperities: tuple[float, ...] = ()
     levels: Levels | None = None  # None: as the scene's resolution and budget have it
+    flows: bool = False  # the extent is as wide as flow may make the contact
 
     @property
     def tables(self) -> dict:
@@ -160,13 +161,16 @@ class Problem:
         """The constraints under which contact spreads as far as flow may take it: pressures are
         then at most what a flat punch bears while friction shears the surface off, (1 + pi/2) k,
         and that at which it does, k/mu; k = Y/sqrt 3 (Johnson 1985, sections 6.2 and 7.6)."""
-        plain, scene = self.constraints(), self.scene
-        if not scene.finite_element.plastic:
+        plain = self.constraints()
+        if not self.flows:
             return plain
-        least = (1.0 + 0.5 * np.pi) / max(1.0, (1.0 + 0.5 * np.pi) * max(scene.load.friction))
-        return replace(
-            plain, hardness=min(plain.hardness, least * scene.body.yield_stress / 3**0.5)
-        )
+        return replace(plain, hardness=min(plain.hardness, _least_of_flow(self.scene)))
+
+
+def _least_of_flow(scene: Scene) -> float:
+    """The least pressure [Pa] that contact may spread at, where the body flows (`widest`)."""
+    least = (1.0 + 0.5 * np.pi) / max(1.0, (1.0 + 0.5 * np.pi) * max(scene.load.friction))
+    return least * scene.body.yield_stress / 3**0.5
 
 
 def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
@@ -201,15 +205,30 @@ def problem_of(
     hertz = _smooth_contact(scene, modulus, load)
     _check_layers(scene, hertz.half_width)
     extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
+    plastic = scene.finite_element.plastic
     problem = Problem(scene, surface, modulus, hertz, extent, pitches=(), levels=levels)
+    problem = replace(problem, flows=plastic or _may_flow(scene, hertz))
     plain = scene.profile is None and scene.body.width is None and scene.body.hardness is None
-    plain = plain and scene.coating is None and not scene.finite_element.plastic
+    plain = plain and scene.coating is None and not problem.flows
     if not plain or problem.coupling:
-        problem = replace(problem, extent=_contact_extent(problem))
+        try:
+            problem = replace(problem, extent=_contact_extent(problem))
+        except SceneError:
+            if plastic or not problem.flows:
+                raise
+            problem = replace(problem, flows=False)  # the half-plane fits; flow has no solution
+            problem = replace(problem, extent=_contact_extent(problem))
     problem = replace(problem, pitches=_pitches(problem))
     _check_count(problem)
     _check_circle(problem)
     return replace(problem, asperities=_asperities(problem))
+
+
+def _may_flow(scene: Scene, hertz: HertzContact) -> bool:
+    """Whether flow, where it is found beside the half-plane, may spread the contact."""
+    asked = scene.body.yield_stress is not None and scene.budget.effects and scene.tolerances
+    rough = scene.profile is not None
+    return bool(asked) and (rough or hertz.peak_pressure > _least_of_flow(scene))
 
 
 def _smooth_contact(scene: Scene, modulus: float, load: float | None) -> HertzContact:

@@ -11,13 +11,16 @@ from comparisons.common.numbers import given_percent, percent, plain, significan
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text, label
 from comparisons.models.assumptions import laws, without_law
+from comparisons.models.forecast import time_with_flow
 from comparisons.scenes.materials import kinds_like, measured_solids
 from comparisons.scenes.sections import ElasticSection
-from comparisons.studies import contact, coupling
+from comparisons.studies import contact
+from comparisons.studies.friction import coupling
 from comparisons.studies.model_error.account import INPUTS, INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
-from comparisons.studies.model_error.show import ROUNDING, figure_of_whole, law_range
+from comparisons.studies.model_error.selection import FLOW
+from comparisons.studies.model_error.show import ROUNDING, figure_of_whole, flow_taken, law_range
 from comparisons.studies.scatter.study import beside_inputs, by_inputs
 from comparisons.studies.study import MODEL_ERROR, SCATTER, Run
 from comparisons.studies.subsurface import yielding
@@ -113,9 +116,12 @@ def _sentence_of(run: Run, kind: Kind) -> str:
     if kind == "fails":
         outside = [error for error in errors if error.verdict == "fails"]
         worst, more = _nearest(outside), len(outside) - 1
+        taken = flow_taken([e for e in errors if e.friction == worst.friction])
+        taken = f"{taken}; " if taken else ""
         are = "are" if more > 1 else "is"
         others = f"; {more} more of {len(errors)} judged errors {are} outside" if more else ""
-        return f"The half-plane fails here: {_said(worst, several)}{_dominant(worst)}{others}{law}."
+        said = f"{taken}{_said(worst, several)}{'' if taken else _dominant(worst)}{others}{law}"
+        return f"The half-plane fails here: {said}."
     said = _inconclusive(run, several) if errors else "no figure has a tolerance"
     return f"The half-plane cannot be judged here: {said}."
 
@@ -265,11 +271,18 @@ def _like(section: ElasticSection) -> str:
 
 
 def _next_of_flow(run: Run) -> tuple[str, tuple[str, ...]]:
-    """Where a body flows beyond doubt."""
-    given = "[finite_element]\nplastic = true"
-    if run.problem.scene.body.yield_stress:
-        return "finite_element.plastic = true computes the flow.", (given,)
-    return 'body.yield_stress = "…" with finite_element.plastic = true computes the flow.', (given,)
+    """Where a body flows beyond doubt, and no model of the run does."""
+    problem = run.problem
+    why = run.data(MODEL_ERROR).selection.impossible.get(FLOW, "")
+    if problem.scene.body.yield_stress is None:
+        return 'body.yield_stress = "…" computes the flow.', ()
+    if "budget.effects" in why:
+        return "budget.effects = true computes the flow.", ("[budget]\neffects = true",)
+    if "budget.time" in why:
+        patches = run.runs["half_plane"].levels[0].patches
+        time = _rounded_up(time_with_flow(problem, run.plan, patches))
+        return f"budget.time = {time:g} computes the flow.", (f"[budget]\ntime = {time:g}",)
+    return f"a scene whose flow can be computed: {why}.", ()
 
 
 def _figures_of_whole(run: Run) -> str:

@@ -28,9 +28,10 @@ from comparisons.models.finite_element.compliance_check import ComplianceColumn
 from comparisons.models.plan import Plan
 from comparisons.output.result_json import Result
 from comparisons.scenes.surface import SceneSurface
-from comparisons.studies import checks, comparison, contact, coupling, problem, running_in
+from comparisons.studies import checks, comparison, contact, problem, running_in
 from comparisons.studies.answers import study as answers
-from comparisons.studies.coupling import Couplings
+from comparisons.studies.friction import coupling
+from comparisons.studies.friction.coupling import Couplings
 from comparisons.studies.heat import study as heat
 from comparisons.studies.model_error import account
 from comparisons.studies.scatter import study as scatter

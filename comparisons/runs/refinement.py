@@ -12,6 +12,7 @@ import numpy as np
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages, machine_memory, no_progress
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
+from comparisons.models.finite_element.mesh import LONGER
 from comparisons.models.forecast import expected_level
 from comparisons.models.level import ExpectedCost, Level, ModelRun
 from comparisons.models.plan import Plan
@@ -22,7 +23,6 @@ from comparisons.studies.study import Solved
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
-LONGER = (4, 2)  # times as long increments of plastic flow, of its check
 
 
 def refined(

@@ -24,6 +24,7 @@ from comparisons.common.provenance import (
 )
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
 from comparisons.figures.figure import Findings
+from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
@@ -37,7 +38,9 @@ from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
-from comparisons.studies.study import Run, Solved, studied, unsolved
+from comparisons.studies.ladder.limits import limited, may_stop_early
+from comparisons.studies.ladder.show import SUFFICES
+from comparisons.studies.study import LADDER, Run, Solved, studied, unsolved
 from fem.solver.communicator import is_alone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
@@ -78,13 +81,17 @@ def run(
 ) -> Run:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
-    models    of half_plane, finite_element
+    models    of half_plane, finite_element; fewer where budget.up_to asks for no more
     callback  gets each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution or a process ends amid a task,
     MemoryError where the process may not have what they take; nothing is written then."""
+    scene, models = limited(scene, models)
+    if may_stop_early(scene, models):
+        first = run(scene, None, MODELS[:1], callback, known=known)
+        models = MODELS[:1] if first.found[LADDER].said(SUFFICES) else models
     stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)

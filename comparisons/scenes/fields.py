@@ -209,9 +209,10 @@ class ExtentField(FieldType):
 
 @dataclass(frozen=True)
 class Several(FieldType):
-    """A list of what `item` reads, at least one and none twice; a single value is a list of one."""
+    """A list of what `item` reads, at least one; a single value is a list of one."""
 
     item: Number
+    repeated: bool = False  # whether one may stand there twice
 
     def read(self, entry: object) -> tuple[float, ...]:
         values = entry if isinstance(entry, list | tuple) else [entry]
@@ -220,13 +221,15 @@ class Several(FieldType):
         if len(values) > MOST_VALUES:
             raise self.wrong(f"is a list of {len(values)} values, more than {MOST_VALUES}")
         read = tuple(self.item.read(value) for value in values)
-        for value in read:
+        for value in () if self.repeated else read:
             if read.count(value) > 1:
                 raise self.wrong(f"lists {value:g} twice")
         return read
 
     def allowed(self) -> str:
-        return f"{self.item.allowed()}, or a list of such, none of them twice"
+        return f"{self.item.allowed()}, or a list of such" + ", none of them twice" * (
+            not self.repeated
+        )
 
 
 @dataclass(frozen=True)

@@ -307,11 +307,18 @@ class ResolutionSection(SceneSection):
             yield "elements", "is given beside pitch; allowed is one of the two"
 
 
+# Models from the cheapest on that a run may end with: the half-plane, that with what an operator
+# carries, linear finite elements, finite deformation, and all that matters.
+UP_TO = ("half-plane", "operators", "linear", "finite", "whole")
+
+
 class BudgetSection(SceneSection):
     """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
     whether it computes `effects` that the scene's finite elements do not model, and where "all",
-    those too that cannot change a verdict."""
+    those too that cannot change a verdict; and up to which of the models UP_TO it goes, no further
+    than the first that is known to hold."""
 
     time: Annotated[float, Number(TIME, above=0.0)] = 300.0
     memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
     effects: Annotated[bool | str, Truth(("all",))] = True
+    up_to: Annotated[str, OneOf(UP_TO)] = UP_TO[-1]

@@ -9,7 +9,6 @@ from comparisons.studies import (
     checks,
     comparison,
     contact,
-    coupling,
     heat,
     ladder,
     problem,
@@ -17,6 +16,7 @@ from comparisons.studies import (
     scatter,
     statistics,
 )
+from comparisons.studies.friction import PARTIAL_SLIP, coupling
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies.subsurface import bulge, quiescent_zone, yielding
 
@@ -25,7 +25,7 @@ STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
-    ladder.STUDY,
+    *(PARTIAL_SLIP, ladder.STUDY),
 )
 
 

@@ -54,6 +54,20 @@ class FiniteElementCompliance:
         moved = self.weighted(self.body.solve(self._load(force)))
         return moved if self.far is None else moved + self._means @ self.far.symmetric(force)
 
+    def moved(self, pressure: np.ndarray, traction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Weighted displacements (count,) [m^2] along the pressure, into the body, and along the
+        traction, under a pressure and any traction (count,) [Pa] towards +x."""
+        force = self.normal @ pressure + self.tangential @ traction
+        moved = self.body.solve(self._load(force))[self.body.surface.point].ravel()
+        if self.far is not None:
+            moved = moved + self.far.symmetric(force)
+        return self._means @ moved, self.tangential.T @ moved
+
+    def displacement_of(self, pressure: np.ndarray, traction: np.ndarray) -> np.ndarray:
+        """`displacement` under a pressure and any traction (count,) [Pa] towards +x."""
+        load = self._load(self.normal @ pressure + self.tangential @ traction)
+        return self.body.solve(load) if self.far is None else self.far.displacement(load)
+
     def apply_all(self, pressures: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """`apply` to the columns of `pressures` (count, m) at once, (count, m) [m^2]: cheaper."""
         return self._columns(self._force(pressures, friction)).T

@@ -76,6 +76,11 @@ class Contact(Protocol):
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms at a displacement (n, 2) [m] and a pressure (count,) [Pa]."""
 
+    def loaded(
+        self, displacement: np.ndarray, pressure: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The gap (count,) [m^2] and the nodal forces (2n,) [N/m] of `at` alone."""
+
 
 class LinearContact:
     """Contact on the undeformed surface: gap B'u, forces B p + friction T p. B and T are the
@@ -92,6 +97,12 @@ class LinearContact:
         """Terms as of `Contact`; only the gap depends on the displacement."""
         gap = self._gradient.T @ displacement.ravel()
         return ContactTerms(gap, self._gradient, self._force)
+
+    def loaded(
+        self, displacement: np.ndarray, pressure: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """As of `Contact`."""
+        return self._gradient.T @ displacement.ravel(), self._force @ pressure
 
 
 def on_all_nodes(body: ElasticBody, forces: csr_matrix) -> csr_matrix:

@@ -15,12 +15,12 @@ class ElasticContact:
     """Contact on a compliance C (count, count) [m^2/Pa] of both surfaces together."""
 
     def __init__(self, flexible: np.ndarray, weights: np.ndarray) -> None:
-        self._flexible, self._weights = flexible, weights
+        self.flexible, self._weights = flexible, weights
 
     def __call__(self, gap: np.ndarray, load: float, start: np.ndarray) -> tuple[np.ndarray, float]:
         """Pressure (count,) [Pa] and approach [m] under a load [N/m] > 0, for a weighted gap
         (count,) [m^2], from a guessed pressure. Raises FemError where the active set cycles."""
-        weights, flexible = self._weights, self._flexible
+        weights, flexible = self._weights, self.flexible
         stiff = weights.mean() / flexible.diagonal().mean()
         hats = HatStates(start, np.inf, load, weights)
         hats.keep_one_in_contact(gap / weights)

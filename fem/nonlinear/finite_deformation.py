@@ -127,6 +127,7 @@ class FiniteContact:
     far        gives the body's outer boundary the half-plane's displacement under `start`; None:
                the support holds it. An elastic roller has its own
     gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
+    compliance of the body on the hats, without flow
 
     Raises FemError on more than one process."""
 
@@ -141,8 +142,9 @@ class FiniteContact:
         disc: bool = False,
     ) -> None:
         own = FiniteElementCompliance(body, hats, far=far)
-        self.body, self.hats, self.friction, self._start = body, hats, friction, start
-        self._roller, self.elastic, self._disc = roller, (body,), disc
+        self.body, self.hats, self.friction, self.start = body, hats, friction, start
+        self.roller, self.elastic, self.compliance = roller, (body,), own
+        self._disc = disc
         self.linear = _started(own, start, friction)
         if isinstance(roller, FiniteElementCompliance):
             self.elastic = body, roller.body
@@ -165,8 +167,8 @@ class FiniteContact:
         positive into the body. `hardness` H [Pa] caps Cauchy's pressure: `pressure` by as much more
         as the surface under a hat is stretched, which each solution tells the next. Raises FemError
         if it does not converge, ValueError for a load that the hats cannot bear."""
-        state = ContactState((self.linear,), self._start, approach=0.0)
-        asked = load and self.pressing(load, self.linear, self._start)
+        state = ContactState((self.linear,), self.start, approach=0.0)
+        asked = load and self.pressing(load, self.linear, self.start)
         constant, cap = np.zeros_like(self.weights), np.full_like(self.weights, hardness)
         for _ in range(MOST_SETTINGS if np.isinf(hardness) else MOST_CAPS):
             problem, wanted = [(self.response, self.contact)], (asked, approach, cap)
@@ -232,7 +234,7 @@ class FiniteContact:
 
         def begun(part: float) -> ContactState:
             wanted = [part * each if each else each for each in (load, approach)]
-            rest = state_at_rest(self._linear, self._start)
+            rest = state_at_rest(self._linear, self.start)
             given = self._linear, self.gap, self.weights, rest, *wanted, hardness
             found = solve_nonlinear_contact(*given).state
             moved, _ = self.set_back(np.vstack(found.displacements), found.pressure)
@@ -252,7 +254,7 @@ class FiniteContact:
 
     def deformed(self, solution: NonlinearSolution) -> "FiniteDeformation":
         """The bodies in a state of contact."""
-        roller = self._roller
+        roller = self.roller
         if isinstance(roller, FiniteElementCompliance):
             reached = solution.state.displacements[0][len(self.body.nodes) :]
             roller = DeformedSurface(roller.body, reached)

@@ -1,4 +1,4 @@
-"""A metal that flows at finite strains and rotations: small-strain plasticity of logarithmic strain.
+"""A metal that flows at finite strains and rotations: by the logarithmic strain.
 
 The strain E = 1/2 ln C has an additive plastic part; yield function, return mapping, hardening and
 state are those of `fem.nonlinear.plasticity`, with E in place of the small strain (Miehe, Apel and

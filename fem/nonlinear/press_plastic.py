@@ -3,19 +3,7 @@
 Each load is reached in increments from the body's last state; as far as nothing flows it is reached
 at once. The contact is on the undeformed surface, as in the linear theory; the roller is rigid or
 elastic. Each increment starts from the contact in which the plastic strain has gone on as over the
-last one, and is solved by Newton's method for the body,
-
-    F(u_k) + K_t (u - u_k) - T p = 0   with   g >= 0, p >= 0, complementary, w'p = P,
-
-where `fem.contact.nonlinear` solves the whole linear contact, with its active set. (With one change
-of the active set for each Newton step, tension on hats that should open makes the body flow.) Then
-a line search: without friction the equilibrium minimises a convex energy, whose slope on the way to
-the linear contact,
-
-    s(t) = F(u_k + t du)'du - P dd,   du = u - u_k,   dd the change of the approach,
-
-rises from a negative value. If it is far above zero at the end, the step goes to its zero. With
-friction the slope includes the work of the tractions.
+last one, and is solved by `fem.nonlinear.newton`.
 
 The increments follow the contact's edges. Where an edge jumps over several hats in one increment,
 the metal below has flowed to the pressure that ended there, and keeps its mark: a peak of pressure
@@ -26,32 +14,28 @@ Within one hat an edge cannot be seen. Its last hat carries what lies beyond it 
 touches, the metal flows to that, too, and a sawtooth of one hat's width stays in the pressures,
 however short the increments are. The mean over neighbouring hats, `averaged_pressure`, converges.
 
-Nomenclature as of `fem.contact.nonlinear`, K_t tangent of the body [Pa]."""
+Nomenclature as of `fem.contact.nonlinear`."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_matrix
 
 from analytic.stress_state import StressState, von_mises
 from fem.body.sums import nodal_sums
 from fem.body.triangle import GAUSS, reference_nodes
 from fem.compliance.operator import FiniteElementCompliance
-from fem.contact.nonlinear import ContactState, solve_nonlinear_contact
+from fem.contact.nonlinear import ContactState
 from fem.contact.terms import Contact, LinearContact, LinearResponse, Response
 from fem.nonlinear.condensed import MOST_HATS, ElasticContact
+from fem.nonlinear.newton import RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
 
-# Forces over the contact's forces, at a load and on the way there; the latter moves pressures under
-# the load by 1e-8 of the largest, the plastic strain at single points by 1e-5.
-RESIDUAL, ON_THE_WAY = 1e-9, 1e-4
-MOST_LINEAR_CONTACTS = 40
-# The line search ends where the energy's slope is below this part of the first one.
-SLACK = 0.5
-MOST_TRIALS = 12
+# Residual on the way to a load: it moves pressures under the load by 1e-8 of the largest, the
+# plastic strain at single points by 1e-5.
+ON_THE_WAY = 1e-4
 
 # Hats that an edge of the contact may travel in one increment. Peak pressures of a smooth roller at
 # 15 times the load of first yield, of a turned surface, and of a roller just beyond first yield are
@@ -78,100 +62,6 @@ MOST_RELEASE_STEPS = 30
 EXTRAPOLATION = np.column_stack([np.ones(6), reference_nodes(2)]) @ np.linalg.inv(
     np.column_stack([np.ones(3), GAUSS])
 )
-
-
-class _Linearised(LinearResponse):
-    """A body's response linearised at a displacement, without history."""
-
-    def __init__(self, body: Response, displacement: np.ndarray) -> None:
-        self.held, self.symmetric = body.held, body.symmetric
-        self.start, self._matrix = body.linearised(displacement)
-        self._there = displacement
-
-    def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
-        move = (displacement - self._there).ravel()
-        return self.start + (self._matrix @ move).reshape(-1, 2), self._matrix
-
-
-def newton_by_contacts(
-    bodies: Sequence[tuple[Response, Contact]],
-    gap: np.ndarray,
-    weights: np.ndarray,
-    start: ContactState,
-    load: float | None = None,
-    approach: float | None = None,
-    residual: float = RESIDUAL,
-    flexible: np.ndarray | None = None,
-) -> tuple[ContactState, list[float]]:
-    """Equilibrium under a `load` P [N/m] > 0 or at an `approach` d [m], and the residuals, the last
-    one at most the given `residual`. `flexible` is the compliance of what stays elastic. The
-    approach works near the limit load too. The caller accepts the displacements into the bodies'
-    histories. Other arguments as of `solve_nonlinear_contact`. Raises FemError if it does not
-    converge."""
-    state, history = start, []
-    free = [~body.held for body, _ in bodies]
-    while len(history) < MOST_LINEAR_CONTACTS:
-        starts = zip(bodies, state.displacements, strict=True)
-        tangents = [_Linearised(body, u) for (body, _), u in starts]
-        linear = [(near, contact) for near, (_, contact) in zip(tangents, bodies, strict=True)]
-        goal = solve_nonlinear_contact(
-            linear, gap, weights, state, load, approach, flexible=flexible
-        ).state
-        applied = [
-            (contact.at(u, goal.pressure).force @ goal.pressure).reshape(-1, 2)
-            for (_, contact), u in zip(bodies, goal.displacements, strict=True)
-        ]
-        moves = [u - v for u, v in zip(goal.displacements, state.displacements, strict=True)]
-        rise = goal.pressure - state.pressure
-        elastic_work = 0.0 if flexible is None else float(rise @ flexible @ rise)
-        part, forces = _length(bodies, state, moves, applied, tangents, elastic_work)
-        change = ContactState(tuple(moves), rise, goal.approach - state.approach)
-        state = replace(state.moved(part, change), load=goal.load)
-        rest = [np.linalg.norm((f - a)[ok]) for f, a, ok in zip(forces, applied, free, strict=True)]
-        size = [np.linalg.norm(a[ok]) for a, ok in zip(applied, free, strict=True)]
-        history.append(max(r / s for r, s in zip(rest, size, strict=True)))
-        if part == 1.0 and history[-1] <= residual:
-            return goal, history
-    raise FemError(f"residual {history[-1]:.1e} after {MOST_LINEAR_CONTACTS} linear contacts")
-
-
-def _length(
-    bodies: Sequence[tuple[Response, Contact]],
-    state: ContactState,
-    moves: Sequence[np.ndarray],
-    applied: Sequence[np.ndarray],
-    tangents: Sequence[_Linearised],
-    elastic_work: float,
-) -> tuple[float, list[np.ndarray]]:
-    """Line search: part of the step to take, and the bodies' forces at its end. `elastic_work` [N]
-    is that of the whole change of the pressure on what it moves of the condensed body."""
-
-    def slope(forces: Sequence[np.ndarray], part: float) -> float:
-        pairs = zip(forces, applied, moves, strict=True)
-        return float(sum(np.sum((f - a) * du) for f, a, du in pairs)) - (1.0 - part) * elastic_work
-
-    def forces_at(part: float) -> list[np.ndarray]:
-        pairs = zip(bodies, state.displacements, moves, strict=True)
-        return [body.force(u + part * du) for (body, _), u, du in pairs]
-
-    first = slope([near.start for near in tangents], 0.0)
-    low, high, at_low, part = 0.0, 1.0, first, 1.0
-    forces = forces_at(part)
-    at_high = slope(forces, part)
-    if at_high <= SLACK * abs(first):
-        return part, forces
-    for _ in range(MOST_TRIALS):
-        zero = low - at_low * (high - low) / (at_high - at_low)
-        part = np.clip(zero, 0.1 * high + 0.9 * low, 0.9 * high + 0.1 * low)
-        forces = forces_at(part)
-        here = slope(forces, part)
-        if abs(here) <= SLACK * abs(first):
-            break
-        if here < 0.0:
-            low, at_low = part, here
-        else:
-            high, at_high = part, here
-    return part, forces
 
 
 @dataclass(frozen=True)
@@ -209,26 +99,17 @@ def press_plastically(
     travel      hats that an edge of the contact may travel in one increment
 
     Raises ValueError for negative loads, FemError if a load cannot be reached."""
-    if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
-        raise ValueError("the first load must be positive, and none negative")
-    way = _LoadHistory(compliance, metal, gap, weights, guess, friction, roller, travel)
-    body, history = way.body, []
-    for load in loads:
-        target = load or min(LAST_TOUCH * max(loads), way.state.load)
-        iterations = way.to(target)
-        if load == 0.0:
-            way.release()
-        pressure = way.state.pressure if load else np.zeros_like(way.state.pressure)
-        reached = (way.state.approach, way.state.displacements[0], body.state, iterations)
-        history.append(PlasticContact(load, pressure, *reached))
-    return body, tuple(history)
+    way = LoadHistory(compliance, metal, gap, weights, guess, friction, roller, travel)
+    return way.body, way.through(loads)
 
 
-class _LoadHistory:
+class LoadHistory:
     """The contact from load to load, with what stays elastic condensed.
 
     body   with its accepted plastic state
     state  of the last contact"""
+
+    kind = PlasticBody
 
     def __init__(
         self,
@@ -243,7 +124,7 @@ class _LoadHistory:
     ) -> None:
         self._compliance, self._gap, self._weights = compliance, gap, weights
         self._friction, self._travel = friction, travel
-        self.body = PlasticBody(compliance.body, metal)
+        self.body = self.kind(compliance.body, metal)
         others: list[tuple[Response, Contact]] = []
         self._elastic = self._flexible = None
         if compliance.count <= MOST_HATS:
@@ -261,6 +142,25 @@ class _LoadHistory:
         moved = tuple(np.zeros(response.held.shape) for response, _ in self._bodies)
         self.state = ContactState(moved, guess, approach=0.0)
         self._former = 0.0, self.body.state  # load and plastic state before the last increment
+
+    def through(self, loads: Sequence[float]) -> tuple[PlasticContact, ...]:
+        """The contact under each of the loads P [N/m] in turn; 0 removes the roller. Raises
+        ValueError for negative loads, FemError if a load cannot be reached."""
+        if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
+            raise ValueError("the first load must be positive, and none negative")
+        history = []
+        for load in loads:
+            iterations = self.to(load or min(LAST_TOUCH * max(loads), self.state.load))
+            if load == 0.0:
+                self.release()
+            history.append(self.contact(load, iterations))
+        return tuple(history)
+
+    def contact(self, load: float, iterations: int) -> PlasticContact:
+        """What was reached by linear contacts, under a load or without the roller."""
+        pressure = self.state.pressure if load else np.zeros_like(self.state.pressure)
+        displacement, state = self.state.displacements[0], self.body.state
+        return PlasticContact(load, pressure, self.state.approach, displacement, state, iterations)
 
     def to(self, target: float) -> int:
         """Linear contacts that lead to a load [N/m]."""
@@ -353,9 +253,9 @@ class _LoadHistory:
     def _frozen(self, load: float, plastic: PlasticState) -> ContactState | None:
         """The contact of the bodies in a plastic state that does not change; None: not found."""
         compliance, flowed = self._compliance, self.body.plastic_force(plastic)
-        left = compliance.weighted(self.body.body.solve(flowed))
+        gap = self._gap + compliance.weighted(self.body.body.solve(flowed))
         try:
-            pressure, approach = self._elastic(self._gap + left, load, self.state.pressure)
+            pressure, approach = self._elastic(gap, load, self.state.pressure)
         except FemError:
             return None
         moved = self.body.body.solve(compliance.load(pressure, self._friction) + flowed)
@@ -397,8 +297,14 @@ def _released(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:
     elastic = body.body.solve(body.plastic_force(body.state))
     if not body.step(elastic).yields.any():
         return elastic
-    free = np.flatnonzero(~body.held.ravel())
     scale = np.abs(body.force_of(body.stress(displacement, body.state)[0])).max()
+    return unloaded(body, displacement, scale)
+
+
+def unloaded(body: PlasticBody, displacement: np.ndarray, scale: float) -> np.ndarray:
+    """Displacement (n, 2) [m] of the body without load, accepted into its history, from a guess.
+    Forces that are left are compared with a `scale` [N/m]. Raises FemError without convergence."""
+    free = np.flatnonzero(~body.held.ravel())
     for _ in range(MOST_RELEASE_STEPS):
         force, tangent = body.linearised(displacement)
         rest = force.ravel()[free]

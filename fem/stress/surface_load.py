@@ -5,7 +5,7 @@ Nomenclature
     s_tt, s_nn, s_nt   stress along the surface, across it, shear
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -26,18 +26,27 @@ class SurfaceLoad:
     pressure: np.ndarray  # (count,) [Pa]
     friction: float | np.ndarray  # (c,); times the pressure is the sliding traction towards +x
     direction: Direction  # of the pressure, as in `fem.compliance.operator`
+    # (count,) [Pa] towards +x beside all of these
+    traction: np.ndarray | None = field(default=None, kw_only=True)
 
     @cached_property
     def kinks(self) -> Kinks:
         """Places where the load's slope along the surface jumps."""
-        slope = np.diff(self._nodal) / np.diff(self.hats)
-        bend = np.diff(slope, prepend=0.0, append=0.0)
-        x, bend = self.hats[bend != 0.0], bend[bend != 0.0]
+        bend, of_traction = self._bend(self._nodal), self._bend(self._nodal_traction)
+        at = (bend != 0.0) | (of_traction != 0.0)
+        x, bend = self.hats[at], bend[at]
         along = self.tangent(x) @ [1.0, 1j]
         # from a force per length of x, differentiated along x, to both by length of arc
         per_force = 1j * bend * along.real**2 / along
         jump = (self._force(x) @ [1.0, 1j]).T * per_force
+        if self.traction is not None:
+            per_force = 1j * of_traction[at] * along.real**2 / along
+            jump = jump + self._along(x) @ [1.0, 1j] * per_force
         return Kinks(x + 1j * self.surface(x), along, jump.T)
+
+    def _bend(self, nodal: np.ndarray) -> np.ndarray:
+        """Jumps (count + 2,) of the slope of nodal values."""
+        return np.diff(np.diff(nodal) / np.diff(self.hats), prepend=0.0, append=0.0)
 
     def tangent(self, x: np.ndarray) -> np.ndarray:
         """t (k, 2) at x (k,) [m]."""
@@ -49,11 +58,22 @@ class SurfaceLoad:
         t = t.reshape(len(x), *(1,) * (force.ndim - 2), 2)
         pressure = np.interp(x, self.hats, self._nodal).reshape(*t.shape[:-1], 1)
         load = pressure * t[..., :1] * force
+        if self.traction is not None:
+            further = np.interp(x, self.hats, self._nodal_traction)[:, None] * self._along(x)
+            load = load + t[..., :1] * further.reshape(t.shape)
         return (load * normal(t)).sum(-1), (load * t).sum(-1)
 
     @cached_property
     def _nodal(self) -> np.ndarray:
         return np.concatenate([[0.0], self.pressure, [0.0]])
+
+    @cached_property
+    def _nodal_traction(self) -> np.ndarray:
+        return np.zeros(len(self.hats)) if self.traction is None else np.pad(self.traction, 1)
+
+    def _along(self, x: np.ndarray) -> np.ndarray:
+        """Force (k, 2) per length of x under unit traction."""
+        return np.stack(tangent_of(self.direction)(x), axis=-1)
 
     @cached_property
     def surface(self) -> CubicSpline:
@@ -63,7 +83,7 @@ class SurfaceLoad:
 
     def _force(self, x: np.ndarray) -> np.ndarray:
         """Force (k, …, 2) per length of x under unit pressure, its sliding traction included."""
-        along = np.stack(tangent_of(self.direction)(x), axis=-1)
+        along = self._along(x)
         down = np.stack(self.direction(x), axis=-1)
         if np.ndim(self.friction):
             along, down = along[:, None], down[:, None]

@@ -33,6 +33,9 @@ class BodyShare:
     compliance: FiniteElementCompliance
     factor: float  # of the body's compliance, where it serves for a body of another modulus too
     friction: float  # sliding traction over pressure, towards +x
+    # what a traction and a pressure on it move across each other, over what they move on the rough
+    # body: -1 of a roller, which is turned over and takes the opposite traction
+    turn: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -57,6 +60,28 @@ class MutualCompliance:
     def apply_all(self, pressures: np.ndarray) -> np.ndarray:
         """`apply` to the columns of `pressures` (n, m) at once, (n, m) [m^2]."""
         return sum(p.factor * p.compliance.apply_all(pressures, p.friction) for p in self.parts)
+
+    def moved(
+        self, pressure: np.ndarray | None = None, traction: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Weighted displacements (n,) [m^2] of both surfaces towards each other, and of the rough
+        one over the other along x, under a pressure or a traction on it (n,) [Pa]."""
+        normal = tangential = 0.0
+        for part in self.parts:
+            zero = np.zeros(part.compliance.count)
+            if traction is None:
+                pressed, along = part.compliance.moved(pressure, zero)
+                along = part.turn * along
+            else:
+                pressed, along = part.compliance.moved(zero, traction)
+                pressed = part.turn * pressed
+            normal, tangential = normal + part.factor * pressed, tangential + part.factor * along
+        return normal, tangential
+
+    @property
+    def unlike(self) -> bool:
+        """Whether pressures move the surfaces over each other."""
+        return any(part.turn for part in self.parts)
 
     def matrix(self) -> np.ndarray:
         """The same as a matrix (n, n) [m^2/Pa]: one back-substitution a column."""
@@ -83,16 +108,17 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
     if bodies.roller is not None:
         roller = compliance(bodies.roller, up)
         return MutualCompliance(
-            (BodyShare(rough, 1.0, friction), BodyShare(roller, 1.0, -friction))
+            (BodyShare(rough, 1.0, friction), BodyShare(roller, 1.0, -friction, -1.0))
         )
     if share and settings.gap == "displaced":
         roller = compliance(bodies.rough, up)
         return MutualCompliance(
-            (BodyShare(rough, 1.0, friction), BodyShare(roller, share, -friction))
+            (BodyShare(rough, 1.0, friction), BodyShare(roller, share, -friction, -1.0))
         )
     # the roller's traction is the opposite one
+    turn = (1.0 - share) / (1.0 + share)
     return MutualCompliance(
-        (BodyShare(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share)),)
+        (BodyShare(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share), turn),)
     )
 
 

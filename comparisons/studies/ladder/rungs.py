@@ -3,30 +3,44 @@
 In: an error budget, whose finite elements are solved already. Out: a rung a model. Hertz's contact
 is a closed form; every other rung is what the run has solved for its verdict."""
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 
+from analytic.contact.problem import ContactError
 from analytic.exact.hertz import HertzContact, hertz_extremes, hertz_stress
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import WHOLE
+from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.models.level import ModelRun
+from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import uncertainties
+from comparisons.studies.ladder.operators import (
+    OperatorModel,
+    carried,
+    problem_carrying,
+    why_no_stresses,
+    words_of,
+)
 from comparisons.studies.model_error.account import figure_of
-from comparisons.studies.model_error.catalogue import EFFECTS, KINEMATIC
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.studies.model_error.error_budget import ErrorBudget
 from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.study import LADDER, Solved
+from comparisons.studies.subsurface.yielding import FlowAssessment
 
-HERTZ, HALF_PLANE, LINEAR, FINITE, FLOW = "hertz", "half_plane", "linear", "finite", "flow"
+HERTZ, HALF_PLANE, OPERATORS = "hertz", "half_plane", "operators"
+LINEAR, FINITE, FLOW = "linear", "finite", "flow"
+OTHER = MODELS[1]  # the finite elements of the scene
 # Kinds of rungs, from the cheapest on; `--up-to` takes these names with hyphens.
 KINDS = {
     HERTZ: "Hertz's closed form",
     HALF_PLANE: "half-plane",
+    OPERATORS: "half-plane with what an operator carries",
     LINEAR: "linear finite elements",
     FINITE: "finite deformation",
     FLOW: "elastic-plastic finite elements",
@@ -51,6 +65,9 @@ class Rung:
     figures: tuple[Figure, ...]  # (rung - whole) / whole
     seconds: float
     memory: float  # [bytes] largest of the process that solved it; 0 of a closed form
+    effects: frozenset[str] = frozenset()  # that it has beside the half-plane's assumptions
+    # what it differs by from the scene's own finite elements, where both have the same effects
+    beside: tuple[Figure, ...] = ()
 
     @property
     def verdict(self) -> str:
@@ -64,12 +81,49 @@ class Ladder:
     solved: Solved
     budget: ErrorBudget
     compared: tuple[Figure, ...]  # the models' comparison, those that are judged
+    flow: FlowAssessment
 
     def rungs(self) -> list[Rung]:
         """From the cheapest to the whole."""
         made = [self._hertz(), self._half_plane(), *self._effects(), self._own(), self._whole()]
+        made = [rung for rung in made if rung is not None]
+        if all(rung.verdict != "holds" for rung in made[:2]):
+            operators = self._operators(made)
+            made += [] if operators is None else [operators]
         order = list(KINDS)
-        return sorted(filter(None, made), key=lambda rung: order.index(rung.kind))
+        return sorted(made, key=lambda rung: order.index(rung.kind))
+
+    def _operators(self, made: list[Rung]) -> Rung | None:
+        """Solved here, where it has anything that the half-plane has not and could be the answer:
+        the same effects in finite elements are not refuted."""
+        problem, window, selection = self.solved.problem, self.solved.window, self.budget.selection
+        held = carried(problem, selection.whole, self.flow)
+        same = [rung for rung in made if rung.effects == held]
+        refuted = self.flow.beyond_doubt or any(rung.verdict == "fails" for rung in same)
+        if not held or refuted or why_no_stresses(problem, window) is not None:
+            return None
+        finite_elements, errors, compared = self.solved.runs[OTHER], [], []
+        runs = operator_runs(problem, held, finite_elements, window)
+        if runs is None:
+            return None
+        for friction, run in runs.items():
+            for row, error in self._beside(run, friction):
+                errors.append(error)
+                compared.append(renamed(row, OPERATORS))
+        figures = self._figures(OPERATORS, errors)
+        beside = tuple(compared) if selection.contained == held else ()
+        return Rung(OPERATORS, OPERATORS, words_of(held), figures, *cost_of(runs), held, beside)
+
+    def _beside(self, run: ModelRun, friction: float) -> list[tuple[Figure, ModelError]]:
+        """Differences from the scene's own finite elements, and errors against the whole, of a
+        model that was solved on the half-plane's pressure elements."""
+        problem, window = self.solved.problem, self.solved.window
+        finite_elements = self.solved.runs[OTHER]
+        rows = differences_of(run, finite_elements, problem, friction, window)
+        runs = {"half_plane": run, OTHER: finite_elements}
+        solutions = replace(self.budget.solutions[friction], runs=runs)
+        judged = [rows[row.quantity] for row in self._rows(friction)]
+        return [(row, solutions.error(row)) for row in judged]
 
     def _figures(self, name: str, errors: Iterable[ModelError]) -> tuple[Figure, ...]:
         tolerances = self.solved.problem.scene.tolerances
@@ -78,7 +132,7 @@ class Ladder:
 
     def _hertz(self) -> Rung:
         began, problem, window = perf_counter(), self.solved.problem, self.solved.window
-        errors, finite_elements = [], self.solved.runs["finite_element"]
+        errors, finite_elements = [], self.solved.runs[OTHER]
         for friction, solutions in self.budget.solutions.items():
             count = len(solutions.history)
             grids = [level.grid.x for level in finite_elements.levels[:count]]
@@ -114,7 +168,8 @@ class Ladder:
             words = f"{KINDS[kind]} alone"
             if kind == LINEAR:
                 words = f"finite elements with {EFFECTS[name].label}"
-            yield Rung(name, kind, words, self._figures(name, errors), *self.budget.took[name])
+            figures = self._figures(name, errors)
+            yield Rung(name, kind, words, figures, *self.budget.took[name], frozenset({name}))
 
     def _own(self) -> Rung | None:
         """The scene's own finite elements, where they have effects and are not the whole."""
@@ -127,12 +182,13 @@ class Ladder:
             for friction, solutions in every.items()
             for row in self._rows(friction)
         ]
-        run, words = self.solved.runs["finite_element"], _words_of(kind, contained)
-        return _rung_of(run, "finite_element", words, self._figures("finite_element", errors), kind)
+        run, words = self.solved.runs[OTHER], _words_of(kind, contained)
+        rung = _rung_of(run, OTHER, words, self._figures(OTHER, errors), kind)
+        return replace(rung, effects=contained)
 
     def _whole(self) -> Rung:
         """What is not known of the reference itself."""
-        run, errors = self.solved.runs["finite_element"], []
+        run, errors = self.solved.runs[OTHER], []
         for friction, solutions in self.budget.solutions.items():
             stated = uncertainties(run, self.solved.problem, friction)
             for row in self._rows(friction):
@@ -148,6 +204,32 @@ class Ladder:
 
     def _rows(self, friction: float) -> list[Figure]:
         return [row for row in self.compared if row.friction == friction]
+
+
+def operator_runs(
+    problem: Problem, held: frozenset[str], like: ModelRun, window: Window | None
+) -> dict[float, ModelRun] | None:
+    """The half-plane with what an operator carries, by friction coefficient, on the pressure
+    elements of another model; None where it has no solution."""
+    problem, frictions = problem_carrying(problem, held), problem.scene.load.friction
+    runs = {}
+    for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
+        model = OperatorModel(problem, group, group[0] if COUPLED in held else 0.0)
+        try:
+            levels = [model.level(level.grid.pitch, window) for level in like.levels]
+        except ContactError:  # the cap takes a contact that the pressures' extent does not hold
+            return None
+        if not all(level.solution.converged for level in levels):
+            return None
+        runs |= dict.fromkeys(group, ModelRun(OPERATORS, tuple(levels)))
+    return runs
+
+
+def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
+    """Seconds and largest memory [bytes] of runs by friction coefficient, some of them one."""
+    each = {id(run): run for run in runs.values()}.values()
+    memory = max(run.finest.peak_memory for run in each)
+    return sum(sum(run.seconds.values()) for run in each), memory
 
 
 def renamed(figure: Figure, rung: str) -> Figure:
@@ -207,9 +289,3 @@ def _words_of(kind: str, effects: Iterable[str]) -> str:
     implied = {"plastic_flow", *(KINEMATIC if kind == FINITE else ())}
     beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in implied]
     return f"{KINDS[kind]} with {', '.join(beside)}" if beside else KINDS[kind]
-
-
-def of_budget(solved: Solved, budget: ErrorBudget, compared: Iterable[Figure]) -> list[Rung]:
-    """The rungs of a finished comparison."""
-    judged = tuple(row for row in compared if row.bounds is not None)
-    return Ladder(solved, budget, judged).rungs()

@@ -2,16 +2,19 @@
 
 from collections.abc import Sequence
 
-from comparisons.common.numbers import percent, with_unit
-from comparisons.drawing.blocks import Block, Note, TextTable
+from comparisons.common.numbers import percent, plain, with_unit
+from comparisons.drawing.blocks import Block, Note, TextTable, judged_cells
 from comparisons.figures.figure import Figure, Figures
-from comparisons.figures.quantity import QUANTITIES, error_text, label
+from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.studies.ladder.rungs import verdict_of
 from comparisons.studies.study import LADDER, Run
 
 RUNGS = "rungs"  # series: what each rung took
-# Statements: the cheapest rung that holds; why none does; the next one to try; what it drops.
-SUFFICES, NONE, ESCALATE_TO, NEXT = "suffices", "none", "escalate to", "next"
+# Statements: the cheapest rung that holds, and what says so; why none does; the next one to try,
+# and what it drops.
+SUFFICES, BY, NONE, ESCALATE_TO, NEXT = "suffices", "by", "none", "escalate to", "next"
+BESIDE = "The half-plane with what its operator carries, against finite elements of the same bodies"
+ESTIMATES = "estimates"  # of all that a model leaves out
 NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
 figure that is nearest to its tolerance or farthest beyond, with its uncertainty. A model holds
 where every judged figure does. The last row is what is not known of the whole model itself. Time is
@@ -28,7 +31,22 @@ def blocks(run: Run) -> list[Block]:
     head = ("model", "quantity", "error", "uncertainty", "verdict", "time", "memory")
     line = "; ".join(f"{name}: {text}" for name, text in lines(run))
     table = TextTable(line, head, tuple(rows), "comparison", words=False)
-    return [Block("model-error", (table, Note(NOTE)))]
+    return [Block("model-error", (table, Note(NOTE), *_beside(run)))]
+
+
+def _beside(run: Run) -> list[TextTable | Note]:
+    """The layered operator beside the scene's own finite elements, where both solve one problem."""
+    rows = [
+        (label(figure.quantity), plain(figure.friction), *judged_cells(figure, is_norm(figure)))
+        for figure in run.figures.of(study=LADDER)
+        if figure.against != WHOLE
+    ]
+    head = ("quantity", "friction", "difference", "uncertainty", "tolerance", "verdict")
+    return [TextTable(BESIDE, head, tuple(rows), "comparison")] if rows else []
+
+
+def is_norm(figure: Figure) -> bool:
+    return QUANTITIES[figure.quantity].of_pair
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -38,7 +56,8 @@ def lines(run: Run) -> list[tuple[str, str]]:
         return []
     by_name = {row["rung"]: _text(row, words, errors) for row, words, errors in rungs}
     if (name := found.said(SUFFICES)) is not None:
-        return [("cheapest that holds", by_name[name])]
+        by = f", by {found.said(BY)}" if found.said(BY) == ESTIMATES else ""
+        return [("cheapest that holds", f"{by_name[name]}{by}")]
     left = [row["rung"] for row, _, errors in rungs if verdict_of(errors) != "fails"]
     why = f": {said}" if (said := found.said(NONE)) else ""
     beside = f"; cheapest that was not refuted: {by_name[left[0]]}" if left else ""
@@ -49,7 +68,7 @@ def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
     """Each rung's row of the series, its name in words, and its errors."""
     table, known = run.found[LADDER].table(RUNGS), run.figures.of(study=LADDER)
     rows = [] if table is None else table.rows()
-    return [(row, row["model"], known.of(source=row["rung"])) for row in rows]
+    return [(row, row["model"], known.of(source=row["rung"], against=WHOLE)) for row in rows]
 
 
 def _nearest(errors: Sequence[Figure]) -> Figure:

@@ -9,20 +9,30 @@ from comparisons.figures.figure import Column, Figure, Findings, Series, Stateme
 from comparisons.figures.quantity import WHOLE
 from comparisons.studies import comparison
 from comparisons.studies.ladder import show
-from comparisons.studies.ladder.rungs import HALF_PLANE, Rung, of_budget
+from comparisons.studies.ladder.estimated import estimated_rungs
+from comparisons.studies.ladder.rungs import HALF_PLANE, Ladder, Rung
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
 from comparisons.studies.subsurface import yielding
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+    flow = before[yielding.NAME]
+    if not solved.plan.compares:
+        return _findings(estimated_rungs(solved, before, flow.data), flow, None)
     budget = before[MODEL_ERROR].data
     if not budget.solutions:
         why = budget.unsplit or "the whole model has no solution"
         return Findings(statements=(Statement(WHY_NOT, why),))
-    rungs = of_budget(solved, budget, before[comparison.NAME].figures)
-    flows = before[yielding.NAME].said(yielding.BEYOND_DOUBT)
-    figures = tuple(figure for rung in rungs for figure in rung.figures)
+    compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
+    rungs = Ladder(solved, budget, tuple(compared), flow.data).rungs()
+    return _findings(rungs, flow, before[MODEL_ERROR])
+
+
+def _findings(rungs: Sequence[Rung], flow: Findings, errors: Findings | None) -> Findings:
+    """With what suffices; `errors` of the half-plane, None where no whole is solved."""
+    flows = flow.said(yielding.BEYOND_DOUBT)
+    figures = tuple(figure for rung in rungs for figure in (*rung.figures, *rung.beside))
     columns = {
         "rung": Column(tuple(rung.name for rung in rungs)),
         "model": Column(tuple(rung.words for rung in rungs)),
@@ -30,10 +40,12 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         "peak_memory": Column(tuple(rung.memory for rung in rungs), "byte"),
     }
     series = (Series(show.RUNGS, columns, is_account=True),)
-    return Findings(figures, series, tuple(_statements(rungs, before[MODEL_ERROR], flows)))
+    return Findings(figures, series, tuple(_statements(rungs, errors, flows)))
 
 
-def _statements(rungs: Sequence[Rung], errors: Findings, flows: str | None) -> list[Statement]:
+def _statements(
+    rungs: Sequence[Rung], errors: Findings | None, flows: str | None
+) -> list[Statement]:
     holding = [] if flows else [rung for rung in rungs if rung.verdict == "holds"]
     half_plane = next(rung for rung in rungs if rung.name == HALF_PLANE)
     said = []
@@ -41,13 +53,17 @@ def _statements(rungs: Sequence[Rung], errors: Findings, flows: str | None) -> l
         said.append(Statement(show.NONE, "flow"))
     elif holding:
         said.append(Statement(show.SUFFICES, holding[0].name))
+        said.append(Statement(show.BY, show.ESTIMATES if errors is None else "the whole model"))
+    elif errors is None:
+        said.append(Statement(show.NONE, "what the models leave out is not bounded by estimates"))
     elif rungs[-1].verdict == "inconclusive":
         said.append(Statement(show.NONE, "the whole model is not known to the tolerance"))
     dearer = rungs[rungs.index(half_plane) + 1 :]
     possible = [rung.name for rung in (*holding, *dearer) if rung.verdict != "fails"]
     if half_plane.verdict != "holds" and not flows and possible:
         said.append(Statement(show.ESCALATE_TO, possible[0]))
-        if (assumption := _worth_dropping(errors)) is not None:
+        assumption = None if errors is None else _worth_dropping(errors)
+        if assumption is not None:
             said.append(Statement(show.NEXT, assumption))
     return said
 
@@ -66,11 +82,17 @@ def _reach(figure: Figure) -> float:
     return (abs(figure.value) + figure.total) / figure.tolerance
 
 
+def _applies(solved: Solved) -> bool:
+    """Where something is judged by two models, or by estimates, as `budget.up_to` asks."""
+    alone = solved.plan.models == (HALF_PLANE,) and solved.problem.scene.budget.up_to != WHOLE
+    return bool(solved.problem.scene.tolerances) and (solved.plan.compares or alone)
+
+
 STUDY = Study(
     name=LADDER,
     quantities=comparison.QUANTITIES,
     solve=solve,
-    applies=lambda solved: solved.plan.compares and bool(solved.problem.scene.tolerances),
+    applies=_applies,
     blocks=show.blocks,
     lines=show.lines,
 )

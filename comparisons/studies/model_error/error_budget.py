@@ -21,15 +21,18 @@ import numpy as np
 
 from analytic.profile import Profile
 from comparisons.common.mpi import from_first
+from comparisons.common.numbers import with_unit
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
 from comparisons.figures.figure import Figure, is_decided
 from comparisons.figures.quantity import WHOLE
+from comparisons.models.finite_element.mesh import LONGER
+from comparisons.models.forecast import flow_seconds, time_with_flow
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.coupling import Coupling
+from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
 from comparisons.studies.model_error.catalogue import UNKNOWN
 from comparisons.studies.model_error.contributions import (
@@ -40,10 +43,19 @@ from comparisons.studies.model_error.contributions import (
     split_variants,
 )
 from comparisons.studies.model_error.laws import EFFECT as LAW
-from comparisons.studies.model_error.laws import LawSolutions, OpenLaw, law_variants
+from comparisons.studies.model_error.laws import LawSolutions, law_variants
 from comparisons.studies.model_error.model_error import ModelError, Solutions
-from comparisons.studies.model_error.quantities_of_interest import quantities_of, relative_sizes
-from comparisons.studies.model_error.selection import EffectSelection, select_effects
+from comparisons.studies.model_error.quantities_of_interest import (
+    QuantitiesOfInterest,
+    quantities_of,
+    relative_sizes,
+)
+from comparisons.studies.model_error.selection import (
+    FLOW,
+    NOT_CERTAIN,
+    EffectSelection,
+    select_effects,
+)
 from comparisons.studies.model_error.solutions import SolvedVariants
 from comparisons.studies.model_error.variants import ModelVariant
 from comparisons.studies.study import Solved
@@ -100,7 +112,12 @@ def error_budget(
     problem, half_plane = solved.problem, solved.runs["half_plane"]
     selection = _selected(solved, couplings)
     is_frugal = problem.scene.budget.effects != "all"
-    if is_frugal and selection.added and _is_decided(rows, selection):
+    if (
+        is_frugal
+        and selection.added
+        and FLOW not in selection.added
+        and _is_decided(rows, selection)
+    ):
         selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
     variants = _variants(solved, tasks, solved.runs["finite_element"])
     while True:
@@ -108,7 +125,7 @@ def error_budget(
         variants.keep(split.whole for split in splits.values())
         try:
             frugal = selection if is_frugal else None
-            refinement = _Refinement(half_plane, rows, splits, variants, selection.laws)
+            refinement = _Refinement(half_plane, rows, splits, variants, selection)
             refined = refinement.result(frugal)
             if refinement.without_laws:
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
@@ -171,13 +188,16 @@ def announce_effects(
     variants.keep(split.whole for split in splits)
     wholes = [each for split in splits for each in split.wholes]
     every = [each for split in splits for each in split.all]
-    of_laws = [
+    again = [
         each for split in splits for each in law_variants(split.whole, selection.laws).values()
     ]
+    again += [each for split in splits for each in longer_increments(split.whole, selection)]
     most = min(_most_levels(problem), len(half_plane.levels))
+    if FLOW in selection.added:
+        most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
 
     def announce(splitting: int, further: int) -> None:
-        variants.announce(of_laws, 1, splitting)
+        variants.announce(again, 1, splitting)
         for number in range(1, most + 1):
             is_further = number > LEAST_LEVELS
             variants.announce(wholes, number, further if is_further else LATER)
@@ -198,16 +218,34 @@ def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelectio
     contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)
     pressure = max(contacts, key=np.max)
     mean = float(pressure @ pressure / pressure.sum())
-    selection = select_effects(solved.problem, float(pressure.max()), couplings, mean)
+    flow, no_flow = flow_assessment(solved.problem, solved.runs), NOT_CERTAIN
+    if flow.is_certain and solved.plan.effects:
+        no_flow = _no_time_for_flow(solved)
+    selection = select_effects(solved.problem, float(pressure.max()), couplings, mean, no_flow)
     asked = solved.problem.scene.budget.effects
     if not solved.plan.effects:
         computed = {LAW} if selection.laws else set()  # beside the added
         left_out = selection.added | computed | set(selection.impossible) - (set(UNKNOWN) - {LAW})
         return selection.without(left_out, "not asked for (budget.effects)")
-    if asked != "all" and flow_assessment(solved.problem, solved.runs).beyond_doubt:
+    if asked != "all" and flow.beyond_doubt and FLOW not in selection.added:
         why = f"the body flows, an elastic one cannot hold ({ASKED})"
         return selection.without(selection.added, why)
     return selection
+
+
+def _no_time_for_flow(solved: Solved) -> str | None:
+    """Why flow is not computed beside the scene's own finite elements: by the laws of cost, the
+    levels that it takes and theirs exceed the budget; None: they do not."""
+    problem, patches = solved.problem, solved.runs["half_plane"].levels[0].patches
+    if time_with_flow(problem, solved.plan, patches) <= problem.time:
+        return None
+    return f"it takes {with_unit(flow_seconds(problem, patches), 's', 2)} more (budget.time)"
+
+
+def longer_increments(whole: ModelVariant, selection: EffectSelection) -> tuple[ModelVariant, ...]:
+    """The whole by longer increments of flow, the longest first, where the scene's own finite
+    elements do not flow: their check; else none."""
+    return tuple(replace(whole, times=t) for t in LONGER) if FLOW in selection.added else ()
 
 
 def _most_levels(problem: Problem) -> int:
@@ -236,11 +274,14 @@ class _Refinement:
         rows: tuple[Figure, ...],
         splits: dict[float, SplitVariants],
         solved: SolvedVariants,
-        laws: tuple[OpenLaw, ...],
+        selection: EffectSelection,
     ) -> None:
+        laws = selection.laws
         self.laws = {mu: law_variants(split.whole, laws) for mu, split in splits.items()}
         self.open_laws, self.without_laws = laws, ""  # why they have no solution
         self.with_laws: dict[float, LawSolutions] = {}
+        self.increments = {mu: longer_increments(s.whole, selection) for mu, s in splits.items()}
+        self.longer: dict[float, list[QuantitiesOfInterest]] = {}
         self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
         self.runs = {"half_plane": half_plane, "finite_element": solved.own}
         self.most = min(_most_levels(solved.problem), len(solved.own.levels))
@@ -256,8 +297,8 @@ class _Refinement:
         Raises NotComputedError where a whole has no solution on the least levels."""
         for number in range(1, LEAST_LEVELS + 1):
             self.solved.announce(self.every, number, LAST)
-        for variants in self.laws.values():
-            self.solved.announce(variants.values(), 1, LAST)
+        for mu, variants in self.laws.items():
+            self.solved.announce((*variants.values(), *self.increments[mu]), 1, LAST)
         left_out = self._take_wholes(frugal)
         levels = len(next(iter(self.history.values())))
         for number in range(1, levels + 1):
@@ -280,6 +321,7 @@ class _Refinement:
                 return None
             if number == LEAST_LEVELS:
                 self._take_laws()
+                self._take_increments()
             errors = self._errors()
             if number >= LEAST_LEVELS and _settled(self.rows, errors):
                 return None
@@ -303,6 +345,16 @@ class _Refinement:
                 self.with_laws[mu] = LawSolutions(
                     self.problem, window, self.open_laws, whole, moved
                 )
+
+    def _take_increments(self) -> None:
+        """The wholes that flow on the coarsest level by longer increments; none where one of them
+        has no solution."""
+        for mu, variants in self.increments.items():
+            self.solved.prepare(variants, 1)
+            try:
+                self.longer[mu] = [self.solved.solution(v, 1, mu) for v in variants]
+            except NotComputedError:
+                self.longer[mu] = []
 
     def _take(self, number: int, alone: bool) -> None:
         """A level into the history: of the wholes alone, or of every variant."""
@@ -329,7 +381,11 @@ class _Refinement:
         problem, window, made = self.problem, self.solved.window, {}
         for mu, parts in self.history.items():
             runs = {name: run.under(mu) for name, run in self.runs.items()}
-            made[mu] = Solutions(problem, window, runs, parts, mu, self.with_laws.get(mu))
+            made[mu] = Solutions(
+                *(problem, window, runs, parts, mu),
+                laws=self.with_laws.get(mu),
+                longer=self.longer.get(mu, []) if self.increments[mu] else None,
+            )
         return made
 
     def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:

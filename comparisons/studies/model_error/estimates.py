@@ -10,7 +10,7 @@ are computed, and count for those that are not. Each is a factor times a group. 
 the full solutions of smooth and wavy bodies, the maps' among them, quantity by quantity: an effect
 is larger in stresses than in the contact, and largest in fields next to the surface.
 Normal-tangential coupling is measured on the half-plane where that is possible
-(`comparisons.studies.coupling`)."""
+(`comparisons.studies.friction.coupling`)."""
 
 import math
 from collections.abc import Iterable
@@ -19,7 +19,7 @@ from analytic.material import dundurs_constants
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import Problem
-from comparisons.studies.coupling import Coupling
+from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.laws import open_laws
 
 Sizes = dict[str, float]

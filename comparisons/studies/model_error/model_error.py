@@ -23,6 +23,7 @@ from comparisons.figures.uncertainty import (
     difference_of_figures,
     difference_of_norms,
     iteration,
+    of_increments,
     peak_resolution,
     relative_resolution,
 )
@@ -89,6 +90,9 @@ class Solutions:
     history: list[EffectContributions]
     friction: float
     laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
+    # the whole on the coarsest level by longer increments of flow, the longest first; empty: they
+    # have no solution; None: it does not flow, or the scene's own finite elements do
+    longer: list[QuantitiesOfInterest] | None = None
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -133,7 +137,10 @@ class Solutions:
 
     @cached_property
     def whole(self) -> QuantitiesOfInterest:
-        """The finest one: the scene's own finite elements there, and what they lack."""
+        """The finest one: the scene's own finite elements there, and what they lack. A whole that
+        flows beside them stands for itself: what flow takes depends on the level as they do."""
+        if self.longer is not None:
+            return self.wholes[-1]
         lacking = self.missing[-1].figures.items()
         figures = {name: self.own[-1].figures[name] + each for name, each in lacking}
         return QuantitiesOfInterest(figures, self.wholes[-1].pressure, self.wholes[-1].tau1)
@@ -246,12 +253,33 @@ class Solutions:
             sequence = [level.figures[name][at] / scale for level in self.own]
             refined = grid_convergence(sequence, self._order(name))
             numerical = max(numerical, self.unsolved + refined.uncertainty)
-        lacking = self._estimate(name, self.missing, at).uncertainty
-        half_plane = self.values["half_plane"][name]
+        lacking, half_plane = self._lacking(name, at), self.values["half_plane"][name]
+        if self.longer is not None:  # the half-plane on its finest level, the whole on another
+            stated = uncertainties(self.runs["half_plane"], self.problem, self.friction)[name]
+            numerical += stated.total * _scale(half_plane, name, self.problem) / scale
         uncertainty = difference_of_figures(numerical, half_plane / scale, lacking)
         if name in LARGEST:
             uncertainty += self._of_competitors(name, numerical, at) / scale
         return float((half_plane - figure) / scale), float(uncertainty), float(scale)
+
+    def _lacking(self, name: str, at: int) -> float:
+        """Uncertainty of what the whole has beside the scene's own finite elements, relative. One
+        that flows beside them stands for itself: by its levels, and by its increments."""
+        alone = self.longer is None or QUANTITIES[name].of_pair
+        levels = self.missing if alone else self.wholes
+        return self._estimate(name, levels, at).uncertainty + self._increments(name, at)
+
+    def _increments(self, name: str, at: int) -> float:
+        """The part by increments of flow; unknown where longer ones have no solution."""
+        if not self.longer:
+            return 0.0 if self.longer is None else np.inf
+        repeated = [*self.longer, self.wholes[0]]
+        if not QUANTITIES[name].of_pair:
+            scale = self._scale_of(name, at)
+            return of_increments([float(each.figures[name][at] / scale) for each in repeated])
+        differences = ((self.half_plane[0] - each, each) for each in repeated)
+        sizes = (relative_sizes(*pair, self.problem, self.window) for pair in differences)
+        return of_increments([each[name] for each in sizes])
 
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
         """What asperities that may have the largest value add to the uncertainty of a figure [SI].
@@ -261,9 +289,8 @@ class Solutions:
         stated = uncertainties(self.runs["finite_element"], self.problem, self.friction)
         alone = stated[largest].total  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
-        return _competing(
-            self.whole, name, at, alone, lambda k: self._estimate(largest, self.missing, k)
-        )
+        beside = self.missing if self.longer is None else self.wholes
+        return _competing(self.whole, name, at, alone, lambda k: self._estimate(largest, beside, k))
 
     def _jump(
         self, name: str, numerical: float, at: int
@@ -286,7 +313,7 @@ class Solutions:
         levels = self.half_plane[: len(self.wholes)]
         differences = [a - b for a, b in zip(levels, self.wholes, strict=True)]
         norm = self._estimate(row.quantity, differences, 0)
-        lacking = self._estimate(row.quantity, self.missing, 0).uncertainty
+        lacking = self._lacking(row.quantity, 0)
         there, stated = row.levels[len(self.history) - 1], row.uncertainty.parts
         beside = stated["domain"] + stated["increments"]
         parts = row.numerical, abs(there - row.value), lacking
@@ -316,7 +343,7 @@ class Solutions:
 
         numerical  relative uncertainty of the scene's own finite elements, or absolute of a norm"""
         at = self.whole.leading(name)
-        lacking = self._estimate(name, self.missing, at).uncertainty
+        lacking = self._lacking(name, at)
         if QUANTITIES[name].of_pair:
             apart = [one - whole for one, whole in zip(levels, self.wholes, strict=True)]
             norm = self._estimate(name, apart, 0)
@@ -331,7 +358,7 @@ class Solutions:
     def of_whole(self, name: str, numerical: float) -> ModelError:
         """What is not known of the whole itself."""
         at = self.whole.leading(name)
-        lacking = self._estimate(name, self.missing, at).uncertainty
+        lacking = self._lacking(name, at)
         return self._plain_error(name, Estimate(0.0, numerical + lacking), at)
 
     def _scale_of(self, name: str, at: int) -> float:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from comparisons.common.mpi import is_several
 from comparisons.models.problem import Problem
-from comparisons.studies.coupling import Coupling
+from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
 from comparisons.studies.model_error.estimates import Sizes, estimates
 from comparisons.studies.model_error.laws import EFFECT as LAW
@@ -12,8 +12,10 @@ from comparisons.studies.model_error.laws import OpenLaw, open_laws
 from fem.solver.communicator import is_alone
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
+FLOW = "plastic_flow"
+NOT_CERTAIN = "it is not beyond doubt (finite_element.plastic = true computes it)"
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
-NONLINEAR = ("finite_strain", "plastic_flow")
+NONLINEAR = ("finite_strain", FLOW)
 ORDER = (
     "exact_circle",
     "coating",
@@ -62,10 +64,15 @@ class EffectSelection:
 
 
 def select_effects(
-    problem: Problem, peak: float, couplings: tuple[Coupling, ...], mean: float | None = None
+    problem: Problem,
+    peak: float,
+    couplings: tuple[Coupling, ...],
+    mean: float | None = None,
+    no_flow: str | None = NOT_CERTAIN,
 ) -> EffectSelection:
     """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure, `mean` the mean of
-    its contact, by default the same."""
+    its contact, by default the same; `no_flow` says why flow is not computed where it could be,
+    None: it is."""
     own, tolerance = contained(problem.scene), problem.scene.tolerances
     found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
     sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
@@ -75,14 +82,21 @@ def select_effects(
         for name, sizes in sized.items()
         if any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
     }
+    flows = FLOW in own
+    if no_flow is None and not flows:
+        flows = why_not(FLOW, problem) is None
+        sized.setdefault(FLOW, {})
+        mattering.add(FLOW)
+    if flows:
+        sized.pop(LAW, None)
     if LAW in mattering:  # it shows in finite deformation alone
         mattering.add("finite_strain")
-    can_be_solved = LAW in mattering and why_not(LAW, problem) is None
+    can_be_solved = LAW in mattering and why_not(LAW, problem, flows) is None
     laws = open_laws(problem.scene) if can_be_solved else ()
     for name, sizes in sized.items():
         if name in own or (name == LAW and laws and "finite_strain" in own):
             continue
-        why = why_not(name, problem)
+        why = why_not(name, problem, flows) or (no_flow if name == FLOW else None)
         if name not in mattering:
             negligible[name] = sizes
         elif why is not None:
@@ -94,19 +108,21 @@ def select_effects(
     return EffectSelection(own, frozenset(added), negligible, impossible, sized, laws)
 
 
-def why_not(name: str, problem: Problem) -> str | None:
-    """Why an effect cannot be computed in a scene, or None."""
+def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
+    """Why an effect cannot be computed in a scene, or None; `flows`: the whole model does."""
     scene = problem.scene
     if name == "roller_support":
         return "no support is given: a sector of the disc is held at 0.4 of its radius"
-    if name == "plastic_flow":
-        if scene.body.yield_stress is None:
-            return "the body has no yield stress"
-        return "it is not asked for (finite_element.plastic = true)"
-    if name not in ("finite_strain", LAW):
+    if name not in (*NONLINEAR, LAW):
         return None
-    reasons = {
-        "flow is of small deformation": scene.finite_element.plastic,
-        "it is solved on one process": is_several() and not is_alone(),
-    }
+    reasons = {"it is solved on one process": is_several() and not is_alone()}
+    if name == FLOW:
+        reasons = {
+            "the body has no yield stress": scene.body.yield_stress is None,
+            "it takes no coating": scene.coating is not None,
+            "it takes no prescribed approach": scene.load.kind == "approach",
+            'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
+        } | reasons
+    else:
+        reasons = {"flow is of small deformation": flows} | reasons
     return next((why for why, hindered in reasons.items() if hindered), None)

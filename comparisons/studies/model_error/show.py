@@ -5,6 +5,7 @@ effect, to the error; one for each judged figure and friction coefficient, or fo
 where nothing is judged. Norms have no sign and do not add up: their bars all start at zero."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING
@@ -20,6 +21,7 @@ from comparisons.studies import contact
 from comparisons.studies.model_error.account import INTERACTION, JUMP, LEFT, SAMPLING, TRUST
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
+from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
@@ -180,6 +182,23 @@ def law_range(error: Figure) -> str:
         error_text(error.quantity, end, error.numerical).removesuffix(" %") for end in ends
     )
     return f"{low} to {high} %"
+
+
+def flow_taken(errors: Sequence[Figure]) -> str:
+    """What flow by itself takes off, or adds to, the half-plane's figures, where that is most of
+    their errors: a clause, or nothing."""
+    changes = []
+    for error in errors:
+        part = error.part(FLOW)
+        if part is not None and abs(part.value) > 0.5 * abs(error.value):
+            size = part.value / (1.0 + error.value)
+            what = "takes {} off" if size < 0.0 else "adds {} to"
+            changes.append(f"{what.format(percent(abs(size)))} the {label(error.quantity)}")
+    return (
+        f"flow {' and '.join(filter(None, (', '.join(changes[:-1]), changes[-1])))}"
+        if changes
+        else ""
+    )
 
 
 def _moved(error: Figure) -> str:

@@ -23,6 +23,7 @@ from comparisons.studies.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
+from comparisons.studies.model_error.selection import NONLINEAR
 from comparisons.studies.model_error.variants import ModelVariant, problem_with
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
@@ -84,7 +85,7 @@ class SolvedVariants:
     ) -> list[tuple[ModelVariant, str]]:
         """Make those that are new on a level known to the tasks; each with its task's key."""
         new = [each for each in dict.fromkeys(asked) if self.is_open(each, number)]
-        new.sort(key=lambda variant: "finite_strain" not in variant.effects)  # the dearest first
+        new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
         return [(variant, self._add(variant, number, urgency)) for variant in new]
 
     def is_open(self, variant: ModelVariant, number: int) -> bool:
@@ -112,7 +113,8 @@ class SolvedVariants:
         if effects is not None and variant.friction == 0.0:
             effects = effects - {COUPLED}
         shaped = variant.friction is None or variant.friction in there
-        return shaped and not (variant.quadratic or variant.laws) and variant.effects == effects
+        changed = variant.quadratic or variant.laws or variant.times > 1
+        return shaped and not changed and variant.effects == effects
 
     def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
         whole, problem = variant in self.wholes, problem_with(self.problem, variant)
@@ -153,12 +155,13 @@ def _solved(
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
+    from fem.nonlinear.press_plastic import TRAVEL
 
     words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
     here.callback(f"error budget: finite elements with {words}, level {number}")
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    refinement, stages = Refinement(pitch), Stages()
+    refinement, stages = Refinement(pitch, travel=variant.times * TRAVEL), Stages()
     try:
         level = finite_element_level(
             problem, plan, refinement, window, stages, body_cache, LevelOptions(fields=fields)

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Findings
-from comparisons.studies import comparison, coupling
+from comparisons.studies import comparison
+from comparisons.studies.friction import coupling
 from comparisons.studies.model_error import show
 from comparisons.studies.model_error.account import NAME, QUANTITIES, findings_of
 from comparisons.studies.model_error.error_budget import (

@@ -19,6 +19,7 @@ class ModelVariant:
     quadratic: bool = False  # its elements are those that finite deformation takes
     laws: tuple[tuple[str, Law], ...] = ()  # by body, in place of the scene's own
     laws_name: str = ""  # what these stand for
+    times: int = 1  # as long increments of flow
 
     @property
     def name(self) -> str:
@@ -26,6 +27,7 @@ class ModelVariant:
         words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
         words += ["quadratic"] * self.quadratic
         words += [f"as-{self.laws_name}"] * bool(self.laws)
+        words += [f"increments-{self.times}"] * (self.times > 1)
         at = "" if self.friction is None else f"@{self.friction:g}"
         return f"effect-{'+'.join(words)}{at}"
 

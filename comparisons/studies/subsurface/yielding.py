@@ -26,7 +26,10 @@ from comparisons.models.problem import Problem
 from comparisons.scenes.materials import kinds_of, typical_range
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.estimates import TABOR
-from comparisons.studies.study import Run, Solved, Study
+from comparisons.studies.model_error.model_error import Solutions
+from comparisons.studies.model_error.selection import FLOW
+from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
+from comparisons.studies.subsurface import pressure_cap
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
@@ -45,6 +48,7 @@ QUANTITIES = {
     "share_at_hardness": Quantity("contact at the hardness or above"),
     "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/2"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
+    **pressure_cap.QUANTITIES,
 }
 INDICES = "plasticity_index_summits", "plasticity_index_slope"
 OF_FIRST_FLOW = ("over_first_flow_tresca", "over_first_flow_von_mises", "share_at_hardness")
@@ -92,7 +96,7 @@ class FlowCheck:
 class FlowAssessment:
     """All friction coefficients of a scene."""
 
-    # elastic | cap (on the pressure) | plastic (the finite elements flow)
+    # elastic | cap (on the pressure) | plastic (the finite elements flow, the scene's or the whole)
     flow: Literal["elastic", "cap", "plastic"]
     # Y [Pa]: the scene's, or a third of its hardness; None where neither is given
     yield_stress: float | None
@@ -120,6 +124,17 @@ class FlowAssessment:
         return max(tresca, mises or 0.0)
 
     @property
+    def is_certain(self) -> bool:
+        """Whether the body flows at its yield stress by both criteria, less the uncertainty."""
+        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
+        return self.yield_stress is not None and self._least > self.yield_stress / 3.0**0.5
+
+    @property
+    def _least(self) -> float:
+        """The largest tau1 [Pa] less its uncertainty."""
+        return self.worst.tau1 * (1.0 - self.worst.uncertainty)
+
+    @property
     def beyond_doubt(self) -> str:
         """What an elastic body exceeds for certain, less the uncertainty, where nothing in the
         scene stands for its flow: a sentence without its full stop, empty if nothing."""
@@ -136,17 +151,19 @@ class FlowAssessment:
     @property
     def exceeded(self) -> float | None:
         """The limit [Pa] that the largest tau1 of an elastic body exceeds for certain, if any."""
-        least = self.worst.tau1 * (1.0 - self.worst.uncertainty)
-        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
-        shear = inf if self.yield_stress is None else self.yield_stress / 3.0**0.5
-        limits = (shear, self.ideal_strength) if self.flow == "elastic" else ()
-        return next((limit for limit in limits if least > limit), None)
+        if self.flow != "elastic":
+            return None
+        if self.is_certain:
+            return self.yield_stress / 3.0**0.5
+        return self.ideal_strength if self._least > self.ideal_strength else None
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Figures by friction coefficient, of the scene, and what flows in words. What an elastic body
     exceeds for certain is judged where the models are compared."""
     flow = flow_assessment(solved.problem, solved.runs)
+    if MODEL_ERROR in before and FLOW in before[MODEL_ERROR].data.selection.whole:
+        flow = replace(flow, flow="plastic")
     source = "half_plane" if "half_plane" in solved.runs else "finite_element"
     of_scene = {
         "yield_stress": flow.yield_stress,
@@ -174,9 +191,17 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             figures.append(figure)
         figures += figures_of(NAME, "scene", {"shakedown_limit": check.shakedown}, None, at)
         said.append(Statement("read", FIELD if check.from_field else PEAK, source, at))
+    if flow.flow == "plastic":
+        for solutions in _solutions(before).values():
+            figures += pressure_cap.figures_of_caps(solved.problem, solutions)
     if flow.beyond_doubt:
         said.append(Statement(BEYOND_DOUBT, flow.beyond_doubt, source))
     return Findings(tuple(figures), statements=tuple(said), data=flow)
+
+
+def _solutions(before: Mapping[str, Findings]) -> Mapping[float, Solutions]:
+    """Of the model error, by friction coefficient; none without one."""
+    return before[MODEL_ERROR].data.solutions if MODEL_ERROR in before else {}
 
 
 def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAssessment:
@@ -311,7 +336,9 @@ def blocks(run: Run) -> list[Block]:
         note += f" {OF_A_YIELD_STRESS}" + f" {OF_A_TRACE}" * bool(scene.profile)
     else:
         note += " The scene has neither yield stress nor hardness: what flows is not known."
-    return [Block("yield", (flow_table(run), Note(note)), "Yield")]
+    capped = pressure_cap.cap_table(run.figures.of(study=NAME), scene.load.friction)
+    beside = () if capped is None else (capped, Note(pressure_cap.NOTE))
+    return [Block("yield", (flow_table(run), Note(note), *beside), "Yield")]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -324,7 +351,9 @@ def lines(run: Run) -> list[tuple[str, str]]:
     text = f"peak pressure {pressure} k, elastic shakedown up to {flow.worst.shakedown:.3g} k"
     indices = {"summits": flow.summit_index, "slope": flow.slope_index}
     known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
-    return [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
+    said = [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
+    cap = pressure_cap.cap_sentence(run.figures.of(study=NAME), run.deciding_friction)
+    return [*said, ("pressure cap", cap)] if cap else said
 
 
 STUDY = Study(NAME, QUANTITIES, solve, data=FlowAssessment, blocks=blocks, lines=lines)

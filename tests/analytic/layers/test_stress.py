@@ -5,6 +5,7 @@ import pytest
 from layer_stresses import layer_field
 
 from analytic.layers.layered import LayeredBody
+from analytic.layers.stress import AddedStress
 from analytic.material import Material
 from analytic.stress.field import friction_field
 
@@ -88,3 +89,49 @@ def test_coating_of_the_same_material_is_a_half_plane():
     ):
         assert part.sx == pytest.approx(expected.sx, abs=1e-14)
         assert part.txz == pytest.approx(expected.txz, abs=1e-14)
+
+
+@pytest.mark.parametrize("base", ["stiffer", "softer"])
+def test_layer_and_base_hold_together(base):
+    """sz and txz are continuous at the interface, and so is the strain along it,
+    ex E = (1 + nu) ((1 - nu) sx - nu sz), whatever the constants on either side."""
+    body, window = LayeredBody(LAYER, 1.0, BASES[base]), (-0.2, 1.0)
+    sides = [
+        layer_field(body, NODES, RAGGED, window, np.array([1.0]), below=below)
+        for below in (False, True)
+    ]
+    for part in ("normal", "traction"):
+        above, below = (getattr(side, part) for side in sides)
+        assert below.sz == pytest.approx(above.sz, abs=1e-13)
+        assert below.txz == pytest.approx(above.txz, abs=1e-13)
+        strain = [
+            (1.0 + m.poissons_ratio)
+            / m.youngs_modulus
+            * ((1.0 - m.poissons_ratio) * s.sx - m.poissons_ratio * s.sz)
+            for m, s in ((LAYER, above), (BASES[base], below))
+        ]
+        assert strain[1] == pytest.approx(strain[0], rel=1e-10, abs=1e-13 / LAYER.youngs_modulus)
+        assert np.max(np.abs(above.sx - below.sx)) > 1e-3
+
+
+def test_a_base_of_the_layers_material_goes_on_as_a_half_plane():
+    body, depths = LayeredBody(LAYER, 1.0, LAYER), np.array([1.0, 1.5, 4.0])
+    below = layer_field(body, NODES, RAGGED, (-0.2, 1.0), depths, below=True)
+    plain = friction_field(NODES, RAGGED, (-0.2, 1.0), depths).stress
+    for part, expected in ((below.normal, plain.normal), (below.traction, plain.traction)):
+        for name in ("sx", "sz", "txz"):
+            assert getattr(part, name) == pytest.approx(getattr(expected, name), abs=1e-14)
+
+
+def test_places_and_grids_agree():
+    """At single points as on the grid, in the layer and below."""
+    body, x = LayeredBody(LAYER, 1.0, BASES["softer"]), np.array([0.1, 0.4])
+    added = AddedStress.of(body, NODES, RAGGED, (0.0, 1.0))
+    for below, depth in ((False, 0.3), (True, 1.2)):
+        grid = added.field(x, np.array([depth]), below)
+        state = added.at(0.2, x, np.full(2, depth), below)
+        for k, name in enumerate(("sx", "sz", "txz")):
+            expected = grid[k, 0] + 0.2 * grid[3 + k, 0]
+            assert getattr(state, name) == pytest.approx(expected, rel=1e-12, abs=1e-14)
+    with pytest.raises(ValueError, match="depths must lie in the base"):
+        added.field(x, np.array([0.5]), below=True)

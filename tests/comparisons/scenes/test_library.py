@@ -182,6 +182,7 @@ def test_every_scene_is_named_here():
     assert set(scene_names()) == {
         "coated",
         "finite-strain",
+        "fretting",
         "frictional-heat",
         "layer",
         "yielding",

@@ -7,12 +7,17 @@ import json
 from dataclasses import replace
 
 import pytest
-from scenes import changed, refound
+from scenes import RUBBER, changed, problem, refound, resolved
 
+from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
+from comparisons.figures.quantity import MODELS
 from comparisons.output.result_json import content_of
+from comparisons.runs.run import run
 from comparisons.studies.ladder import show
+from comparisons.studies.ladder.estimated import hertz_alone
+from comparisons.studies.ladder.limits import limited
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT
 
 STIFFER = 1.01
@@ -89,3 +94,62 @@ def test_a_table_of_the_page_has_every_rung(wavy_outcome):
     table = block.items[0]
     assert [row[0] for row in table.rows][:2] == ["Hertz's closed form", "half-plane"]
     assert wavy_outcome.found[MODEL_ERROR].data.solutions
+
+
+@pytest.mark.parametrize(
+    ("load", "name"), [(1e3, "hertz"), (1e6, None)], ids=["light load", "heavy load"]
+)
+def test_estimates_say_what_holds_where_no_whole_is_solved(finish, smooth_tables, load, name):
+    """And that none is known to hold where they exceed a tolerance."""
+    tables = smooth_tables | {"load": {"per_length": load}, "budget": {"up_to": "half-plane"}}
+    alone = finish(tables, ("half_plane",))
+    assert alone.found[LADDER].said(show.SUFFICES) == name
+    [(_, line)] = show.lines(alone)
+    assert line.endswith("by estimates") == (name is not None)
+    assert (hertz_alone(alone.problem)[0]) == (name is not None)
+
+
+def test_an_operator_refutes_a_half_plane_without_finite_elements(finish):
+    """A thin layer of rubber, as in the library."""
+    tables = {
+        "roller": {"radius": 50e-3, "rigid": True},
+        "body": {**RUBBER, "poissons_ratio": 0.495, "thickness": 2e-3},
+        "load": {"per_length": 5e3},
+        "budget": {"up_to": "operators"},
+    }
+    known = finish(tables, ("half_plane",)).figures.of(study=LADDER)
+    assert "fails" in {figure.verdict for figure in known.of(source="half_plane")}
+    assert {figure.verdict for figure in known.of(source="operators")} == {"inconclusive"}
+    up_to = {"budget": {"up_to": "half-plane"}}
+    below = finish(tables | up_to, ("half_plane",)).figures.of(study=LADDER)
+    assert not below.of(source="operators")
+
+
+def test_no_estimate_bounds_roughness_or_coupling_in_hertz(wavy_outcome, smooth_tables):
+    assert not hertz_alone(wavy_outcome.problem)[0]
+    roller = {"radius": 8e-3, "rigid": True}
+    load = {"per_length": 1e3, "friction": 0.3, "coupled": True}
+    assert "coupling" in hertz_alone(problem(smooth_tables | {"roller": roller, "load": load}))[1]
+
+
+def test_a_run_goes_no_further_than_its_budget(smooth_tables):
+    """Without flow and finite deformation up to linear ones; with a half-plane that holds alone."""
+    yielding = {**smooth_tables["body"], "yield_stress": 1e9}
+    tables = smooth_tables | {"body": yielding, "finite_element": {"plastic": True}}
+    scene = resolved(changed(tables, budget={"up_to": "linear"}))
+    linear, models = limited(scene, MODELS)
+    assert (linear.finite_element.plastic, linear.budget.effects, models) == (False, False, MODELS)
+    assert limited(scene.changed("budget.up_to", "operators"), MODELS)[1] == ("half_plane",)
+    assert limited(scene.changed("budget.up_to", "whole"), MODELS) == (
+        scene.changed("budget.up_to", "whole"),
+        MODELS,
+    )
+    light = resolved(smooth_tables | {"load": {"per_length": 1e3}, "budget": {"up_to": "linear"}})
+    assert list(run(light, None, MODELS).runs) == ["half_plane"]
+
+
+def test_an_unknown_model_is_answered_in_one_line(capsys):
+    assert main(["run", "smooth", "--up-to", "half-plan"]) == ExitStatus.BAD_INPUT
+    said = capsys.readouterr().err
+    assert said.startswith("crosscheck: --up-to: there is no model half-plan; the nearest is half-")
+    assert said.count("\n") == 1

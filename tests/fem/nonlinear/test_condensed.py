@@ -11,8 +11,8 @@ from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear import condensed
 from fem.nonlinear.condensed import ElasticContact
+from fem.nonlinear.newton import newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
-from fem.nonlinear.press_plastic import newton_by_contacts
 from fem.solver.mumps import FemError
 
 HATS = np.linspace(-1.0, 1.0, 18)

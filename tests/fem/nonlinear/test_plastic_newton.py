@@ -11,8 +11,8 @@ from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import state_at_rest
 from fem.contact.terms import LinearContact
+from fem.nonlinear.newton import newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
-from fem.nonlinear.press_plastic import newton_by_contacts
 from fem.solver.mumps import FemError
 
 PITCH = 1.0 / 6.0
@@ -79,7 +79,7 @@ def test_load_and_approach_lead_to_the_same(pressed):
 
 
 def test_too_few_steps_are_told(pressed, monkeypatch):
-    monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_LINEAR_CONTACTS", 2)
+    monkeypatch.setattr("fem.nonlinear.newton.MOST_LINEAR_CONTACTS", 2)
     _, bodies = problem(pressed, 0.0)
     with pytest.raises(FemError, match="after 2 linear contacts"):
         newton_by_contacts(bodies, GAP, WEIGHTS, state_at_rest(bodies, np.ones(len(X))), LOAD)

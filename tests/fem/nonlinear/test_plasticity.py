@@ -13,8 +13,8 @@ from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import state_at_rest
 from fem.contact.terms import LinearContact
+from fem.nonlinear.newton import newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
-from fem.nonlinear.press_plastic import newton_by_contacts
 from meshes.block import BlockSpec
 from meshes.build import build_block
 

@@ -332,7 +332,7 @@ def test_loads_without_sense_are_refused(small, loads):
 def test_load_beyond_the_limit_is_said(small, monkeypatch):
     """All hats together bear 2.97 Y, or 12 % more on so coarse a mesh; 3.5 Y is asked for."""
     # others here take up to 8
-    monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_LINEAR_CONTACTS", 12)
+    monkeypatch.setattr("fem.nonlinear.newton.MOST_LINEAR_CONTACTS", 12)
     monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_FAILURES", 0)
     scene = Scene(small, 7.2, 6, reach=1.5)
     with pytest.raises(FemError, match=r"load of .* N/m was not reached"):

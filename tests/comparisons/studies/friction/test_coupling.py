@@ -15,8 +15,8 @@ from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
 from comparisons.runs.run import run
-from comparisons.studies import coupling
-from comparisons.studies.coupling import BEYOND_THE_END, SHIFT, Change, couplings
+from comparisons.studies.friction import coupling
+from comparisons.studies.friction.coupling import BEYOND_THE_END, SHIFT, Change, couplings
 from comparisons.studies.model_error.estimates import estimates
 from comparisons.studies.study import WHY_NOT, Run
 

@@ -1,0 +1,207 @@
+"""Partial slip: tractions below the limit of friction, step by step along a history of loads.
+
+Under a pressure p the traction is bounded, |q| <= mu p. In a step from one state of loads to the
+next the roller slips over the body by
+
+    s = d - A (q - q0) - T'(p - p0) - (e - e0) x,    q = mu p where s > 0,  q = -mu p where s < 0
+
+and sticks, s = 0, where q is between (0: before the step). With r = mu p - q that is the contact
+problem of `analytic.contact.problem`, each node with a cap of its own,
+
+    s >= 0 at r = 0,    s = 0 at 0 < r < 2 mu p,    s <= 0 at r = 2 mu p,    w'r = mu P - Q,
+
+r its pressure and s its gap: of alike bodies r is the pressure under the load P - Q/mu (Ciavarella
+1998, Int. J. Solids Struct. 35, 2349-2362; Jaeger 1998, J. Tribol. 120, 677-684). Of unlike bodies
+tractions move the surfaces normally, G + C p + T q, too: both problems are solved in turn. Each
+turn leaves about beta (beta + mu) of what was wrong.
+
+A step is exact, however long, where slip spreads without turning back; else it is implicit, of
+first order in its length. Pressing unlike bodies makes tractions by itself (Spence 1975).
+
+    p, q    pressure and traction on the body towards +x [Pa]       mu   friction
+    C, A    normal and tangential compliance of both surfaces [m^2/Pa]; half-planes have A = C
+    T       normal displacement under q, its transpose tangential displacement under p [m^2/Pa]
+    s       slip, weighted by each hat [m^2]: of the roller over the body, towards +x
+    d       tangential displacement of the roller in the step [m]   w    weights [m]
+    e       strain of the body along x by a load elsewhere          P, Q  loads per length [N/m]"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.grid import HatGrid
+from analytic.operators.convolution import Convolution
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.tangential import hat_sign
+
+Vectors = Callable[[np.ndarray], np.ndarray]
+# Of weighted gap, weights, constraints and a start
+Solve = Callable[[np.ndarray, np.ndarray, Constraints, np.ndarray | None], ContactSolution]
+
+SETTLED = 1e-8  # of the largest pressure: what the last turn of both problems moves
+MOST_TURNS = 60
+
+
+@dataclass(frozen=True)
+class SurfacePair:
+    """Both surfaces, by what they do under hats of p and q (n,) [Pa]: weighted displacements [m^2].
+
+    raised, dragged   T and its transpose; None of bodies that are alike"""
+
+    weighted_gap: np.ndarray  # G (n,) [m^2]
+    weights: np.ndarray  # w (n,) [m]
+    x: np.ndarray  # (n,) [m]
+    friction: float
+    hardness: float  # cap of the pressure [Pa]
+    tangential: Vectors  # A
+    solve_normal: Solve
+    solve_tangential: Solve
+    raised: Vectors | None = None
+    dragged: Vectors | None = None
+    settled: float = SETTLED
+
+    def carried(self, pressure: np.ndarray, traction: np.ndarray) -> np.ndarray:
+        """Displacement (n,) [m] of the body's surface over the roller's along x, from their form
+        without load."""
+        moved = self.tangential(traction)
+        if self.dragged is not None:
+            moved = moved + self.dragged(pressure)
+        return moved / self.weights
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Per length [N/m], and the body's strain along x."""
+
+    normal: float
+    tangential: float = 0.0
+    strain: float = 0.0
+
+
+@dataclass(frozen=True)
+class SlipState:
+    """After a step. Nodal values (n,)."""
+
+    loads: Loads
+    normal: ContactSolution  # pressure [Pa] and gap [m]
+    traction: np.ndarray  # q [Pa]
+    slip: np.ndarray  # s / w of the step [m]
+    displacement: float  # of the roller since its first load, along x [m]; datum of the operators
+    work: float  # of friction in the step, per length [J/m]
+    residual: float  # worst of both problems
+    converged: bool
+
+
+def history(pair: SurfacePair, steps: Iterable[Loads]) -> Iterator[SlipState]:
+    """The states after each step, from bodies that do not touch.
+    Raises ValueError for a tangential load that friction cannot hold."""
+    state = None
+    for loads in steps:
+        state = stepped(pair, state, loads)
+        yield state
+
+
+def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipState:
+    """The state under `loads` that follows on another; None: the bodies do not touch."""
+    limit = pair.friction * loads.normal
+    if not abs(loads.tangential) < limit:
+        raise ValueError(
+            f"the tangential load must be below {limit:g} N/m, not {loads.tangential:g} N/m"
+        )
+    traction, pressed, displacement = np.zeros_like(pair.weights), 0.0, 0.0
+    former, normal, pressure = Loads(0.0), None, None
+    if before is not None:
+        traction, displacement, former = before.traction, before.displacement, before.loads
+        pressed = pressure = before.normal.pressure
+        normal = before.normal if former.normal == loads.normal else None
+    forward = 1.0 if loads.tangential >= former.tangential else -1.0
+    moved = (loads.strain - former.strain) * pair.x * pair.weights - pair.tangential(traction)
+    constraints, tangential = Constraints(load=loads.normal, hardness=pair.hardness), None
+    for _ in range(MOST_TURNS):
+        last, reached = pressure, traction
+        if normal is None or pair.raised is not None:
+            lifted = 0.0 if pair.raised is None else pair.raised(traction)
+            given = pair.weighted_gap + lifted, pair.weights, constraints, pressure
+            normal = pair.solve_normal(*given)
+            pressure = normal.pressure
+        dragged = 0.0 if pair.dragged is None else pair.dragged(pressure - pressed)
+        rest = limit - forward * loads.tangential
+        start = tangential and tangential.pressure
+        tangential = _tangential(pair, pressure, forward * (moved + dragged), rest, start)
+        traction = forward * (pair.friction * pressure - tangential.pressure)
+        settled = pair.raised is None or (
+            last is not None
+            and max(
+                np.max(np.abs(pressure - last)),
+                np.max(np.abs(traction - reached)) / pair.friction,
+            )
+            <= pair.settled * pressure.max()
+        )
+        if settled:
+            break
+    slip = forward * tangential.gap
+    return SlipState(
+        loads=loads,
+        normal=normal,
+        traction=traction,
+        slip=slip,
+        displacement=displacement - forward * tangential.approach,
+        work=float(traction @ (slip * pair.weights)),
+        residual=max(normal.residuals.worst, tangential.residuals.worst),
+        converged=settled and normal.converged and tangential.converged,
+    )
+
+
+def _tangential(
+    pair: SurfacePair,
+    pressure: np.ndarray,
+    moved: np.ndarray,
+    load: float,
+    start: np.ndarray | None,
+) -> ContactSolution:
+    """r and s under r's `load`, of surfaces that are `moved` (n,) [m^2] by what is not q, both
+    counted in the direction in which the load goes: it is there that the surfaces slip."""
+    limit = pair.friction * pressure
+    constraints = Constraints(load=load, hardness=2.0 * limit)
+    start = None if start is None else np.minimum(start, 2.0 * limit)
+    gap = -(pair.tangential(limit) + moved)
+    return pair.solve_tangential(gap, pair.weights, constraints, start)
+
+
+def half_planes(
+    grid: HatGrid,
+    weighted_gap: np.ndarray,
+    modulus: float,
+    dundurs_beta: float,
+    friction: float,
+    hardness: float = np.inf,
+) -> SurfacePair:
+    """Two half-planes, on whose surfaces A = C and T is a convolution."""
+    operator = HalfPlane(grid.count, grid.pitch, modulus)
+    solve = partial(solve_contact, operator)
+    raised = dragged = None
+    if dundurs_beta:
+        odd = dundurs_beta * grid.pitch**2 / modulus * hat_sign(np.arange(grid.count))
+        raised = Convolution(odd, None, row=-odd).apply
+        dragged = Convolution(-odd, None, row=odd).apply
+    given = weighted_gap, grid.weights, grid.x, friction, hardness
+    return SurfacePair(*given, operator.apply, solve, solve, raised, dragged)
+
+
+def pressed_in(load: float, steps: int) -> tuple[Loads, ...]:
+    """Loads [N/m] under which a contact of parabolas grows by equal steps."""
+    return tuple(Loads(load * (k / steps) ** 2) for k in range(1, steps + 1))
+
+
+def stick_zones(x: np.ndarray, state: SlipState, friction: float) -> np.ndarray:
+    """Zones (k, 2) [m] that stick in a state's step, ascending; x (n,) [m] uniform. Their ends are
+    those of contact patches: slip opens beside them as a gap does, and may end at one."""
+    reserve = np.maximum(friction * state.normal.pressure - np.abs(state.traction), 0.0)
+    touching = state.normal.pressure > 0.0
+    opening = np.where(touching, np.abs(state.slip), friction * state.normal.gap)
+    return contact_patches(x, reserve, opening)

@@ -1,0 +1,18 @@
+"""What friction does beside heat: surfaces that it moves, and contacts that it holds."""
+
+from comparisons.studies.friction import show
+from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES, SlipStudy, solve
+from comparisons.studies.study import Study
+
+PARTIAL_SLIP = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=lambda solved: solved.problem.scene.partial_slip is not None,
+    data=SlipStudy,
+    tabled=COMPARED,
+    blocks=show.blocks,
+    pictures=show.PICTURES,
+    files=show.files,
+    lines=show.lines,
+)

@@ -1,0 +1,126 @@
+"""Partial slip on finite elements: their compliance along the surface, and their stresses."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.partial_slip import SurfacePair
+from analytic.grid import HatGrid
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
+from comparisons.models.finite_element.contact import (
+    MutualCompliance,
+    mutual_compliance,
+    roller_normal,
+)
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.level import Level
+from comparisons.models.nearest_operator import nearest_operator
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+from comparisons.studies.friction.half_planes import (
+    SlippedLevel,
+    bulk_stress,
+    ends_stress,
+    friction_of,
+    slipped_level,
+    surface_places,
+)
+from fem.body.surface import straight_down
+from fem.stress.maximum import maximum
+from fem.stress.stress import evaluate, nodal_stresses
+from fem.stress.surface_load import SurfaceLoad
+
+# Of the largest pressure: what the last turn of normal and tangential problem moves on finite
+# elements, each application of which takes a back-substitution
+SETTLED = 1e-6
+
+
+def finite_element_slip(
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    level: Level,
+    increments: int,
+    half_block: bool = False,
+) -> SlippedLevel:
+    """Of the finite elements of a level, made again; a `half_block` ends an unbounded body at half
+    of its size."""
+    grid = problem.grid(level.grid.pitch)
+    refinement = Refinement(grid.pitch, half_block=half_block)
+    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), BodyCache())
+    operator = mutual_compliance(problem, bodies, grid)
+    slipped = slipped_level(problem, grid, finite_element_pair(problem, operator, grid), increments)
+    return slipped if window is None else _with_mesh_stress(problem, operator, slipped, window)
+
+
+@dataclass(frozen=True)
+class Applied:
+    """A compliance by what applies it."""
+
+    apply: Callable[[np.ndarray], np.ndarray]
+
+
+def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatGrid) -> SurfacePair:
+    """Both surfaces by their finite elements, solved with the nearest analytic operator for a
+    model of either compliance."""
+    model, unlike = nearest_operator(problem.scene, grid, 0.0), operator.unlike
+
+    def solve(apply: Callable, *problem_of_contact: object) -> object:
+        start = problem_of_contact[-1]
+        return solve_with_model(
+            Applied(apply), model, *problem_of_contact, nearer=start is not None
+        )
+
+    def normal(pressure: np.ndarray) -> np.ndarray:
+        return operator.moved(pressure=pressure)[0]
+
+    def tangential(traction: np.ndarray) -> np.ndarray:
+        return operator.moved(traction=traction)[1]
+
+    return SurfacePair(
+        weighted_gap=grid.hat_integrals(problem.finite_element_gap, problem.knots),
+        weights=grid.weights,
+        x=grid.x,
+        friction=friction_of(problem),
+        hardness=problem.constraints().hardness,
+        tangential=tangential,
+        solve_normal=partial(solve, normal),
+        solve_tangential=partial(solve, tangential),
+        raised=(lambda traction: operator.moved(traction=traction)[0]) if unlike else None,
+        dragged=(lambda pressure: operator.moved(pressure=pressure)[1]) if unlike else None,
+        settled=SETTLED,
+    )
+
+
+def _with_mesh_stress(
+    problem: Problem, operator: MutualCompliance, slipped: SlippedLevel, window: Window
+) -> SlippedLevel:
+    """Stresses of the rough body, recovered from its displacement."""
+    rough, state, scene = operator.rough, slipped.states[-1], problem.scene
+    body, pressure = rough.body, state.normal.pressure
+    displaced = scene.finite_element.gap == "displaced"
+    direction = roller_normal(problem) if displaced else straight_down
+    load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), direction, traction=state.traction)
+    moved = rough.displacement_of(pressure, state.traction)
+    beside = [ends_stress(problem, slipped.grid, state)]
+    [nodal] = nodal_stresses(moved[:, None], load, beside)
+    strain = bulk_stress(problem) / scene.body.material.plane_strain_modulus
+    layer = scene.coating and scene.coating.material.plane_strain_modulus
+    stiffness = np.where(body.coated, layer or 0.0, scene.body.material.plane_strain_modulus)
+    bulk = np.zeros((len(nodal.nodes.point), 3))
+    bulk[:, 0] = strain * nodal.nodes.of_triangles(stiffness)
+    whole = replace(
+        nodal,
+        at=lambda node: nodal.at(node) + bulk[node],
+        estimate=lambda: nodal.estimate() + bulk,
+        together=None,
+    )
+    bounds = -window.extent, window.extent, window.z[-1]
+    tau1 = maximum(body, whole, lambda stress: stress.tau1, bounds)
+    x = surface_places(problem, slipped, window)
+    return replace(slipped, tau1=tau1, x=x, sx=evaluate(body, whole, x, load.surface(x)).sx)

@@ -1,0 +1,196 @@
+"""Partial slip on one level: the history of loads, what is read of it, and two half-planes."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from math import ceil
+
+import numpy as np
+
+from analytic.contact.partial_slip import (
+    Loads,
+    SlipState,
+    SurfacePair,
+    half_planes,
+    pressed_in,
+    stepped,
+    stick_zones,
+)
+from analytic.contact.patches import contact_patches
+from analytic.grid import HatGrid
+from analytic.stress.elements import FrictionStress
+from analytic.stress.field import StressField, friction_field
+from analytic.stress.maxima import stress_maxima
+from analytic.stress.points import friction_stress_at
+from analytic.stress_state import Extremum, StressState
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem, ends_of
+from comparisons.models.window import Window, search_window
+
+Beside = Callable[[np.ndarray, np.ndarray], StressState]
+
+
+@dataclass(frozen=True)
+class SlippedLevel:
+    """After each of the scene's m loads."""
+
+    grid: HatGrid
+    states: tuple[SlipState, ...]
+    zones: tuple[np.ndarray, ...]  # (k, 2) [m] that stick, of each
+    energies: np.ndarray  # (m,) [J/m] lost to friction from the first touch on
+    displacements: np.ndarray  # (m,) [m] of the roller, against the ends of the coarsest grid
+    is_stepped: bool  # whether the loads come by increments
+    tau1: Extremum | None = None  # largest, at the end; with [stress]
+    x: np.ndarray = field(default_factory=lambda: np.empty(0))  # (k,) [m]
+    sx: np.ndarray = field(default_factory=lambda: np.empty(0))  # (k,) [Pa] of the surface there
+
+    @property
+    def worst(self) -> float:
+        """Largest residual of all states."""
+        return max(state.residual for state in self.states)
+
+    def figures(self, path: tuple[float, ...]) -> dict[str, float]:
+        """At the end of a path of loads."""
+        normal, stuck = self.states[-1].normal, float(np.ptp(self.zones[-1], axis=1).sum())
+        contact = contact_patches(self.grid.x, normal.pressure, normal.gap)
+        known = {
+            "stick_length": stuck,
+            "stick_ratio": stuck / float(np.ptp(contact, axis=1).sum()),
+            "tangential_displacement": float(self.displacements[-1]),
+            "energy_lost": float(self.energies[-1]),
+        }
+        before = last_visit(path)
+        if before is not None:
+            known["energy_of_cycle"] = float(self.energies[-1] - self.energies[before])
+        if self.tau1 is not None:
+            known["edge_tension"] = float(np.nanmax(self.sx))
+            known["tau1_slip"] = self.tau1.value
+        return known
+
+    @property
+    def places(self) -> dict[str, tuple[float, ...]]:
+        """Of the largest [m]."""
+        if self.tau1 is None:
+            return {}
+        largest = float(self.x[np.nanargmax(self.sx)])
+        return {"edge_tension": (largest,), "tau1_slip": (self.tau1.x, self.tau1.z)}
+
+
+def last_visit(path: tuple[float, ...]) -> int | None:
+    """Where a path was last at its final load, before; None if never."""
+    return next((k for k in reversed(range(len(path) - 1)) if path[k] == path[-1]), None)
+
+
+def friction_of(problem: Problem) -> float:
+    """The coefficient that holds: the largest of the scene."""
+    return max(problem.scene.load.friction)
+
+
+def half_plane_slip(
+    problem: Problem, level: Level, window: Window | None, increments: int
+) -> SlippedLevel:
+    """Of two half-planes on the pressure elements of a level."""
+    grid, hardness = level.grid, problem.constraints().hardness
+    gap = grid.hat_integrals(problem.gap, problem.knots)
+    bodies = problem.modulus, problem.dundurs_beta, friction_of(problem), hardness
+    pair = half_planes(grid, gap, *bodies)
+    slipped = slipped_level(problem, grid, pair, increments)
+    if window is None:
+        return slipped
+    state, x = slipped.states[-1], surface_places(problem, slipped, window)
+    beside = _traction_stress(problem, grid, state)
+    searched, bulk = search_window(problem, window), bulk_stress(problem)
+    spread = (searched.x[0], searched.x[-1]), searched.z
+    steps = searched.subdivisions(grid.pitch), "hat", searched.stride(grid.pitch)
+    normal = friction_field(grid.x, state.normal.pressure, *spread, *steps)
+    traction = friction_field(grid.x, state.traction, *spread, *steps).stress.traction
+    below = np.meshgrid(normal.x, normal.z)
+    stress = normal.stress.normal.plus(1.0, traction)
+    stress = stress.plus(1.0, ends_stress(problem, grid, state)(*below))
+    stress = StressState(stress.sx + bulk, stress.sz, stress.txz)
+    tau1 = stress_maxima(
+        grid.x,
+        state.normal.pressure,
+        0.0,
+        StressField(normal.x, normal.z, stress),
+        problem.scene.body.poissons_ratio,
+        beside=beside,
+    ).tau1
+    top = x, np.zeros_like(x)
+    pressed = friction_stress_at(grid.x, state.normal.pressure, *top).normal
+    return replace(slipped, tau1=tau1, x=x, sx=pressed.sx + beside(*top).sx)
+
+
+def bulk_stress(problem: Problem) -> float:
+    """Of the body at the end of the history [Pa]."""
+    slip = problem.scene.partial_slip
+    return slip.bulk_stress * slip.path[-1] / slip.largest
+
+
+def steps_of(problem: Problem, unlike: bool, increments: int) -> Iterator[tuple[Loads, ...]]:
+    """The steps to each of the scene's loads; alike bodies take one, and are pressed by one."""
+    load, slip = problem.hertz.load_per_length, problem.scene.partial_slip
+    limit = friction_of(problem) * load
+    strain = slip.bulk_stress / problem.scene.body.material.plane_strain_modulus / slip.largest
+    first = pressed_in(load, increments if unlike else 1)
+    for before, after in pairwise((0.0, *slip.path)):
+        count = max(1, ceil(increments * abs(after - before))) if unlike else 1
+        shares = before + (after - before) * np.arange(1, count + 1) / count
+        steps = tuple(Loads(load, share * limit, share * strain) for share in map(float, shares))
+        yield first + steps
+        first = ()
+
+
+def slipped_level(
+    problem: Problem, grid: HatGrid, pair: SurfacePair, increments: int
+) -> SlippedLevel:
+    state, work, coarsest = None, 0.0, problem.grid(problem.pitches[0]).x[[0, -1]]
+    states, energies, moved = [], [], []
+    for steps in steps_of(problem, pair.raised is not None, increments):
+        for loads in steps:
+            state = stepped(pair, state, loads)
+            work += state.work
+        states.append(state)
+        energies.append(work)
+        carried = pair.carried(state.normal.pressure, state.traction)
+        moved.append(state.displacement - np.interp(coarsest, grid.x, carried).mean())
+    zones = tuple(stick_zones(grid.x, state, pair.friction) for state in states)
+    return SlippedLevel(
+        grid, tuple(states), zones, np.array(energies), np.array(moved), pair.raised is not None
+    )
+
+
+def surface_places(problem: Problem, slipped: SlippedLevel, window: Window) -> np.ndarray:
+    """x (k,) [m] of grid, window and ends of contact, where sx of the surface is largest."""
+    state = slipped.states[-1]
+    ends = ends_of(problem, slipped.grid, state.normal).patches
+    patches = contact_patches(slipped.grid.x, state.normal.pressure, state.normal.gap)
+    edges = patches.ravel(), *(patch.ends for patch in ends)
+    x = np.unique(np.concatenate([window.x, slipped.grid.x, *edges]))
+    return x[np.abs(x) <= window.extent]
+
+
+def ends_stress(problem: Problem, grid: HatGrid, state: SlipState) -> Beside:
+    """What hats leave out next to the ends of contact, where q / p is that of the nearest node."""
+    ends, touching = ends_of(problem, grid, state.normal), state.normal.pressure > 0.0
+    nodes = grid.x[touching]
+    share = state.traction[touching] / state.normal.pressure[touching]
+    middles = 0.5 * (nodes[1:] + nodes[:-1])
+
+    def stress(x: np.ndarray, z: np.ndarray) -> StressState:
+        parts = FrictionStress.of(ends.parts(x, z))
+        return parts.normal.plus(share[np.searchsorted(middles, x)], parts.traction)
+
+    return stress
+
+
+def _traction_stress(problem: Problem, grid: HatGrid, state: SlipState) -> Beside:
+    """Stresses of the traction, of the ends and of the bulk."""
+    ends, bulk = ends_stress(problem, grid, state), bulk_stress(problem)
+
+    def stress(x: np.ndarray, z: np.ndarray) -> StressState:
+        traction = friction_stress_at(grid.x, state.traction, x, z).traction
+        both = traction.plus(1.0, ends(x, z))
+        return StressState(both.sx + bulk, both.sz, both.txz)
+
+    return stress

@@ -1,0 +1,246 @@
+"""Partial slip by both models: what sticks under a tangential load that does not make it slide.
+
+In: a solved scene with [partial_slip], of which each level is loaded again along the history. Out:
+figures at its end with their uncertainties, the models' difference judged as any other, zones and
+loads as series. At the scene's largest friction coefficient."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from comparisons.common.tasks import Tasks
+from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Figure, Figures, Findings, Series, Statement, columns_of
+from comparisons.figures.quantity import MODELS, Quantity
+from comparisons.figures.uncertainty import (
+    PRESSURE_PER_RESIDUAL,
+    Uncertainty,
+    far_boundary,
+    length_resolution,
+    numerical,
+    of_increments,
+)
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
+from comparisons.studies.friction.half_planes import (
+    SlippedLevel,
+    friction_of,
+    half_plane_slip,
+)
+from comparisons.studies.study import CONVERGED, WHY_NOT, Solved
+
+NAME = "partial_slip"
+QUANTITIES = {
+    "stick_length": Quantity("length that sticks", "m"),
+    "tangential_displacement": Quantity("tangential displacement", "m", formal_order=2.0),
+    "energy_lost": Quantity("energy lost from the first touch on", "J/m", formal_order=2.0),
+    "energy_of_cycle": Quantity("energy lost in a cycle", "J/m", formal_order=2.0),
+    "edge_tension": Quantity("largest σx of the surface", "Pa"),
+    "tau1_slip": Quantity("largest τ1", "Pa", formal_order=2.0),
+    "stick_ratio": Quantity("share of the contact that sticks"),
+}
+COMPARED = tuple(QUANTITIES)[:6]  # judged where both models have them
+LENGTHS = "stick_length", "stick_ratio"  # read with the grid's resolution
+# Of the largest stress of the surface: how well it is read at an end of contact, where it is a cusp
+# (`analytic.contact.end_stress`; 8e-4 off the exact one at 77 elements to a half-width)
+END_READ = 1.5e-3
+NONLINEAR = """small strains and elastic bodies alone are modelled: at finite deformation, and of a
+body that yields, what sticks is not known"""
+Solve = Callable[[Level, int], SlippedLevel]  # of a level, by so many increments
+
+
+@dataclass(frozen=True)
+class SlipCurves:
+    """Of one model on its finest level, after each of m loads; for pictures and files."""
+
+    x: np.ndarray  # (n,) [m]
+    limit: np.ndarray  # (m, n) [Pa] friction times pressure
+    traction: np.ndarray  # (m, n) [Pa]
+    slip: np.ndarray  # (m, n) [m] in the last step to each load
+    displacement: np.ndarray  # (m,) [m]
+    zones: tuple[np.ndarray, ...] = field(default_factory=tuple)  # (k, 2) [m] of each
+
+
+@dataclass(frozen=True)
+class SlipStudy:
+    """By model."""
+
+    curves: dict[str, SlipCurves]
+
+
+@dataclass(frozen=True)
+class ModelSlip:
+    """One model's histories, by level."""
+
+    levels: tuple[SlippedLevel, ...]
+    smaller: SlippedLevel | None = None  # the coarsest on a block of half the size
+    fewer: SlippedLevel | None = None  # the coarsest by half as many increments
+
+    @property
+    def finest(self) -> SlippedLevel:
+        return self.levels[-1]
+
+    def history(self, name: str, path: tuple[float, ...]) -> list[float]:
+        return [level.figures(path)[name] for level in self.levels]
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    """Every level of every model that was run is loaded along the path."""
+    problem, path = solved.problem, solved.problem.scene.partial_slip.path
+    at, models, said = {"friction": friction_of(problem)}, {}, []
+    for name, solve_level in solvers(solved).items():
+        tasks.callback(f"partial slip: {name.replace('_', ' ')}")
+        models[name] = _model_slip(solved, name, solve_level)
+        settled = all(s.converged for level in models[name].levels for s in level.states)
+        said.append(Statement(CONVERGED, "yes" if settled else "no", name, at))
+    if "finite_element" in solved.runs and "finite_element" not in models:
+        said.append(Statement(WHY_NOT, " ".join(NONLINEAR.split()), "finite_element", at))
+    figures, series = list(_figures(solved, models)), []
+    for name, model in models.items():
+        series += _series(
+            name, model.finest, path, at, Figures(figures).of(source=name, against=None)
+        )
+    data = SlipStudy({name: _curves(problem, model.finest) for name, model in models.items()})
+    return Findings(tuple(figures), tuple(series), tuple(said), data)
+
+
+def solvers(solved: Solved) -> dict[str, Solve]:
+    """What loads a level of each model that was run, and can be."""
+    problem, window, settings = solved.problem, solved.window, solved.problem.scene.finite_element
+    solvers: dict[str, Solve] = {}
+    if "half_plane" in solved.runs:
+        solvers["half_plane"] = lambda level, count: half_plane_slip(problem, level, window, count)
+    if "finite_element" in solved.runs and not settings.nonlinear:
+        from comparisons.studies.friction.finite_elements import finite_element_slip
+
+        solvers["finite_element"] = partial(finite_element_slip, problem, solved.plan, window)
+    return solvers
+
+
+def _model_slip(solved: Solved, name: str, solve_level: Solve) -> ModelSlip:
+    run, count = solved.runs[name], solved.problem.scene.partial_slip.increments
+    levels = tuple(solve_level(level, count) for level in run.levels)
+    smaller = fewer = None
+    if run.far_boundary_check is not None:
+        smaller = solve_level(run.levels[0], count, half_block=True)
+    if levels[0].is_stepped:
+        fewer = solve_level(run.levels[0], count // 2)
+    return ModelSlip(levels, smaller, fewer)
+
+
+def _figures(solved: Solved, models: Mapping[str, ModelSlip]) -> Iterator[Figure]:
+    """By each model, and their difference over the finite elements' figure."""
+    slip = solved.problem.scene.partial_slip
+    common = {"study": NAME, "at": {"friction": friction_of(solved.problem)}}
+    for name in QUANTITIES:
+        known = {n: m for n, m in models.items() if name in m.finest.figures(slip.path)}
+        for source, model in known.items():
+            value = model.finest.figures(slip.path)[name]
+            scale = abs(value) or 1.0
+            yield Figure(
+                quantity=name,
+                source=source,
+                value=value,
+                scale=scale,
+                uncertainty=_uncertainty(slip.path, name, scale, (model,)),
+                place=model.finest.places.get(name),
+                levels=tuple(model.history(name, slip.path)),
+                **common,
+            )
+        if set(known) == set(MODELS) and name in COMPARED:
+            pair = tuple(known[source] for source in MODELS)
+            one, other = (model.finest.figures(slip.path)[name] for model in pair)
+            scale = abs(other) or abs(one) or 1.0
+            yield Figure(
+                quantity=name,
+                source=MODELS[0],
+                value=(one - other) / scale,
+                against=MODELS[1],
+                scale=scale,
+                uncertainty=_uncertainty(slip.path, name, scale, pair),
+                bounds=(-slip.tolerance, slip.tolerance),
+                **common,
+            )
+
+
+def _uncertainty(
+    path: tuple[float, ...], name: str, scale: float, models: tuple[ModelSlip, ...]
+) -> Uncertainty:
+    """Of one model's figure, or of the difference of two on the same pressure elements: what both
+    leave out alike is not in it."""
+
+    def of(*levels: SlippedLevel | None) -> float:
+        one, *other = (level.figures(path)[name] for level in levels)
+        return one - other[0] if other else one
+
+    paired = list(zip(*(_beside(model, models[-1]) for model in models), strict=True))
+    values = [of(*levels) for levels in paired]
+    resolution = 0.0
+    if name in LENGTHS:
+        ends = (length_resolution(m.finest.grid.pitch, len(m.finest.zones[-1])) for m in models)
+        known = models[0].finest.figures(path)
+        resolution = sum(ends) * (known[name] / known["stick_length"] if known[name] else 0.0)
+    if name == "edge_tension":
+        resolution = END_READ * scale
+    refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
+    domain = sum(
+        far_boundary(of(model.smaller), of(model.levels[0])) for model in models if model.smaller
+    )
+    increments = 0.0
+    if any(model.fewer for model in models):
+        fewer = [model.fewer or model.levels[0] for model in models]
+        increments = of_increments([of(*fewer), of(*(model.levels[0] for model in models))])
+    worst = sum(PRESSURE_PER_RESIDUAL * model.finest.worst for model in models)
+    left = refined.uncertainty / scale
+    return numerical(worst, left, domain / scale, increments / scale, refined)
+
+
+def _beside(model: ModelSlip, other: ModelSlip) -> list[SlippedLevel]:
+    """The model's levels on the pressure elements of the other's, or on the nearest."""
+    return [
+        min(model.levels, key=lambda own: abs(own.grid.pitch - level.grid.pitch))
+        for level in other.levels
+    ]
+
+
+def _series(
+    name: str,
+    level: SlippedLevel,
+    path: tuple[float, ...],
+    at: Mapping[str, float],
+    figures: Figures,
+) -> list[Series]:
+    """Zones at the end, and the path, as certain as the figures at its end."""
+    columns = {
+        "stick_length": [float(np.ptp(zones, axis=1).sum()) for zones in level.zones],
+        "tangential_displacement": level.displacements.tolist(),
+        "energy_lost": level.energies.tolist(),
+    }
+    table = zip(path, *columns.values(), strict=True)
+    rows = [dict(zip(("load", *columns), row, strict=True)) for row in table]
+    units = {key: QUANTITIES[key].unit for key in columns}
+    unsure = {
+        key: [figures.one(quantity=key).numerical * max(map(abs, values))] * len(path)
+        for key, values in columns.items()
+    }
+    ends = [{"start": float(start), "stop": float(stop)} for start, stop in level.zones[-1]]
+    read = {key: [2.0 * level.grid.pitch] * len(ends) for key in ("start", "stop")}
+    zones = columns_of(ends, {"start": "m", "stop": "m"}, read)
+    return [
+        Series("stick_zones", zones, name, at),
+        Series("history", columns_of(rows, units, unsure), name, at),
+    ]
+
+
+def _curves(problem: Problem, level: SlippedLevel) -> SlipCurves:
+    friction = friction_of(problem)
+    return SlipCurves(
+        x=level.grid.x,
+        limit=np.array([friction * state.normal.pressure for state in level.states]),
+        traction=np.array([state.traction for state in level.states]),
+        slip=np.array([state.slip for state in level.states]),
+        displacement=level.displacements,
+        zones=level.zones,
+    )

@@ -1,0 +1,231 @@
+"""The half-plane with what an operator can carry: layer, coating, coupling, exact circle, a cap.
+
+In: a scene and the effects that its whole has. Out: levels on the half-plane's pressure elements,
+with the stresses of the layered body. Nothing is meshed: the compliance of a layer or a coating is
+a convolution (`analytic.layers.operator`), and its stresses are those of a half-plane and what the
+base adds (`analytic.layers.stress`)."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from analytic.contact.end_stress import EndStress
+from analytic.contact.patches import contact_patches
+from analytic.grid import HatGrid
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import TangentialLayer
+from analytic.layers.stress import AddedStress
+from analytic.material import Material
+from analytic.operators.half_plane import ModelOperator, SumOfConvolutions
+from analytic.operators.tangential import CoupledPair, TangentialHalfPlane
+from analytic.stress.field import StressField
+from analytic.stress.maxima import StressMaxima, stress_maxima
+from analytic.stress_state import StressState
+from comparisons.common.progress import Stages, peak_memory
+from comparisons.models.half_plane import field_on
+from comparisons.models.level import Level, StressResult, highest
+from comparisons.models.nearest_operator import is_layered, nearest_operator, solve_on
+from comparisons.models.problem import Problem, ends_of
+from comparisons.models.window import Window, search_window
+from comparisons.scenes.scene import Scene
+from comparisons.studies.model_error.catalogue import COUPLED
+from comparisons.studies.model_error.estimates import TABOR
+from comparisons.studies.subsurface.yielding import FlowAssessment
+
+CAP = "cap"  # on the pressure, where the body yields and the scene has no hardness
+WORDS = {
+    "finite_size": "layer",
+    "coating": "coating",
+    COUPLED: "coupling",
+    "exact_circle": "exact circle",
+    CAP: f"pressures up to {TABOR:g} Y",
+}
+THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are worth their waves
+
+
+def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
+    """What an operator can carry of the whole's effects, and a cap where the body yields."""
+    scene, held = problem.scene, set(effects) & set(WORDS)
+    if scene.body.thickness is None:
+        held.discard("finite_size")
+    yields = scene.body.yield_stress is not None and scene.body.hardness is None
+    if yields and flow.worst.peak > TABOR * scene.body.yield_stress:
+        held.add(CAP)
+    return frozenset(held)
+
+
+def words_of(held: frozenset[str]) -> str:
+    return f"half-plane with {', '.join(words for name, words in WORDS.items() if name in held)}"
+
+
+def problem_carrying(problem: Problem, held: frozenset[str]) -> Problem:
+    """The problem with the shape and the cap that the operator's solution has."""
+    shape = "circle" if "exact_circle" in held else "parabola"
+    fields: dict[str, object] = {"finite_element.roller_shape": shape}
+    if CAP in held:
+        fields["body.hardness"] = TABOR * problem.scene.body.yield_stress
+    if "coating" not in held:
+        fields["coating"] = None
+    if "finite_size" not in held:
+        fields |= {"body.thickness": None, "body.base": None}
+    return replace(problem, scene=problem.scene.unchecked(fields))
+
+
+def why_no_stresses(problem: Problem, window: Window | None) -> str | None:
+    """Why there are no stresses of a layered body, or None."""
+    body = layered_body(problem.scene)
+    if window is None or body is None or body.thickness > THINNEST * np.ptp(problem.extent):
+        return None
+    return "the layer is too thin for the waves of its stresses"
+
+
+@dataclass(frozen=True)
+class OperatorModel:
+    """One model of this kind at the friction coefficients whose pressures are the same."""
+
+    problem: Problem  # of `problem_carrying`
+    frictions: tuple[float, ...]
+    coupling: float  # coefficient of the traction that moves the surfaces; 0 leaves it out
+
+    def level(self, pitch: float, window: Window | None) -> Level:
+        """Solved on pressure elements of a pitch [m]."""
+        stages, problem, grid = Stages(), self.problem, self.problem.grid(pitch)
+        with stages.stage("contact"):
+            operator = operator_of(problem, grid, self.coupling)
+            gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+            solution = solve_on(operator, gap, grid.weights, problem.constraints())
+            level = Level(
+                grid=grid,
+                solution=solution,
+                displacement=operator.apply(solution.pressure) / grid.weights,
+                patches=contact_patches(grid.x, solution.pressure, solution.gap),
+                seconds=stages.seconds,
+                unknowns=grid.count,
+            )
+        if window is not None:
+            with stages.stage("stresses"):
+                stresses = tuple(_stresses(problem, level, window, self.frictions))
+            level = replace(level, stresses=stresses)
+        return replace(level, peak_memory=peak_memory())
+
+
+def layered_body(scene: Scene) -> LayeredBody | None:
+    """The layer or the coated body of a scene."""
+    if scene.coating is not None:
+        return LayeredBody(scene.coating.material, scene.coating.thickness, scene.body.material)
+    if scene.body.thickness is not None:
+        return LayeredBody(scene.body.material, scene.body.thickness, scene.body.base or "bonded")
+    return None
+
+
+def operator_of(problem: Problem, grid: HatGrid, coupling: float) -> ModelOperator:
+    """Mutual compliance; under friction with what the tractions on both surfaces move."""
+    scene = problem.scene
+    if not (coupling and is_layered(scene)):
+        return nearest_operator(scene, grid, coupling)
+    moved = TangentialLayer(grid.count, grid.pitch, layered_body(scene))
+    if not scene.roller.rigid:
+        roller = TangentialHalfPlane(grid.count, grid.pitch, scene.roller.material, -1.0)
+        moved = SumOfConvolutions(moved, roller)
+    return CoupledPair(nearest_operator(scene, grid), moved, coupling)
+
+
+@dataclass(frozen=True)
+class _Side:
+    """The layer, or what lies below it; of a body without one all of it."""
+
+    material: Material
+    added: AddedStress | None
+    below: bool
+    ends: EndStress
+    shown: Window  # points of the common field on this side
+    searched: Window  # from which extremes are searched
+
+    @property
+    def is_shown(self) -> bool:
+        return len(self.shown.z) > 0
+
+    def added_at(self, friction: float, x: np.ndarray, z: np.ndarray) -> StressState:
+        """Beside the half-plane's hats."""
+        beside = self.ends.at(friction)(x, z)
+        if self.added is None:
+            return beside
+        return beside.plus(1.0, self.added.at(friction, x, z, self.below))
+
+    def field(self, level: Level, points: Window, friction: float) -> StressField:
+        field = field_on(level, points, self.ends).at(friction)
+        if self.added is None:
+            return field
+        parts = self.added.field(field.x, field.z, self.below)
+        added = StressState(*(parts[:3] + friction * parts[3:]))
+        return replace(field, stress=field.stress.plus(1.0, added))
+
+    def maxima(self, problem: Problem, level: Level, friction: float) -> StressMaxima:
+        return stress_maxima(
+            level.grid.x,
+            level.solution.pressure,
+            friction,
+            self.field(level, self.searched, friction),
+            self.material.poissons_ratio,
+            beside=partial(self.added_at, friction),
+            cells=problem.asperities,
+        )
+
+
+def _stresses(
+    problem: Problem, level: Level, window: Window, frictions: tuple[float, ...]
+) -> Iterator[StressResult]:
+    """Fields on the window and extremes on either side of an interface."""
+    sides = _sides(problem, level, window)
+    for friction in frictions:
+        fields = [side.field(level, side.shown, friction).stress for side in sides if side.is_shown]
+        found = [side.maxima(problem, level, friction) for side in sides]
+        maxima = {
+            name: _larger([one.cells[key] for one in found])
+            for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
+        }
+        extremes = {name: highest(each) for name, each in maxima.items()}
+        extremes["von_mises"] = max((one.von_mises for one in found), key=lambda e: e.value)
+        parts = ([getattr(field, name) for field in fields] for name in ("sx", "sz", "txz"))
+        state = StressState(*map(np.concatenate, parts))
+        yield StressResult(friction, extremes, state, maxima)
+
+
+def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
+    """The layer and what lies below it; the body itself where there is no layer."""
+    body, searched = layered_body(problem.scene), search_window(problem, window)
+    ends = ends_of(problem, level.grid, level.solution)
+    if body is None:
+        return [_Side(problem.scene.body.material, None, False, ends, window, searched)]
+    reach = min(window.x[0], searched.x[0]), max(window.x[-1], searched.x[-1])
+    added, thickness = (
+        AddedStress.of(body, level.grid.x, level.solution.pressure, reach),
+        body.thickness,
+    )
+    inside, below = (
+        [replace(points, z=z) for points, z in zip((window, searched), depths, strict=True)]
+        for depths in zip(*(_split(each.z, thickness) for each in (window, searched)), strict=True)
+    )
+    goes_on = not body.rigid and len(below[1].z) > 0
+    if goes_on:  # both sides of the interface are searched
+        ends_there = np.append(inside[1].z[inside[1].z < thickness], thickness)
+        inside[1] = replace(inside[1], z=ends_there)
+        below[1] = replace(below[1], z=np.append(thickness, below[1].z))
+    layer = _Side(body.material, added, False, ends, *inside)
+    return [layer, _Side(body.base, added, True, ends, *below)] if goes_on else [layer]
+
+
+def _split(z: np.ndarray, thickness: float) -> tuple[np.ndarray, np.ndarray]:
+    """Depths in the layer, its lower side among them, and below."""
+    inside = z <= thickness * (1.0 + 1e-12)
+    return np.minimum(z[inside], thickness), z[~inside]
+
+
+def _larger(cells: list[np.ndarray]) -> np.ndarray:
+    """Of each asperity (3, k) the side with the larger value."""
+    first, *others = cells
+    for other in others:
+        first = np.where(other[0] > first[0], other, first)
+    return first

@@ -1,0 +1,132 @@
+"""Partial slip from the scene to its files: both models, uncertainties, verdicts, wrong input."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import NEO_HOOKEAN, STEEL, changed, problem, resolved
+
+from analytic.exact.partial_slip import SlippingContact
+from comparisons.common.errors import SceneError
+from comparisons.figures.quantity import MODELS
+from comparisons.models.plan import make_plan
+from comparisons.output.flat_csv import rows_of
+from comparisons.output.record import read_result
+from comparisons.runs.run import run
+from comparisons.scenes.scene import Scene
+from comparisons.studies.friction.partial_slip import COMPARED, solvers
+from comparisons.studies.study import unsolved
+
+SMOOTH = {
+    "roller": {"radius": 8e-3, **STEEL, **NEO_HOOKEAN},
+    "body": {**STEEL, **NEO_HOOKEAN},
+    "load": {"per_length": 1e6, "friction": [0.1, 0.3]},
+    "partial_slip": {"loads": [0.5, -0.5, 0.5]},
+    "stress": {"points": [120, 40]},
+    "budget": {"effects": False},
+}
+BULK = 100e6
+
+
+def values(outcome, source: str = "half_plane") -> dict[str, float]:
+    known = outcome.figures.of(study="partial_slip", source=source, against=None)
+    return {figure.quantity: figure.value for figure in known}
+
+
+@pytest.fixture(scope="module")
+def cycled(tmp_path_factory):
+    return run(resolved(SMOOTH), tmp_path_factory.mktemp("slip") / "out", MODELS)
+
+
+def test_a_cycle_is_covered_by_what_is_stated(cycled):
+    """Both models, at the larger friction, against Mindlin and Deresiewicz."""
+    exact = SlippingContact(cycled.problem.hertz, 0.3, 0.5)
+    wanted = {
+        # the way back has slipped over what the way out did
+        "stick_length": 2.0 * exact.stick_half_width,
+        "energy_of_cycle": exact.energy_of_cycle,
+        "edge_tension": exact.edge_tension,
+    }
+    for source in MODELS:
+        known = cycled.figures.of(study="partial_slip", source=source, against=None)
+        for quantity, value in wanted.items():
+            figure = known.one(quantity=quantity)
+            assert figure.friction == 0.3
+            print(source, quantity, figure.value / value - 1.0, figure.numerical)
+            assert abs(figure.value / value - 1.0) <= figure.numerical < 0.02
+
+
+def test_models_agree_within_their_uncertainty(cycled):
+    """Both bodies are half-planes in either model."""
+    differences = cycled.figures.of(study="partial_slip", against="finite_element")
+    assert [figure.quantity for figure in differences] == list(COMPARED)
+    for figure in differences:
+        print(figure)
+        assert abs(figure.value) <= figure.numerical and figure.verdict == "agree"
+
+
+def test_page_tables_and_files_have_it(cycled):
+    page = (cycled.directory / "report.html").read_text(encoding="utf-8")
+    assert "Partial slip" in page and "of the contact, in 1 zone" in page
+    columns = np.genfromtxt(cycled.directory / "half_plane/partial_slip.csv", delimiter=",").T
+    assert np.all(np.abs(columns[2][1:]) <= columns[1][1:] * (1.0 + 1e-9))
+    result = read_result(cycled.directory / "result.json")
+    rows = {row["quantity"]: row for row in rows_of(result, "made")}
+    assert rows["stick_length"]["half_plane"] == values(cycled)["stick_length"]
+
+
+def test_bulk_stress_moves_the_zone_and_adds_itself():
+    """Nowell and Hills, on the half-plane."""
+    scene = changed(SMOOTH, partial_slip={"loads": [0.5], "bulk_stress": BULK})
+    outcome = run(resolved(scene), None, ("half_plane",))
+    exact = SlippingContact(outcome.problem.hertz, 0.3, 0.5, BULK)
+    zones = outcome.found["partial_slip"].table("stick_zones")
+    start, stop = (zones.columns[end].values[0] for end in ("start", "stop"))
+    pitch = outcome.runs["half_plane"].finest.grid.pitch
+    assert 0.5 * (start + stop) == pytest.approx(exact.offset, abs=0.1 * pitch)
+    scene = changed(scene, partial_slip={"bulk_stress": 0})
+    without = values(run(resolved(scene), None, ("half_plane",)))
+    moved = values(outcome)["edge_tension"] - without["edge_tension"]
+    assert BULK < moved < 2.0 * BULK  # the zone moves towards +x, off the trailing edge
+
+
+@pytest.mark.parametrize(
+    "settings, models",
+    [({}, MODELS), ({"deformation": "finite"}, MODELS[:1]), ({"plastic": True}, MODELS[:1])],
+    ids=str,
+)
+def test_finite_elements_are_loaded_where_they_are_linear(settings, models):
+    scene = changed(SMOOTH, finite_element=settings, load={"friction": 0.3})
+    if settings.get("plastic"):
+        scene = changed(scene, body={"yield_stress": 2e9})
+    solved = unsolved(posed := problem(scene), make_plan(posed, MODELS))
+    assert tuple(solvers(replace(solved, runs=dict.fromkeys(MODELS)))) == models
+
+
+@pytest.mark.parametrize(
+    "slip, message",
+    [
+        ({"load": 1.0}, "partial_slip.load: is 1.0; allowed is a number .* above 0 and below 1"),
+        ({"loads": [0.5, -1.0]}, "partial_slip.loads: is -1"),
+        ({"loads": []}, "partial_slip.loads: is an empty list"),
+        ({"loads": [0.0, 0]}, "partial_slip.loads: is 0 throughout"),
+        ({"load": 0.5, "loads": [0.5]}, "partial_slip.loads: is given beside load"),
+        ({}, "partial_slip.load: is missing"),
+        ({"load": 0.5, "bulk_stress": "2 m"}, "partial_slip.bulk_stress: "),
+    ],
+    ids=str,
+)
+def test_wrong_input_is_one_line(slip, message):
+    with pytest.raises(SceneError, match=message.replace("[", r"\[")) as error:
+        resolved(SMOOTH | {"partial_slip": slip})
+    assert "\n" not in str(error.value)
+
+
+def test_without_friction_nothing_is_held():
+    with pytest.raises(SceneError, match="partial_slip: is given without friction"):
+        resolved(changed(SMOOTH, load={"friction": 0.0}))
+
+
+def test_the_library_has_a_fretting_cycle():
+    slip = Scene.read("fretting").partial_slip
+    assert slip.path[0] == slip.path[-1] == slip.largest

@@ -1,0 +1,102 @@
+"""Flow beside a half-plane that exceeds the yield stress beyond doubt, or why there is none."""
+
+import pytest
+from scenes import STEEL, changed, resolved
+
+from comparisons.common.errors import ExitStatus
+from comparisons.figures.quantity import MODELS
+from comparisons.models.forecast import forecast, time_with_flow
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.output.headline import headline
+from comparisons.runs.run import run
+from comparisons.studies.model_error.selection import FLOW
+from comparisons.studies.subsurface.yielding import blocks as yield_blocks
+
+SCENE = {
+    "roller": {"radius": 8e-3, "rigid": True},
+    "body": {**STEEL, "yield_stress": 1e9},
+    "load": {"hertz_peak_pressure": 3e9},
+    "resolution": {"elements": 4, "levels": 2},
+    "budget": {"time": 3.0},
+}
+
+
+def outcome_of(**sections):
+    return run(resolved(changed(SCENE, **sections)), None, MODELS)
+
+
+@pytest.fixture(scope="module")
+def beside():
+    return outcome_of()
+
+
+@pytest.fixture(scope="module")
+def switched_on():
+    return outcome_of(finite_element={"plastic": True})
+
+
+def test_a_yield_stress_alone_gives_the_figures_of_the_switch(beside, switched_on):
+    assert beside.data("model_error").selection.added == {FLOW}
+    assert beside.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+    for error in beside.model_errors:
+        known = switched_on.model_errors.one(quantity=error.quantity)
+        assert error.scale == pytest.approx(known.scale, rel=1e-9)
+        assert error.value == pytest.approx(known.value, rel=0.02)  # a finer half-plane
+        # by the levels and by the increments of flow, beside a half-plane that is known better
+        assert 0.4 < error.numerical / known.numerical < 1.5
+    assert beside.judged.of(study="yield") == ()  # what flows is judged by its model error
+
+
+def test_the_verdict_says_what_flow_takes(beside):
+    said = headline(beside)
+    assert said.kind == "fails"
+    error = beside.model_errors.one(quantity="peak_pressure")
+    taken = 100.0 * error.value / (1.0 + error.value)
+    assert f"flow takes {taken:.0f} % off the peak pressure and adds" in said.sentence
+    assert said.next.startswith("take the whole model's peak pressure 2.")
+
+
+def test_the_cap_by_peak_is_what_the_whole_bears(beside, switched_on):
+    caps = [
+        outcome.figures.one(study="yield", quantity="cap_over_yield", source="cap by peak")
+        for outcome in (beside, switched_on)
+    ]
+    bears = beside.model_errors.one(quantity="peak_pressure").scale / 1e9
+    assert [cap.value for cap in caps] == pytest.approx([bears, bears], rel=1e-9)
+    assert caps[0].numerical == pytest.approx(caps[1].numerical, rel=1e-6)
+    rows = {row[0]: row for row in yield_blocks(beside)[0].items[2].rows}
+    assert rows["cap by peak"][3].startswith(f"{bears:.3g} ±")
+
+
+def test_without_time_it_says_how_long_flow_takes(beside):
+    scene = resolved(changed(SCENE, budget={"time": 2.0}))
+    problem = problem_of(scene)
+    plan = make_plan(problem, MODELS)
+    assert "is left out (budget.time)" in forecast(problem, plan).text
+    short = run(scene, None, MODELS)
+    assert "(budget.time)" in short.data("model_error").selection.impossible[FLOW]
+    said = headline(short)
+    assert said.kind == "fails" and "does not apply" in said.sentence
+    patches = short.runs["half_plane"].levels[0].patches
+    time = float(said.paste[0].rpartition("=")[2])
+    assert 1.0 <= time / time_with_flow(problem, plan, patches) < 2.0
+
+
+def test_below_first_flow_nothing_changes():
+    """Neither the pressure elements nor what is computed."""
+    plain = {**SCENE, "load": {"hertz_peak_pressure": 1e9}}
+    with_it, without = (
+        problem_of(resolved({**plain, "body": body})) for body in (SCENE["body"], STEEL)
+    )
+    assert not with_it.flows
+    assert (with_it.extent, with_it.pitches) == (without.extent, without.pitches)
+    assert forecast(with_it, make_plan(with_it, MODELS)).flow is None
+
+
+def test_where_flow_would_leave_the_trace_the_half_plane_is_solved_all_the_same():
+    """A trace as long as the elastic contact and a little more."""
+    scene = changed(SCENE, body={"yield_stress": 5e7, "width": 1.3e-3}, load={"friction": 0.0})
+    narrow = problem_of(resolved(scene))
+    assert not narrow.flows
+    assert problem_of(resolved(changed(scene, body={"width": 20e-3}))).flows

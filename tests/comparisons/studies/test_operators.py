@@ -1,0 +1,97 @@
+"""The half-plane with a layer, a coating, coupling: exact layers, and limits with known answers.
+
+analytic/exact/layer_contact.json: ten digits, two independent derivations."""
+
+import json
+
+import numpy as np
+import pytest
+from scenes import STEEL, problem
+
+from analytic.exact.layers import TABLE
+from comparisons.common.progress import Stages
+from comparisons.models.half_plane import half_plane_level, half_plane_on
+from comparisons.models.level import ModelRun
+from comparisons.models.window import window_of
+from comparisons.studies.ladder.operators import (
+    CAP,
+    OperatorModel,
+    carried,
+    problem_carrying,
+    words_of,
+)
+from comparisons.studies.model_error.catalogue import COUPLED
+from comparisons.studies.subsurface.yielding import flow_assessment
+
+CASES = json.loads(TABLE.read_text())["cases"]
+RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
+LOAD = {"per_length": 1e6, "friction": 0.3}
+BODIES = {"roller": {"radius": 8e-3, **STEEL}, "body": dict(STEEL), "load": LOAD}
+FIELD = {"stress": {"points": [60, 20]}}
+
+
+@pytest.mark.parametrize("case", CASES, ids=[f"{c['base']}-{c['a_over_t']}" for c in CASES])
+def test_exact_layers(case):
+    """The coarsest level and the one of half its elements: the peak of second order."""
+    nu = 0.3 if case["nu"] == "any" else float(case["nu"])
+    modulus = YOUNGS_MODULUS / (1.0 - nu**2)
+    load = float(case["P_R_over_Eprime_t2"]) * modulus * THICKNESS**2 / RADIUS
+    body = {"youngs_modulus": YOUNGS_MODULUS, "poissons_ratio": nu, "base": case["base"]}
+    body["thickness"] = THICKNESS
+    roller = {"radius": RADIUS, "rigid": True}
+    posed = problem({"roller": roller, "body": body, "load": {"per_length": load}})
+    exact = float(case["p0_R_over_Eprime_t"]) * modulus * THICKNESS / RADIUS
+    half_width = float(case["a_over_t"]) * THICKNESS
+    model = OperatorModel(problem_carrying(posed, frozenset({"finite_size"})), (0.0,), 0.0)
+    for pitch, close in ((posed.pitches[0], 6e-4), (posed.pitches[2], 4e-5)):
+        level = model.level(pitch, None)
+        assert level.solution.converged
+        assert level.solution.pressure.max() == pytest.approx(exact, rel=close)
+        assert abs(0.5 * level.contact_length - half_width) < 0.1 * pitch
+
+
+def test_a_coating_of_the_body_itself_is_a_half_plane():
+    """Pressures, largest stresses on both sides of the interface, and the field."""
+    coating = {"thickness": 30e-6, **STEEL}
+    posed = problem(BODIES | FIELD | {"coating": coating})
+    window, pitch = window_of(posed), posed.pitches[0]
+    coated = OperatorModel(posed, (0.3,), 0.0).level(pitch, window)
+    plain = half_plane_level(posed, pitch, window, Stages())
+    assert coated.solution.pressure == pytest.approx(
+        plain.solution.pressure, rel=1e-8, abs=1e-8 * plain.solution.pressure.max()
+    )
+    one, other = coated.stress(0.3), plain.stress(0.3)
+    for name in ("tau1", "txz", "von_mises"):
+        assert one.extremes[name].value == pytest.approx(other.extremes[name].value, rel=1e-6)
+    peak = posed.hertz.peak_pressure
+    assert one.field.tau1 == pytest.approx(other.field.tau1, abs=1e-7 * peak)
+
+
+@pytest.mark.parametrize("softer", [1.0, 0.25])
+def test_traction_moves_both_surfaces_of_a_coated_body(softer):
+    """A coating of the body itself under a roller of other constants: Dundurs' beta of the pair."""
+    roller = {"radius": 8e-3, "youngs_modulus": softer * 210e9, "poissons_ratio": 0.1}
+    coating = {"thickness": 30e-6, **STEEL}
+    posed = problem(BODIES | {"roller": roller, "coating": coating})
+    pitch, size = posed.pitches[0], 0.3 * posed.dundurs_beta
+    coated = OperatorModel(posed, (0.3,), 0.3).level(pitch, None)
+    moved = half_plane_on(posed, posed.grid(pitch), size, (0.3,), None, Stages())
+    still = half_plane_on(posed, posed.grid(pitch), 0.0, (0.3,), None, Stages())
+    peak = posed.hertz.peak_pressure
+    assert coated.solution.pressure == pytest.approx(moved.solution.pressure, abs=1e-7 * peak)
+    assert np.abs(moved.solution.pressure - still.solution.pressure).max() > 1e-3 * peak
+
+
+def test_what_an_operator_carries():
+    """A layer without its width, a cap where the pressure exceeds 3 Y."""
+    highest = problem(BODIES).hertz.peak_pressure
+    body = {**STEEL, "thickness": 1e-3, "width": 40e-3, "yield_stress": 0.3 * highest}
+    posed = problem(BODIES | {"body": body})
+    level = half_plane_level(posed, posed.pitches[0], None, Stages())
+    flow = flow_assessment(posed, {"half_plane": ModelRun("half_plane", (level,))})
+    held = carried(posed, {"finite_size", COUPLED, "finite_strain"}, flow)
+    assert held == {"finite_size", COUPLED, CAP}
+    assert words_of(held) == "half-plane with layer, coupling, pressures up to 3 Y"
+    capped = OperatorModel(problem_carrying(posed, frozenset({CAP})), (0.0,), 0.0)
+    pressure = capped.level(posed.pitches[0], None).solution.pressure
+    assert pressure.max() == pytest.approx(0.9 * highest)

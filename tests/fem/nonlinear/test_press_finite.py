@@ -1,0 +1,201 @@
+"""A roller on a body that flows at finite strains: the elastic limit, the limit of small strains,
+first yield, energy, limit load, release."""
+
+import numpy as np
+import pytest
+from scenes import hat_nodes
+
+from analytic.material import Law, Material
+from analytic.material.hardening import Hardening
+from fem.body.elasticity import Support, elastic_body
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.nonlinear import state_at_rest
+from fem.contact.rigid_roller import CurrentContact, circle, parabola
+from fem.nonlinear import hyperelastic, press_finite
+from fem.nonlinear.finite_deformation import FiniteContact
+from fem.nonlinear.finite_plasticity import FinitePlasticBody
+from fem.nonlinear.newton import newton_by_contacts
+from fem.nonlinear.plasticity import ElasticPlastic
+from fem.nonlinear.press_finite import press_plastically_finitely
+from fem.nonlinear.press_plastic import plastic_fields, press_plastically
+from meshes.block import BlockSpec
+from meshes.build import build_block
+
+NU = 0.3
+METAL = Material(1.0, NU, Law("hencky"))
+EDGE = 1.0 / 6.0
+HATS = hat_nodes(-11 * EDGE, EDGE, 23)
+X = HATS[1:-1]
+HERTZ = np.sqrt(np.maximum(1.0 - X**2, 0.0))
+
+
+@pytest.fixture(scope="module")
+def body(structured_block, graded):
+    beyond = graded(6.0, 0.3, 1.4)
+    x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
+    return elastic_body(structured_block(x, graded(8.0, 0.14, 1.2)), METAL, Support())
+
+
+@pytest.fixture(scope="module")
+def roller(structured_block, graded):
+    """Elastic, of radius 10 as a parabola, in its own frame on the body's hats."""
+    beyond = graded(6.0, 0.3, 1.4)
+    x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
+    mesh = structured_block(x, graded(8.0, 0.14, 1.2), lambda x: -0.05 * x**2)
+    return FiniteElementCompliance(elastic_body(mesh, METAL, Support()), HATS)
+
+
+def touching(body, curvature, friction=0.0, roller=None):
+    """Contact on half-width 1 of linear bodies, the load [N/m] and the peak pressure [Pa]."""
+    peak = 0.5 * METAL.plane_strain_modulus * curvature / (1 + (roller is not None))
+    shape = roller or circle(1.0 / curvature)
+    return FiniteContact(body, HATS, shape, peak * HERTZ, friction), 0.5 * np.pi * peak, peak
+
+
+@pytest.mark.parametrize(("elastic", "friction"), [(False, 0.0), (True, 0.2)])
+def test_without_flow_it_is_henckys_law(body, roller, monkeypatch, elastic, friction):
+    monkeypatch.setattr(hyperelastic, "quadrature_degree", lambda *_: 2)
+    monkeypatch.setattr(press_finite, "ASIDE", 1e-7)
+    contact, load, peak = touching(body, 0.1, friction, roller if elastic else None)
+    monkeypatch.setattr("fem.nonlinear.finite_deformation.ASIDE", 1e-7)
+    wanted = contact.by_newton(load)
+    _, (found,) = press_plastically_finitely(contact, ElasticPlastic(METAL, Hardening(1e3)), [load])
+    np.testing.assert_allclose(found.pressure, wanted.pressure, atol=1e-9 * peak)
+    assert found.approach == pytest.approx(wanted.approach, rel=1e-9)
+    np.testing.assert_allclose(found.displacement, wanted.displacement, atol=1e-9)
+    np.testing.assert_allclose(found.deformed.gap, wanted.gap, atol=1e-9)
+
+
+def test_light_loads_are_those_of_small_strains(body):
+    """The difference falls with the curvature, of which strains, slopes and rotations are a part;
+    the roller's height over a hat is that of a parabola in both."""
+    left = []
+    for curvature in (0.02, 0.01):
+        contact, load, peak = touching(body, curvature, 0.1)
+        metal = ElasticPlastic(METAL, Hardening(peak / 2.4, peak))
+        gap = EDGE * 0.5 * curvature * (X**2 + EDGE**2 / 6.0)
+        weights, start = contact.weights, contact.start
+        _, (small,) = press_plastically(contact.compliance, metal, gap, weights, [load], start, 0.1)
+        _, (finite,) = press_plastically_finitely(contact, metal, [load])
+        off = np.linalg.norm(finite.pressure - small.pressure) / np.linalg.norm(small.pressure)
+        strains = [each.state.equivalent.max() for each in (finite, small)]
+        left.append([off, strains[0] / strains[1] - 1.0, finite.approach / small.approach - 1.0])
+        assert strains[1] > 0.05 * curvature
+    orders = np.log2(np.abs(np.divide(*left)))
+    assert np.all((orders > 0.6) & (orders < 1.6)), (left, orders)
+    assert np.abs(left[-1]).max() < 0.03
+
+
+def energies(body, metal, contact):
+    """Elastic and plastic energies [J/m] by the strain's two parts, Voce's law integrated."""
+    strain, state = body.strain(contact.displacement), contact.state
+    shear, lame = METAL.shear_modulus, METAL.lame_constants[0]
+    xx, zz, xz = (strain * [1.0, 1.0, 0.5] - state.strain).T
+    yy = state.strain[:, 0] + state.strain[:, 1]
+    elastic = shear * (xx**2 + zz**2 + yy**2 + 2.0 * xz**2)
+    elastic += 0.5 * lame * (strain[:, 0] + strain[:, 1]) ** 2
+    line, weight = np.polynomial.legendre.leggauss(8)
+    k = state.equivalent[:, None] * 0.5 * (1.0 + line)
+    plastic = 0.5 * state.equivalent * (metal.hardening.stress(k) @ weight)
+    area = body.areas.ravel()
+    return area @ elastic, area @ plastic
+
+
+def test_work_is_elastic_and_plastic_and_friction(body):
+    """Of the load on the approach and of the support, which moves the body back along x, less what
+    the tractions take: on finite strains, over increments that follow the contact."""
+    contact, load, peak = touching(body, 0.1, 0.2)
+    start = peak / 3.0
+    metal = ElasticPlastic(METAL, Hardening(start, voce=(1.5 * start, 20.0)))
+    loads = list(load * np.linspace(0.0, 1.0, 17)[1:])
+    plastic, history = press_plastically_finitely(contact, metal, loads)
+    normal, sliding = [np.zeros(body.unknowns)], [np.zeros(body.unknowns)]
+    for each in history:
+        both = contact.contact.loaded(each.displacement, each.pressure)[1]
+        alone = CurrentContact(body, HATS, contact.roller)
+        normal.append(alone.loaded(each.displacement, each.pressure)[1])
+        sliding.append(both - normal[-1])
+    moved = [np.zeros(body.unknowns), *(each.displacement.ravel() for each in history)]
+    approach = [0.0, *(each.approach for each in history)]
+    loads = [0.0, *loads]
+    aside = [u.reshape(-1, 2)[body.held.all(axis=1)][0, 0] for u in moved]
+    work = pushed = rubbed = supported = 0.0
+    for k in range(1, len(loads)):
+        work += 0.5 * (loads[k] + loads[k - 1]) * (approach[k] - approach[k - 1])
+        way = moved[k] - moved[k - 1]
+        pushed += 0.5 * (normal[k] + normal[k - 1]) @ way
+        rubbed += 0.5 * (sliding[k] + sliding[k - 1]) @ way
+        along = 0.5 * sum((normal[j] + sliding[j])[::2].sum() for j in (k, k - 1))
+        supported -= along * (aside[k] - aside[k - 1])
+    elastic, flowed = energies(plastic, metal, history[-1])
+    assert history[-1].state.equivalent.max() > 0.02
+    assert flowed > 0.2 * work
+    assert pushed == pytest.approx(work, rel=2e-3)
+    assert elastic + flowed - rubbed == pytest.approx(work + supported, rel=2e-3)
+    assert abs(rubbed + supported) > 0.02 * work
+
+
+def punched(edges, approaches):
+    """Mean pressure of a flat rigid punch of half-width 1 by the yield stress, at finite strains of
+    a metal that is nearly rigid."""
+    spec = BlockSpec(8.0, 8.0, np.array([[-1.0, 1.0]]), 1.0 / edges, 0.2, (-4, 4, 2.5, 2.4 / edges))
+    metal = ElasticPlastic(Material(2e6, NU), Hardening(1.0))
+    body = elastic_body(build_block(spec), metal.elastic, Support("bonded", "fixed"))
+    hats = np.linspace(-1.0, 1.0, 2 * edges + 1)
+    weights = np.full(len(hats) - 2, 1.0 / edges)
+    plastic = FinitePlasticBody(body, metal)
+    bodies = [(plastic, CurrentContact(body, hats, parabola(np.inf)))]
+    state, found = state_at_rest(bodies, np.ones(len(weights))), []
+    for approach in approaches:
+        state, _ = newton_by_contacts(
+            bodies, np.zeros(len(weights)), weights, state, approach=approach
+        )
+        plastic.accept(state.displacements[0])
+        found.append(state.load / weights.sum())
+    return found
+
+
+def test_elements_do_not_lock_in_flow():
+    """The limit of a flat punch, (2 + pi) Y / sqrt 3, from above and to first order also at finite
+    strains, where flow keeps the volume to the last digit."""
+    exact = (2.0 + np.pi) / np.sqrt(3.0)
+    coarse, fine = (punched(edges, [1.5e-5, 3e-5, 5e-5]) for edges in (4, 8))
+    errors = np.array([coarse[-1], fine[-1]]) / exact - 1.0
+    assert 0.0 < errors[1] < 0.035
+    assert 0.7 < np.log2(errors[0] / errors[1]) < 1.3
+    assert abs(fine[-1] / fine[-2] - 1.0) < 2e-3
+
+
+def test_first_yield():
+    """At 1.79 times the yield stress (von Mises), as in the linear theory for small p0/E."""
+    window = (-1.3, 1.3, 1.0, 0.1)
+    mesh = build_block(BlockSpec(100.0, 100.0, np.array([[-2.0, 2.0]]), 0.125, 0.3, window))
+    body, flows = elastic_body(mesh, METAL, Support()), []
+    for ratio in (1.79 * 0.98, 1.79 * 1.02):
+        contact, load, peak = touching(body, 2e-3)
+        _, (found,) = press_plastically_finitely(
+            contact, ElasticPlastic(METAL, Hardening(peak / ratio)), [load]
+        )
+        flows.append(bool(found.state.equivalent.any()))
+    assert flows == [False, True]
+
+
+def test_released_and_pressed_again(body):
+    """Without the roller nothing is left on any node; the same load leads back to the same."""
+    contact, load, peak = touching(body, 0.1, 0.1)
+    metal = ElasticPlastic(METAL, Hardening(peak / 2.4, peak))
+    plastic, (pressed, released, again) = press_plastically_finitely(
+        contact, metal, [load, 0.0, load]
+    )
+    assert not released.pressure.any()
+    free = ~plastic.held
+    left = plastic.force(released.displacement)[free]
+    force = contact.contact.loaded(pressed.displacement, pressed.pressure)[1]
+    stress, _ = plastic.stress(released.displacement, released.state)
+    assert np.abs(stress).max() > 0.1 * metal.hardening.yield_stress
+    fields = plastic_fields(plastic, released)
+    assert np.abs(fields.stress.sz[body.surface.point]).max() < 0.2 * np.abs(stress).max()
+    assert np.abs(force).max() > 1e-3 and released.displacement.max() > 1e-3
+    assert left.shape[1:] == ()
+    np.testing.assert_allclose(again.pressure, pressed.pressure, atol=2e-3 * peak)
+    assert again.approach == pytest.approx(pressed.approach, rel=1e-4)
