@@ -5,6 +5,7 @@ job to do; `main` does it, so that every error and interrupt of the work ends in
 command needs beyond the standard library its job imports: `crosscheck --help` loads typer alone."""
 
 import errno
+import logging
 import os
 import sys
 import traceback
@@ -13,6 +14,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
+from typing import Annotated
 
 import typer
 
@@ -35,6 +37,12 @@ WATCHED = {
 # Options that name a place. An empty one, as an unset variable leaves it, would mean the working
 # folder and replace what stands there.
 PLACES = ("--out", "--summary", "--junit", "--export", "--answers")
+# Of finite elements, which no wheel brings along.
+FINITE_ELEMENT_LIBRARIES = ("dolfinx", "basix", "ufl", "petsc4py", "mpi4py")
+NO_FINITE_ELEMENTS = (
+    "finite elements take {0}, which {1} does not have; allowed is --models half-plane, or: "
+    "conda install -c conda-forge fenics-dolfinx (on Debian and Ubuntu ./crosscheck of a checkout)"
+)
 FINISHED = (
     *(ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE),
     *(ExitStatus.NOT_CONVERGED, ExitStatus.INCONCLUSIVE),
@@ -50,6 +58,25 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+def _say_version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        print(f"crosscheck {version('crosscheck')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _whole(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_say_version, is_eager=True, help="Show it.")
+    ] = False,
+) -> None:
+    """Checks the half-plane method for rough line contact against finite elements."""
+
+
 for name, command in {
     "run": run.run,
     "cost": studies.cost,
@@ -76,6 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Several processes under mpirun print, and end, as one."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)  # where no home can be written
     if COMPLETION in os.environ:
         return app(prog_name="crosscheck")  # answers the shell, and exits
     is_own = arguments is None
@@ -87,7 +115,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
         from comparisons.common.interrupt import watched
 
-        return watched(lambda: _carry_out(arguments), f"interrupted; {WATCHED[arguments[0]]}")
+        return watched(lambda: _carry_out(arguments), WATCHED[arguments[0]])
     if is_own:  # not before a fork, which MPI does not survive
         forget_inherited_launcher()
     return as_one(lambda: _carry_out(arguments), FINISHED)
@@ -135,6 +163,8 @@ def _carry_out(arguments: list[str]) -> int:
             return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
+        if (missing := getattr(error, "name", None)) in FINITE_ELEMENT_LIBRARIES:
+            return _end(ExitStatus.BAD_INPUT, NO_FINITE_ELEMENTS.format(missing, sys.executable))
         status = _defect(error)
         if os.environ.get(TRACEBACK):
             with suppress(OSError):
@@ -168,13 +198,14 @@ def _defect(error: Exception) -> ExitStatus:
         sys.stdout.flush()
     except OSError:
         drop(sys.stdout)
+    if _limit(error):
+        return ExitStatus.OUT_OF_MEMORY
     out_of_memory = (
         isinstance(error, MemoryError),
         getattr(error, "errno", None) == errno.ENOMEM,
         "INFOG(1)=-13" in str(error),  # MUMPS, while it solves
         # where the system maps no more memory, libraries say that a part of them is not there
         isinstance(error, ImportError) and (address_space() or "failed to map" in str(error)),
-        # without such a limit it is one on the number of processes
         address_space() and "can't start new thread" in str(error),
     )
     if any(out_of_memory):
@@ -182,8 +213,19 @@ def _defect(error: Exception) -> ExitStatus:
     return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
 
 
+def _limit(error: Exception) -> str:
+    """What the system lets the user have too few of, or nothing."""
+    number = getattr(error, "errno", None)
+    if number in (errno.EMFILE, errno.ENFILE) or "Too many open files" in str(error):
+        return "open files (ulimit -n)"
+    threads = "can't start new thread" in str(error) and not address_space()
+    return "processes (ulimit -u)" if number == errno.EAGAIN or threads else ""
+
+
 def _account(error: Exception, status: ExitStatus) -> str:
     """An error that is not the user's, and where in the program it was raised."""
+    if limit := _limit(error):
+        return f"the system allows this user no more {limit}; allowed is a higher limit"
     if status == ExitStatus.OUT_OF_MEMORY:
         limit = address_space()
         remedy = "allowed is a smaller scene (budget.memory, resolution, stress.points)"

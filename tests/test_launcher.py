@@ -41,8 +41,8 @@ case "$1 ${2-}" in
         echo "${PIP_SAYS-}"
         exit "${PIP_STATUS:-0}" ;;
     "-m pytest") echo "threads=$OMP_NUM_THREADS folder=$PWD arguments=$*"; exit "${STATUS:-0}" ;;
-    "- ") cat >/dev/null; echo numpy==1.24.2 ;;
-    "-c import dolfinx") [ "${MISSING-}" != python3-dolfinx ] || [ -e "$INSTALLED" ] ;;
+    "- "*) cat >/dev/null; [ $# = 1 ] && echo numpy==1.24.2 ;;
+    "-c import dolfinx"*) [ "${MISSING-}" != python3-dolfinx ] || [ -e "$INSTALLED" ] ;;
 esac
 """
 DPKG_QUERY = r"""#!/bin/bash
@@ -83,10 +83,10 @@ class Checkout:
             (tools / name).write_text(text)
             (tools / name).chmod(0o755)
         source = (PROJECT / "crosscheck").read_text()
-        line = "python=/usr/bin/python3\n"
+        line = "system_python=/usr/bin/python3\n"
         assert source.count(line) == 1
         self.script = self.root / "crosscheck"
-        self.script.write_text(source.replace(line, f"python='{tools}/python3'\n"))
+        self.script.write_text(source.replace(line, f"system_python='{tools}/python3'\n"))
         self.script.chmod(0o755)
         shutil.copy(PROJECT / "pyproject.toml", self.root)
         self.calls_file.touch()
@@ -345,6 +345,43 @@ def test_ordinary_user_with_sudo_has_what_is_missing_installed_when_no_other_apt
     words = [c.split()[0] for c in checkout.calls() if c.startswith(("apt-get", "sleep 5"))]
     assert words == ["apt-get", "sleep", "apt-get", "apt-get"]
     assert checkout.calls("apt-get")[1:] == ["apt-get update", f"{INSTALL} libgl1"]
+
+
+def another_python(checkout: Checkout, prefix: str, imports: bool) -> Path:
+    """One of an environment, that imports dolfinx or does not."""
+    python = checkout.base / prefix / "bin" / "python"
+    python.parent.mkdir(parents=True)
+    missing = "" if imports else 'echo "No module named dolfinx" >&2; exit 1'
+    case = f'"-c import dolfinx"*) {missing} ;;'
+    text = "\n".join(line for line in PYTHON.splitlines() if "-c import dolfinx" not in line)
+    python.write_text(text.replace("esac", f"{case}\nesac").replace("python $*", f"{prefix} $*"))
+    python.chmod(0o755)
+    return python
+
+
+def test_the_first_python_that_imports_dolfinx_is_taken(checkout):
+    bare = another_python(checkout, "bare", imports=False)
+    conda = another_python(checkout, "conda", imports=True)
+    prefixes = {"CONDA_PREFIX": str(conda.parents[1]), "VIRTUAL_ENV": str(bare.parents[1])}
+    done = checkout.call("a", MISSING="python3-dolfinx", **prefixes)
+    assert (done.returncode, done.stdout) == (0, "<a>")
+    assert len(checkout.calls("conda -m venv")) == 1 and not checkout.calls("apt-get")
+    # what is set up stays as long as its Python is there
+    assert checkout.call("b", **prefixes).stdout == "<b>"
+    assert checkout.set_ups() == 0
+    # a Python that is named is taken, whatever else is active
+    named = str(another_python(checkout, "named", imports=True))
+    assert checkout.call("c", CROSSCHECK_PYTHON=named, **prefixes).stdout == "<c>"
+    assert len(checkout.calls("named -m venv")) == 1
+
+
+def test_a_named_python_without_dolfinx_is_told_in_one_line(checkout):
+    bare = str(another_python(checkout, "bare", imports=False))
+    done = checkout.call("a", CROSSCHECK_PYTHON=bare)
+    assert (done.returncode, done.stdout) == (2, "")
+    reason, remedy = done.stderr.splitlines()
+    assert reason.endswith(f"CROSSCHECK_PYTHON cannot be used: {bare}: No module named dolfinx")
+    assert "conda env create --file environment.yml" in remedy
 
 
 def test_dolfinx_from_elsewhere_needs_no_package(checkout):

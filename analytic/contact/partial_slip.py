@@ -113,7 +113,8 @@ def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipSt
         raise ValueError(
             f"the tangential load must be below {limit:g} N/m, not {loads.tangential:g} N/m"
         )
-    traction, pressed, displacement = np.zeros_like(pair.weights), 0.0, 0.0
+    traction, displacement = np.zeros_like(pair.weights), 0.0
+    pressed = np.zeros_like(traction)
     former, normal, pressure = Loads(0.0), None, None
     if before is not None:
         traction, displacement, former = before.traction, before.displacement, before.loads
@@ -126,32 +127,31 @@ def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipSt
         last, reached = pressure, traction
         if normal is None or pair.raised is not None:
             lifted = 0.0 if pair.raised is None else pair.raised(traction)
-            given = pair.weighted_gap + lifted, pair.weights, constraints, pressure
-            normal = pair.solve_normal(*given)
+            gap = pair.weighted_gap + lifted
+            normal = pair.solve_normal(gap, pair.weights, constraints, pressure)
             pressure = normal.pressure
         dragged = 0.0 if pair.dragged is None else pair.dragged(pressure - pressed)
         rest = limit - forward * loads.tangential
         start = tangential and tangential.pressure
         tangential = _tangential(pair, pressure, forward * (moved + dragged), rest, start)
         traction = forward * (pair.friction * pressure - tangential.pressure)
-        settled = pair.raised is None or (
-            last is not None
-            and max(
-                np.max(np.abs(pressure - last)),
-                np.max(np.abs(traction - reached)) / pair.friction,
-            )
-            <= pair.settled * pressure.max()
-        )
+        settled = pair.raised is None
+        if last is not None and not settled:
+            changes = pressure - last, (traction - reached) / pair.friction
+            settled = np.max(np.abs(changes)) <= pair.settled * pressure.max()
         if settled:
             break
     slip = forward * tangential.gap
+    # what touched before: the others have moved while they were apart
+    touched = (pressure > 0.0) & (pressed > 0.0)
+    rubbing = np.where(touched, 0.5 * (pressure + pressed), 0.0)
     return SlipState(
         loads=loads,
         normal=normal,
         traction=traction,
         slip=slip,
         displacement=displacement - forward * tangential.approach,
-        work=float(traction @ (slip * pair.weights)),
+        work=float(pair.friction * (rubbing @ (np.abs(slip) * pair.weights))),
         residual=max(normal.residuals.worst, tangential.residuals.worst),
         converged=settled and normal.converged and tangential.converged,
     )
@@ -181,7 +181,11 @@ def half_planes(
     friction: float,
     hardness: float = np.inf,
 ) -> SurfacePair:
-    """Two half-planes, on whose surfaces A = C and T is a convolution."""
+    """Two half-planes, on whose surfaces A = C and T is a convolution.
+
+    weighted_gap  G (n,) [m^2]            modulus   E* [Pa]
+    dundurs_beta  of the body against the roller (`analytic.material.dundurs_constants`)
+    hardness      cap of the pressure [Pa]"""
     operator = HalfPlane(grid.count, grid.pitch, modulus)
     solve = partial(solve_contact, operator)
     raised = dragged = None
@@ -189,8 +193,18 @@ def half_planes(
         odd = dundurs_beta * grid.pitch**2 / modulus * hat_sign(np.arange(grid.count))
         raised = Convolution(odd, None, row=-odd).apply
         dragged = Convolution(-odd, None, row=odd).apply
-    given = weighted_gap, grid.weights, grid.x, friction, hardness
-    return SurfacePair(*given, operator.apply, solve, solve, raised, dragged)
+    return SurfacePair(
+        weighted_gap=weighted_gap,
+        weights=grid.weights,
+        x=grid.x,
+        friction=friction,
+        hardness=hardness,
+        tangential=operator.apply,
+        solve_normal=solve,
+        solve_tangential=solve,
+        raised=raised,
+        dragged=dragged,
+    )
 
 
 def pressed_in(load: float, steps: int) -> tuple[Loads, ...]:

@@ -127,7 +127,7 @@ def _mean_width(curve: PPoly, height: float) -> float | None:
     starts = places[:-1]
     # their middles see to it that every stretch between two crossings has a place
     inside = np.sort(np.append(turning_points(curve), starts + 0.5 * np.diff(places)))
-    inside = inside[(inside > places[0]) & (inside < places[-1])]
+    inside = inside[(inside >= places[0]) & (inside <= places[-1])]  # one may round to an end
     first = np.searchsorted(inside, starts)
     heights = curve(inside)
     high, low = np.maximum.reduceat(heights, first), np.minimum.reduceat(heights, first)

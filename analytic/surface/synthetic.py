@@ -188,7 +188,8 @@ def check_samples(samples: int) -> None:
     """Raises ValueError for a number of samples that no profile has."""
     if not isinstance(samples, int | np.integer) or not MIN_SAMPLES <= samples <= MAX_SAMPLES:
         raise ValueError(
-            f"samples must be a whole number from {MIN_SAMPLES} to {MAX_SAMPLES}, not {samples!r}"
+            f"the trace would have {samples!r} samples; "
+            f"allowed is a whole number from {MIN_SAMPLES} to {MAX_SAMPLES}"
         )
 
 

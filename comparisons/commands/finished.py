@@ -2,14 +2,45 @@
 `table` puts many into one table."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
 from comparisons.commands.arguments import RESULTS, job, json_option
-from comparisons.commands.output import progress, show_either, show_json
+from comparisons.commands.output import progress, show, show_either, show_json
 from comparisons.common.errors import ExitStatus, tell
 from comparisons.common.mpi import from_first
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+# Columns of `table` on the terminal: of both kinds those that a person compares runs by.
+WIDE = ("run", "friction", "quantity", "half_plane", "model_error", "model_error_uncertainty")
+WIDE += ("tolerance", "model_error_verdict")
+LONG = ("run", "study", "quantity", "source", "against", "friction", "value", "unit")
+LONG += ("uncertainty", "verdict")
+RELATIVE = ("model_error", "model_error_uncertainty", "tolerance", "uncertainty")
+
+
+def _runs_table(rows: list[dict], columns: tuple[str, ...]) -> "Table":
+    """Some columns of the rows, numbers in four digits with their unit."""
+    from comparisons.common.numbers import percent, significant, with_unit
+    from comparisons.output.terminal import plain_table, plain_text
+
+    table = plain_table(
+        *(name.replace("model_error", "error").replace("_", " ") for name in columns)
+    )
+    for row in rows:
+        cells = []
+        for name in columns:
+            value = row[name]
+            if isinstance(value, float) and name in RELATIVE:
+                value = percent(value)
+            elif isinstance(value, float) and name in ("half_plane", "value"):
+                value = with_unit(value, row["unit"]) if row["unit"] else significant(value)
+            cells.append("" if value is None else plain_text(str(value)))
+        table.add_row(*cells)
+    return table
 
 
 @job
@@ -61,12 +92,11 @@ def table(
     folders: Annotated[
         list[Path], Argument(metavar="DIR...", help="Folders with runs in or below them.")
     ],
-    out: Annotated[
-        Path | None, Option(help="FILE.csv or FILE.parquet; without it CSV is printed.")
-    ] = None,
+    out: Annotated[Path | None, Option(help="FILE.csv or FILE.parquet, with all columns.")] = None,
     long: Annotated[
         bool, Option("--long", help="A row a figure, of every study: value, uncertainty, bounds.")
     ] = False,
+    raw: Annotated[bool, Option("--csv", help="Print all columns as CSV.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print the rows as JSON.")] = False,
 ) -> int:
     """Put the figures of many runs into one table: a row a run, friction and quantity."""
@@ -79,8 +109,10 @@ def table(
         flat.write_table(out, rows, columns)
     if as_json:
         show_json(rows)
-    elif out is None:
+    elif raw:
         print(flat.as_csv(rows, columns), end="")
+    elif out is None:
+        show(_runs_table(rows, LONG if long else WIDE))
     else:
         runs = len({row["run"] for row in rows})
         print(f"{len(rows)} rows of {runs} run{'s' * (runs != 1)} in {out}")

@@ -1,5 +1,6 @@
 """`crosscheck run`: one scene by both models, compared and judged."""
 
+import math
 import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
@@ -19,10 +20,9 @@ from comparisons.commands.arguments import (
     out_option,
 )
 from comparisons.commands.output import progress, show, show_either
-from comparisons.common.errors import ExitStatus, InputError, SceneError, nearest, tell
+from comparisons.common.errors import ExitStatus, InputError, nearest, tell
 from comparisons.common.mpi import from_first, is_first
-from comparisons.figures.quantity import HYPHENATED, models_named
-from comparisons.scenes.sections import UP_TO
+from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
@@ -43,8 +43,8 @@ def run(
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Models = BOTH,
     tolerance: Annotated[
-        float | None,
-        Option(help="Relative, of all that is judged; refinement ends where it is met."),
+        str | None,
+        Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
     ] = None,
     up_to: Annotated[
         str | None,
@@ -61,6 +61,9 @@ def run(
         list[str] | None,
         Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
     ] = None,
+    plan: Annotated[
+        bool, Option("--plan", help="Only say what would be solved, and how long it takes.")
+    ] = False,
     details: Details = False,
     pdf: Annotated[bool, Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
@@ -83,19 +86,17 @@ def run(
     asked = from_first(lambda: _read(scene, answer or (), tolerance))
     asked = asked if up_to in (None, HERTZ) else _limited(asked, up_to)
     surface = from_first(lambda: surface_of(asked))
+    if plan:
+        return _say_plan(asked, surface, chosen)
     if up_to == HERTZ:
         return _hertz_alone(asked, surface)
     directory = out or RESULTS / asked.name
     from_first(lambda: _check_places(directory, junit, chosen))
-    warnings = warnings_about(asked, surface)
-    if sys.stderr.isatty():  # before the user waits for the solution
-        _say_warnings(warnings)
+    _say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
+    if sys.stderr.isatty():
         _say_first_answer(asked, surface)
     with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
-        try:
-            outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
-        except SceneError as error:
-            raise SceneError("; ".join([str(error), *warnings])) from error
+        outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
         if pdf and is_first():
             callback("printing the report")
             _print(directory)
@@ -103,11 +104,11 @@ def run(
         write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), perf_counter() - began))
     content = content_of(outcome) if as_json else {}
     show_either(as_json, content, lambda: summary(outcome, details))
-    _say_warnings([*warnings, *warnings_about_result(outcome)])
+    _say_warnings(warnings_about_result(outcome))
     return outcome.exit_status
 
 
-def _read(scene: str, answers: Sequence[str], tolerance: float | None) -> "Scene":
+def _read(scene: str, answers: Sequence[str], tolerance: str | None) -> "Scene":
     """The scene of a name or path, with answers from outside, NAME=FILE each, and a tolerance in
     place of its own."""
     from comparisons.scenes.scene import Scene, with_tolerance
@@ -116,7 +117,37 @@ def _read(scene: str, answers: Sequence[str], tolerance: float | None) -> "Scene
     asked = Scene.read(scene)
     if answers:
         asked = asked.changed("answers", answers_named(answers, asked.given.get("answers")))
-    return asked if tolerance is None else with_tolerance(asked, tolerance, "--tolerance")
+    return asked if tolerance is None else with_tolerance(asked, _relative(tolerance))
+
+
+def _relative(text: str) -> float:
+    """A tolerance as it is typed, a number or a percentage."""
+    from comparisons.common.units import DIMENSIONLESS, to_si
+
+    try:
+        value = to_si(text, DIMENSIONLESS) if "%" in text else float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < 1.0:
+        raise InputError(f"--tolerance: is {text}; allowed is a number above 0 and below 1, or 5%")
+    return value
+
+
+def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) -> int:
+    """What a run would do, by the laws of cost: levels, and steps with what makes them needless."""
+    from comparisons.models.forecast import forecast
+    from comparisons.output.terminal import PLAIN
+    from comparisons.runs.run import posed
+    from comparisons.studies.ladder.limits import limited
+
+    scene, models = limited(scene, models)
+    problem, planned = posed(scene, surface, models)
+    print(forecast(problem, planned).text.translate(PLAIN))
+    for step in planned.skipped:
+        print(f"skipped: {step.step}: {step.because}".translate(PLAIN))
+    if scene.budget.effects and planned.compares:
+        print("effects are chosen by estimates once both models are solved (budget.effects)")
+    return ExitStatus.DONE
 
 
 def _limited(scene: "Scene", up_to: str) -> "Scene":

@@ -83,6 +83,15 @@ def init(
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(made))
+    tables = made.scene.given
+    examples = {
+        "roller.radius": radius is None and tables["roller"]["radius"],
+        "load.hertz_peak_pressure": (load, peak_pressure) == (None, None)
+        and tables["load"]["hertz_peak_pressure"],
+        "youngs_modulus": youngs_modulus is None and tables["body"]["youngs_modulus"],
+    }
+    if assumed := [f"{name} = {value}" for name, value in examples.items() if value]:
+        print(f"assumed as examples, put in yours: {', '.join(assumed)}")
     for line in first_answer(problem_of(made.scene)):
         print(line if unicode else line.translate(PLAIN))
     return ExitStatus.DONE

@@ -1,13 +1,14 @@
 """Finished results on disk, so that a command that was stopped goes on: one .npz file a result.
 
-A file holds the arrays of a result, and a JSON text that says how they make it up. It is there
-whole or not at all, and is good for the key that it was saved under."""
+A file holds the arrays of a result, a JSON text that says how they make it up, and a hash of both.
+It is there whole or not at all, and is good for the key and name that it was saved under."""
 
+import hashlib
 import io
 import json
 import shutil
 import typing
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
@@ -43,10 +44,11 @@ class Cache:
         if self.folder is None or not is_first():
             return
         arrays: dict[str, np.ndarray] = {}
-        outline = json.dumps({"key": self.key, "value": encoded(value, arrays)})
+        outline = json.dumps({"key": self.key, "name": name, "value": encoded(value, arrays)})
         # in memory first: an interrupt amid an archive whose file is closed would be complained of
         content = io.BytesIO()
-        np.savez(content, outline=np.array(outline), **arrays)
+        seal = np.array(_seal(outline, arrays))
+        np.savez(content, outline=np.array(outline), seal=seal, **arrays)
         self.folder.mkdir(parents=True, exist_ok=True)
         with suppress(FileNotFoundError), whole_file(self.path(name)) as part:
             part.write_bytes(content.getbuffer())
@@ -67,13 +69,27 @@ class Cache:
 
     def _read(self, name: str) -> object | None:
         try:
-            with np.load(self.path(name), allow_pickle=False) as arrays:
-                outline = json.loads(str(arrays["outline"]))
-                if outline["key"] != self.key:
+            with np.load(self.path(name), allow_pickle=False) as file:
+                text = str(file["outline"])
+                outline = json.loads(text)
+                if (outline["key"], outline["name"]) != (self.key, name):
                     return None
-                return decoded(outline["value"], arrays, self.kinds)
+                arrays = {entry: file[entry] for entry in file.files}
+            if str(arrays.pop("seal")) != _seal(text, arrays):
+                return None
+            return decoded(outline["value"], arrays, self.kinds)
         except DAMAGED:
             return None
+
+
+def _seal(outline: str, arrays: Mapping[str, np.ndarray]) -> str:
+    """Hash of all that a file holds: what was changed there is no result of this program."""
+    total = hashlib.sha256(outline.encode())
+    for name in sorted(set(arrays) - {"outline"}):
+        array = np.ascontiguousarray(arrays[name])
+        total.update(f"{name} {array.dtype.str} {arrays[name].shape}".encode())
+        total.update(array.data.cast("B") if array.size else b"")
+    return total.hexdigest()
 
 
 NO_CACHE = Cache(None, "", {})

@@ -19,11 +19,11 @@ SHOW_CURSOR = "\x1b[?25h\n"  # a progress bar that was cut off has hidden it
 PR_SET_PDEATHSIG = 1  # of Linux's prctl
 
 
-def watched(work: Callable[[], int], message: str) -> int:
+def watched(work: Callable[[], int], left: str) -> int:
     """The exit status of `work`, which a child carries out; the child returns from here only where
     it has to finalize MPI.
 
-    message  one line for standard error where the child has to be killed"""
+    left  what a killed child leaves, for the line on standard error that says so"""
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # as shells have it in the background
         return work()
     sys.stdout.flush()
@@ -47,8 +47,11 @@ def watched(work: Callable[[], int], message: str) -> int:
     if killed and status == -signal.SIGKILL:
         if _is_empty(ended):  # else the child has printed its own line, and was slow to leave
             cursor = SHOW_CURSOR if sys.stderr.isatty() else ""
-            tell(message, cursor)
+            tell(f"interrupted; {left}", cursor)
         return int(ExitStatus.INTERRUPTED)
+    if status == -signal.SIGKILL:
+        tell(f"the process that worked was killed, as the system does where memory ends; {left}")
+        return int(ExitStatus.KILLED)
     if status < 0:  # what killed the child kills its parent: shells see a crash by that
         signal.signal(-status, signal.SIG_DFL)
         os.kill(os.getpid(), -status)

@@ -36,6 +36,7 @@ class Dimension:
 
 LENGTH = Dimension("a length", "m", "8.2 mm")
 PRESSURE = Dimension("a pressure", "Pa", "207 GPa")
+FORCE = Dimension("a force", "N", "100 N")
 LOAD = Dimension("a load per length", "N/m", "3.85 N/um")
 TIME = Dimension("a time", "s", "300 s")
 MEMORY = Dimension("an amount of memory", "byte", "8 GB")
@@ -47,7 +48,7 @@ SPECIFIC_HEAT = Dimension("a specific heat", "J/kg/K", "460 J/kg/K")
 EXPANSION = Dimension("a coefficient of thermal expansion", "1/K", "12 um/m/K")
 DIMENSIONLESS = Dimension("a number without unit", "", "0.3")
 OF_HEAT = (SPEED, TEMPERATURE, CONDUCTIVITY, DENSITY, SPECIFIC_HEAT, EXPANSION)
-DIMENSIONS = (LENGTH, PRESSURE, LOAD, TIME, MEMORY, *OF_HEAT, DIMENSIONLESS)
+DIMENSIONS = (LENGTH, PRESSURE, FORCE, LOAD, TIME, MEMORY, *OF_HEAT, DIMENSIONLESS)
 
 COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
     unit: (dimension, Decimal(factor))
@@ -55,6 +56,7 @@ COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
         (LENGTH, {"m": "1", "mm": "1e-3", "um": "1e-6", "µm": "1e-6", "nm": "1e-9"}),
         (LENGTH, {"angstrom": "1e-10", "inch": "0.0254", "mil": "2.54e-5", "microinch": "2.54e-8"}),
         (PRESSURE, {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9"}),
+        (FORCE, {"N": "1", "kN": "1e3"}),
         (LOAD, {"N/m": "1", "N/mm": "1e3", "kN/m": "1e3", "kN/mm": "1e6", "N/um": "1e6"}),
         (TIME, {"s": "1", "min": "60", "h": "3600"}),
         (MEMORY, {"byte": "1", "MB": "1e6", "GB": "1e9", "MiB": "1048576", "GiB": "1073741824"}),
@@ -139,7 +141,12 @@ def _factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
     if unit in COMMON_UNITS:
         known, factor = COMMON_UNITS[unit]
         if known is not dimension:
-            raise UnitError(f"is {describe(entry)}, {known.phrase}")
+            hint = (
+                f': a force per length is "{entry.strip()}/mm"'
+                if (known, dimension) == (FORCE, LOAD)
+                else ""
+            )
+            raise UnitError(f"is {describe(entry)}, {known.phrase}{hint}")
         return factor
     return pint_factor(unit, dimension, entry)
 

@@ -7,10 +7,11 @@ import numpy as np
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
 from comparisons.figures.quantity import MODELS
-from comparisons.models.half_plane import expected_of
+from comparisons.models.half_plane import expected_with
 from comparisons.models.level import ExpectedCost
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window, window_of
 
 
 @dataclass(frozen=True)
@@ -60,11 +61,13 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     """Of a plan's levels, without its effects and far-boundary check; as if contact were all over
     the stretch of pressures, which it never exceeds."""
     scene, levels, total, ends = problem.scene, [], 0.0, ""
+    window = window_of(problem) if plan.stress else None
     for number in range(problem.most_levels):
         pitch = problem.pitches[0] / 2.0**number
         elements = problem.grid(pitch).count
         everywhere = np.array([problem.extent])
-        costs = [expected_level(name, problem, plan, pitch, everywhere) for name in plan.models]
+        how = plan, pitch, everywhere, window
+        costs = [expected_level(name, problem, *how) for name in plan.models]
         seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
         total += seconds
         if levels and total > problem.time:
@@ -93,12 +96,18 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
 
 
 def expected_level(
-    model: str, problem: Problem, plan: Plan, pitch: float, patches: np.ndarray
+    model: str,
+    problem: Problem,
+    plan: Plan,
+    pitch: float,
+    patches: np.ndarray,
+    window: Window | None = None,
 ) -> ExpectedCost:
-    """Of a model on pressure elements of a pitch [m], in contact on `patches` (k, 2) [m]."""
+    """Of a model on pressure elements of a pitch [m], in contact on `patches` (k, 2) [m]; of the
+    half-plane with the stresses on a window."""
     contacts = len(problem.scene.load.friction) if problem.friction_moves(model) else 1
     if model == "half_plane":
-        cost = expected_of(problem.grid(pitch).count)
+        cost = expected_with(problem, pitch, window)
     else:
         from comparisons.models.finite_element.cost import expected
         from comparisons.models.finite_element.mesh import Refinement

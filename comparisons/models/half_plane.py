@@ -19,13 +19,29 @@ from comparisons.models.level import ExpectedCost, Level, StressResult, under_ea
 from comparisons.models.problem import Problem, ends_of, pressed_on
 from comparisons.models.window import Window, search_window
 
-# Of a level with stresses, measured from 5 000 to 160 000 nodes.
+# Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.
 SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
+# Of a window far wider than the contact: each point of the ring on which pressures are convolved,
+# beyond the first, and each where extremes are searched; measured to 2 million.
+FREE_POINTS, SECONDS_PER_POINT, BYTES_PER_POINT, BYTES_PER_SEARCHED = 1e5, 2e-5, 130.0, 90.0
 
 
 def expected_of(count: int) -> ExpectedCost:
     """What a level of so many pressure elements will take."""
     return ExpectedCost(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
+
+
+def expected_with(problem: Problem, pitch: float, window: Window | None) -> ExpectedCost:
+    """The same with stresses on a window."""
+    cost = expected_of(problem.grid(pitch).count)
+    if window is None:
+        return cost
+    farthest, searched = max(map(abs, problem.extent)), search_window(problem, window)
+    ring = 2.0 * (window.extent + farthest) * window.subdivisions(pitch) / pitch
+    points = max(0.0, ring - FREE_POINTS)
+    memory = BYTES_PER_POINT * points + BYTES_PER_SEARCHED * len(searched.x) * len(searched.z)
+    seconds = max(cost.seconds, SECONDS_PER_POINT * points)
+    return ExpectedCost(cost.unknowns, max(cost.memory, memory), seconds)
 
 
 def half_plane_level(
@@ -65,7 +81,7 @@ def half_plane_on(
             patches=contact_patches(grid.x, solution.pressure, solution.gap),
             seconds=stages.seconds,
             unknowns=grid.count,
-            expected_seconds=expected_of(grid.count).seconds,
+            expected_seconds=expected_with(problem, grid.pitch, window).seconds,
         )
     if window is None:
         return replace(level, peak_memory=peak_memory())

@@ -12,6 +12,9 @@ from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.stress_state import Extremum, StressState
+from comparisons.common.errors import SceneError
+from comparisons.common.mpi import from_first
+from comparisons.common.progress import machine_memory
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.problem import Problem, mean_height
 from fem.body.coating import Coating
@@ -31,6 +34,23 @@ class ExpectedCost:
     seconds: float
 
 
+def refuse_too_large(problem: Problem, wanted: ExpectedCost, name: str, pitch: float) -> None:
+    """Raise SceneError where a model's level takes more memory than it may, or than there is."""
+    source, allowed = problem.scene.source, problem.scene.budget.memory
+    need = (
+        f"{name} on pressures of {pitch:.3g} m, {wanted.unknowns:.2g} unknowns, need "
+        f"about {wanted.memory:.2g} bytes and {wanted.seconds:.2g} s"
+    )
+    if wanted.memory > allowed:
+        remedy = "allowed is a larger budget, or coarser pressures (resolution.pitch)"
+        raise SceneError(f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; {remedy}")
+    there = from_first(machine_memory)
+    if wanted.memory > there:
+        remedy = "allowed are coarser pressures, or a smaller finite_element.block"
+        machine = f"this machine has {there:.2g} bytes"
+        raise SceneError(f"{source}: resolution.pitch: {need}, but {machine}; {remedy}")
+
+
 @dataclass(frozen=True)
 class StressResult:
     """Stresses under one friction coefficient."""
@@ -38,9 +58,14 @@ class StressResult:
     friction: float
     # largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
     extremes: dict[str, Extremum]
-    field: StressState  # (m, k) on the common window
+    field: StressState | None  # (m, k) on the common window; None where maxima alone are asked for
     # largest tau1 and |txz| of each asperity: value, x and z (3, k); empty where there is one
     maxima: dict[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def tau1(self) -> np.ndarray | None:
+        """(m, k) [Pa] on the common window."""
+        return None if self.field is None else self.field.tau1
 
     def of_asperities(self, name: str, cells: tuple[float, ...]) -> np.ndarray:
         """Value [Pa], x and z [m] (3, k) of the largest tau1 or |txz| of each asperity; where that

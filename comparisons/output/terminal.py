@@ -151,6 +151,13 @@ def plain_table(*words: str, numbers: Iterable[str] = ()) -> "Table":
     return table
 
 
+def plain_text(text: str) -> "Text":
+    """Text that any terminal shows, and in which brackets are no markup."""
+    from rich.text import Text
+
+    return Text(one_line(text).translate(PLAIN))
+
+
 def _cell(text: str, style: str = "") -> "Text":
     from rich.text import Text
 

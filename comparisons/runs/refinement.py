@@ -14,7 +14,7 @@ from comparisons.common.progress import Stages, machine_memory, no_progress
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
 from comparisons.models.finite_element.mesh import LONGER
 from comparisons.models.forecast import expected_level
-from comparisons.models.level import ExpectedCost, Level, ModelRun
+from comparisons.models.level import ExpectedCost, Level, ModelRun, refuse_too_large
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -91,7 +91,8 @@ class _LevelTask:
         return FIRST if first else NEEDED
 
     def expected(self, patches: np.ndarray) -> ExpectedCost:
-        return expected_level(self.name, self.problem, self.plan, self.pitch, patches)
+        how = self.plan, self.pitch, patches, self.window
+        return expected_level(self.name, self.problem, *how)
 
     def solve(self, here: Here) -> Level:
         """Imports what this model needs alone."""
@@ -145,8 +146,11 @@ class _Levels:
         others will take."""
         asked = range(1, len(self.problem.pitches) + 1)
         if "half_plane" in self.levels:  # first, while nothing else is in memory
-            for number in asked:
-                self.add(self.task("half_plane", number))
+            for task in (self.task("half_plane", number) for number in asked):
+                refuse_too_large(
+                    self.problem, task.expected(self.patches), "half-plane pressures", task.pitch
+                )
+                self.add(task)
             self.wait(1, ["half_plane"])
             self.patches = self.levels["half_plane"][0].patches
         if "finite_element" in self.levels:
@@ -214,7 +218,8 @@ class _Levels:
         memory = 0.0
         for name, run in runs.items():
             pitch, patches = 0.5 * run.finest.grid.pitch, run.finest.patches
-            finer = expected_level(name, self.problem, self.plan, pitch, patches)
+            how = self.plan, pitch, patches, self.scene.window
+            finer = expected_level(name, self.problem, *how)
             time, memory = time + finer.seconds, max(memory, finer.memory)
         if time > self.problem.time:
             return f"a finer level would exceed {budget.time:g} s (budget.time)"

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
@@ -87,25 +88,20 @@ def run(
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution or a process ends amid a task,
-    MemoryError where the process may not have what they take; nothing is written then."""
+    MemoryError where the process may not have what they take, ModuleNotFoundError without their
+    libraries; nothing is written then."""
     scene, models = limited(scene, models)
     if may_stop_early(scene, models):
         first = run(scene, None, MODELS[:1], callback, known=known)
         models = MODELS[:1] if first.found[LADDER].said(SUFFICES) else models
-    stages = Stages(callback)
     _check_processes(scene, models)
-    _check_address_space(models)
+    _check_libraries(models)
     surface = known.surface or from_first(lambda: surface_of(scene))
     try:
-        if scene.running_in is not None:
-            with stages.stage("running-in", "running the surface in"):
-                surface = run_in_surface(scene, surface)
-        with stages.stage("set-up", "finding the reach of the contact"):
-            problem = _problem(scene, surface, models, known.levels, callback)
-        plan = make_plan(problem, models)
+        problem, plan = posed(scene, surface, models, known.levels, callback)
         callback(forecast(problem, plan).text)
-        posed = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
-        return solve(posed, out, callback, fields)
+        scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
+        return solve(scene_now, out, callback, fields)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
@@ -121,6 +117,23 @@ def run(
         ) from error
 
 
+def posed(
+    scene: Scene,
+    surface: SceneSurface,
+    models: tuple[str, ...],
+    levels: Levels | None = None,
+    callback: ProgressCallback = no_progress,
+) -> tuple[Problem, Plan]:
+    """The problem of a scene on its surface as measured, and the plan of the run that solves it."""
+    stages = Stages(callback)
+    if scene.running_in is not None:
+        with stages.stage("running-in", "running the surface in"):
+            surface = run_in_surface(scene, surface)
+    with stages.stage("set-up", "finding the reach of the contact"):
+        problem = _problem(scene, surface, models, levels, callback)
+    return problem, make_plan(problem, models)
+
+
 def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
     """Raise SceneError for what only one process can solve where there are several."""
     settings, several = scene.finite_element, is_several() and not is_alone()
@@ -133,8 +146,11 @@ def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
         )
 
 
-def _check_address_space(models: tuple[str, ...]) -> None:
-    """Raise MemoryError where the finite elements' libraries would fail, each in its own words."""
+def _check_libraries(models: tuple[str, ...]) -> None:
+    """Raise MemoryError, or ModuleNotFoundError, where the finite elements' libraries would fail
+    amid the work, each in its own words."""
+    if "finite_element" in models and find_spec("dolfinx") is None:
+        raise ModuleNotFoundError("finite elements take dolfinx", name="dolfinx")
     allowed = address_space()
     if "finite_element" in models and allowed is not None and allowed < LEAST_ADDRESS_SPACE:
         least = LEAST_ADDRESS_SPACE / 1e9
@@ -226,9 +242,10 @@ def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, objec
 
 
 def _for_finite_elements() -> list[Preparation]:
-    from fem.solver.compilation import load_dolfinx
+    from fem.solver.compilation import load_dolfinx, see_to_cache
     from meshes.build import start_worker
 
+    see_to_cache()  # of all processes that start from here
     level = partial(import_module, "comparisons.models.finite_element.level")
     return [start_worker, load_dolfinx, level]
 

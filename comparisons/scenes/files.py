@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import tomllib
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from comparisons.common.errors import SceneError, nearest, one_line
 
 SCENES = Path(__file__).parent / "library"
 LARGEST_FILE = 2**20  # bytes; a scene has a few hundred
+ALIKE = 0.8  # difflib's ratio of a name that may be meant
 MOST_PARTS = 32  # of a dotted key; a scene has two, and the time of reading grows by their square
 STRINGS = re.compile(
     r'"""(?:\\.|[^\\])*?"""|'
@@ -42,7 +44,14 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
         return SCENES / f"{name}.toml"
     if os.path.lexists(name):
         return Path(name)
-    if name.endswith(".toml") or os.path.dirname(name):
+    path = Path(name)
+    beside = path.with_suffix(".toml")
+    others = [found.name for found in path.parent.glob("*.toml")]
+    alike = beside.name if beside.exists() else nearest(path.name, others, ALIKE)
+    if alike is not None:
+        there = f"there is no such file, but {path.with_name(alike)}"
+        raise SceneError(f"{name}: {there}; allowed is a scene's file or name")
+    if path.suffix or os.path.dirname(name):
         raise SceneError(f"{name}: there is no such file; allowed is a scene's file or name")
     near, every = nearest(name, names), ", ".join(names)
     why = "is neither a file nor a scene; the nearest scene is"
@@ -61,13 +70,19 @@ def read_toml(path: Path) -> dict:
     def wrong(problem: str) -> SceneError:
         return SceneError(f"{path}: {problem}")
 
+    def no_toml(problem: str) -> SceneError:
+        if path.suffix == ".toml":
+            return wrong(problem)
+        trace = shlex.quote(str(path))
+        return wrong(f"is no scene; of a measured trace `crosscheck init {trace}` makes one")
+
     try:
         size = path.stat().st_size
         if not path.is_file():
             kind = "a directory" if path.is_dir() else "not a regular file"
             raise wrong(f"is {kind}; allowed is a TOML file")
         if size > LARGEST_FILE:
-            raise wrong(f"has {size} bytes; allowed are {LARGEST_FILE} for a scene")
+            raise no_toml(f"has {size} bytes; allowed are {LARGEST_FILE} for a scene")
         text = path.read_bytes().decode("utf-8-sig")
         if LONG_KEY.search(STRINGS.sub("s", text)):
             raise wrong(
@@ -80,9 +95,9 @@ def read_toml(path: Path) -> dict:
         raise wrong(f"cannot be read: {error.strerror}; allowed is a TOML file") from error
     except UnicodeDecodeError as error:
         place = f"byte {error.start} is not UTF-8"
-        raise wrong(f"is not text ({place}); allowed is a TOML file") from error
+        raise no_toml(f"is not text ({place}); allowed is a TOML file") from error
     except tomllib.TOMLDecodeError as error:
-        raise wrong(f"is not TOML: {error}") from error
+        raise no_toml(f"is not TOML: {error}") from error
     except (RecursionError, ValueError) as error:
         raise wrong(f"is beyond what TOML may hold: {error}") from error
     if not tables:

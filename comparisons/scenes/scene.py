@@ -36,6 +36,10 @@ from comparisons.scenes.sections import (
     ToleranceSection,
 )
 
+# What is often called otherwise.
+MEANT = dict.fromkeys(("force", "load", "line_load", "normal_load"), "load.per_length")
+MEANT |= {"diameter": "roller.radius", "e": "body.youngs_modulus", "nu": "body.poissons_ratio"}
+
 
 @dataclass(frozen=True)
 class Origin:
@@ -255,7 +259,7 @@ def _line(scene: type[SceneBase], problem: dict) -> str:
 
 def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
     """A name that no section has: the nearest one, in its own section if there is one alike."""
-    *section, name = map(str, location)
+    *section, name = (str(part) or '""' for part in location)
     place, sections = ".".join([*section, name]), sections_of(scene)
     hints = {table: scene.model_fields[table].annotation for table in sections}
     # but for those of which there may be several
@@ -272,7 +276,9 @@ def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
         inside = {field: f"{within}.{field}" for field in file_fields(sections[section[0]])}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
-    near = _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
+    near = (
+        MEANT.get(name.casefold()) or _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
+    )
     near = near or _nearest(name, inside)
     return f"{place}: is no known field; the nearest is {near}"
 

@@ -20,7 +20,7 @@ from comparisons.common.units import (
     describe,
     to_si,
 )
-from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES, UP_TO
 from comparisons.scenes.fields import (
     Extent,
     ExtentField,
@@ -305,11 +305,6 @@ class ResolutionSection(SceneSection):
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.pitch is not None and self.elements is not None:
             yield "elements", "is given beside pitch; allowed is one of the two"
-
-
-# Models from the cheapest on that a run may end with: the half-plane, that with what an operator
-# carries, linear finite elements, finite deformation, and all that matters.
-UP_TO = ("half-plane", "operators", "linear", "finite", "whole")
 
 
 class BudgetSection(SceneSection):

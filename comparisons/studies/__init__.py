@@ -29,6 +29,10 @@ STUDIES = (
 )
 
 
+# Those that have rows of the wide table, by name.
+TABLED = {name: study.quantities[name] for study in STUDIES for name in study.tabled}
+
+
 def meaning(figure: Figure) -> Quantity:
     """What a figure is of; of another program's study its name in words."""
     for study in STUDIES:

@@ -121,7 +121,7 @@ def norms(
     stresses = [known.stress(friction) for known in (level, reference)]
     return pair_norms(
         (level.solution.pressure, reference.solution.pressure),
-        tuple(None if stress is None else stress.field.tau1 for stress in stresses),
+        tuple(None if stress is None else stress.tau1 for stress in stresses),
         problem,
         window,
     )

@@ -18,7 +18,7 @@ from functools import cache
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, gettempdir, mkdtemp
 from typing import TypeVar
 
 import numpy as np
@@ -60,9 +60,26 @@ def uninterrupted() -> Iterator[None]:
 @cache
 def load_dolfinx() -> None:
     """Import dolfinx and the compiled packages below it."""
+    see_to_cache()
     with uninterrupted(), compat.quick_versions():
         for name in ("dolfinx.mesh", "dolfinx.fem.petsc"):
             importlib.import_module(name)
+
+
+def see_to_cache() -> None:
+    """dolfinx, as it is imported, takes a folder for compiled forms below XDG_CACHE_HOME or the
+    home. Where neither can be written, it gets one in the folder for temporary files."""
+    try:
+        wanted = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics")
+        wanted.mkdir(parents=True, exist_ok=True)
+        TemporaryDirectory(dir=wanted).cleanup()
+    except (OSError, RuntimeError):  # no home at all
+        this_users = Path(gettempdir(), f"crosscheck-{os.getuid()}")
+        this_users.mkdir(mode=0o700, exist_ok=True)
+        if this_users.is_symlink() or this_users.stat().st_uid != os.getuid():
+            this_users = Path(mkdtemp(prefix="crosscheck-"))
+        os.environ["XDG_CACHE_HOME"] = str(this_users)
+        os.environ.setdefault("XDG_CONFIG_HOME", str(this_users))  # a home may be no folder
 
 
 def compiled(make: Callable[[], Result]) -> Result:

@@ -1,5 +1,6 @@
 """The command line: what it hands on, what it prints where, and how it ends."""
 
+import errno
 import json
 import os
 import subprocess
@@ -352,7 +353,7 @@ def test_too_little_address_space_is_no_missing_library(tmp_path):
     ("allowed", "status", "said"),
     [
         (2 * 10**9, ExitStatus.OUT_OF_MEMORY, "thread; the process may have 2 GB of address space"),
-        (None, ExitStatus.DEFECT, "internal error: RuntimeError: can't start new thread"),
+        (None, ExitStatus.OUT_OF_MEMORY, "no more processes (ulimit -u); allowed is a higher"),
     ],
 )
 def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status, said):
@@ -360,6 +361,33 @@ def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status
     monkeypatch.setattr("comparisons.cli.address_space", lambda: allowed)
     assert main(["run", "smooth"]) == status
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("number", "said"), [(errno.EMFILE, "open files (ulimit -n)"), (errno.EAGAIN, "(ulimit -u)")]
+)
+def test_a_limit_of_the_system_is_named(solver, capsys, number, said):
+    solver.raises = OSError(number, os.strerror(number))
+    assert main(["run", "smooth"]) == ExitStatus.OUT_OF_MEMORY
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("crosscheck: the system allows this user no more") and said in line
+
+
+def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(tmp_path):
+    code = (
+        "import sys; sys.modules.update(dict.fromkeys(('dolfinx', 'petsc4py', 'mpi4py')))\n"
+        "import importlib.util as util; found = util.find_spec\n"
+        "util.find_spec = lambda name, *more: None if name == 'dolfinx' else found(name, *more)\n"
+        "from comparisons.cli import main; sys.exit(main({!r}))"
+    )
+    out = str(tmp_path / "out")
+    done = python(code.format(["run", "smooth", "--out", out]), check=False)
+    assert (done.returncode, done.stdout) == (ExitStatus.BAD_INPUT, "")
+    (line,) = done.stderr.splitlines()
+    assert "finite elements take dolfinx" in line and "allowed is --models half-plane" in line
+    assert not (tmp_path / "out").exists()
+    done = python(code.format(["run", "smooth", "--models", "half-plane", "--out", out]))
+    assert "peak pressure    0  4.150 GPa" in done.stdout
 
 
 def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):

@@ -279,7 +279,7 @@ def solutions(
             now = pair(task, *mesh, reach)
             state = carried(state, before, now)
         log(f"{fine:g} um: {sum(s.count for s in now.solids)} unknowns, {len(now.x)} corners")
-        if fine == levels[0] and now.middle is not None:  # with its surface held back, to begin with
+        if fine == levels[0] and now.middle is not None:  # held back at first
             state = replace(now, middle=None).solved(state, log)
         state = now.solved(state, log)
         yield now, state

@@ -4,13 +4,20 @@ Vectors of one length are the columns of a table under their names, an `x` first
 dimensions is such a table where it has few columns, else a map without size and unit."""
 
 import io
-import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from analytic.surface.readers.source import ProfileError, contents, shown
+from analytic.surface.readers.source import (
+    MAX_BYTES,
+    MAX_NUMBERS,
+    ProfileError,
+    check_numbers,
+    check_unpacked,
+    contents,
+    shown,
+)
 from analytic.surface.readers.text import ProfileTable, chosen_columns
 from analytic.surface.readers.topography import Topography
 
@@ -24,20 +31,25 @@ def is_arrays(path: Path, head: bytes) -> bool:
 
 
 def read_arrays(
-    path: Path, max_bytes: int, columns: Sequence[str | int] | None, channel: str | None
+    path: Path,
+    columns: Sequence[str | int] | None,
+    channel: str | None,
+    max_numbers: int = MAX_NUMBERS,
 ) -> ProfileTable | Topography:
-    """What is in the file, of `max_bytes` at most; `channel` is the name of one array of several.
+    """What is in the file; `channel` is the name of one array of several.
     Raises ProfileError, one line, for anything else than arrays of real numbers."""
-    raw = contents(path, max_bytes)
+    check_unpacked(path)
+    raw = contents(path, MAX_BYTES)
     kind = "npy" if raw.startswith(NPY) else "npz" if raw.startswith(ZIP) else "mat"
     try:
-        arrays = (_mat if kind == "mat" else _numpy)(raw, max_bytes)
-    except MemoryError:
-        raise ProfileError(path, f"is too large; allowed are {max_bytes / 1e9:.3g} GB") from None
+        arrays = (_mat if kind == "mat" else _numpy)(path, raw, max_numbers)
+    except ProfileError:
+        raise
     except Exception as error:  # scipy and numpy raise whatever a damaged file brings about
         text = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise ProfileError(path, f"is a damaged {kind} file ({text[:200]})") from error
-    arrays = {name: np.asarray(found, dtype=float) for name, found in arrays.items()}
+    check_numbers(path, sum(array.size for array in arrays.values()), max_numbers)
+    arrays = {name: np.asarray(array, dtype=float) for name, array in arrays.items()}
     names = tuple(arrays)
     if channel is not None:
         if channel not in arrays:
@@ -81,25 +93,22 @@ def _table(
     return chosen_columns(table, columns)
 
 
-def _numpy(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
-    if raw.startswith(ZIP):
-        with zipfile.ZipFile(io.BytesIO(raw)) as archive:
-            if sum(entry.file_size for entry in archive.infolist()) > max_bytes:
-                raise MemoryError
+def _numpy(path: Path, raw: bytes, max_numbers: int) -> Mapping[str, np.ndarray]:
     arrays = np.load(io.BytesIO(raw), allow_pickle=False)
-    if isinstance(arrays, np.ndarray):
-        return {"array": arrays}
-    found = {name: arrays[name] for name in arrays.files}
-    return {name: array for name, array in found.items() if array.dtype.kind in "fiu"}
+    if not isinstance(arrays, np.ndarray):
+        named = {name: arrays[name] for name in arrays.files}
+        return {name: array for name, array in named.items() if array.dtype.kind in "fiu"}
+    if arrays.dtype.kind not in "fiu":
+        raise ProfileError(path, f"holds {arrays.dtype} in place of numbers; allowed are real ones")
+    return {"array": arrays}
 
 
-def _mat(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
+def _mat(path: Path, raw: bytes, max_numbers: int) -> Mapping[str, np.ndarray]:
     from scipy.io import loadmat, whosmat
 
     numeric = {"double", "single", *(f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64))}
     known = [(name, shape) for name, shape, kind in whosmat(io.BytesIO(raw)) if kind in numeric]
-    if sum(8.0 * np.prod(shape, dtype=float) for _, shape in known) > max_bytes:
-        raise MemoryError
+    check_numbers(path, sum(np.prod(shape, dtype=float) for _, shape in known), max_numbers)
     names = [name for name, _ in known]
     found = loadmat(io.BytesIO(raw), variable_names=names) if names else {}
     return {name: found[name] for name in names if not np.iscomplexobj(found[name])}

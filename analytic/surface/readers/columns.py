@@ -67,7 +67,9 @@ def _dropout_error(table: ProfileTable, lost: np.ndarray) -> ProfileError:
     what = "height" if np.isnan(table.numbers[row, -1]) else "x"
     others = int(np.count_nonzero(lost)) - 1
     more = f", and something in {others} more line{'s' * (others > 1)}" if others else ""
-    message = f"{what} is lost ({shown(table.text[row])}){more}; "
+    cells = table.text[row]
+    shows = f" ({shown(cells)})" if isinstance(cells, str) else ""  # of arrays there is no text
+    message = f"{what} is lost{shows}{more}; "
     return table.error(row, f"{message}correct it, or ask for dropouts to be bridged")
 
 

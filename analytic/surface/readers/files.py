@@ -74,7 +74,7 @@ def open_measured(
     regular_file(path)
     head = beginning(path, HEAD)
     if is_arrays(path, head):
-        return read_arrays(path, MAX_BYTES, columns, channel)
+        return read_arrays(path, columns, channel)
     if is_sdf(head) or is_prf(head):
         _refuse(path, columns, channel)
         return (read_sdf if is_sdf(head) else read_prf)(path)

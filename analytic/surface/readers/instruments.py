@@ -6,16 +6,21 @@ That library is optional. It runs in a process of its own (`instrument_worker`):
 import json
 import os
 import shlex
-import signal
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from zipfile import BadZipFile, ZipFile
 
 import numpy as np
 
-from analytic.surface.readers.source import GZIP, MAX_BYTES, ProfileError, contents, shown
+from analytic.surface.readers.child import ReaderError, said_by
+from analytic.surface.readers.source import (
+    GZIP,
+    MAX_BYTES,
+    ProfileError,
+    check_unpacked,
+    contents,
+    shown,
+)
 from analytic.surface.readers.text import ProfileTable
 from analytic.surface.readers.topography import Topography
 
@@ -24,8 +29,6 @@ from analytic.surface.readers.topography import Topography
 OTHER_PYTHON = "CROSSCHECK_SURFACE_PYTHON"
 # By its path, and without the working folder's modules (-P).
 WORKER = ("-P", str(Path(__file__).with_name("instrument_worker.py")))
-PATIENCE = 300.0  # s; the largest maps take ten
-MOST_UNPACKED = 2**29  # bytes: 67 million heights as doubles
 ROOT = Path(__file__).resolve().parents[3]
 
 
@@ -88,19 +91,6 @@ def read_instrument_file(path: Path, channel: str | None = None) -> Topography |
     )
 
 
-def check_unpacked(path: Path) -> None:
-    """Raise ProfileError for an archive, as an X3P is one, that unpacks to more than MOST_UNPACKED:
-    of zeros, 2 MB hold 2 GB."""
-    try:
-        with ZipFile(path) as archive:
-            size = sum(member.file_size for member in archive.infolist())
-    except (BadZipFile, OSError, ValueError, NotImplementedError):
-        return  # none, or one that is damaged or of another kind of ZIP, which its reader tells
-    if size > MOST_UNPACKED:
-        message = f"unpacks to {size / 1e9:.3g} GB; allowed are {MOST_UNPACKED / 1e9:.3g} GB"
-        raise ProfileError(path, message)
-
-
 def _table(path: Path, numbers: np.ndarray, first: int, answer: dict) -> ProfileTable:
     """The rows of a spreadsheet, of which row `first` is the first."""
     return ProfileTable(
@@ -117,29 +107,16 @@ def _table(path: Path, numbers: np.ndarray, first: int, answer: dict) -> Profile
 def _ask(path: Path, target: Path, channel: str | None) -> dict:
     """What the worker says of a file, {"problem": one line} if it fails; arrays are in `target`."""
     paths = [str(ROOT), *filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths), "OMP_NUM_THREADS": "1"}
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
     python = os.environ.get(OTHER_PYTHON) or sys.executable
     if python != sys.executable:
         del environment["PYTHONPATH"]
     arguments = [str(path.resolve()), str(target), *([] if channel is None else [channel])]
     try:
-        done = subprocess.run(
-            [python, *WORKER, *arguments],
-            capture_output=True,
-            stdin=subprocess.DEVNULL,
-            text=True,
-            errors="replace",
-            env=environment,
-            timeout=PATIENCE,
-        )
+        said = said_by([python, *WORKER, *arguments], environment)
     except OSError as error:
         return {"problem": f"{OTHER_PYTHON} is {python}, which cannot be run ({error.strerror})"}
-    except subprocess.TimeoutExpired:
-        return {"problem": f"SurfaceTopography has not read it within {PATIENCE:g} s"}
-    if done.returncode != 0:
-        lines = done.stderr.strip().splitlines()
-        said = lines[-1] if lines else "it said nothing"
-        if done.returncode < 0:
-            said = f"{signal.Signals(-done.returncode).name}; {said}"
-        return {"problem": f"SurfaceTopography crashes on it ({said[:200]})"}
-    return json.loads(done.stdout.splitlines()[-1])
+    except ReaderError as error:
+        verb = "" if str(error).startswith(("crashes", "has not")) else "crashes on it: "
+        return {"problem": f"SurfaceTopography {verb}{error}"}
+    return json.loads(said.splitlines()[-1])

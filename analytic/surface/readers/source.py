@@ -5,13 +5,22 @@ import gzip
 import re
 import zlib
 from pathlib import Path
+from zipfile import BadZipFile, ZipFile
+
+import numpy as np
 
 QUOTED = re.compile(r'"([^"\n]*)"')
 GROUPED = re.compile(r"[+-]?\d{1,3}(,\d{3}){2,}(\.\d*)?")  # digits; shown as they are, not read
 OTHER_BLANKS = re.compile(r"[^\S\n\t ]")  # form feed, no-break blank and the like
 NOT_TEXT = re.compile("[\x00-\x08\x0e-\x1f\x7f]")
-MAX_BYTES = 2**31  # of any file, packed or not
+# Limits of what is in any file, held before it is converted to anything larger.
+MAX_BYTES = 2**31
+MAX_NUMBERS = 2**26  # 0.5 GB as doubles
+MAX_UNPACKED = 8 * MAX_NUMBERS  # bytes of a packed file: of zeros, 2 MB hold 2 GB
+MAX_LINES, MAX_CELLS = 2**22, 20_000_000  # of text: each is an object of sixty bytes
+LONGEST_LINE = 2**20  # bytes of text
 GZIP = b"\x1f\x8b"
+SPLITS = (b",", b";", b"\t")  # between cells, beside blanks
 
 
 class ProfileError(ValueError):
@@ -71,17 +80,59 @@ def beginning(path: Path, count: int) -> bytes:
 
 def contents(path: Path, max_bytes: int) -> bytes:
     """What is in the file, unpacked where it is gz, of `max_bytes` at most either way."""
-    too_large = ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
-    if regular_file(path) > max_bytes:
-        raise too_large
-    if len(raw := beginning(path, max_bytes + 1)) > max_bytes:
-        raise too_large
+
+    def too_large(most: int) -> ProfileError:
+        return ProfileError(path, f"is too large; a profile may have {most / 1e6:.3g} MB")
+
+    if (packed := regular_file(path)) > max_bytes:
+        raise too_large(max_bytes)
+    most = min(max_bytes, max(packed, MAX_UNPACKED))
+    if len(raw := beginning(path, most + 1)) > most:
+        raise too_large(most)
     return raw
+
+
+def check_numbers(path: Path, count: float, most: int = MAX_NUMBERS) -> None:
+    """Raise ProfileError for more numbers than may be converted to doubles."""
+    if count > most:
+        message = f"is too large: it holds {count:.3g} numbers; allowed are {most:.3g}"
+        raise ProfileError(path, message)
+
+
+def check_unpacked(path: Path) -> None:
+    """Raise ProfileError for an archive, as npz, X3P and xlsx are, that unpacks to too much."""
+    try:
+        with ZipFile(path) as archive:
+            size = sum(member.file_size for member in archive.infolist())
+    except (BadZipFile, OSError, ValueError, NotImplementedError):
+        return  # none, or one that is damaged or of another kind of ZIP, which its reader tells
+    if size > MAX_UNPACKED:
+        message = f"unpacks to {size / 1e9:.3g} GB; allowed are {MAX_UNPACKED / 1e9:.3g} GB"
+        raise ProfileError(path, message)
+
+
+def check_text(path: Path, raw: bytes) -> None:
+    """Raise ProfileError for text of so many lines or cells, or so long a line, that taking it
+    apart needs gigabytes."""
+
+    def check(size: int, most: int, what: str) -> None:
+        if size > most:
+            raise ProfileError(path, f"is too large: it has {size} {what}; allowed are {most}")
+
+    lines = max(raw.count(b"\n"), raw.count(b"\r"))
+    check(lines, MAX_LINES, "lines")
+    codes = np.frombuffer(raw, np.uint8)
+    is_blank = codes == ord(" ")
+    blanks = int(np.count_nonzero(is_blank[:-1] & ~is_blank[1:]))
+    check(lines + blanks + sum(map(raw.count, SPLITS)), MAX_CELLS, "cells")
+    ends = np.flatnonzero((codes == ord("\n")) | (codes == ord("\r")))
+    check(int(np.diff(ends, prepend=-1, append=len(raw)).max()), LONGEST_LINE, "bytes in a line")
 
 
 def read_lines(path: Path, max_bytes: int) -> list[str]:
     """The file's lines without their ends; it may have `max_bytes` at most."""
     raw = contents(path, max_bytes)
+    check_text(path, raw)
     text = _decoded(path, raw).replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")
     if not text.strip():
         raise ProfileError(path, "is empty; a profile has lines of numbers")

@@ -18,7 +18,13 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.surface.readers.source import MAX_BYTES, ProfileError, contents
+from analytic.surface.readers.source import (
+    MAX_BYTES,
+    ProfileError,
+    check_numbers,
+    check_text,
+    contents,
+)
 
 STENCIL = 4  # samples each way that a height between samples comes from
 ROUNDING = 1e-9  # of a pitch, by which the ends of a line may pass the map's
@@ -218,6 +224,7 @@ def _read_binary(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray, in
         raise _damaged(path, "it holds no heights")
     dtype = np.dtype(TYPES[kind])
     count = points * profiles
+    check_numbers(path, count)
     if len(content) < start + count * dtype.itemsize:
         raise _damaged(path, f"it ends before its {profiles} profiles of {points} heights")
     numbers = np.frombuffer(content, dtype, count, start).astype(float)
@@ -225,6 +232,7 @@ def _read_binary(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray, in
 
 
 def _read_text(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray, int]:
+    check_text(path, content)
     header, star, rest = content.decode("latin-1").partition("*")
     if not star:
         raise _damaged(path, "its header has no end")

@@ -82,6 +82,8 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
     scene = deck.problem.scene
     modulus = max(material.youngs_modulus for material in deck.rough.materials) * MPA
     stiffness = STIFFNESS * modulus / deck.edge
+    held = _held(deck)
+    unlike = held and deck.problem.dundurs_beta != 0.0
     job = rendered(
         TEMPLATES / "job.inp.j2",
         code=code,
@@ -90,9 +92,24 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
         materials=dict(_materials(deck, code)),
         stiffness=stiffness,
         stick=STICK * stiffness,
-        sliding=[(mu, SLIDE * mu * deck.load / modulus) for mu in scene.load.friction if mu],
+        held=held,
+        increment=1.0 / scene.partial_slip.increments if unlike else 1.0,
+        sliding=[
+            (mu, SLIDE * mu * deck.load / modulus) for mu in scene.load.friction if mu and not held
+        ],
     )
     return {"job.inp": job, "mesh.inp": "\n".join(_mesh(deck, code)) + "\n"}
+
+
+def _held(deck: DeckProblem) -> tuple[float, ...]:
+    """Of a scene with [partial_slip] the friction coefficient and its tangential loads [N/mm]."""
+    scene = deck.problem.scene
+    if scene.partial_slip is None:
+        return ()
+    if scene.partial_slip.bulk_stress:
+        raise SceneError(f"{scene.source}: partial_slip.bulk_stress: allowed in a deck is 0")
+    friction = max(scene.load.friction)
+    return friction, *(share * friction * deck.load for share in scene.partial_slip.path)
 
 
 def _materials(deck: DeckProblem, code: str) -> Iterator[tuple[str, tuple[str, str]]]:
@@ -144,8 +161,10 @@ def _mesh(deck: DeckProblem, code: str) -> Iterator[str]:
         nodes, elements = nodes + len(body.points), elements + len(body.triangles)
     yield "*NODE, NSET=REFERENCE"
     yield f"{nodes + 1}, 0., {deck.roller.points[:, 1].max():.12g}"
+    tied = (2,) if deck.problem.scene.partial_slip is None else (1, 2)
     for node in nodes - len(deck.roller.points) + 1 + np.flatnonzero(deck.roller.held[:, 1]):
-        yield from ("*EQUATION", "2", f"{node}, 2, 1., {nodes + 1}, 2, -1.")
+        for axis in tied:
+            yield from ("*EQUATION", "2", f"{node}, {axis}, 1., {nodes + 1}, {axis}, -1.")
 
 
 def _lines(numbers: Iterable[int], a_line: int = 12) -> Iterator[str]:

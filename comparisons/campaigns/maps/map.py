@@ -16,6 +16,7 @@ from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT,
 from comparisons.campaigns.maps.groups import (
     GROUPS,
     SHOWN,
+    STUDIES,
     Axis,
     axis_of,
     counts_of,
@@ -168,9 +169,20 @@ def _files(content: dict, marked: Problem | None) -> dict[str, str]:
     return {PICTURE: map_picture(content, mark), MAP: as_json(content)}
 
 
+def misfit(content: dict, scene: Scene) -> str:
+    """Why a scene is not of a map's kind, or nothing: a place on it would tell nothing of it."""
+    if ("profile" in content["scene"]) != (scene.profile is not None):
+        kinds = ("rough", "smooth") if scene.profile is not None else ("smooth", "rough")
+        return "is {}, and the map is of a {} surface".format(*kinds)
+    alike = all(study.is_alike(scene, content["scene"]) for study in STUDIES)
+    return "" if alike else "has another [heat] than the map's scene"
+
+
 def mark_of(content: dict, problem: Problem) -> tuple[str, tuple[float, float]]:
     """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
-    where a group has no value for a scene."""
+    where a group has no value for a scene, or the scene is none of the map's kind."""
+    if why := misfit(content, problem.scene):
+        raise InputError(f"--mark: {problem.scene.name} {why}; allowed is a scene of its kind")
     values = []
     for name in (content["x"]["group"], content["y"]["group"]):
         value = GROUPS[name].value_of(problem)

@@ -12,7 +12,7 @@ from scipy.interpolate import RegularGridInterpolator
 from analytic.contact.problem import ContactError
 from comparisons.campaigns.maps.content import differences, places, scaled, unscaled
 from comparisons.campaigns.maps.groups import GROUPS, STUDIES
-from comparisons.campaigns.maps.map import finished_map, finished_names
+from comparisons.campaigns.maps.map import finished_map, finished_names, misfit
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
 from comparisons.common.progress import Stages, no_progress
@@ -21,6 +21,7 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.scene import Scene
 from comparisons.studies.model_error.catalogue import EFFECTS, UNKNOWN
+from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.selection import select_effects
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
@@ -67,9 +68,7 @@ def problem_named(name: str) -> Problem:
 def place_on(name: str, problem: Problem) -> Place | None:
     """None where the map is of another kind of surface or does not reach so far."""
     content = finished_map(name)
-    if ("profile" in content["scene"]) != (problem.scene.profile is not None):
-        return None
-    if not all(study.is_alike(problem.scene, content["scene"]) for study in STUDIES):
+    if misfit(content, problem.scene):
         return None
     groups, shown = [], []
     for axis in (content["x"], content["y"]):
@@ -121,15 +120,16 @@ def first_answer(problem: Problem) -> list[str]:
         "plastic flow": problem.scene.finite_element.plastic,
     }
     off = [name for name, has in beside.items() if has]
-    if on_maps and not off:
-        return [place.text for place in on_maps]
     level = half_plane_level(problem, problem.pitches[0], None, Stages())
     effects = select_effects(problem, float(level.solution.pressure.max()), ()).estimates
+    if on_maps and not off:
+        law = max(effects.get(LAW, {}).values(), default=0.0)
+        beyond = f"; the law of elasticity may add {100.0 * law:.2g} %" if law else ""
+        return [f"{place.text}{beyond}" for place in on_maps]
     bounds = []
+    counted = {e: sizes for e, sizes in effects.items() if e not in UNKNOWN or e == LAW}
     for name in problem.scene.tolerances:
-        sizes = {
-            effect: s[name] for effect, s in effects.items() if name in s and effect not in UNKNOWN
-        }
+        sizes = {effect: s[name] for effect, s in counted.items() if name in s}
         if sizes:
             total, most = sum(sizes.values()), max(sizes, key=sizes.get)
             bound = f"{100.0 * total:.2g} %" if total < 1.0 else "100 % or more"

@@ -26,6 +26,7 @@ from comparisons.models.problem import problem_of
 from comparisons.output.flat_csv import COLUMNS, csv_text, harmless, rows_of
 from comparisons.output.result_json import result_of
 from comparisons.scenes.scene import Scene
+from comparisons.studies import TABLED
 from comparisons.studies.subsurface import bulge, quiescent_zone
 
 if TYPE_CHECKING:
@@ -288,7 +289,8 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
 
 def _cells(row: dict) -> tuple[str, ...]:
     """The scatter of an error in its per cent, of a figure in per cent of the mean."""
-    quantity, deviation, mean = QUANTITIES[row["quantity"]], row["standard_deviation"], row["mean"]
+    quantity = (QUANTITIES | TABLED)[row["quantity"]]
+    deviation, mean = row["standard_deviation"], row["mean"]
     relative = row["figure"] == "model_error" or quantity.of_pair
     spread = ""
     if deviation is not None:
@@ -298,4 +300,11 @@ def _cells(row: dict) -> tuple[str, ...]:
         for value in (mean, row["smallest"], row["largest"])
     )
     friction = "" if row["friction"] is None else f"{row['friction']:g}"
-    return quantity.short, row["figure"].replace("_", " "), friction, mean, spread, *ends
+    return (
+        quantity.short or quantity.label,
+        row["figure"].replace("_", " "),
+        friction,
+        mean,
+        spread,
+        *ends,
+    )

@@ -2,9 +2,6 @@
 
 import numpy as np
 
-from comparisons.common.errors import SceneError
-from comparisons.common.mpi import from_first
-from comparisons.common.progress import machine_memory
 from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
 from comparisons.models.level import ExpectedCost
 from comparisons.models.plan import Plan
@@ -46,20 +43,3 @@ def flow_increments(problem: Problem, refinement: Refinement, patches: np.ndarra
     [m], at most of Hertz's contact, comes from the patch's middle."""
     widest = min(np.ptp(patches, axis=1).max(), 2.0 * problem.hertz.half_width)
     return max(FEWEST_INCREMENTS, 0.5 * widest / (refinement.travel * refinement.pitch))
-
-
-def refuse_too_large(problem: Problem, wanted: ExpectedCost, pitch: float) -> None:
-    """Raise SceneError where a level takes more memory than it may, or than there is."""
-    source, allowed = problem.scene.source, problem.scene.budget.memory
-    need = (
-        f"finite elements on pressures of {pitch:.3g} m, {wanted.unknowns:.2g} unknowns, need "
-        f"about {wanted.memory:.2g} bytes and {wanted.seconds:.2g} s"
-    )
-    if wanted.memory > allowed:
-        remedy = "allowed is a larger budget, or coarser pressures (resolution.pitch)"
-        raise SceneError(f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; {remedy}")
-    there = from_first(machine_memory)
-    if wanted.memory > there:
-        remedy = "allowed are coarser pressures, or a smaller finite_element.block"
-        machine = f"this machine has {there:.2g} bytes"
-        raise SceneError(f"{source}: resolution.pitch: {need}, but {machine}; {remedy}")

@@ -29,11 +29,11 @@ from comparisons.models.finite_element.contact import (
     mutual_compliance,
     solve_mutual,
 )
-from comparisons.models.finite_element.cost import expected, refuse_too_large
+from comparisons.models.finite_element.cost import expected
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
-from comparisons.models.level import Level, under_each
+from comparisons.models.level import Level, refuse_too_large, under_each
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem, problem_of
@@ -97,7 +97,7 @@ def _level(
     solving.load_libraries()
     ranges, start = solving.predicted_contact()
     cost = expected(problem, plan, refinement, ranges)
-    refuse_too_large(problem, cost, refinement.pitch)
+    refuse_too_large(problem, cost, "finite elements", refinement.pitch)
     meshed = solving.meshed_contact(ranges, start, body_cache)
     pressed = solving.pressed(meshed)
     level = Level(

@@ -58,6 +58,9 @@ class Units(FieldType):
 class AnswerSection(SceneSection):
     file: Annotated[tuple[str, ...], Files()]  # one for each resolution
     columns: Annotated[tuple, Columns()] = (0, 1)  # of a table: those of x and pressure
+    # the column of a table, or the array of a mesh, that holds the traction on the body towards +x;
+    # with a minus before its name, the opposite one; None: of a mesh the stress on its top
+    shear: Annotated[tuple, Columns()] | None = None
     units: Annotated[dict[str, str], Units()] | None = None
     # axis of the file out of the rough body, with its sign; None: found out
     up: Annotated[str, OneOf(("y", "-y", "z", "-z"))] | None = None
@@ -84,6 +87,8 @@ class AnswerSection(SceneSection):
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if len(self.columns) != 2:
             yield "columns", "is one column; allowed are two, those of x and pressure"
+        if self.shear is not None and len(self.shear) != 1:
+            yield "shear", "is two columns; allowed is one"
 
 
 def checked_names(answers: dict) -> dict:

@@ -135,6 +135,7 @@ class HeatSection(SceneSection):
             (scene.stress is None, "without [stress]; allowed with it"),
             (scene.body.width is not None, "for a body of finite width; allowed without"),
             (elements.nonlinear, "beside a nonlinear body; allowed for a linear elastic one"),
+            (elements.element == "P1", 'with linear elements; allowed with element = "P2" or "P3"'),
             (moved, "beside a rough boundary or a displaced gap; allowed on a flat boundary"),
         ):
             if there:

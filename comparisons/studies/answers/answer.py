@@ -32,6 +32,7 @@ class Answer:
     pressure: np.ndarray  # (n,) [Pa] as given: also where it is negative
     stress: OutsideStress | None = None  # None: pressures alone
     of_mesh: bool = False  # the pressures are stresses on the surface of a mesh
+    shear: np.ndarray | None = None  # (n,) [Pa] traction towards +x; None: not given
 
     @property
     def load(self) -> float:

@@ -6,7 +6,6 @@ of its plane elements. x is the file's first axis. Signs of normal stresses are 
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -15,16 +14,15 @@ from scipy.sparse.csgraph import connected_components
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+from comparisons.scenes.fields import LARGEST, SMALLEST
 from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import OutsideStress
-from comparisons.studies.answers.meshes import read_mesh
-
-if TYPE_CHECKING:
-    from pyvista import PolyData, UnstructuredGrid
+from comparisons.studies.answers.meshes import Faces, read_mesh
 
 FEWEST = 5  # points that show a pressure
 PLANES = 3  # of nodes of one layer of elements
 SAME = 1e-6  # of the mesh's extent: nodes of one plane
+SAME_PLACE = 1e-12  # of the length: x closer than this coincide
 FACING = 0.5  # cosine between the normal of a top edge and the way up
 OFF_THE_SURFACE = 0.5  # half-widths: farther from the mean line no top is the scene's
 # Components along the file's axes 0, 1, 2: of a tensor by the number of its components.
@@ -50,13 +48,16 @@ class PlaneMesh:
     z: np.ndarray  # (n,) [m]
     triangles: np.ndarray  # (m, 3)
     stress: StressState  # (n,) [Pa]
-    pressure: np.ndarray | None  # (n,) [Pa] of the array that the source names, if it names one
+    # (n,) [Pa] of the arrays that the source names, where it names some
+    pressure: np.ndarray | None
+    shear: np.ndarray | None
 
 
 def read_fields(
     path: Path, source: AnswerSection, problem: Problem, window: Window | None
-) -> tuple[np.ndarray, np.ndarray, OutsideStress | None]:
-    """x (n,) [m] and pressure (n,) [Pa] along the surface, and the stresses on the window.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, OutsideStress | None]:
+    """x (n,) [m], pressure and traction (n,) [Pa] along the surface, and the stresses on the
+    window; of a contact that friction holds none, for the models' are those of sliding.
     Raises ValueError with what is wrong."""
     frictions = problem.scene.load.friction
     friction = frictions[0] if source.friction is None else source.friction
@@ -64,7 +65,7 @@ def read_fields(
         listed = ", ".join(f"{friction:g}" for friction in frictions)
         raise ValueError(f"is of one friction coefficient; allowed is friction = one of {listed}")
     body = plane_mesh(read_mesh(path, source.step), source, friction)
-    nodes, pressure = _surface_pressure(body)
+    nodes, pressure, shear = _surface_tractions(body)
     reach = np.abs(body.x[nodes]) <= np.abs(problem.extent).max()
     off = float(np.median(np.abs(body.z[nodes][reach]))) if reach.any() else np.inf
     if off > OFF_THE_SURFACE * problem.hertz.half_width:
@@ -72,32 +73,32 @@ def read_fields(
             f"its surface lies {off:.3g} m off the scene's, or nowhere near x = 0; allowed is "
             "z_origin, x_origin or units that bring it there"
         )
-    x, pressure = checked(body.x[nodes], pressure)
-    if window is None:
-        return x, pressure, None
-    return x, pressure, _stresses(body, nodes, friction, problem, window)
+    x, pressure, shear = checked(body.x[nodes], pressure, shear)
+    if window is None or problem.scene.partial_slip is not None:
+        return x, pressure, shear, None
+    return x, pressure, shear, _stresses(body, nodes, friction, problem, window)
 
 
-def checked(x: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Both in ascending order. Raises ValueError for what is no pressure along a surface."""
+def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[np.ndarray, ...]:
+    """All in ascending order. Raises ValueError for what is no pressure along a surface."""
     order = np.argsort(x, kind="stable")
-    x, pressure = x[order], pressure[order]
+    x, pressure, *others = (values[order] for values in (x, pressure, *others))
     if len(x) < FEWEST:
         raise ValueError(f"has {len(x)} points; allowed are {FEWEST} or more along the contact")
-    if not np.all(np.diff(x) > 0.0):
-        twice = x[:-1][np.diff(x) <= 0.0][0]
+    if not max(np.abs(x).max(), np.abs(pressure).max()) <= LARGEST:
+        raise ValueError(f"holds a place or a pressure beyond {LARGEST:g} in SI units")
+    apart = np.diff(x) > max(SMALLEST, SAME_PLACE * np.ptp(x))
+    if not np.all(apart):
+        twice = x[:-1][~apart][0]
         raise ValueError(f"has x = {twice:g} m twice; allowed is one pressure at each place")
     if not np.any(pressure):
         raise ValueError("has no pressure but 0; allowed is that of a contact")
-    return x, pressure
+    return x, pressure, *others
 
 
-def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float) -> PlaneMesh:
+def plane_mesh(faces: Faces, source: AnswerSection, friction: float) -> PlaneMesh:
     """The rough body of a mesh: what hangs together and lies below the surface."""
-    if mesh.cell_data:
-        mesh = mesh.cell_data_to_point_data()
-    surface = _faces(mesh)
-    points = np.asarray(surface.points, dtype=float) * source.length
+    points = np.asarray(faces.points, dtype=float) * source.length
     vertical, sign = _up(points, source)
     level, tolerance = points[:, 3 - vertical], SAME * float(np.ptp(points))
     planes = len(np.unique(np.round(level / tolerance)))
@@ -106,31 +107,25 @@ def plane_mesh(mesh: "UnstructuredGrid", source: AnswerSection, friction: float)
             f"its nodes stand in {planes} planes along {'xyz'[3 - vertical]}; allowed is a mesh in "
             "a plane, or one layer of elements"
         )
-    triangles = surface.faces.reshape(-1, 4)[:, 1:]
+    triangles = faces.triangles
     triangles = triangles[np.all(level[triangles] < level.min() + tolerance, axis=1)]
     x, z = points[:, 0] - source.x_origin, source.z_origin - sign * points[:, vertical]
     triangles = _below(x, z, triangles)
     used, triangles = np.unique(triangles, return_inverse=True)
-    arrays = {name: np.asarray(values)[used] for name, values in surface.point_data.items()}
+    arrays = {name: np.asarray(values)[used] for name, values in faces.arrays.items()}
     stress = [source.stress * part for part in _stress_of(arrays, vertical, sign, friction)]
-    if not np.all(np.isfinite(stress)):
-        raise ValueError("holds a stress that is no number; allowed is one at every node")
-    pressure = None
+    if not np.all(np.abs(stress) <= LARGEST):
+        most = f"allowed is one up to {LARGEST:g} Pa at every node"
+        raise ValueError(f"holds a stress that is no number, or too large; {most}")
+    pressure = shear = None
     if source.pressure is not None:
         pressure = source.stress * _component(arrays, source.pressure)
-    return PlaneMesh(x[used], z[used], triangles.reshape(-1, 3), StressState(*stress), pressure)
-
-
-def _faces(mesh: "UnstructuredGrid") -> "PolyData":
-    """The mesh's outer faces as triangles between all of their nodes; a plane mesh is all face."""
-    import pyvista
-    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
-
-    faces = vtkDataSetSurfaceFilter()
-    faces.SetInputData(mesh)
-    faces.SetNonlinearSubdivisionLevel(1)
-    faces.Update()
-    return pyvista.wrap(faces.GetOutput()).triangulate()
+    if source.shear is not None:
+        name = str(source.shear[0])
+        sense = -source.stress if name.startswith("-") else source.stress
+        shear = sense * _component(arrays, name.removeprefix("-"))
+    shape = x[used], z[used], triangles.reshape(-1, 3)
+    return PlaneMesh(*shape, StressState(*stress), pressure, shear)
 
 
 def _up(points: np.ndarray, source: AnswerSection) -> tuple[int, int]:
@@ -199,8 +194,9 @@ def _component(arrays: dict[str, np.ndarray], name: str) -> np.ndarray:
     return values
 
 
-def _surface_pressure(body: PlaneMesh) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (k,) of the top, and the pressure (k,) [Pa] there: minus the normal stress."""
+def _surface_tractions(body: PlaneMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Nodes (k,) of the top, the pressure (k,) [Pa] there, minus the normal stress, and the
+    traction towards +x."""
     corners = body.triangles[:, [[0, 1, 2], [1, 2, 0], [2, 0, 1]]].reshape(-1, 3)
     _, first, count = np.unique(
         np.sort(corners[:, :2], axis=1), axis=0, return_index=True, return_counts=True
@@ -215,10 +211,12 @@ def _surface_pressure(body: PlaneMesh) -> tuple[np.ndarray, np.ndarray]:
     nx, nz = (np.bincount(at, np.tile(part[up], 2), len(nodes)) for part in normal)
     nx, nz = nx / np.hypot(nx, nz), nz / np.hypot(nx, nz)
     stress = body.stress
-    if body.pressure is not None:
-        return nodes, body.pressure[nodes]
     sx, sz, txz = (part[nodes] for part in (stress.sx, stress.sz, stress.txz))
-    return nodes, -(sx * nx**2 + 2.0 * txz * nx * nz + sz * nz**2)
+    shear = (sz - sx) * nx * nz + txz * (nx**2 - nz**2)  # along (-nz, nx)
+    shear = shear if body.shear is None else body.shear[nodes]
+    if body.pressure is not None:
+        return nodes, body.pressure[nodes], shear
+    return nodes, -(sx * nx**2 + 2.0 * txz * nx * nz + sz * nz**2), shear
 
 
 def _stresses(

@@ -3,16 +3,23 @@
 frd                        CalculiX, ASCII or binary     pyvista-frd-reader
 vtu, vtk, vtkhdf, pvd, …   ParaView and many codes       pyvista
 e, exo, ex2                Exodus: MOOSE, Sierra         pyvista
-med, xdmf, msh, …          Salome, FEniCS, gmsh          meshio; med and xdmf take h5py"""
+med, xdmf, msh, …          Salome, FEniCS, gmsh          meshio; med and xdmf take h5py
 
-import subprocess
+They read in a process of their own, this module as a script: a damaged file may crash them, and
+their HDF5 and that of the finite elements may be two versions."""
+
+import resource
 import sys
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from analytic.surface.readers.child import ReaderError, said_by
 from comparisons.common.provenance import PROJECT
 
 if TYPE_CHECKING:
@@ -20,28 +27,32 @@ if TYPE_CHECKING:
 
 INSTALL = "python -m pip install pyvista-frd-reader h5py"
 END_OF_FRD = b"9999"
+MOST_MEMORY = 8 * 10**9  # bytes of address space of the reader
 
 
-def read_mesh(path: Path, step: int | None) -> "UnstructuredGrid":
-    """Mesh and arrays at a step in time, the last by default.
-    Raises ValueError with what is wrong."""
-    from vtkmodules.vtkCommonCore import vtkObject
+@dataclass(frozen=True)
+class Faces:
+    """The outer faces of a mesh, between all of their nodes; a plane mesh is all face."""
 
-    shown = vtkObject.GetGlobalWarningDisplay()
-    vtkObject.SetGlobalWarningDisplay(0)  # on standard error, beside the one line that is raised
-    try:
-        mesh = READERS.get(path.suffix.lower(), _by_vtk)(path, step)
-    except ImportError as error:
-        raise ValueError(f"takes {error.name}, which is not installed; {INSTALL}") from None
-    except ValueError:
-        raise
-    except Exception as error:  # of a damaged file libraries may say anything
-        raise ValueError(f"cannot be read ({error}); allowed is a whole result file") from None
-    finally:
-        vtkObject.SetGlobalWarningDisplay(shown)
-    if mesh.n_points == 0 or mesh.n_cells == 0:
-        raise ValueError("holds no mesh; allowed is a whole result file")
-    return mesh
+    points: np.ndarray  # (n, 3) as in the file
+    triangles: np.ndarray  # (m, 3)
+    arrays: dict[str, np.ndarray]  # at the points
+
+
+def read_mesh(path: Path, step: int | None) -> Faces:
+    """Faces at a step in time, the last by default. Raises ValueError with what is wrong."""
+    with TemporaryDirectory() as folder:
+        out = Path(folder) / "faces.npz"
+        steps = [] if step is None else [str(step)]
+        command = [sys.executable, "-m", __name__, str(path.absolute()), str(out), *steps]
+        try:
+            said_by(command, cwd=str(PROJECT))
+        except ReaderError as error:
+            whole = "" if "allowed" in str(error) else "; allowed is a whole result file"
+            raise ValueError(f"{error}{whole}") from None
+        with np.load(out) as file:
+            arrays = {str(name): file[f"array{i}"] for i, name in enumerate(file["names"])}
+            return Faces(file["points"], file["triangles"], arrays)
 
 
 def _chosen(count: int, step: int | None) -> int:
@@ -76,22 +87,8 @@ def _by_vtk(path: Path, step: int | None) -> "UnstructuredGrid":
 
 
 def _by_meshio(path: Path, step: int | None) -> "UnstructuredGrid":
-    """In a process of its own: its HDF5 and that of the finite elements may be two versions."""
-    import pyvista
-
-    with TemporaryDirectory() as folder:
-        out = Path(folder) / "mesh.vtu"
-        steps = [] if step is None else [str(step)]
-        command = [sys.executable, "-m", __name__, str(path.absolute()), str(out), *steps]
-        done = subprocess.run(command, capture_output=True, text=True, cwd=PROJECT)
-        if done.returncode:
-            raise ValueError(" ".join(done.stderr.splitlines()[-1:]))
-        return pyvista.read(out)
-
-
-def _converted(path: Path, out: Path, step: int | None) -> None:
-    """Write what meshio reads of a file, at a step, as vtu."""
     import meshio
+    import pyvista
 
     mesh = None
     if path.suffix.lower() in (".xdmf", ".xmf"):
@@ -100,7 +97,10 @@ def _converted(path: Path, out: Path, step: int | None) -> None:
             _, arrays, of_cells = series.read_data(_chosen(series.num_steps, step))
             mesh = meshio.Mesh(points, cells, arrays, of_cells)
     mesh = mesh or meshio.read(path)
-    meshio.Mesh(mesh.points, mesh.cells, mesh.point_data, mesh.cell_data).write(out)
+    with TemporaryDirectory() as folder:
+        out = Path(folder) / "mesh.vtu"
+        meshio.Mesh(mesh.points, mesh.cells, mesh.point_data, mesh.cell_data).write(out)
+        return pyvista.read(out)
 
 
 READERS: dict[str, Callable[[Path, int | None], "UnstructuredGrid"]] = {
@@ -108,11 +108,38 @@ READERS: dict[str, Callable[[Path, int | None], "UnstructuredGrid"]] = {
     **dict.fromkeys((".med", ".xdmf", ".xmf", ".msh"), _by_meshio),
 }
 
+
+def _write_faces(path: Path, out: Path, step: int | None) -> None:
+    """Write the faces of what is in a file, in this process."""
+    import pyvista
+    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+
+    mesh = READERS.get(path.suffix.lower(), _by_vtk)(path, step)
+    nodes = mesh.cell_connectivity
+    if mesh.n_points == 0 or len(nodes) == 0:
+        raise ValueError("holds no mesh; allowed is a whole result file")
+    if nodes.min() < 0 or nodes.max() >= mesh.n_points:
+        raise ValueError("has cells on nodes that it has not; allowed is a whole result file")
+    faces = vtkDataSetSurfaceFilter()
+    faces.SetInputData(mesh.cell_data_to_point_data() if mesh.cell_data else mesh)
+    faces.SetNonlinearSubdivisionLevel(1)
+    faces.Update()
+    surface = pyvista.wrap(faces.GetOutput()).triangulate()
+    numbers = {n: v for n, v in surface.point_data.items() if np.asarray(v).dtype.kind in "fiub"}
+    arrays = {f"array{i}": np.asarray(values) for i, values in enumerate(numbers.values())}
+    triangles = surface.faces.reshape(-1, 4)[:, 1:]
+    names = np.array(list(numbers), dtype=str)
+    np.savez(out, points=np.asarray(surface.points), triangles=triangles, names=names, **arrays)
+
+
 if __name__ == "__main__":
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     try:
-        _converted(Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]) if sys.argv[3:] else None)
+        _write_faces(
+            Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]) if sys.argv[3:] else None
+        )
     except ImportError as error:
         sys.exit(f"takes {error.name}, which is not installed; {INSTALL}")
-    except Exception as error:
+    except Exception as error:  # of a damaged file libraries may say anything
         said = str(error) if "allowed" in str(error) else f"cannot be read ({error})"
         sys.exit(" ".join(said.split()))

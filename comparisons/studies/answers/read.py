@@ -30,14 +30,15 @@ def _read(
 ) -> tuple[Answer, ...]:
     answers = []
     for file in source.file:
-        path, stress = problem.scene.folder / file, None
+        path, stress, shear = problem.scene.folder / file, None, None
         is_table = path.suffix.lower() in TABLES
         try:
             sha256 = hashlib.sha256(contents(path, MAX_BYTES)).hexdigest()
             if is_table:
-                x, pressure = _read_curve(path, source)
+                x, pressure, *rest = _read_curve(path, source)
+                shear = rest[0] if rest else None
             else:
-                x, pressure, stress = read_fields(path, source, problem, window)
+                x, pressure, shear, stress = read_fields(path, source, problem, window)
         except ProfileError as error:
             said = str(error).replace("a profile is a text file", "allowed is a file")
             raise InputError(f"answers.{name}.file: {said}") from None
@@ -45,24 +46,27 @@ def _read(
             said = one_line(str(error))[:LONGEST]
             raise InputError(f"answers.{name}.file: {path}: {said}") from None
         of_mesh = not is_table and source.pressure is None
-        answers.append(Answer(path.name, sha256, x, pressure, stress, of_mesh))
+        answers.append(Answer(path.name, sha256, x, pressure, stress, of_mesh, shear))
     return tuple(sorted(answers, key=lambda answer: -answer.spacing))
 
 
-def _read_curve(path: Path, source: AnswerSection) -> tuple[np.ndarray, np.ndarray]:
-    """x (n,) [m], ascending, and pressure (n,) [Pa] in a table."""
-    table = read_table(path, MAX_BYTES, one_column=False, columns=source.columns)
+def _read_curve(path: Path, source: AnswerSection) -> tuple[np.ndarray, ...]:
+    """x (n,) [m], ascending, pressure (n,) [Pa] and, where the source has it, traction in a
+    table."""
+    columns = (*source.columns, *(source.shear or ()))
+    table = read_table(path, MAX_BYTES, one_column=False, columns=columns)
     lost = np.flatnonzero(np.isnan(table.numbers).any(axis=1))
     if len(lost):
         raise table.error(int(lost[0]), "holds no number; allowed are x and pressure")
-    x, pressure = table.numbers.T
+    x, pressure, *shear = table.numbers.T
     if not _one_way(x) and _one_way(pressure):
         one, other = source.columns
         raise ValueError(
             "its first column goes to and fro and its second one way: are they swapped? allowed "
             f"is x before pressure, columns = {[other, one]}"
         )
-    return checked(x * source.length - source.x_origin, pressure * source.stress)
+    tractions = (values * source.stress for values in (pressure, *shear))
+    return checked(x * source.length - source.x_origin, *tractions)
 
 
 def _one_way(values: np.ndarray) -> bool:

@@ -24,11 +24,13 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import (
     SlippedLevel,
     friction_of,
     half_plane_slip,
 )
+from comparisons.studies.friction.outside import outside_figures
 from comparisons.studies.study import CONVERGED, WHY_NOT, Solved
 
 NAME = "partial_slip"
@@ -40,6 +42,7 @@ QUANTITIES = {
     "edge_tension": Quantity("largest σx of the surface", "Pa"),
     "tau1_slip": Quantity("largest τ1", "Pa", formal_order=2.0),
     "stick_ratio": Quantity("share of the contact that sticks"),
+    "traction_l2": Quantity("tractions, relative L2 difference", of_pair=True),
 }
 COMPARED = tuple(QUANTITIES)[:6]  # judged where both models have them
 LENGTHS = "stick_length", "stick_ratio"  # read with the grid's resolution
@@ -102,6 +105,13 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         series += _series(
             name, model.finest, path, at, Figures(figures).of(source=name, against=None)
         )
+    outside = before.get(answers.NAME)
+    if outside is not None and models:
+        name, model = list(models.items())[-1]
+        stuck = Figures(figures).one(quantity="stick_length", source=name, against=None)
+        slip = problem.scene.partial_slip
+        outside = outside_figures(outside.data.answers, model.levels, stuck, slip.tolerance)
+        figures += outside
     data = SlipStudy({name: _curves(problem, model.finest) for name, model in models.items()})
     return Findings(tuple(figures), tuple(series), tuple(said), data)
 
@@ -200,7 +210,7 @@ def _uncertainty(
 def _beside(model: ModelSlip, other: ModelSlip) -> list[SlippedLevel]:
     """The model's levels on the pressure elements of the other's, or on the nearest."""
     return [
-        min(model.levels, key=lambda own: abs(own.grid.pitch - level.grid.pitch))
+        min(model.levels, key=lambda one: abs(one.grid.pitch - level.grid.pitch))
         for level in other.levels
     ]
 

@@ -49,7 +49,7 @@ def slip_table(run: Run) -> TextTable:
             continue
         unit = QUANTITIES[quantity].unit
         texts = [with_unit(figure and figure.value, unit) for figure in values]
-        difference = known.one(quantity=quantity, against=MODELS[1])
+        difference = known.one(quantity=quantity, source=MODELS[0], against=MODELS[1])
         if difference is None:
             [only] = filter(None, values)
             judged = ("", percent(only.numerical), "", "not compared")
@@ -75,8 +75,20 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
         number = len(run.data(NAME).curves[figure.source].zones[-1])
         zones = f"{percent(figure.value)} of the contact, in {number} zone{'s' * (number != 1)}"
         facts.append((f"sticks ({LABELS[figure.source]})", zones))
+    for figure in known.of(quantity="stick_length", against=None):
+        if figure.source not in MODELS:
+            difference = known.one(quantity="stick_length", source=figure.source, against=last(run))
+            moved, uncertainty, _, verdict = judged_cells(difference)
+            length = with_unit(figure.value, QUANTITIES["stick_length"].unit)
+            said = f"{length}, {moved} ± {uncertainty} against the {LABELS[last(run)]}, {verdict}"
+            facts.append((f"sticks ({figure.source}, from outside)", said))
     why = run.found[NAME].said(WHY_NOT)
     return facts + ([("not modelled", why)] if why else [])
+
+
+def last(run: Run) -> str:
+    """The model that answers from outside are compared with."""
+    return list(run.data(NAME).curves)[-1]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -88,13 +100,38 @@ def lines(run: Run) -> list[tuple[str, str]]:
     ]
     text = f"under {slip.path[-1]:g} of the load that makes it slide {', '.join(shares)}"
     text += " of the contact sticks"
-    figure = known.one(quantity="stick_length", against=MODELS[1])
+    figure = known.one(quantity="stick_length", source=MODELS[0], against=MODELS[1])
     if figure is not None:
         difference, uncertainty, _, verdict = judged_cells(figure)
-        text += f": {difference} ± {uncertainty}, {verdict}"
+        text += f"; length {difference} ± {uncertainty}, {verdict}"
+        judged = known.of(source=MODELS[0], against=MODELS[1])
+        others = [f for f in judged if f.verdict != "agree" and f != figure]
+        if others:
+            listed = ", ".join(f"{QUANTITIES[f.quantity].label} {f.verdict}" for f in others)
+            text += f"; {listed}"
+        text += next_step(run)
     if (why := run.found[NAME].said(WHY_NOT)) is not None:
         text += f"; of the finite elements {why}"
     return [("partial slip", text)]
+
+
+def next_step(run: Run) -> str:
+    """What would decide what is inconclusive, or what a difference means, as a clause."""
+    known = run.figures.of(study=NAME, source=MODELS[0], against=MODELS[1])
+    figures = [figure for figure in known if figure.verdict != "agree"]
+    if not figures:
+        return ""
+    open_ones = [figure for figure in figures if figure.verdict == "inconclusive"]
+    if not open_ones:
+        return "; the finite elements have what the half-plane has not, theirs are the figures"
+    worst = max(open_ones, key=lambda figure: figure.numerical).uncertainty.parts
+    cause = max(worst, key=worst.get)
+    scene = run.problem.scene
+    steps = {
+        "increments": f"partial_slip.increments = {2 * scene.partial_slip.increments}",
+        "domain": f"finite_element.block = {2.0 * scene.finite_element.block:g}",
+    }
+    return f"; next: {steps.get(cause, f'budget = {{time = {2.0 * scene.budget.time:g}}}')}"
 
 
 def tractions_picture(run: Run) -> style.Picture | None:

@@ -6,6 +6,7 @@ uncertainty, added up: so a rung may hold, or be refuted by a better one, and no
 whole that an estimate does not bound."""
 
 from collections.abc import Mapping
+from math import inf
 from time import perf_counter
 
 from comparisons.figures.figure import Figure, Findings
@@ -108,7 +109,7 @@ def _values(solved: Solved, runs: Mapping[float, ModelRun]) -> Values:
 
 def _hertz(solved: Solved, friction: float) -> dict[str, float]:
     [known] = hertz_quantities(
-        solved.problem.hertz, [solved.runs[HALF_PLANE].finest.grid.x], friction, solved.window
+        solved.problem, [solved.runs[HALF_PLANE].finest.grid.x], friction, solved.window
     )
     return {name: float(value[0]) for name, value in known.figures.items()}
 
@@ -126,13 +127,13 @@ def _figures(
     for friction, known in values.items():
         stated = uncertainties(runs[friction], solved.problem, friction)
         for name, tolerance in solved.problem.scene.tolerances.items():
-            parts = {"numerical": float("inf")}
+            parts = {"numerical": inf}
             difference, scale = 0.0, 1.0
             if name in stated:
                 scale = abs(best[friction][name]) or QUANTITIES[name].scale(solved.problem.hertz)
                 difference = (known[name] - best[friction][name]) / scale
                 bound = sum(sizes.get(name, 0.0) for sizes in left)
-                grown = (1.0 + abs(difference)) * bound / (1.0 - bound) if bound < 1.0 else 1e9
+                grown = (1.0 + abs(difference)) * bound / (1.0 - bound) if bound < 1.0 else inf
                 parts = {"numerical": stated[name].total, "effects": grown}
             made.append(
                 Figure(

@@ -1,8 +1,7 @@
 """How far a run goes: to the rung that its budget names, and no further than one that holds."""
 
-from comparisons.figures.quantity import MODELS
+from comparisons.figures.quantity import MODELS, UP_TO
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.sections import UP_TO
 
 BY_HALF_PLANE = UP_TO[:2]  # rungs that take no finite elements
 # What a scene's finite elements do without on a rung.

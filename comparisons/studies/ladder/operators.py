@@ -89,8 +89,8 @@ class OperatorModel:
     frictions: tuple[float, ...]
     coupling: float  # coefficient of the traction that moves the surfaces; 0 leaves it out
 
-    def level(self, pitch: float, window: Window | None) -> Level:
-        """Solved on pressure elements of a pitch [m]."""
+    def level(self, pitch: float, window: Window | None, fields: bool = True) -> Level:
+        """Solved on pressure elements of a pitch [m]; without `fields` of stresses their maxima."""
         stages, problem, grid = Stages(), self.problem, self.problem.grid(pitch)
         with stages.stage("contact"):
             operator = operator_of(problem, grid, self.coupling)
@@ -106,7 +106,7 @@ class OperatorModel:
             )
         if window is not None:
             with stages.stage("stresses"):
-                stresses = tuple(_stresses(problem, level, window, self.frictions))
+                stresses = tuple(_stresses(problem, level, window, self.frictions, fields))
             level = replace(level, stresses=stresses)
         return replace(level, peak_memory=peak_memory())
 
@@ -175,12 +175,11 @@ class _Side:
 
 
 def _stresses(
-    problem: Problem, level: Level, window: Window, frictions: tuple[float, ...]
+    problem: Problem, level: Level, window: Window, frictions: tuple[float, ...], fields: bool
 ) -> Iterator[StressResult]:
     """Fields on the window and extremes on either side of an interface."""
     sides = _sides(problem, level, window)
     for friction in frictions:
-        fields = [side.field(level, side.shown, friction).stress for side in sides if side.is_shown]
         found = [side.maxima(problem, level, friction) for side in sides]
         maxima = {
             name: _larger([one.cells[key] for one in found])
@@ -188,9 +187,15 @@ def _stresses(
         }
         extremes = {name: highest(each) for name, each in maxima.items()}
         extremes["von_mises"] = max((one.von_mises for one in found), key=lambda e: e.value)
-        parts = ([getattr(field, name) for field in fields] for name in ("sx", "sz", "txz"))
-        state = StressState(*map(np.concatenate, parts))
+        state = _on_window(sides, level, friction) if fields else None
         yield StressResult(friction, extremes, state, maxima)
+
+
+def _on_window(sides: list[_Side], level: Level, friction: float) -> StressState:
+    """The common field, one side below the other."""
+    shown = [side.field(level, side.shown, friction).stress for side in sides if side.is_shown]
+    parts = ([getattr(stress, name) for stress in shown] for name in ("sx", "sz", "txz"))
+    return StressState(*map(np.concatenate, parts))
 
 
 def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:

@@ -10,9 +10,9 @@ from time import perf_counter
 import numpy as np
 
 from analytic.contact.problem import ContactError
-from analytic.exact.hertz import HertzContact, hertz_extremes, hertz_stress
+from analytic.exact.hertz import hertz_extremes, hertz_stress
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import MODELS, WHOLE
+from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -93,13 +93,18 @@ class Ladder:
         order = list(KINDS)
         return sorted(made, key=lambda rung: order.index(rung.kind))
 
+    @property
+    def flows(self) -> str:
+        """That the body flows beyond doubt, and no model of the run does: nothing can suffice."""
+        return "" if "plastic_flow" in self.budget.selection.whole else self.flow.beyond_doubt
+
     def _operators(self, made: list[Rung]) -> Rung | None:
         """Solved here, where it has anything that the half-plane has not and could be the answer:
         the same effects in finite elements are not refuted."""
         problem, window, selection = self.solved.problem, self.solved.window, self.budget.selection
         held = carried(problem, selection.whole, self.flow)
         same = [rung for rung in made if rung.effects == held]
-        refuted = self.flow.beyond_doubt or any(rung.verdict == "fails" for rung in same)
+        refuted = self.flows or any(rung.verdict == "fails" for rung in same)
         if not held or refuted or why_no_stresses(problem, window) is not None:
             return None
         finite_elements, errors, compared = self.solved.runs[OTHER], [], []
@@ -136,7 +141,7 @@ class Ladder:
         for friction, solutions in self.budget.solutions.items():
             count = len(solutions.history)
             grids = [level.grid.x for level in finite_elements.levels[:count]]
-            levels = hertz_quantities(problem.hertz, grids, friction, window)
+            levels = hertz_quantities(problem, grids, friction, window)
             stated = uncertainties(finite_elements, problem, friction)
             for row in self._rows(friction):
                 own = stated.get(row.quantity)
@@ -212,17 +217,22 @@ def operator_runs(
     """The half-plane with what an operator carries, by friction coefficient, on the pressure
     elements of another model; None where it has no solution."""
     problem, frictions = problem_carrying(problem, held), problem.scene.load.friction
-    runs = {}
+    runs, fields = {}, has_norms(problem)
     for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
         model = OperatorModel(problem, group, group[0] if COUPLED in held else 0.0)
         try:
-            levels = [model.level(level.grid.pitch, window) for level in like.levels]
+            levels = [model.level(level.grid.pitch, window, fields) for level in like.levels]
         except ContactError:  # the cap takes a contact that the pressures' extent does not hold
             return None
         if not all(level.solution.converged for level in levels):
             return None
         runs |= dict.fromkeys(group, ModelRun(OPERATORS, tuple(levels)))
     return runs
+
+
+def has_norms(problem: Problem) -> bool:
+    """Whether a norm of fields is judged."""
+    return any(QUANTITIES[name].of_pair for name in problem.scene.tolerances)
 
 
 def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
@@ -240,10 +250,11 @@ def renamed(figure: Figure, rung: str) -> Figure:
 
 
 def hertz_quantities(
-    hertz: HertzContact, grids: Iterable[np.ndarray], friction: float, window: Window | None
+    problem: Problem, grids: Iterable[np.ndarray], friction: float, window: Window | None
 ) -> list[QuantitiesOfInterest]:
-    """Hertz's contact on each grid of nodes (n,) [m], with its field on the window."""
-    largest = hertz_extremes(hertz, friction)
+    """Hertz's contact on each grid of nodes (n,) [m], with its field on the window where a norm of
+    fields is judged."""
+    hertz = problem.hertz
     values = {
         "peak_pressure": hertz.peak_pressure,
         "contact_length": 2.0 * hertz.half_width,
@@ -251,9 +262,11 @@ def hertz_quantities(
     }
     tau1 = None
     if window is not None:
+        largest = hertz_extremes(hertz, friction)
         values |= {"tau1_max": largest.tau1.value, "tau1_max_depth": largest.tau1.z}
         values["txz_max_abs"] = max(abs(largest.txz_max.value), abs(largest.txz_min.value))
-        tau1 = hertz_stress(hertz, window.x, window.z[:, None], friction).tau1
+        if has_norms(problem):
+            tau1 = hertz_stress(hertz, window.x, window.z[:, None], friction).tau1
     figures = {name: np.array([value]) for name, value in values.items()}
     return [QuantitiesOfInterest(figures, hertz.pressure(x), tau1) for x in grids]
 
@@ -286,6 +299,8 @@ def _kind_of(effects: Iterable[str]) -> str:
 
 def _words_of(kind: str, effects: Iterable[str]) -> str:
     """A kind with the linear effects that it is given beside it."""
-    implied = {"plastic_flow", *(KINEMATIC if kind == FINITE else ())}
+    is_finite = "finite_strain" in effects
+    implied = {"plastic_flow", *(KINEMATIC if is_finite else ())}
     beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in implied]
-    return f"{KINDS[kind]} with {', '.join(beside)}" if beside else KINDS[kind]
+    words = f"{KINDS[kind]} at finite deformation" if is_finite and kind == FLOW else KINDS[kind]
+    return f"{words} with {', '.join(beside)}" if beside else words

@@ -1,6 +1,7 @@
 """The ladder as a table of the page, and as a line of the terminal."""
 
 from collections.abc import Sequence
+from math import isfinite
 
 from comparisons.common.numbers import percent, plain, with_unit
 from comparisons.drawing.blocks import Block, Note, TextTable, judged_cells
@@ -78,6 +79,8 @@ def _nearest(errors: Sequence[Figure]) -> Figure:
 
 def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
     worst = _nearest(errors)
+    if not isfinite(worst.total):
+        return f"{words} ({_time(row)})"
     size = error_text(worst.quantity, worst.value, worst.total).removesuffix(" %")
     short = QUANTITIES[worst.quantity].short
     return f"{words} ({_time(row)}, {short} {size} ± {percent(worst.total)})"

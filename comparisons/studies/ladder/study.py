@@ -19,19 +19,18 @@ from comparisons.studies.subsurface import yielding
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     flow = before[yielding.NAME]
     if not solved.plan.compares:
-        return _findings(estimated_rungs(solved, before, flow.data), flow, None)
+        return _findings(estimated_rungs(solved, before, flow.data), flow.data.beyond_doubt, None)
     budget = before[MODEL_ERROR].data
     if not budget.solutions:
         why = budget.unsplit or "the whole model has no solution"
         return Findings(statements=(Statement(WHY_NOT, why),))
     compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
-    rungs = Ladder(solved, budget, tuple(compared), flow.data).rungs()
-    return _findings(rungs, flow, before[MODEL_ERROR])
+    ladder = Ladder(solved, budget, tuple(compared), flow.data)
+    return _findings(ladder.rungs(), ladder.flows, before[MODEL_ERROR])
 
 
-def _findings(rungs: Sequence[Rung], flow: Findings, errors: Findings | None) -> Findings:
+def _findings(rungs: Sequence[Rung], flows: str, errors: Findings | None) -> Findings:
     """With what suffices; `errors` of the half-plane, None where no whole is solved."""
-    flows = flow.said(yielding.BEYOND_DOUBT)
     figures = tuple(figure for rung in rungs for figure in (*rung.figures, *rung.beside))
     columns = {
         "rung": Column(tuple(rung.name for rung in rungs)),
@@ -43,9 +42,7 @@ def _findings(rungs: Sequence[Rung], flow: Findings, errors: Findings | None) ->
     return Findings(figures, series, tuple(_statements(rungs, errors, flows)))
 
 
-def _statements(
-    rungs: Sequence[Rung], errors: Findings | None, flows: str | None
-) -> list[Statement]:
+def _statements(rungs: Sequence[Rung], errors: Findings | None, flows: str) -> list[Statement]:
     holding = [] if flows else [rung for rung in rungs if rung.verdict == "holds"]
     half_plane = next(rung for rung in rungs if rung.name == HALF_PLANE)
     said = []

@@ -83,7 +83,7 @@ def quantities_of(level: Level, problem: Problem, friction: float) -> Quantities
             if name == "tau1_max":
                 rise = boundary_rise(problem, level, places[name])
                 figures["tau1_max_depth"] = depth + rise
-    tau1 = None if stress is None else stress.field.tau1
+    tau1 = None if stress is None else stress.tau1
     return QuantitiesOfInterest(figures, pressure, tau1, places)
 
 

@@ -47,7 +47,7 @@ from comparisons.common.errors import SceneError
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.figures.figure import Column, Findings, Series, columns_of
 from comparisons.models.half_plane import expected_of
-from comparisons.models.level import Level, MeshField
+from comparisons.models.level import Level, MeshField, refuse_too_large
 from comparisons.models.problem import Problem
 from comparisons.studies import contact
 from comparisons.studies.study import Solved
@@ -95,6 +95,9 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     except (ValueError, ArithmeticError) as error:
         raise SceneError(f"{scene.source}: statistics: {error}") from None
     cost = expected_of(problem.grid(problem.pitches[0]).count).seconds
+    load, pitch = _step(problem, STEPS - 1)
+    finest = _grid(problem, load, problem.surface.profile, 0.5 * pitch)
+    refuse_too_large(problem, expected_of(finest.count), "[statistics] of light loads", 0.5 * pitch)
     seconds = STEPS * scene.statistics.traces * cost
     tasks.add(NAME, _loads, problem, rows[0], seconds=seconds, urgency=LATER)
 
@@ -182,8 +185,7 @@ def _loads(
     traces = [same_spectrum(measured, wanted.seed + number) for number in range(wanted.traces)]
     rows = []
     for step in range(STEPS):
-        load = problem.hertz.load_per_length * 10.0 ** (-step / PER_DECADE)
-        pitch = problem.pitches[0] / 2.0 ** (step // PER_DECADE)  # light loads touch little
+        load, pitch = _step(problem, step)
         pressed = [(measured, pitch), (measured, 0.5 * pitch), *((t, pitch) for t in traces)]
         solved = np.array([_pressed(problem, load, *trace) for trace in pressed])
         rows.append(_row(problem, load, summits, solved))
@@ -191,12 +193,22 @@ def _loads(
     return tuple(row for row, _ in rows), sizes
 
 
-def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> list[float]:
-    """FIGURES of the elastic half-plane, and how many patches there are."""
+def _step(problem: Problem, step: int) -> tuple[float, float]:
+    """Load [N/m] and pitch [m]: light loads touch little."""
+    load = problem.hertz.load_per_length * 10.0 ** (-step / PER_DECADE)
+    return load, problem.pitches[0] / 2.0 ** (step // PER_DECADE)
+
+
+def _grid(problem: Problem, load: float, profile: Profile, pitch: float) -> HatGrid:
     radius, relief = problem.scene.roller.radius, float(np.ptp(profile.height))
     half_width = hertz_from_load(load, radius, problem.modulus).half_width
     reach = 2.0 * half_width + np.sqrt(2.0 * radius * relief)
-    grid = HatGrid.within(max(-reach, profile.x[0]), min(reach, profile.x[-1]), pitch)
+    return HatGrid.within(max(-reach, profile.x[0]), min(reach, profile.x[-1]), pitch)
+
+
+def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> list[float]:
+    """FIGURES of the elastic half-plane, and how many patches there are."""
+    radius, grid = problem.scene.roller.radius, _grid(problem, load, profile, pitch)
     gap = grid.hat_integrals(roller_gap(radius, surface(profile)), profile.x)
     operator = HalfPlane(grid.count, pitch, problem.modulus)
     solution = solve_contact(operator, gap, grid.weights, Constraints(load=load))

@@ -142,7 +142,7 @@ def test_unlike_bodies_stick_as_spence_has_it(acts_back):
     punch, ratios = punch_ratio(pair, grid), []
     if not acts_back:
         assert punch == pytest.approx(pressed_stick_ratio(beta, FRICTION), rel=2e-3)
-    for steps in (4, 8, 16, 32):
+    for steps in (4, 8, 16):
         *_, state = history(pair, pressed_in(LOAD, steps))
         contact = contact_patches(grid.x, state.normal.pressure, state.normal.gap)
         ratios.append(np.ptp(stick_zones(grid.x, state, FRICTION)) / np.ptp(contact))
@@ -150,7 +150,7 @@ def test_unlike_bodies_stick_as_spence_has_it(acts_back):
     errors = 1.0 - np.array(ratios) / punch
     print(errors)
     orders = -np.diff(np.log2(errors))
-    assert np.all((orders > 0.8) & (orders < 1.3)) and errors[-1] < 0.02
+    assert np.all((orders > 0.8) & (orders < 1.3)) and errors[-1] < 0.04
 
 
 def test_a_mirrored_contact_is_the_mirrored_solution():

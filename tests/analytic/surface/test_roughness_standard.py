@@ -104,6 +104,11 @@ def test_lengths_that_hold_no_element_have_no_width():
     assert standard_roughness(waves((AMPLITUDE, 6e-3), length=4e-3), CUTOFF).rsm is None
 
 
+def test_crossings_as_close_as_rounding_have_a_width():
+    steep = sinusoid(wavelength=1e-3, amplitude=0.1, length=4e-3)
+    assert standard_roughness(steep, 0.25e-3).rsm is None
+
+
 def test_a_flat_trace_has_figures_of_zero():
     found = standard_roughness(smooth(length=4e-3, samples=2001), CUTOFF)
     values = (found.ra, found.rq, found.rsk, found.rku, found.rt, found.rz, found.rdq)

@@ -37,6 +37,13 @@ def fill_as_run(folder, names, text="new"):
     (folder / "record.json").write_text(json.dumps(record))
 
 
+def test_a_link_in_the_place_of_unfinished_files_is_refused(tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / ".results.unfinished").symlink_to("elsewhere")
+    with pytest.raises(InputError, match="unfinished is a symbolic link; allowed is a folder"):
+        check_writable(tmp_path / "results")
+
+
 def test_files_appear_at_the_end(tmp_path):
     out = tmp_path / "deep" / "results"
     with published(out) as scratch:

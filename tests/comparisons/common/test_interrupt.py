@@ -197,6 +197,17 @@ def test_a_crash_of_the_only_process_stays_a_crash(folder):
     assert process.returncode == -signal.SIGSEGV
 
 
+def test_a_command_whose_process_is_killed_has_a_status_of_its_own(folder):
+    """1 would mean that a judged figure differs."""
+    process = started(folder, ALONE + CRASH.format(name="KILL"))
+    out, err = process.communicate(timeout=PATIENT)
+    assert (process.returncode, out) == (ExitStatus.KILLED, "")
+    assert err == (
+        "crosscheck: the process that worked was killed, as the system does where memory ends; "
+        "finished levels are kept, the same command goes on from there\n"
+    )
+
+
 def test_the_end_of_the_process_of_a_level_is_one_line(folder):
     """The system kills it where memory is short."""
     process = started(folder, SIDE_BY_SIDE + CRASH.format(name="KILL"))

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 from scenes import SMOOTH, problem
 
+from comparisons.common.errors import SceneError
 from comparisons.common.tasks import Tasks
+from comparisons.models.half_plane import expected_with
 from comparisons.models.plan import make_plan
+from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
 from comparisons.studies.study import Solved
 
@@ -28,6 +31,25 @@ def test_a_model_keeps_to_its_budget(budget, limit):
     run, why = half_plane(**budget)
     assert limit in why
     assert 3 <= len(run.levels) <= 5
+
+
+def test_a_half_plane_that_would_not_fit_is_refused_before_it_is_solved():
+    with pytest.raises(SceneError, match=r"budget\.memory: is 1e\+05 bytes, but half-plane"):
+        half_plane(memory=1e5)
+
+
+def test_stresses_far_beyond_a_small_contact_count_in_memory_and_time():
+    """Heights in metres that are micrometres: the contact is a thousandth of the window."""
+    rough = {"kind": "self-affine", "hurst": 0.8, "samples": 2048, "length": 6e-3, "seed": 1}
+    made = problem(SMOOTH | {"profile": rough | {"rms_slope": 1000.0}, "stress": {"depth": 1.0}})
+    pitch, window = made.pitches[-1], window_of(made)
+    alone, cost = expected_with(made, pitch, None), expected_with(made, pitch, window)
+    assert cost.unknowns == alone.unknowns
+    assert cost.seconds > 30.0 * alone.seconds and cost.memory > 30.0 * alone.memory
+    # of a contact as wide as the window the same counts as ever
+    made = problem(SMOOTH | {"stress": {"depth": 1.0}})
+    costs = (expected_with(made, made.pitches[-1], w) for w in (None, window_of(made)))
+    assert len({cost.seconds for cost in costs}) == 1
 
 
 def test_no_clock_decides(monkeypatch):

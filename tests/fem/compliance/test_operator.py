@@ -6,6 +6,7 @@ from scenes import hat_nodes
 
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
+from analytic.operators.tangential import hat_sign
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 
@@ -72,3 +73,28 @@ def test_nearly_incompressible_bodies_do_not_lock(structured_block, graded, pois
     body = elastic_body(block(structured_block, graded, 0.025), material, Support())
     error = error_of(FiniteElementCompliance(body, HATS).matrix(), material)
     assert error < 2e-2
+
+
+def test_pressures_and_tractions_move_each_others_points_alike(fine):
+    """Betti's reciprocity; a traction that goes with the pressure is the sliding one, and along
+    the surface tractions move it as pressures do across, but for the mesh."""
+    pressure, traction = np.random.default_rng(7).uniform(size=(2, COUNT))
+    none = np.zeros(COUNT)
+    _, dragged = fine.moved(pressure, none)
+    raised, along = fine.moved(none, traction)
+    assert pressure @ raised == pytest.approx(traction @ dragged, rel=1e-10)
+    both = fine.moved(pressure, 0.3 * pressure)
+    np.testing.assert_allclose(both[0], fine.apply(pressure, 0.3), rtol=1e-10)
+    matrix = np.array([fine.moved(none, unit)[1] for unit in np.eye(COUNT)])
+    np.testing.assert_allclose(matrix, matrix.T, atol=1e-13 * np.abs(matrix).max())
+    np.testing.assert_allclose(along, matrix @ traction, rtol=1e-10)
+    assert error_of(matrix, MATERIAL) < 3e-2
+
+
+def test_coupling_is_the_half_planes_up_to_the_mesh(fine):
+    """(1 - 2 nu)/(2 (1 - nu)) of E' for a rigid counterpart, by the sign of the distance."""
+    raised = np.array([fine.moved(np.zeros(COUNT), unit)[0] for unit in np.eye(COUNT)]).T
+    beta, modulus = 0.4 / 1.4, MATERIAL.plane_strain_modulus
+    distance = np.subtract.outer(np.arange(COUNT), np.arange(COUNT))
+    exact = beta * PITCH**2 / modulus * hat_sign(distance)
+    assert np.abs(raised - exact).max() < 2e-2 * exact.max()

@@ -14,7 +14,8 @@ from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.triangle import shapes
 from fem.compliance.operator import FiniteElementCompliance
-from fem.stress.stress import at_mesh_points, evaluate, nodal_stress, within
+from fem.stress.stress import at_mesh_points, evaluate, nodal_stress, nodal_stresses, within
+from fem.stress.surface_load import SurfaceLoad
 from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.real_shape import roughen
@@ -324,3 +325,25 @@ def test_evaluation_is_quadratic_and_keeps_shapes(structured_block):
     np.testing.assert_allclose(sz[inside], (a * b - 1)[inside], atol=1e-12)
     np.testing.assert_allclose(txz[inside], (b**2 + a)[inside], atol=1e-12)
     assert evaluate(body, nodal, 0.25, 0.5).sx == pytest.approx(0.0625)
+
+
+def test_a_traction_of_its_own_is_as_good_as_one_that_goes_with_the_pressure():
+    """Along a rough boundary, where it turns with the direction of the pressure."""
+    spec = BlockSpec(40.0, 40.0, np.array([[-1.4, 1.4]]), 0.1, 0.3)
+    mesh = roughen(build_block(spec), lambda x: 0.03 * np.exp(-(x**2)))
+    body = elastic_body(mesh, MATERIAL, Support())
+    x = np.linspace(-1.0, 1.0, 21)
+
+    def direction(x):
+        return 0.1 * x, np.ones_like(x)
+
+    operator = FiniteElementCompliance(body, hat_nodes(x[0], x[1] - x[0], len(x)), direction)
+    pressure, whole = ellipse(x), []
+    for friction, traction in ((0.3, None), (0.0, 0.3 * pressure)):
+        shares = np.array([friction])
+        load = SurfaceLoad(body, operator.hats, pressure, shares, direction, traction=traction)
+        moved = operator.displacement_of(pressure, 0.3 * pressure)
+        whole.append(nodal_stresses(moved[:, None], load)[0].values)
+    one, other = whole
+    np.testing.assert_allclose(one, other, atol=1e-9 * np.abs(one).max())
+    np.testing.assert_allclose(moved, operator.displacement(pressure, 0.3), atol=1e-12)

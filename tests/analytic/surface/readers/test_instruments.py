@@ -10,7 +10,9 @@ from importlib import metadata
 import numpy as np
 import pytest
 
+import analytic.surface.readers.child as child
 import analytic.surface.readers.instruments as module
+import analytic.surface.readers.source as source
 from analytic.surface.readers.instruments import (
     AbsentReaderError,
     install_command,
@@ -181,11 +183,11 @@ def test_a_reader_that_crashes_is_a_message(tmp_path, monkeypatch):
     worker(monkeypatch, "import os; os.kill(os.getpid(), 11)")
     assert complaint(tmp_path).endswith("crashes on it (SIGSEGV; it said nothing)")
     worker(monkeypatch, "raise MemoryError('no room')")
-    assert complaint(tmp_path).endswith("crashes on it (MemoryError: no room)")
+    assert complaint(tmp_path).endswith("crashes on it: MemoryError: no room")
 
 
 def test_a_reader_that_hangs_is_a_message(tmp_path, monkeypatch):
-    monkeypatch.setattr(module, "PATIENCE", 0.2)
+    monkeypatch.setattr(child, "PATIENCE", 0.2)
     worker(monkeypatch, "import time; time.sleep(60)")
     assert complaint(tmp_path).endswith("SurfaceTopography has not read it within 0.2 s")
 
@@ -215,7 +217,7 @@ def test_a_channel_that_is_no_height_is_refused(tmp_path, monkeypatch):
 
 def test_an_archive_that_unpacks_to_too_much_is_not_unpacked(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "_ask", lambda path, target: pytest.fail("unpacked"))
-    monkeypatch.setattr(module, "MOST_UNPACKED", 10**6)
+    monkeypatch.setattr(source, "MAX_UNPACKED", 10**6)
     path = tmp_path / "map.x3p"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("bindata/data.bin", bytes(2 * 10**6))

@@ -9,7 +9,7 @@ from scipy.io import savemat
 
 from analytic.surface.readers.arrays import read_arrays
 from analytic.surface.readers.files import MissingUnitError, open_measured, read_measured
-from analytic.surface.readers.source import ProfileError
+from analytic.surface.readers.source import LONGEST_LINE, MAX_LINES, ProfileError
 from analytic.surface.readers.text import ColumnsError
 from analytic.surface.readers.topography import MapLine
 
@@ -139,9 +139,66 @@ def test_arrays_that_are_no_profile(tmp_path):
     assert "is a damaged npy file" in refusal(tmp_path / "cut.npy")
     np.savez(tmp_path / "words.npz", name="mine")
     assert "holds no arrays of one or two dimensions" in refusal(tmp_path / "words.npz")
-    np.savez_compressed(tmp_path / "large.npz", x=np.zeros(100_000))
-    with pytest.raises(ProfileError, match="is too large"):
-        read_arrays(tmp_path / "large.npz", 700_000, None, None)
+    np.savez_compressed(tmp_path / "large.npz", x=np.zeros(100_000, dtype=np.uint8))
+    with pytest.raises(ProfileError, match=r"holds 1e\+05 numbers; allowed are 9e\+04"):
+        read_arrays(tmp_path / "large.npz", None, None, max_numbers=90_000)
+
+
+@pytest.mark.parametrize(
+    ("array", "kind"),
+    [
+        (RAW + 1j, "complex128"),
+        (np.arange(40).astype("datetime64[s]"), "datetime64"),
+        (np.array(["1"] * 40), "<U1"),
+        (np.zeros(40, dtype=[("x", float), ("z", float)]), "'x', '<f8'"),
+    ],
+    ids=["complex", "dates", "text", "structured"],
+)
+def test_an_array_of_anything_but_real_numbers_is_none(tmp_path, array, kind):
+    np.save(tmp_path / "other.npy", array)
+    message = refusal(tmp_path / "other.npy", spacing=1e-6)
+    assert kind in message and message.endswith("in place of numbers; allowed are real ones")
+
+
+@pytest.mark.parametrize("kind", ["npy", "npz", "mat", "xlsx"])
+def test_a_lost_height_of_an_array_has_its_place(tmp_path, kind):
+    path, lost = tmp_path / f"trace.{kind}", np.where(np.arange(40) == 16, np.nan, RAW)
+    if kind == "npy":
+        np.save(path, np.column_stack([X, lost]))
+    elif kind == "npz":
+        np.savez(path, x=X, z=lost)
+    elif kind == "mat":
+        savemat(path, {"x": X, "z": lost})
+    else:
+        write_spreadsheet(path, zip(X, lost, strict=True))
+    assert refusal(path) == (
+        f"{path}, line 17: height is lost; correct it, or ask for dropouts to be bridged"
+    )
+    bridged = np.where(np.isnan(lost), (RAW[15] + RAW[17]) / 2.0, RAW)
+    holds(path, bridged, dropouts="bridge")
+
+
+def write_spreadsheet(path, rows) -> None:
+    openpyxl = pytest.importorskip("openpyxl", reason="no openpyxl: pip install openpyxl")
+    book = openpyxl.Workbook()
+    for row in rows:
+        book.active.append([None if np.isnan(value) else float(value) for value in row])
+    book.save(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (b"0\n" * (MAX_LINES + 1), f"{MAX_LINES + 1} lines"),
+        ((b"1," * 400_000 + b"1\n") * 51, "20400051 cells"),
+        (b"0,1\n" + b"1" * (LONGEST_LINE + 1), f"{LONGEST_LINE + 2} bytes in a line"),
+    ],
+    ids=["lines", "cells", "a line"],
+)
+def test_text_that_is_large_once_unpacked_is_refused_before_it_is_split(tmp_path, content, what):
+    path = tmp_path / "trace.csv.gz"
+    path.write_bytes(gzip.compress(content, 1))
+    assert f"is too large: it has {what}; allowed are" in refusal(path)
 
 
 PRF = """1 2

@@ -12,6 +12,7 @@ import pytest
 import scenes
 
 import comparisons as crosscheck
+from analytic.exact.partial_slip import SlippingContact
 from comparisons.campaigns.decks.write import write_deck
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
@@ -46,7 +47,12 @@ RESOLVED = ("smooth", "coated")  # to 2 % on these two meshes; the others' are t
 COARSER = {"coated": 3.0, "rubber": 3.0}
 
 
-def solved(folder: Path, tables: dict, level: int, old: str = "", new: str = "") -> np.ndarray:
+PRESSURE, SHEAR = 49, 61  # where in a line of the contact's results
+
+
+def solved(
+    folder: Path, tables: dict, level: int, old: str = "", new: str = "", column: int = PRESSURE
+) -> np.ndarray:
     """x [m] and pressure [Pa] (n, 2) of a deck's last step, after a change of its text."""
     deck = write_deck(scenes.resolved(tables), "calculix", folder, level)
     if old:
@@ -56,7 +62,7 @@ def solved(folder: Path, tables: dict, level: int, old: str = "", new: str = "")
     one = os.environ | {"OMP_NUM_THREADS": "1"}
     done = subprocess.run(["ccx", "job"], cwd=folder, env=one, capture_output=True, timeout=600)
     assert done.returncode == 0, done.stdout[-500:]
-    pressure = contact_values(folder / "job.frd", 49)
+    pressure = contact_values(folder / "job.frd", column)
     surface = deck.rough.surface
     x = deck.rough.points[surface, 0]
     return np.column_stack([1e-3 * x, [1e6 * pressure.get(n + 1, 0.0) for n in surface]])
@@ -139,3 +145,19 @@ def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):
     assert [abs(shear[n]) for n in pressure] == pytest.approx(
         [0.1 * p for p in pressure.values()], abs=1e-9 * hertz
     )
+
+
+def test_a_tangential_load_sticks_where_it_does(tmp_path):
+    """CalculiX' Coulomb friction, penalty and all, against Cattaneo and Mindlin."""
+    slip = {"partial_slip": {"load": 0.5}, "finite_element": {"block": 40.0}}
+    tables = scenes.changed(scenes.SMOOTH | slip, load={"friction": 0.3})
+    x, shear = solved(tmp_path, tables, 1, column=SHEAR).T
+    traction, hertz = -shear, scenes.problem(tables).hertz
+    exact = SlippingContact(hertz, 0.3, 0.5)
+    inside = np.abs(x) < 0.9 * hertz.half_width
+    wanted = exact.traction(x[inside])
+    off = np.linalg.norm(traction[inside] - wanted) / np.linalg.norm(wanted)
+    middle = np.abs(x) < 0.5 * exact.stick_half_width
+    print(off, np.abs(traction[middle] / exact.traction(x[middle]) - 1.0).max())
+    assert off < 0.03
+    assert traction[middle] == pytest.approx(exact.traction(x[middle]), rel=0.01)

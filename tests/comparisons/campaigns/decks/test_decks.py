@@ -97,6 +97,25 @@ def test_a_deck_is_complete(tmp_path, scene, code):
     assert answer["units"] == {"length": "mm", "stress": "MPa"}
 
 
+@pytest.mark.parametrize("code", ["calculix", "abaqus"])
+def test_a_roller_that_friction_holds_is_let_go_along_x(tmp_path, code):
+    """Tied along both axes, held while it is pressed, then loaded step by step."""
+    slip = {"loads": [0.5, -0.25]}
+    tables = scenes.changed(scenes.SMOOTH, load={"friction": [0.1, 0.3]}) | {"partial_slip": slip}
+    write_deck(scenes.resolved(tables), code, tmp_path)
+    found = blocks(tmp_path)
+    tied = [data[1][1] for keyword, _, data in found if keyword == "EQUATION"]
+    assert tied.count("1") == tied.count("2") > 0
+    loads = [float(r[2]) for word, _, data in found if word == "CLOAD" for r in data if r[1] == "1"]
+    limit = 0.3e-3 * scenes_load(scenes.resolved(tables))
+    assert loads == pytest.approx([0.5 * limit, -0.25 * limit])
+    *_, pressed, first, last = (data for word, _, data in found if word == "BOUNDARY")
+    assert ["REFERENCE", "1", "1"] in pressed
+    assert first == last == [["ROUGH_HELD_X", "1", "1"], ["ROUGH_HELD_Y", "2", "2"]]
+    [friction] = [data for keyword, _, data in found if keyword == "FRICTION"]
+    assert float(friction[0][0]) == 0.3
+
+
 def scenes_load(resolved) -> float:
     """[N/m]"""
     from comparisons.models.problem import problem_of
@@ -117,6 +136,10 @@ def test_a_linear_deck_is_the_scene_in_flatter_form():
     assert moduli == pytest.approx([210e9, 210e9])
 
 
+STRETCHED = scenes.changed(scenes.SMOOTH, load={"friction": 0.3})
+STRETCHED |= {"partial_slip": {"load": 0.5, "bulk_stress": 1e8}}
+
+
 def test_what_a_code_cannot_have_is_refused(tmp_path):
     hencky = scenes.changed(crosscheck.Scene.read("finite-strain").given, body={"law": "hencky"})
     for tables, code, said in (
@@ -124,6 +147,7 @@ def test_what_a_code_cannot_have_is_refused(tmp_path):
         (hencky, "fenicsx", "flat ones"),
         (crosscheck.Scene.read("yielding").given, "calculix", "finite_element.plastic"),
         (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "abaqus", "body.hardness"),
+        (STRETCHED, "calculix", "partial_slip.bulk_stress"),
     ):
         with pytest.raises(SceneError, match=said):
             write_deck(scenes.resolved(tables), code, tmp_path / code)

@@ -224,3 +224,14 @@ def test_stresses_as_arrays():
         found.stress(friction=0.3)
     with pytest.raises(InputError, match="model: is whole"):
         found.stress("whole")
+
+
+def test_figures_of_further_studies_are_swept():
+    """What sticks of a smooth contact falls with the load as Cattaneo and Mindlin have it."""
+    tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "partial_slip": {"load": 0.5}}
+    tables["load"] = {"per_length": 1e6, "friction": [0.3]}
+    found = crosscheck.sweep(tables, "partial_slip.load=0.19,0.51,0.84", workers=1)
+    lengths = [row["half_plane"] for row in found.rows if row["quantity"] == "stick_length"]
+    half_width = problem_of(scene_of(tables)).hertz.half_width
+    assert lengths == pytest.approx(np.array([1.8, 1.4, 0.8]) * half_width, rel=2e-3)
+    assert "length that sticks" in repr(found)

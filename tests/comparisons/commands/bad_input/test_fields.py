@@ -64,6 +64,7 @@ VALUES = [
     ("finite_element.geometry", "3", 'is 3; allowed is "flat" or "rough"'),
     ("roller.rigid", '"yes"', 'is "yes"; allowed is true or false'),
     ("resolution.levels", "2.5", "is 2.5; allowed is a whole number from 2 to 6"),
+    ('""', "3", "is no known field; the nearest is"),
     ("roller.raduis", "1", "is no known field; the nearest is roller.radius"),
     ("roller.friction", "0.1", "is no known field; the nearest is load.friction"),
     ("frictoin", "0.1", "is no known field; the nearest is load.friction"),
@@ -180,7 +181,7 @@ COMBINATIONS = [
     ),
     (
         {**SINUSOID, "profile.wavelength": '"1 nm"', "profile.length": '"1 m"'},
-        "profile: samples must be a whole number",
+        "profile: the trace would have 4000001 samples; allowed is a whole number from 8",
     ),
     (
         {**SELF_AFFINE, "profile.rms_height": '"1 um"'},

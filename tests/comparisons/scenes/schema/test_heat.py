@@ -84,6 +84,7 @@ OF_COAT = {f"coating_{name}": value for name, value in CONSTANTS.items()}
             {"finite_element": {"gap": "displaced"}},
             "is true beside a rough boundary or a",
         ),
+        ({"finite_element": {"element": "P1"}}, "is true with linear elements; allowed with"),
         ({"finite_element": FINITE}, "is true beside a nonlinear body; allowed"),
     ],
 )

@@ -198,6 +198,16 @@ def text(rows):
     return "x,p\n" + "\n".join(rows) + "\n"
 
 
+UNKNOWN_NODE = """<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="3" NumberOfCells="1">
+<PointData><DataArray type="Float64" Name="S" NumberOfComponents="3" format="ascii">
+1 2 3 4 5 6 7 8 9</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 0 -1 0</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 987654321</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>"""
 ROWS = [f"{x:g},{(1 - x**2) * 1e9:g}" for x in np.linspace(-1.0, 1.0, 11)]
 
 
@@ -208,6 +218,9 @@ ROWS = [f"{x:g},{(1 - x**2) * 1e9:g}" for x in np.linspace(-1.0, 1.0, 11)]
         ("a.csv", text([",".join(r.split(",")[::-1]) for r in ROWS]), "are they swapped"),
         ("a.csv", text([*ROWS, ROWS[-1]]), "x = 1 m twice"),
         ("a.csv", text(ROWS[:3]), "has 3 points"),
+        ("a.csv", text([*ROWS[:-1], "1,1e308"]), r"beyond 1e\+30 in SI units"),
+        ("a.csv", text([f"{k}e-300,{p}" for k, p in enumerate((1, 2, 4, 2, 1))]), "x = .* twice"),
+        ("a.vtu", UNKNOWN_NODE, "on nodes that it has not|crashes on it"),
         ("a.csv", text([f"{x},0" for x in range(9)]), "no pressure but 0"),
         ("a.csv", "nothing here\n", "no row of numbers"),
         ("a.vtu", "<VTKFile", "cannot be read|holds no mesh"),

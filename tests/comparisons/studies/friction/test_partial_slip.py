@@ -8,13 +8,18 @@ from scenes import NEO_HOOKEAN, STEEL, changed, problem, resolved
 
 from analytic.exact.partial_slip import SlippingContact
 from comparisons.common.errors import SceneError
+from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
+from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.output.flat_csv import rows_of
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
+from comparisons.studies.friction.finite_elements import finite_element_slip
+from comparisons.studies.friction.half_planes import half_plane_slip
 from comparisons.studies.friction.partial_slip import COMPARED, solvers
+from comparisons.studies.friction.show import slip_facts
 from comparisons.studies.study import unsolved
 
 SMOOTH = {
@@ -88,6 +93,44 @@ def test_bulk_stress_moves_the_zone_and_adds_itself():
     without = values(run(resolved(scene), None, ("half_plane",)))
     moved = values(outcome)["edge_tension"] - without["edge_tension"]
     assert BULK < moved < 2.0 * BULK  # the zone moves towards +x, off the trailing edge
+
+
+@pytest.mark.parametrize("roller", [STEEL, {"rigid": True}], ids=["elastic", "rigid"])
+def test_unlike_bodies_are_loaded_alike_by_both_models(roller):
+    """By few increments, the same of both, on the coarsest elements."""
+    radius = {"radius": 8e-3}
+    scene = SMOOTH | {"roller": radius | roller, "partial_slip": {"load": 0.5}}
+    scene = scene | {"body": {"youngs_modulus": 70e9, "poissons_ratio": 0.33}}
+    posed = problem(changed(scene, load={"friction": 0.3}))
+    level = half_plane_level(posed, posed.pitches[0], None, Stages())
+    one = half_plane_slip(posed, level, None, 3)
+    other = finite_element_slip(posed, make_plan(posed, MODELS), None, level, 3)
+    assert all(state.converged for state in (*one.states, *other.states))
+    path = posed.scene.partial_slip.path
+    for name, value in one.figures(path).items():
+        print(name, value / other.figures(path)[name] - 1.0)
+        assert value == pytest.approx(other.figures(path)[name], rel=0.02)
+
+
+@pytest.mark.parametrize("factor, verdict", [(1.0, "agree"), (1.4, "differ")])
+def test_an_answer_from_outside_may_have_tractions(tmp_path, factor, verdict):
+    """The exact ones, and those of a load that is larger."""
+    scene = changed(SMOOTH, partial_slip={"loads": [0.5]}, load={"friction": 0.3})
+    hertz = problem(scene).hertz
+    x = np.linspace(-1.2, 1.2, 1201) * hertz.half_width
+    traction = SlippingContact(hertz, 0.3, 0.5 * factor).traction(x)
+    rows = 1e3 * x, 1e-6 * hertz.pressure(x), 1e-6 * traction
+    np.savetxt(tmp_path / "answer.csv", np.column_stack(rows), delimiter=",", header="x,p,q")
+    source = {"file": "answer.csv", "shear": 2, "units": {"length": "mm", "stress": "MPa"}}
+    scene = scene | {"answers": {"exact": source}}
+    scene.pop("stress")
+    outcome = run(resolved(scene, folder=tmp_path), None, ("half_plane",))
+    known = outcome.figures.of(study="partial_slip", source="exact")
+    assert known.one(quantity="stick_length", against="half_plane").verdict == verdict
+    norm = known.one(quantity="traction_l2")
+    assert (norm.value < norm.numerical < 0.03) == (verdict == "agree")
+    [said] = [text for name, text in slip_facts(outcome) if "from outside" in name]
+    assert said.endswith(verdict)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,82 @@
+"""Tractions of answers from outside beside a model's, at the end of the scene's path of loads."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from analytic.numerics import runs_of
+from comparisons.figures.convergence import REGULAR
+from comparisons.figures.figure import Figure
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.studies.answers.answer import Answer
+from comparisons.studies.friction.half_planes import SlippedLevel
+
+# Of friction times pressure: tractions below it are taken for those of sticking. Next to the end of
+# a zone they rise like a root, so that this is half a per cent of its length off; of both alike.
+STUCK = 0.9
+
+
+def outside_figures(
+    answers: Mapping[str, tuple[Answer, ...]],
+    levels: Sequence[SlippedLevel],
+    model: Figure,
+    tolerance: float,
+) -> Iterator[Figure]:
+    """Of the finest answer of each name that has tractions: the length that sticks, its difference
+    from a `model`'s, and the relative L2 norm of both tractions' difference on its finest level.
+
+    A length is read to the spacing of the answer's points at either end of a zone, from both in one
+    way; the norm has what these points leave out of the model's own traction, and by how much that
+    differs on the level before, which is of first order."""
+    friction, grid, state = model.friction, levels[-1].grid, levels[-1].states[-1]
+    traction = state.traction
+    size = float(np.linalg.norm(traction)) or 1.0
+    refined = np.inf
+    if len(levels) > 1:
+        coarser = np.interp(grid.x, levels[-2].grid.x, levels[-2].states[-1].traction)
+        refined = REGULAR * float(np.linalg.norm(coarser - traction)) / size
+
+    def stuck(pressure: np.ndarray, shear: np.ndarray) -> tuple[float, int]:
+        """Length [m] and number of zones."""
+        held = (pressure > 0.0) & (np.abs(shear) < STUCK * friction * pressure)
+        first, after = runs_of(held)
+        return float(grid.pitch * (after - first).sum()), len(first)
+
+    reference, _ = stuck(state.normal.pressure, traction)
+    for name, resolutions in answers.items():
+        answer = resolutions[-1]
+        if answer.shear is None:
+            continue
+        pressure = answer.on(grid.x)
+        shear = np.where(pressure > 0.0, np.interp(grid.x, answer.x, answer.shear), 0.0)
+        length, zones = stuck(pressure, shear)
+        read = 2.0 * answer.spacing * max(1, zones) ** 0.5
+        common = {"study": model.study, "source": name, "at": model.at}
+        scale = length or grid.pitch
+        yield Figure(
+            quantity=model.quantity,
+            value=length,
+            scale=scale,
+            uncertainty=Uncertainty({"answer": read / scale}),
+            **common,
+        )
+        stated = Uncertainty({"answer": read / model.scale, "model": model.numerical})
+        yield Figure(
+            quantity=model.quantity,
+            value=(length - reference) / model.scale,
+            against=model.source,
+            scale=model.scale,
+            uncertainty=stated,
+            bounds=(-tolerance, tolerance),
+            **common,
+        )
+        seen = np.interp(answer.x, grid.x, traction, left=0.0, right=0.0)
+        coarse = np.interp(grid.x, answer.x, seen)
+        left = float(np.linalg.norm(coarse - traction)) / size
+        yield Figure(
+            quantity="traction_l2",
+            value=float(np.linalg.norm(shear - traction)) / size,
+            against=model.source,
+            uncertainty=Uncertainty({"answer": left, "model": refined}),
+            **common,
+        )

@@ -1,0 +1,101 @@
+"""What is nearly right at the door is answered by what to type."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import main
+
+SCENE = """
+roller = {radius = "8 mm", youngs_modulus = "207 GPa", poissons_ratio = 0.3}
+body = {youngs_modulus = "207 GPa", poissons_ratio = 0.3}
+load = {per_length = "0.5 N/um"}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(SCENE)
+    return tmp_path
+
+
+def answered(capsys, *arguments: str) -> str:
+    """The one line that refuses a command."""
+    assert main(list(arguments)) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1
+    return err
+
+
+@pytest.mark.parametrize("content", [b"x,z\n0,1\n1,2\n", b"\xff\xfe\x00", b"0,1\n" * 300_000])
+def test_a_trace_in_the_place_of_a_scene_is_told_init(folder, capsys, content):
+    (folder / "my trace.txt").write_bytes(content)
+    said = answered(capsys, "run", "my trace.txt")
+    assert "is no scene; of a measured trace `crosscheck init 'my trace.txt'` makes one" in said
+
+
+@pytest.mark.parametrize("name", ["mine.tml", "mine", "mne.toml"])
+def test_a_misspelt_scene_beside_one_is_told_its_name(folder, capsys, name):
+    assert "there is no such file, but mine.toml; allowed" in answered(capsys, "run", name)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("per_length", "force", "load.force: is no known field; the nearest is load.per_length"),
+        ("radius", "diameter", "is no known field; the nearest is roller.radius"),
+        ("0.5 N/um", "100 N", 'is "100 N", a force: a force per length is "100 N/mm"; allowed is'),
+    ],
+)
+def test_what_is_meant_is_said(folder, capsys, old, new, said):
+    (folder / "mine.toml").write_text(SCENE.replace(old, new))
+    assert said in answered(capsys, "run", "mine.toml")
+
+
+def test_a_tolerance_may_be_a_percentage(folder, capsys, undrawn):
+    (folder / "mine.toml").write_text(f"{SCENE}tolerance = {{peak_pressure = 0.5}}\n")
+    run = ["run", "mine.toml", "--models", "half-plane", "--json", "--tolerance"]
+    assert main([*run, "5%"]) == 0
+    assert '"peak_pressure": 0.05' in capsys.readouterr().out
+    for wrong in ("5", "x", "500%", "nan"):
+        assert f"--tolerance: is {wrong}; allowed is a number" in answered(capsys, *run, wrong)
+
+
+def test_the_version_is_said(capsys):
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out.split()[0] == "crosscheck"
+
+
+def test_a_plan_says_levels_and_seconds_and_solves_nothing(folder, capsys):
+    assert main(["run", "mine.toml", "--plan"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("planned: 3 levels (") and " s, " in out
+    assert "skipped: coupling: there is no friction" in out
+    assert [path.name for path in folder.iterdir()] == ["mine.toml"]
+
+
+def test_the_table_of_runs_is_for_people_and_csv_on_request(folder, capsys, undrawn):
+    assert main(["run", "mine.toml", "--models", "half-plane"]) == 0
+    capsys.readouterr()
+    assert main(["table", "results"]) == 0
+    out = capsys.readouterr().out
+    assert "half plane" in out.splitlines()[0] and "GPa" in out and max(map(len, out)) < 120
+    assert main(["table", "results", "--csv"]) == 0
+    assert capsys.readouterr().out.startswith("run,scene,title,friction,quantity,unit,half_plane")
+
+
+def test_a_mark_of_another_kind_than_the_map_is_refused(folder, capsys):
+    said = answered(capsys, "map", "slope-wavelength", "--mark", "smooth", "--out", "map")
+    assert "--mark: smooth is smooth, and the map is of a rough surface; allowed is" in said
+
+
+def test_init_says_what_it_has_assumed(folder, capsys):
+    rows = (f"{0.5 * k},{0.2 * math.sin(0.1 * k)}\n" for k in range(2000))
+    (folder / "trace.csv").write_text("x [um],z [um]\n" + "".join(rows))
+    assert main(["init", "trace.csv", "--youngs-modulus", "200 GPa"]) == 0
+    out = capsys.readouterr().out
+    assert "assumed as examples, put in yours: roller.radius = " in out
+    assert "load.hertz_peak_pressure = 1 GPa" in out and "youngs_modulus = " not in out
+    assert "law of elasticity" in out
