@@ -24,11 +24,10 @@ judged. Nothing is written unless a folder is given.
 >>> round(peak.value / 1e9, 4), peak.verdict
 (1.0, None)
 
-Results print as the tables of the command line; in a notebook they are shown as such.
+A run prints in ten lines; in a notebook the tables of the command line are shown.
 
 >>> print(run)  # doctest: +ELLIPSIS
 Steel on steel
-...
 peak pressure   0, 0.1  1.000 GPa ...
 
 `run.figures` are all of them, `run.figures.rows` records of them, `run.plot` draws.

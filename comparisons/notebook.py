@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 AnyScene = Scene | Mapping | str | os.PathLike
 """A scene, its tables, its name or its path."""
 
+SHOWN = 4  # figures of a run that is printed
 COLUMNS = 100  # of text; a notebook's cell is as wide
 PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
 
@@ -106,6 +108,31 @@ class FinishedRun(Printed):
     """A finished run; `outcome` is everything that was computed."""
 
     outcome: study.Run
+
+    def __repr__(self) -> str:
+        """In ten lines: title, the first figures, the verdict and what to do next. A notebook
+        shows the tables of the command line."""
+        from comparisons.output.headline import headline
+        from comparisons.output.page.tables.comparison import figure_rows
+        from comparisons.output.terminal import SHORT
+        from comparisons.studies.model_error.show import model_error_rows
+
+        run, said = self.outcome, headline(self.outcome)
+        if run.plan.compares:
+            rows = [
+                f"{SHORT[row.quantity]:14}  {row.friction:6}  half-plane {row.half_plane}, whole "
+                f"{row.whole}: error {row.error} ± {row.uncertainty}"
+                for row in model_error_rows(run, judged=True)
+            ]
+        else:
+            rows = [
+                f"{SHORT[name]:14}  {friction:6}  {value}  {of_hertz} ± {unsure}"
+                for name, friction, value, of_hertz, unsure in figure_rows(run)
+            ]
+        more = [f"… {len(rows) - SHOWN} more figures"] if len(rows) > SHOWN else []
+        ends = f"{said.kind.upper()}  {said.sentence}", f"Next:  {said.next}"
+        lines = run.problem.scene.title, *rows[:SHOWN], *more, *ends
+        return "\n".join(part for line in lines for part in wrap(line, COLUMNS))
 
     @property
     def result(self) -> dict:

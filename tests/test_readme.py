@@ -22,11 +22,12 @@ from comparisons.commands.arguments import RESULTS
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
 from comparisons.common.progress import Stages
-from comparisons.drawing.style import drawing
+from comparisons.drawing.style import collected_figures
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
+from comparisons.output.page.pictures.answer import REACH, overview_picture
 from comparisons.output.terminal import SHORT
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
@@ -87,7 +88,7 @@ class Call:
 
 def call(arguments: list[str], folder: Path) -> Call:
     """`crosscheck` with these arguments, in a folder."""
-    outcomes, original = [], run_module.run
+    outcomes, original = [], run_module.solve_scene
 
     def watched(scene: Scene, *arguments: object) -> Run:
         """With fewer points of the fields, which take half the time of all effects."""
@@ -96,7 +97,7 @@ def call(arguments: list[str], folder: Path) -> Call:
 
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
         patch.chdir(folder)
-        patch.setattr(run_module, "run", watched)
+        patch.setattr(run_module, "solve_scene", watched)
         status = main(arguments)
     return Call(status, printed.getvalue(), outcomes[0] if outcomes else None)
 
@@ -144,7 +145,7 @@ def test_first_command_runs_both_models_and_fills_the_folder_that_is_named(monke
         calls.append((scene.name, *rest[:2]))
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(run_module, "run", noted)
+    monkeypatch.setattr(run_module, "solve_scene", noted)
     monkeypatch.chdir(tmp_path)
     assert main(shlex.split(COMMANDS[0])[1:]) == ExitStatus.INTERRUPTED
     assert calls == [("ground-unrun", RESULTS / "ground-unrun", MODELS)]
@@ -377,8 +378,9 @@ class TestPicture:
     def test_holds_the_figures_of_the_run(self, mine):
         outcome = mine.outcome
         hertz, window, friction = outcome.problem.hertz, outcome.window, outcome.deciding_friction
-        with drawing():
-            pressures, differences, surfaces, shear, _ = overview.overview(outcome).axes
+        with collected_figures() as figures:
+            overview_picture(outcome)
+        pressures, differences, surfaces, shear, _ = figures[0].axes
         drawn = {line.get_label(): line.get_xydata() for line in pressures.lines}
         levels = outcome.levels(friction)
         for name, level in levels.items():
@@ -393,5 +395,5 @@ class TestPicture:
         assert len(surfaces.lines) == 2 * len(levels)
         assert shear.get_ylim() == (window.z[-1] / hertz.half_width, 0.0)
         assert {panel.get_xlim() for panel in (pressures, differences, surfaces, shear)} == {
-            (-overview.REACH, overview.REACH)
+            (-REACH, REACH)
         }

@@ -20,11 +20,14 @@ from comparisons.commands.arguments import (
     out_option,
 )
 from comparisons.commands.output import progress, show, show_either
-from comparisons.common.errors import ExitStatus, InputError, nearest, tell
+from comparisons.common.errors import ExitStatus, InputError, drop, nearest, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 
 if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+    from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
 
@@ -72,13 +75,8 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
-        from comparisons.common.executors import cluster
-        from comparisons.output.junit import junit_xml, run_cases_of, write_junit
         from comparisons.output.plausibility import warnings_about, warnings_about_result
-        from comparisons.output.result_json import content_of
-        from comparisons.output.terminal import summary
-        from comparisons.runs.run import Known
-        from comparisons.runs.run import run as run_scene
+        from comparisons.runs.run import Known, finish, solve_scene
         from comparisons.scenes.surface import surface_of
 
     began = perf_counter()
@@ -95,17 +93,33 @@ def run(
     _say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
     if sys.stderr.isatty():
         _say_first_answer(asked, surface)
-    with progress() as callback, cluster(workers) if workers else nullcontext() as opens:
-        outcome = run_scene(asked, directory, chosen, callback, fields, opens, Known(surface))
+    with progress() as callback, _workers(workers) as opens:
+        solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
+    from comparisons.output.result_json import content_of
+    from comparisons.output.terminal import summary
+
+    gone, content = None, content_of(solved) if as_json else {}
+    try:
+        show_either(as_json, content, lambda: summary(solved, details))
+        sys.stdout.flush()  # the answer, before the report is drawn
+    except (BrokenPipeError, SystemExit) as error:  # as rich has it; the files are for others
+        gone = error
+        drop(sys.stdout)
+    _say_warnings(warnings_about_result(solved))
+    with progress() as callback:
+        finish(solved, callback, fields)
         if pdf and is_first():
             callback("printing the report")
             _print(directory)
     if junit is not None:
-        write_junit(junit, junit_xml(asked.name, run_cases_of(outcome), perf_counter() - began))
-    content = content_of(outcome) if as_json else {}
-    show_either(as_json, content, lambda: summary(outcome, details))
-    _say_warnings(warnings_about_result(outcome))
-    return outcome.exit_status
+        from comparisons.output.junit import junit_xml, run_cases_of, write_junit
+
+        write_junit(junit, junit_xml(asked.name, run_cases_of(solved), perf_counter() - began))
+    if gone is not None:
+        raise gone
+    if not as_json:
+        print(f"written: {directory / 'report.html'}, result.json and the fields beside it")
+    return solved.exit_status
 
 
 def _read(scene: str, answers: Sequence[str], tolerance: str | None) -> "Scene":
@@ -150,6 +164,15 @@ def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) 
     return ExitStatus.DONE
 
 
+def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":
+    """Those of a Dask scheduler, or none but this machine's."""
+    if scheduler is None:
+        return nullcontext()
+    from comparisons.common.executors import cluster
+
+    return cluster(scheduler)
+
+
 def _limited(scene: "Scene", up_to: str) -> "Scene":
     """The scene up to a rung. Raises InputError for one that there is not."""
     allowed = HERTZ, *UP_TO
@@ -175,10 +198,12 @@ def _hertz_alone(scene: "Scene", surface: "SceneSurface") -> int:
 def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) -> None:
     """Raise InputError unless the files can be written; say what one model alone replaces."""
     from comparisons.common.files import check_writable, holds_comparison
-    from comparisons.output.junit import check_place
 
     check_writable(directory)
-    check_place(junit)
+    if junit is not None:
+        from comparisons.output.junit import check_place
+
+        check_place(junit)
     if len(models) == 1 and holds_comparison(directory):
         tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
 

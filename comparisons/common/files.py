@@ -3,9 +3,11 @@
 Unfinished files are inside the folder where it exists: its parent need not be writable, and no file
 moves to another file system. Else they are beside it: the folder appears with the results."""
 
+import csv
 import errno
 import fcntl
 import glob
+import io
 import json
 import os
 import shutil
@@ -216,6 +218,13 @@ def write_whole(path: Path, text: str) -> None:
     """Write a file as UTF-8."""
     with whole_file(path) as part:
         part.write_text(text, encoding="utf-8")
+
+
+def csv_text(rows: Iterable[Iterable[object]]) -> str:
+    """Rows of a table as the text of a CSV file."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def remove_leftovers(folder: Path) -> None:

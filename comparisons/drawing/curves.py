@@ -1,16 +1,20 @@
 """Panels of curves under each other over one axis, and the load in words above them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from comparisons.common.numbers import given, with_unit
 from comparisons.drawing import style
+from comparisons.figures.quantity import LABELS
 from comparisons.models.problem import Problem
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+COINCIDE = 1e-2  # of the reach of all curves: what is nearer is one line
 LEFT, FOOT = 0.8, 0.46  # inches: left of the panels, below the last
 
 
@@ -44,6 +48,30 @@ def columns(
         style.stacked(drawn, panel_rows, start, width - start - share + between)
         for start, panel_rows in zip(lefts, rows, strict=True)
     ]
+
+
+Curve = tuple[np.ndarray, np.ndarray]  # x ascending, y
+
+
+def distinct(curves: Mapping[str, Curve]) -> dict[tuple[str, ...], Curve]:
+    """Curves by the names of all that coincide with them: one line over another would be a third
+    colour, and hide it. The reach of y decides how near that is."""
+    apart: dict[tuple[str, ...], Curve] = {}
+    reach = max((np.ptp(y) for _, y in curves.values()), default=0.0)
+    for name, (x, y) in curves.items():
+        for names, (place, known) in apart.items():
+            if np.allclose(np.interp(place, x, y), known, rtol=0.0, atol=COINCIDE * reach):
+                apart[(*names, name)] = apart.pop(names)
+                break
+        else:
+            apart[(name,)] = x, y
+    return apart
+
+
+def joint_label(names: Sequence[str], beside: str = "") -> str:
+    """Of a line that stands for several."""
+    words = [LABELS[name] for name in names]
+    return words[0] + beside if len(words) == 1 else f"{' = '.join(words)}{beside}"
 
 
 def over(axes: "Sequence[Axes]", label: str, ends: Sequence[float] | None = None) -> None:

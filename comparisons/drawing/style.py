@@ -5,7 +5,6 @@ line style, for grey printers.
 """
 
 import base64
-import csv
 import io
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -17,6 +16,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from comparisons.common.files import csv_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -244,7 +245,5 @@ def csv_link(drawn: "Figure") -> tuple[str, str] | None:
 
 def csv_uri(rows: Sequence[Sequence[object]]) -> str:
     """Rows of a table as the data URI of a CSV file."""
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    content = base64.b64encode(text.getvalue().encode()).decode("ascii")
+    content = base64.b64encode(csv_text(rows).encode()).decode("ascii")
     return f"data:text/csv;charset=utf-8;base64,{content}"

@@ -6,7 +6,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_assumptions
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.sections import RollerSection
+from comparisons.scenes.sections import BodySection, RollerSection
 
 LAW_NAMES = {
     "neo-hookean": "neo-Hookean",
@@ -67,13 +67,29 @@ def _split(half_plane: str, finite_elements: str) -> str:
 def _deformation(scene: Scene) -> str:
     settings = scene.finite_element
     linear, small = "linear elasticity", "small deformation"
+    if settings.plastic and settings.deformation == "finite":
+        flow = f"finite deformation, von Mises' yield by true strain{hardening_text(scene.body)}"
+        return f"plane strain; {_split(f'{linear}, {small}', flow)}"
     if settings.plastic:
-        flow = "von Mises' yield with isotropic hardening"
+        flow = f"von Mises' yield{hardening_text(scene.body)}"
         return f"{small}, plane strain; {_split(linear, flow)}"
     if settings.deformation == "finite":
         finite = f"{laws(scene)} elasticity, finite deformation"
         return f"plane strain; {_split(f'{linear}, {small}', finite)}"
     return f"{linear}, {small}, plane strain"
+
+
+def hardening_text(body: BodySection) -> str:
+    """How a body hardens, for the end of a phrase."""
+    words = {
+        "voce": "by Voce's law",
+        "ludwik": "by Ludwik's law",
+        "table": "by a table",
+        "kinematic": "kinematic",
+    }
+    laws = [words[name] for name in words if name in (body.hardening or {})]
+    laws = ["linear"] * bool(body.hardening_modulus) + laws
+    return f", {' and '.join(laws)} hardening" if laws else ""
 
 
 def _gap(settings: FiniteElementSection) -> str:

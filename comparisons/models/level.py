@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from fem.stress.stress import NodalStress
 
 
+STRAIN = "equivalent_plastic_strain"  # a field of what flows
+
+
 @dataclass(frozen=True)
 class ExpectedCost:
     """What a level will take by measured laws; `memory` [bytes] at the peak."""
@@ -210,6 +213,12 @@ class Level:
     def extent(self) -> float:
         """Distance from the first to the last contact [m]."""
         return float(self.patches[-1, 1] - self.patches[0, 0])
+
+    @property
+    def plastic_strain(self) -> float | None:
+        """The largest equivalent one under the load; None where nothing shows it."""
+        others = self.mesh_field.others if isinstance(self.mesh_field, MeshField) else {}
+        return float(others[STRAIN].max()) if STRAIN in others else None
 
     def stress(self, friction: float) -> StressResult | None:
         """Stresses under one friction coefficient, None without [stress]."""

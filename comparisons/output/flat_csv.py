@@ -24,15 +24,13 @@ and `high` the bounds of what is judged.
 
 What is unknown is empty in a CSV and null in a Parquet file."""
 
-import csv
-import io
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
 from pathlib import Path
 
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.files import whole_file, write_whole
+from comparisons.common.files import csv_text, whole_file, write_whole
 from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.output.record import read_result
@@ -82,12 +80,6 @@ def as_csv(rows: Iterable[Row], columns: Sequence[str] = COLUMNS) -> str:
     Neither a terminal nor a spreadsheet obeys a text of it: control characters are written as
     escapes, and an apostrophe stands before what would be a formula."""
     return csv_text([columns, *([harmless(row[name]) for name in columns] for row in rows)])
-
-
-def csv_text(rows: Iterable[Iterable[object]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()
 
 
 def harmless(value: object) -> object:

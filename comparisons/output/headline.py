@@ -242,6 +242,10 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
         given = '[roller]\nsupport = "opposite"'
         others = '"half disc" or {hub = "…"}'
         return f'roller.support = "opposite", {others}: what holds the roller.', (given,)
+    if largest == "finite_strain" and FLOW in run.data(MODEL_ERROR).selection.whole:
+        given = '[finite_element]\nplastic = true\ndeformation = "finite"'
+        both = 'plastic = true, deformation = "finite"'
+        return f"finite_element = {{{both}}} computes it.", (given,)
     if largest == "plastic_flow":
         given = "[finite_element]\nplastic = true"
         missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"

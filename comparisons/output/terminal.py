@@ -1,4 +1,4 @@
-"""The short table of a run for the terminal: figures, verdict, where the files are, time."""
+"""The short table of a run for the terminal: figures, verdict, what to do next, time."""
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
@@ -35,7 +35,7 @@ PLAIN |= {ord("±"): "+-", ord("σ"): "s"}
 
 
 def summary(run: Run, details: bool = False) -> "RenderableType":
-    """Tables, verdict, what to do next, files and times; readable at 80 columns and without colour.
+    """Tables, verdict, what to do next and times; readable at 80 columns and without colour.
 
     details  every compared quantity, where the models agree in all that is judged"""
     from rich.console import Group
@@ -193,7 +193,4 @@ def _facts(outcome: Run) -> "Table":
     facts.add_column(overflow="fold")
     for name, text in [*rows, ("time", times)]:
         facts.add_row(name, Text(text.translate(PLAIN).replace(" %", "%")))
-    if outcome.directory is not None:
-        for name, file in (("report", "report.html"), ("figures", "result.json")):
-            facts.add_row(name, Text(str(outcome.directory / file)))
     return facts

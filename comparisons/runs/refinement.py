@@ -20,6 +20,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import discretisations
 from comparisons.studies.study import Solved
+from fem.solver.mumps import FemError
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
@@ -201,13 +202,22 @@ class _Levels:
 
     def checked(self, solved: Solved, why: str) -> Solved:
         """With the far boundary at half the distance, longer increments, and why that is all."""
-        again, runs = [self.tasks.result(task.key) for task in self.checks], dict(solved.runs)
+        again, runs = [*filter(None, map(self._check, self.checks))], dict(solved.runs)
         if again:
             far = again.pop(0) if self.plan.domain_check else None
             runs["finite_element"] = replace(
                 runs["finite_element"], far_boundary_check=far, longer_increments=tuple(again)
             )
         return replace(solved, runs=runs, refinement=why)
+
+    def _check(self, task: _LevelTask) -> Level | None:
+        """A check; None of the longest increments, which Newton's method may not bear."""
+        try:
+            return self.tasks.result(task.key)
+        except FemError:
+            if task.times < max(LONGER):
+                raise
+            return None
 
     def spent(self, runs: Mapping[str, ModelRun]) -> str | None:
         """Why one more level of every model would exceed the budget, or the machine's memory, or

@@ -34,7 +34,6 @@ from comparisons.models.running_in import run_in_surface
 from comparisons.output.field_files import AUTOMATIC
 from comparisons.output.record import record_of
 from comparisons.runs.refinement import refined
-from comparisons.runs.write import write_files
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
 from comparisons.studies import STUDIES
@@ -46,7 +45,9 @@ from fem.solver.communicator import is_alone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-# Modules that write what was solved, those first that others would import at once.
+# Modules that say what was solved, and that draw and write it; first those that others would import
+# at once.
+ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
 REPORT = (
     *("PIL.Image", "pyparsing", "matplotlib.axes", "matplotlib.figure"),
     *("matplotlib.backends.backend_svg", "jinja2", "comparisons.output.page.page"),
@@ -60,6 +61,7 @@ Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, and a small scene
 GOES_ON = "finished levels are kept, the same command goes on from there"
+WRITES_AGAIN = "nothing was written, but all is solved and kept: the same command writes the files"
 
 
 @dataclass(frozen=True)
@@ -80,19 +82,32 @@ def run(
     opens: Opens | None = None,
     known: Known = Known(),
 ) -> Run:
-    """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
+    """`solve_scene`, then `finish`: a run whose files are in `out`, or nowhere (None)."""
+    solved = solve_scene(scene, out, models, within(callback, 0.0, SOLVED), opens, known)
+    finish(solved, within(callback, SOLVED, 1.0), fields)
+    return solved
+
+
+def solve_scene(
+    scene: Scene,
+    out: Path | None,
+    models: tuple[str, ...],
+    callback: ProgressCallback = no_progress,
+    opens: Opens | None = None,
+    known: Known = Known(),
+) -> Run:
+    """Solve a scene, compare and judge. Of its files there is nothing yet (`finish`), but what is
+    solved is kept beside `out`: a run that is stopped goes on from there.
 
     models    of half_plane, finite_element; fewer where budget.up_to asks for no more
     callback  gets each stage as it begins
-    fields    format of the stress fields, as `write_files` takes it
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
-    Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
-    SolverError where the finite elements find no solution or a process ends amid a task,
-    MemoryError where the process may not have what they take, ModuleNotFoundError without their
-    libraries; nothing is written then."""
+    Raises InputError for a scene that cannot be solved, SolverError where the finite elements find
+    no solution or a process ends amid a task, MemoryError where the process may not have what they
+    take, ModuleNotFoundError without their libraries; nothing is kept then."""
     scene, models = limited(scene, models)
     if may_stop_early(scene, models):
-        first = run(scene, None, MODELS[:1], callback, known=known)
+        first = solve_scene(scene, None, MODELS[:1], callback, known=known)
         models = MODELS[:1] if first.found[LADDER].said(SUFFICES) else models
     _check_processes(scene, models)
     _check_libraries(models)
@@ -101,7 +116,7 @@ def run(
         problem, plan = posed(scene, surface, models, known.levels, callback)
         callback(forecast(problem, plan).text)
         scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
-        return solve(scene_now, out, callback, fields)
+        return solve(scene_now, out, callback)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
@@ -110,7 +125,7 @@ def run(
     except FemError as error:
         remedy = "a lighter load"
         if scene.finite_element.plastic:
-            remedy += ", a higher body.yield_stress or body.hardening_modulus"
+            remedy += ", a higher body.yield_stress or more hardening"
         raise SolverError(
             f"{scene.source}: the finite elements found no solution: {error}; what may help is "
             f"{remedy}, or finer pressures (resolution.pitch)"
@@ -176,21 +191,18 @@ def _problem(
     return problem_of_approach(scene, callback, surface, levels)
 
 
-def solve(
-    scene: Solved,
-    out: Path | None,
-    callback: ProgressCallback = no_progress,
-    fields: str = AUTOMATIC,
-) -> Run:
-    """Solve a scene by its plan and answer its studies, as `run` does; nothing is solved yet."""
+def solve(scene: Solved, out: Path | None, callback: ProgressCallback = no_progress) -> Run:
+    """Solve a scene by its plan and answer its studies, as `solve_scene`; nothing is solved yet."""
     problem, plan = scene.problem, scene.plan
     cache = level_cache(out, problem, plan)
     chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
-    there = _for_finite_elements() if "finite_element" in plan.models else ()
-    here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
-    solving, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
+    has_elements = "finite_element" in plan.models
+    there = _for_finite_elements() if has_elements else ()
+    # the half-plane is done before pictures are imported
+    modules = ANSWER + REPORT * (has_elements and out is not None)
+    here = [revision, *(partial(import_module, name) for name in modules)]
     try:
-        with tasks_here(solving, memory, cache, here, there) as tasks:
+        with tasks_here(callback, problem.scene.budget.memory, cache, here, there) as tasks:
 
             def begin(solved: Solved) -> None:
                 for study in chosen:
@@ -204,15 +216,23 @@ def solve(
     except (ContactError, FemError, InputError, MeshError):
         cache.discard()
         raise
-    record = record_of(problem, solved.runs, _hashes(solved, findings))
-    run = Run(solved, findings, record, out)
+    return Run(solved, findings, record_of(problem, solved.runs, _hashes(solved, findings)), out)
+
+
+def finish(run: Run, callback: ProgressCallback = no_progress, fields: str = AUTOMATIC) -> None:
+    """Write the files of a solved run into its folder, if it has one; what was kept of it goes.
+
+    fields  format of the stress fields, as `write_files` takes it
+    Raises InputError for a folder that cannot be written."""
+    if run.directory is None:
+        return
+    from comparisons.runs.write import write_files
+
     try:
-        if out is not None:
-            write_files(run, within(callback, SOLVED, 1.0), fields)
+        write_files(run, callback, fields)
     except KeyboardInterrupt:
-        raise _interrupted(out) from None
-    cache.discard()
-    return run
+        raise KeyboardInterrupt(WRITES_AGAIN) from None
+    replace(NO_CACHE, folder=unfinished(run.directory, "run")).discard()
 
 
 def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:

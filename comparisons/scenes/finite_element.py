@@ -38,8 +38,6 @@ class FiniteElementSection(SceneSection):
     growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
-        if self.deformation == "finite" and self.plastic:
-            yield "plastic", 'is true beside deformation = "finite"; allowed is one of the two'
         if self.nonlinear and self.element not in (None, "P2"):
             cause = "finite_element.deformation" if self.deformation == "finite" else "plastic"
             yield "element", f'is "{self.element}" with {cause}; allowed there is "P2"'
@@ -97,6 +95,8 @@ class FiniteElementSection(SceneSection):
             yield "far_field", 'is "half-plane", but the body has a coating; allowed is "held"'
         if self.plastic and body.yield_stress is None:
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
+        if finite and self.plastic and coated:
+            yield "plastic", "is true for a coated body; allowed without [coating]"
         if finite and profile is not None and self.geometry == "flat":
             yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
         if finite and apart:

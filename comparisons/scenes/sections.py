@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Self
 from pydantic import Field, model_validator
 
 from analytic.material import LAWS, Law, Material
+from analytic.material.hardening import Hardening
 from comparisons.common.errors import nearest
 from comparisons.common.units import (
     DIMENSIONLESS,
@@ -37,6 +38,7 @@ from comparisons.scenes.fields import (
     Whole,
     allowed,
 )
+from comparisons.scenes.hardening import HardeningField, hardening_of
 from comparisons.scenes.materials import ELASTIC, Solid, SolidName, solid_named, solids
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
@@ -204,6 +206,7 @@ class BodySection(ElasticSection):
     hardness: Pressure | None = None
     yield_stress: Pressure | None = None
     hardening_modulus: Annotated[float, Number(PRESSURE, at_least=0.0)] | None = None
+    hardening: Annotated[dict[str, object], HardeningField()] | None = None
     thickness: Length | None = None
     width: Length | None = None
     base: Annotated[str, OneOf(("bonded", "frictionless"))] | None = None
@@ -212,9 +215,20 @@ class BodySection(ElasticSection):
         yield from super().broken_rules()
         if self.base is not None and self.thickness is None:
             yield "base", "is given for a half-plane, which has none; allowed only with thickness"
-        if self.hardening_modulus is not None and self.yield_stress is None:
-            problem = "is given for a body that does not yield; allowed only with yield_stress"
-            yield "hardening_modulus", problem
+        for name in ("hardening_modulus", "hardening"):
+            if getattr(self, name) is not None and self.yield_stress is None:
+                problem = "is given for a body that does not yield; allowed only with yield_stress"
+                yield name, problem
+        if self.hardening is not None and self.yield_stress is not None:
+            try:
+                self.flow_stress()
+            except ValueError as error:
+                right = allowed(type(self), "hardening")
+                yield "hardening", f"is no law: {error}; allowed is {right}"
+
+    def flow_stress(self) -> Hardening:
+        """Of a body with a yield stress."""
+        return hardening_of(self.yield_stress, self.hardening_modulus, self.hardening)
 
     def completed(self, scene: SceneSection) -> Self:
         is_layer = self.thickness is not None

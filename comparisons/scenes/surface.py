@@ -15,7 +15,13 @@ from analytic.profile import Profile
 from analytic.running_in import RunIn
 from analytic.surface.filters import check_cutoff, filtered
 from analytic.surface.form import RemovedForm, remove_form
-from analytic.surface.readers.files import MeasuredProfile, MissingUnitError, read_measured
+from analytic.surface.readers.files import (
+    MeasuredProfile,
+    MissingUnitError,
+    open_measured,
+    profile_of,
+)
+from analytic.surface.readers.text import ProfileTable
 from analytic.surface.readers.topography import MapLine
 from analytic.surface.roughness import Roughness, roughness
 from analytic.surface.roughness_standard import (
@@ -31,6 +37,7 @@ from comparisons.common.numbers import finite
 from comparisons.common.provenance import digest
 from comparisons.common.units import LENGTH, unit_in_si
 from comparisons.scenes.fields import allowed, plain
+from comparisons.scenes.header_units import header_units
 from comparisons.scenes.profile import AUTOMATIC, FILTER, ProfileSection
 from comparisons.scenes.scene import SceneBase
 
@@ -215,13 +222,20 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
     x_scale, height_scale = (
         unit_in_si(table[unit], LENGTH) if unit in table else None for unit in ("x_unit", "z_unit")
     )
-    read = read_measured(
-        path,
+    spacing, columns = table.get("spacing"), table.get("columns")
+    which = {"columns": columns, "channel": table.get("channel")}
+    opened = open_measured(path, **which, one_column=spacing is not None)
+    if isinstance(opened, ProfileTable):  # its header may name them
+        named = {n: u for n, (u, _) in header_units(opened, columns is not None).items()}
+        if x_scale is None and spacing is None and "x_unit" in named:
+            x_scale = unit_in_si(named["x_unit"], LENGTH)
+        if height_scale is None and "z_unit" in named:
+            height_scale = unit_in_si(named["z_unit"], LENGTH)
+    read = profile_of(
+        opened,
         x_scale=x_scale,
         height_scale=height_scale,
-        spacing=table.get("spacing"),
-        columns=table.get("columns"),
-        channel=table.get("channel"),
+        spacing=spacing,
         dropouts=table["dropouts"],
         chosen=MapLine(**place) if place else None,
     )

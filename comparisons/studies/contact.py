@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 
 from comparisons.common.numbers import Scale, plain
 from comparisons.drawing import style
-from comparisons.drawing.curves import hertz_text
+from comparisons.drawing.curves import distinct, hertz_text, joint_label
 from comparisons.figures.convergence import LOWEST_ORDER, grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement, columns_of
-from comparisons.figures.quantity import LABELS, WHOLE, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
+from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import (
     LENGTHS,
     Uncertainty,
@@ -260,17 +260,20 @@ def draw_pressures(
     hertz, friction = run.problem.hertz, run.deciding_friction
     several = len(run.problem.scene.load.friction) > 1
     sliding = f", μ = {plain(friction)}" if several else ""
+    curves = {}
     for name, level in run.levels(friction).items():
         x, pressure = closed(level)
         shown = style.near(x, across, level.grid.pitch)
+        curves[name] = x[shown] / unit.factor, pressure[shown] / hertz.peak_pressure
+    for names, (x, pressure) in distinct(curves).items():
         axes.plot(
-            x[shown] / unit.factor,
-            pressure[shown] / hertz.peak_pressure,
-            label=LABELS[name] + (sliding if name == WHOLE else ""),
-            marker=MARKERS[name] if nodes else None,
+            x,
+            pressure,
+            label=joint_label(names, sliding if WHOLE in names else ""),
+            marker=MARKERS[names[0]] if nodes else None,
             markersize=3.2,
             markerfacecolor="none",
-            **style.LINES[name],
+            **style.LINES[names[0]],
         )
     if (spread := run.data(SCATTER)) is not None:
         x, (low, high) = spread.x, spread.band / hertz.peak_pressure

@@ -30,14 +30,14 @@ HEAVY = (
 
 
 class Run:
-    """Stands for `runs.run`: remembers its call, then returns or raises `result`."""
+    """Stands for `runs.run.solve_scene`: remembers its call, then returns or raises `result`."""
 
     def __init__(self) -> None:
         self.calls = []
         self.status = ExitStatus.DONE
         self.raises = None
 
-    def run(self, scene, out, models, progress, fields, *further):
+    def run(self, scene, out, models, progress, *further):
         self.calls.append((scene, out, models))
         progress("solving [with] care")
         if self.raises:
@@ -52,7 +52,8 @@ class Run:
 @pytest.fixture
 def solver(monkeypatch, tmp_path):
     run = Run()
-    monkeypatch.setattr("comparisons.runs.run.run", lambda *arguments: run.run(*arguments))
+    monkeypatch.setattr("comparisons.runs.run.solve_scene", lambda *asked: run.run(*asked))
+    monkeypatch.setattr("comparisons.runs.run.finish", lambda *_: None)
     table = types.SimpleNamespace(summary=lambda outcome, details: "peak pressure agree")
     monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
     monkeypatch.setattr("comparisons.output.result_json.content_of", lambda run: run.result)
@@ -67,7 +68,8 @@ def test_run_hands_everything_on(solver, capsys):
     assert scene.name == "smooth"
     assert out == Path("there")
     assert models == ("half_plane",)
-    assert capsys.readouterr() == ("peak pressure agree\n", "")
+    written = "written: there/report.html, result.json and the fields beside it\n"
+    assert capsys.readouterr() == (f"peak pressure agree\n{written}", "")
 
 
 def test_run_goes_to_results_with_both_models(solver):
@@ -195,7 +197,7 @@ def test_progress_is_shown_to_a_terminal(solver, capsys, monkeypatch):
     monkeypatch.setenv("TERM", "xterm")
     assert main(["run", "smooth"]) == 0
     out, err = capsys.readouterr()
-    assert out == "peak pressure agree\n"
+    assert out.startswith("peak pressure agree\nwritten: ")
     assert "solving [with] care" in err
 
 
@@ -239,6 +241,16 @@ def test_help_loads_nothing_heavy(arguments):
     loaded = set(done.stderr.split())
     assert "comparisons.cli" in loaded
     assert loaded.isdisjoint(HEAVY)
+
+
+def test_the_half_plane_answers_before_pictures_are_imported(tmp_path):
+    code = f"""import sys
+from comparisons.runs import run
+run.finish = lambda *_: print({{"matplotlib", "PIL", "vtkmodules", "jinja2"}} & {{*sys.modules}})
+from comparisons.cli import main
+main(["run", "smooth", "--models", "half-plane", "--out", {str(tmp_path / "out")!r}])"""
+    out = python(code).stdout
+    assert "peak pressure" in out.partition("set()\n")[0] and "set()\n" in out
 
 
 @pytest.mark.parametrize(("wanted", "taken"), [(None, "1"), ("7", "7")])
@@ -392,10 +404,10 @@ def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(
 
 def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):
     monkeypatch.setattr("comparisons.commands.output.SILENCE", 60.0)
-    clock = iter((0.0, 1.0, 61.0, 62.0, 125.4))  # as it begins, then at each stage
+    clock = iter((0.0, 1.0, 61.0, 62.0, 125.4, 126.0))  # as each begins, and at each stage
     monkeypatch.setattr("comparisons.commands.output.monotonic", lambda: next(clock))
 
-    def slow(scene, out, models, callback, fields, *further):
+    def slow(scene, out, models, callback, *further):
         for stage in ("first", "second", "third", "fourth"):
             callback(stage)
         return types.SimpleNamespace(result={}, exit_status=ExitStatus.DONE, directory=out)
@@ -403,5 +415,5 @@ def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, caps
     monkeypatch.setattr(solver, "run", slow)
     assert main(["run", "smooth"]) == 0
     out, err = capsys.readouterr()
-    assert out == "peak pressure agree\n"
+    assert out.startswith("peak pressure agree\nwritten: ")
     assert err == "crosscheck: after 61 s: second\ncrosscheck: after 125 s: fourth\n"

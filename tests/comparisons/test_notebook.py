@@ -80,6 +80,16 @@ def test_the_same_scene_from_python_and_from_the_command_line(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
 
 
+def test_a_run_prints_in_ten_lines_and_shows_its_tables(tables):
+    finished = crosscheck.run(tables)
+    title, first, *others = str(finished).splitlines()
+    assert title == tables["title"] and len(others) <= 8
+    assert first.startswith("peak pressure") and "whole" in first
+    assert any(line.lower().startswith(finished.verdict) for line in others)
+    assert any(line.startswith("Next:  ") for line in others)
+    assert "model error of the half-plane" in finished._repr_html_()
+
+
 def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("scene.toml").write_text(toml(SCENES["smooth, sliding"]))

@@ -99,13 +99,16 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     """The deck of a problem with elements of `pitch` [m] on the contact, in meshes like those of
     the finite elements' level. Raises SceneError for what decks do not describe."""
     scene, settings = problem.scene, problem.scene.finite_element
-    if settings.plastic or scene.body.hardness is not None:
-        field = "finite_element.plastic" if settings.plastic else "body.hardness"
-        raise SceneError(f"{scene.source}: {field}: is given; allowed in a deck are elastic bodies")
+    if scene.body.hardness is not None and not settings.plastic:
+        why = "is given; allowed in a deck are elastic bodies, and such that flow (plastic = true)"
+        raise SceneError(f"{scene.source}: body.hardness: {why}")
+    if settings.plastic and any(scene.load.friction):  # a deck slides after it has pressed
+        why = "is given for a body that flows; allowed in a deck is 0"
+        raise SceneError(f"{scene.source}: load.friction: {why}")
     grid = problem.grid(pitch)
     weighted = grid.hat_integrals(problem.finite_element_gap, problem.knots)
     operator = nearest_operator(scene, grid)
-    solution = solve_on(operator, weighted, grid.weights, problem.constraints())
+    solution = solve_on(operator, weighted, grid.weights, problem.widest)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     wider = patches + WIDER * np.diff(patches, axis=1) * [-1.0, 1.0]
     spec = block_spec(problem, Refinement(pitch), np.clip(wider, *problem.extent))

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from analytic.material import Material
+from analytic.material.hardening import Hardening
 from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem, deck_problem
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import check_writable, publish
@@ -36,6 +37,8 @@ LAWS = {
     "calculix": {"neo-hookean": HYPERELASTIC, "st-venant-kirchhoff": ELASTIC},
     "abaqus": {"neo-hookean": HYPERELASTIC, "hencky": ELASTIC},
 }
+OF_FLOW = 0.02  # of the load: an increment in which a body flows
+FARTHEST, FLOW_ROWS = 10.0, 60  # plastic strain that rows of a flow stress reach to, and how many
 GAP_POINTS = 8  # an edge, of the sampled gap
 SAME = 1e-6  # of an edge: places that are one
 
@@ -57,6 +60,9 @@ def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProble
         problem = problem_of_approach(scene, no_progress)
     else:
         problem = problem_of(scene)
+    if scene.finite_element.plastic and code == "fenicsx":
+        why = "is true; allowed in a deck for fenicsx are elastic bodies"
+        raise SceneError(f"{scene.source}: finite_element.plastic: {why}")
     deck = deck_problem(problem, problem.pitches[0] / 2.0 ** (level - 1))
     files = fenicsx_files(deck) if code == "fenicsx" else keyword_files(deck, code)
     values = {"code": code, "name": CODES[code], "deck": deck, "scene": scene, "folder": out}
@@ -84,16 +90,18 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
     stiffness = STIFFNESS * modulus / deck.edge
     held = _held(deck)
     unlike = held and deck.problem.dundurs_beta != 0.0
+    flow = _flow(deck)
     job = rendered(
         TEMPLATES / "job.inp.j2",
         code=code,
         deck=deck,
         scene=scene,
         materials=dict(_materials(deck, code)),
+        flow=flow,
         stiffness=stiffness,
         stick=STICK * stiffness,
         held=held,
-        increment=1.0 / scene.partial_slip.increments if unlike else 1.0,
+        increment=1.0 / scene.partial_slip.increments if unlike else OF_FLOW if flow else 1.0,
         sliding=[
             (mu, SLIDE * mu * deck.load / modulus) for mu in scene.load.friction if mu and not held
         ],
@@ -117,6 +125,8 @@ def _materials(deck: DeckProblem, code: str) -> Iterator[tuple[str, tuple[str, s
     for name, body in deck.bodies.items():
         for material, part in zip(body.materials, ("", "_COATING"), strict=False):
             keyword = LAWS[code].get(material.law.name) if deck.finite else ELASTIC
+            if name == "ROUGH" and scene.finite_element.plastic:
+                keyword = ELASTIC  # which is by logarithmic strain, where strains are finite
             if name == "ROLLER" and scene.roller.rigid:
                 keyword = ELASTIC  # nothing in it deforms
             if keyword is None:
@@ -127,6 +137,27 @@ def _materials(deck: DeckProblem, code: str) -> Iterator[tuple[str, tuple[str, s
                     f"allowed in a deck for {code} is {allowed}"
                 )
             yield name + part, (keyword, _constants(material, keyword))
+
+
+def _flow(deck: DeckProblem) -> tuple[str, list[str]] | None:
+    """Kind of hardening and rows of flow stress [MPa] over plastic strain in the deck, which is
+    that of the scene over `flatter`; None of a body that does not flow."""
+    scene = deck.problem.scene
+    if not scene.finite_element.plastic:
+        return None
+    law, kind = scene.body.flow_stress(), "ISOTROPIC"
+    if law.kinematic:
+        if law != Hardening(law.yield_stress, kinematic=law.kinematic):
+            why = "is kinematic beside another law; allowed in a deck is one of both"
+            raise SceneError(f"{scene.source}: body.hardening: {why}")
+        law, kind = Hardening(law.yield_stress, law.kinematic), "KINEMATIC"
+    strains = np.concatenate([[0.0], np.geomspace(1e-6, FARTHEST, FLOW_ROWS)])
+    if law.table is not None:
+        strains = np.array(law.table)[:, 0]
+    elif law == Hardening(law.yield_stress, law.modulus):
+        strains = np.array([0.0, FARTHEST] if law.modulus else [0.0])
+    rows = zip(law.stress(strains) * MPA, strains / deck.flatter, strict=True)
+    return kind, [f"{stress:.12g}, {strain:.12g}" for stress, strain in rows]
 
 
 def _constants(material: Material, keyword: str) -> str:

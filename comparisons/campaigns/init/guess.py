@@ -24,34 +24,9 @@ from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_col
 from analytic.surface.readers.topography import MapLine, Topography, UnchosenLineError
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import with_unit
-from comparisons.common.units import (
-    LENGTH,
-    UnitError,
-    UnknownUnitError,
-    known_units,
-    to_si,
-    unit_in_si,
-)
+from comparisons.common.units import LENGTH, UnitError, known_units, to_si, unit_in_si
+from comparisons.scenes.header_units import NAMES, Guesses, header_units, short, units_in
 
-# Units by the patterns that files write them in.
-NAMES = {
-    r"Å|angstr(?:o|ö|oe)ms?": "angstrom",
-    r"nm|nanomet(?:er|re)s?": "nm",
-    r"[uµμ]m|microns?|micromet(?:er|re)s?": "um",
-    r"[uµμ]in|(?:micro|[uµμ])-?inch(?:es)?": "microinch",
-    r"mm|millimet(?:er|re)s?": "mm",
-    r"mils?|thou": "mil",
-    r"(?<=[\[(_])in|inch(?:es)?": "inch",
-    r"(?<=[\[(_])m|met(?:er|re)s?": "m",
-}
-ALONE = r"(?<![A-Za-zµμ])(?<!micro-)(?:{})(?![A-Za-z])"
-# a unit behind a number is that of one length ("cut-off 0.8 mm") and not of a column
-UNITS = [
-    (re.compile(rf"(?<!\d)(?<!\d )(?<!\d_){ALONE.format(names)}", re.I), unit)
-    for names, unit in NAMES.items()
-]
-# What stands alone in brackets behind a column's name is its unit.
-BRACKETED = re.compile(r"\[\s*([^\s\d\[\],;]+)\s*\]|\(\s*([^\s\d(),;]+)\s*\)")
 NUMBER = r"(\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?)"
 ANY_UNIT = "|".join(NAMES).replace(r"(?<=[\[(_])", "")
 SPACINGS = [
@@ -67,7 +42,6 @@ FEWEST_ACROSS = 64  # samples of a column that is suggested
 ROUNDING = 1e-9  # of the largest height: an rms below is rounding
 ARC = 0.5  # an arc is the form where less than this share of the rms beside a line is left
 
-Guesses = dict[str, tuple[object, str]]  # by field of [profile]: its value, and the reason for it
 Opened = ProfileTable | Topography
 
 
@@ -120,7 +94,7 @@ def _completed(path: Path, chosen: ProfileFields) -> MeasuredProfile:
         except MissingUnitError as error:
             if error.field == "spacing":
                 raise InputError(_no_spacing(path, error.message)) from error
-            units = {} if table is None else _units_of(table, "columns" in fields)
+            units = {} if table is None else header_units(table, "columns" in fields)
             units = units or _units_by_size(opened, fields)
             needed = {"z_unit"} if "spacing" in fields else {"x_unit", "z_unit"}
             units = {name: units[name] for name in units if name in needed - fields.keys()}
@@ -161,44 +135,6 @@ def _columns_of(table: ProfileTable) -> list[int] | None:
     return [ordered[0], ordered[0] + 1]
 
 
-def units_in(line: str) -> list[str]:
-    """Units of columns that a line of text names, in its order. Those in brackets need not be
-    known: they come out as they stand, unless they are in round ones and no unit at all."""
-    units = {match.start(): unit for pattern, unit in UNITS for match in pattern.finditer(line)}
-    for match in BRACKETED.finditer(line):
-        group = 1 if match[1] else 2
-        if match.start(group) not in units and (group == 1 or _measures(match[group])):
-            units[match.start(group)] = match[group]
-    return [units[start] for start in sorted(units)]
-
-
-def _measures(word: str) -> bool:
-    """Whether a word of two letters or more is a unit, of whatever dimension."""
-    try:
-        unit_in_si(word, LENGTH)
-    except UnknownUnitError:
-        return False
-    except UnitError:
-        return len(word) > 1
-    return True
-
-
-def _units_of(table: ProfileTable, chosen: bool) -> Guesses:
-    """Units by the names of chosen columns where each names one, else by the lines above a table
-    of one or two columns; {} where they name none. The line that is nearest to the numbers counts;
-    one that names a single unit means both."""
-    head, columns = table.head, table.numbers.shape[1]
-    named = [units_in(name) for name in table.names]
-    if chosen and named and all(len(units) == 1 for units in named):
-        head, columns = [", ".join(table.names)], len(named)
-    for line in reversed(head):
-        if units := units_in(line):
-            because = f'by "{_short(line)}" in the file'
-            last = units[min(columns, len(units)) - 1]
-            return {"x_unit": (units[0], because), "z_unit": (last, because)}
-    return {}
-
-
 def spacing_of_head(head: list[str] | tuple[str, ...]) -> Guesses:
     """Sample spacing by the lines above a column of heights, {} where they state none."""
     for line in head:
@@ -206,7 +142,7 @@ def spacing_of_head(head: list[str] | tuple[str, ...]) -> Guesses:
             if match := pattern.search(line):
                 (unit,) = units_in(f"({match[2].lower()})")
                 number = match[1].replace(",", ".")
-                return {"spacing": (f"{number} {unit}", f'by "{_short(line)}" in the file')}
+                return {"spacing": (f"{number} {unit}", f'by "{short(line)}" in the file')}
     return {}
 
 
@@ -255,11 +191,6 @@ def _check_units(path: Path, units: Guesses) -> None:
 def option_of(field: str) -> str:
     """The option of `crosscheck init` for a field of [profile]."""
     return f"--{field.replace('_', '-')}"
-
-
-def _short(line: str) -> str:
-    line = line.strip(" #%;/\t").replace('"', "'")
-    return line if len(line) <= 40 else f"{line[:37]}..."
 
 
 def _line_of(topography: Topography) -> Guesses:

@@ -188,6 +188,11 @@ def _set_hardness(scene: Scene, value: float) -> Changes:
             "peak_pressure_over_hardness are body.hardness and body.yield_stress"
         )
     factor = smooth_problem(scene).hertz.peak_pressure / value / body.hardness
+    if body.hardening is not None:
+        raise SceneError(
+            f"{scene.source}: body.hardening: is given; allowed with peak_pressure_over_hardness "
+            "is body.hardening_modulus"
+        )
     names = ("hardness", "yield_stress", "hardening_modulus")
     sizes = {name: getattr(body, name) for name in names}
     return {f"body.{name}": size * factor for name, size in sizes.items() if size is not None}

@@ -16,14 +16,14 @@ import numpy as np
 from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
 from comparisons.campaigns.sweep.pictures import FRICTION, PICTURE, PICTURES, POSITION, drawn
 from comparisons.common.errors import InputError
-from comparisons.common.files import publish
+from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.figure import Figure, Findings, grouped
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import problem_of
-from comparisons.output.flat_csv import COLUMNS, csv_text, harmless, rows_of
+from comparisons.output.flat_csv import COLUMNS, harmless, rows_of
 from comparisons.output.result_json import result_of
 from comparisons.scenes.scene import Scene
 from comparisons.studies import TABLED

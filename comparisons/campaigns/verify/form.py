@@ -23,11 +23,10 @@ from comparisons.campaigns.verify.coverage import EXACT
 from comparisons.campaigns.verify.rough import FEW, HALF_PLANE, LAYERED, rough_contact, rough_scene
 from comparisons.campaigns.verify.scenes import ExactScene, gallery_scenes, layer_scenes
 from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.files import publish
+from comparisons.common.files import csv_text, publish
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.output.flat_csv import csv_text
 from comparisons.output.page.html import rendered
 
 if TYPE_CHECKING:

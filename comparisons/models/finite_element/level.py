@@ -31,7 +31,11 @@ from comparisons.models.finite_element.contact import (
 )
 from comparisons.models.finite_element.cost import expected
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
+from comparisons.models.finite_element.nonlinear import (
+    pressed_finitely,
+    pressed_plastically,
+    pressed_plastically_finitely,
+)
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
 from comparisons.models.level import Level, refuse_too_large, under_each
 from comparisons.models.nearest_operator import nearest_operator, solve_on
@@ -222,12 +226,18 @@ class _LevelSolution:
         """Contact and bodies by the scene's laws, from that at small strains."""
         problem, grid = self.problem, self.grid
         operator, solution = contact.operator, contact.solution
+        flows = problem.scene.finite_element.plastic
+        if self.is_finite and flows:
+            with self.stages.stage("plastic flow", "finite elements: flow at finite deformation"):
+                return pressed_plastically_finitely(
+                    *(problem, operator, grid, solution, self.constraints, self.refinement.travel)
+                )
         if self.is_finite:
             with self.stages.stage("finite deformation", "finite elements: finite deformation"):
                 return pressed_finitely(
                     problem, operator, grid, solution, self.constraints, self.model
                 )
-        if problem.scene.finite_element.plastic:
+        if flows:
             with self.stages.stage("plastic flow", "finite elements: plastic flow"):
                 return pressed_plastically(
                     problem,

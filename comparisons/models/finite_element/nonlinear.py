@@ -12,12 +12,13 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, assessed, solve_contact
 from analytic.grid import HatGrid
-from analytic.material.hardening import Hardening
 from analytic.operators.half_plane import ModelOperator
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
 from comparisons.models.finite_element.roller import is_disc
 from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
+from comparisons.models.level import STRAIN
 from comparisons.models.problem import Problem
+from fem.body.elasticity import ElasticBody
 from fem.nonlinear.finite_deformation import (
     LEANING,
     MOST_SETTINGS,
@@ -25,8 +26,14 @@ from fem.nonlinear.finite_deformation import (
     FiniteContact,
     FiniteDeformation,
 )
-from fem.nonlinear.plasticity import ElasticPlastic
-from fem.nonlinear.press_plastic import averaged_pressure, plastic_fields, press_plastically
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
+from fem.nonlinear.press_finite import press_plastically_finitely
+from fem.nonlinear.press_plastic import (
+    PlasticContact,
+    averaged_pressure,
+    plastic_fields,
+    press_plastically,
+)
 from fem.solver.mumps import FemError
 from fem.stress.stress import at_mesh_points
 
@@ -51,7 +58,7 @@ def pressed_finitely(
     Pressures are Cauchy's, those on the deformed surface, at its displaced x; a contact length is
     that along x of the deformed configuration. Raises FemError where there is
     no solution, and where contact reaches the grid's ends only at finite deformation."""
-    rough, weights, x = operator.rough, grid.weights, grid.x
+    rough = operator.rough
     found = finite_contact(problem, operator, linear, constraints, model)
     _refuse_cut_off(problem, grid, found.pressure, linear, "at finite deformation")
     counts = {
@@ -60,32 +67,50 @@ def pressed_finitely(
         "corrections": found.solution.corrections,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    initial = found.initial_gap * weights
-    pressure = found.pressure
-    if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
-        pressure, weights = found.cauchy_pressure, weights * found.stretch
-    moved = (found.gap + found.approach) * weights - initial
+    nodal = found.cauchy.nodal
     if constraints.load is not None:  # of which friction on tilted tangents bears a part
         share = float(grid.weights @ found.pressure) / found.load
         constraints = replace(constraints, load=constraints.load * share)
+    loaded = _deformed(rough.body, grid, found, constraints, counts, FINITE_TOLERANCE)
+    loaded = replace(
+        loaded,
+        solution=replace(loaded.solution, load=found.load),
+        stresses=lambda frictions: (nodal,) * len(frictions),
+        across=found.cauchy.across,
+    )
+    return on_undeformed_grid(
+        problem, grid, found.place, loaded.displacement / grid.weights, loaded
+    )
+
+
+def _deformed(
+    body: ElasticBody,
+    grid: HatGrid,
+    found: FiniteDeformation,
+    constraints: Constraints,
+    counts: dict[str, int],
+    tolerance: float,
+) -> LoadedBody:
+    """A contact on deformed surfaces, at the displaced nodes of the grid, without its stresses."""
+    weights, x, pressure = grid.weights, grid.x, found.pressure
+    initial = found.initial_gap * weights
+    if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
+        pressure, weights = found.cauchy_pressure, weights * found.stretch
+    moved = (found.gap + found.approach) * weights - initial
     given = moved, pressure, initial, weights, found.approach, constraints, counts
-    solution = replace(assessed(*given, FINITE_TOLERANCE), load=found.load)
+    solution = assessed(*given, tolerance)
     patches = contact_patches(x, solution.pressure, solution.gap)
     solution = replace(solution, pressure=found.cauchy_pressure)
-    top = rough.body.top
-    down = rough.body.at_points(found.displacement)[top.point, 1]
-    depth = np.interp(x, top.x, down)
-    nodal = found.cauchy.nodal
-    loaded = LoadedBody(
-        rough.body,
+    down = body.at_points(found.displacement)[body.top.point, 1]
+    depth = np.interp(x, body.top.x, down)
+    return LoadedBody(
+        body,
         solution,
         depth * grid.weights,
-        lambda frictions: (nodal,) * len(frictions),
+        lambda frictions: (),
         patches,
-        found.cauchy.across,
         moved=found.displacement,
     )
-    return on_undeformed_grid(problem, grid, found.place, depth, loaded)
 
 
 def _refuse_cut_off(
@@ -158,8 +183,7 @@ def pressed_plastically(
     friction = scene.load.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     body, loads = scene.body, (constraints.load, 0.0)
-    hardening = Hardening(body.yield_stress, body.hardening_modulus or 0.0)
-    metal = ElasticPlastic(body.material, hardening)
+    metal = ElasticPlastic(body.material, body.flow_stress())
     given = rough, metal, gap, weights
     start = linear.pressure
     body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, travel)
@@ -177,13 +201,7 @@ def pressed_plastically(
     solution = assessed(
         both, loaded.pressure, gap, weights, loaded.approach, constraints, counts, FLOW_TOLERANCE
     )
-    fields, left = plastic_fields(body, loaded), plastic_fields(body, released)
-    residual = {name: getattr(left.stress, name) for name in ("sx", "sz", "txz")}
-    residual |= {"sy": left.sy, "von_mises": left.von_mises}
-    others = {
-        "equivalent_plastic_strain": fields.equivalent_strain,
-        **{f"residual_{name}": residual[name] for name in ("sx", "sz", "sy", "txz", "von_mises")},
-    }
+    fields, others = plastic_fields(body, loaded), _of_flow(body, loaded, released)
     stress = at_mesh_points(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     if loaded.state.equivalent.any():
@@ -199,3 +217,57 @@ def pressed_plastically(
         moved=loaded.displacement,
         still=still,
     )
+
+
+def pressed_plastically_finitely(
+    problem: Problem,
+    operator: MutualCompliance,
+    grid: HatGrid,
+    linear: ContactSolution,
+    constraints: Constraints,
+    travel: float,
+) -> LoadedBody:
+    """The body flowing at finite strains, under its load and when the roller is gone again; its
+    elastic part follows Hencky's law. Pressures are as of `pressed_finitely`, where it flows as of
+    `pressed_plastically`. Raises FemError as both."""
+    scene, rough = problem.scene, operator.rough
+    roller = roller_of(problem) if scene.roller.rigid else operator.parts[1].compliance
+    friction, start = scene.load.friction[0], linear.pressure
+    disc = is_disc(problem)
+    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far, disc)
+    metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
+    loads = constraints.load, 0.0
+    body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel)
+    found = pressed.deformed
+    _refuse_cut_off(problem, grid, found.pressure, linear, "of the flowing body")
+    counts = {
+        "linear_contacts": pressed.iterations,
+        **{f"linear_{name}": count for name, count in linear.iterations.items()},
+    }
+    loaded = _deformed(rough.body, grid, found, constraints, counts, FLOW_TOLERANCE)
+    if pressed.state.equivalent.any():
+        averaged = averaged_pressure(loaded.solution.pressure)
+        loaded = replace(loaded, solution=replace(loaded.solution, pressure=averaged))
+    fields = plastic_fields(body, pressed)
+    stress = at_mesh_points(rough.body, fields.stress)
+    loaded = replace(
+        loaded,
+        stresses=lambda frictions: (stress,) * len(frictions),
+        across=fields.sy,
+        others=_of_flow(body, pressed, released),
+    )
+    return on_undeformed_grid(
+        problem, grid, found.place, loaded.displacement / grid.weights, loaded
+    )
+
+
+def _of_flow(
+    body: PlasticBody, loaded: PlasticContact, released: PlasticContact
+) -> dict[str, np.ndarray]:
+    """Plastic strain under the load and stresses [Pa] without it, (n,) at the mesh's points."""
+    left = plastic_fields(body, released)
+    residual = {name: getattr(left.stress, name) for name in ("sx", "sz", "txz")}
+    residual |= {"sy": left.sy, "von_mises": left.von_mises}
+    strain = plastic_fields(body, loaded).equivalent_strain
+    names = ("sx", "sz", "sy", "txz", "von_mises")
+    return {STRAIN: strain} | {f"residual_{name}": residual[name] for name in names}

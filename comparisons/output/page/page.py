@@ -17,7 +17,7 @@ from comparisons.models.forecast import forecast
 from comparisons.output.headline import headline
 from comparisons.output.page.field_values import Explorer, field_explorer
 from comparisons.output.page.html import inline, rendered
-from comparisons.output.page.pictures import contact, problem, refinement, stresses
+from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.tables import verification
 from comparisons.output.page.tables.comparison import comparison_table, figure_table
@@ -36,11 +36,14 @@ PICTURES: dict[str, Callable[[Run], object]] = {
     "close_up": contact.close_up_picture,
     "problem": problem.problem_picture,
     "surface": contact.surface_picture,
+    "overview": answer.overview_picture,
+    "judged": answer.judged_picture,
     "cost": refinement.cost_picture,
 } | {name: draw for study in STUDIES for name, draw in study.pictures.items()}
-# Sections that have their place, by id; those of other studies follow that of contact.
-ORDER = ("problem", "running-in", "comparison", "model-error", "answers", "contact", "", "yield")
-ORDER += ("stresses", "convergence", "mesh", "cost", "checks", "skipped", "record")
+# Sections that have their place, by id; those of other studies follow the stresses. Those from the
+# problem on are for who checks the answer: folded away on a screen, and printed.
+ORDER = ("model-error", "comparison", "answers", "contact", "stresses", "", "yield")
+FOLDED = ("problem", "convergence", "mesh", "cost", "checks", "skipped", "record")
 NOTES = verification.WORDING["how_to_read"]
 
 
@@ -48,8 +51,7 @@ def render(run: Run, tasks: Tasks | None = None) -> str:
     """The page of a finished run, drawn by `report_tasks`; equal runs give equal text."""
     script, policy = inline("field_values.js")
     explorer, pictures = field_explorer(run), draw(run, tasks)
-    blocks = sections(run, explorer)
-    shown = [replace(block, items=tuple(_filled(block.items, pictures))) for block in blocks]
+    shown = [_shown(block, pictures) for block in sections(run, explorer)]
     [first, *others] = (HYPHENATED[name] for name in run.runs)
     return rendered(
         "page.html.j2",
@@ -59,8 +61,14 @@ def render(run: Run, tasks: Tasks | None = None) -> str:
         title=run.problem.scene.title,
         headline=headline(run),
         models="half-plane against finite elements" if others else f"{first} model only",
+        answer=_shown(_answer(run), pictures),
         sections=[block for block in shown if block.items],
+        folded=FOLDED,
     )
+
+
+def _shown(block: Block, pictures: Mapping[str, object]) -> Block:
+    return replace(block, items=tuple(_filled(block.items, pictures)))
 
 
 def _filled(items: Iterable, pictures: Mapping[str, object]) -> Iterator[object]:
@@ -109,11 +117,18 @@ def sections(run: Run, explorer: Explorer | None) -> list[Block]:
     for study in STUDIES:
         if study.name in run.found:
             blocks += study.blocks(run)
-    blocks.sort(key=lambda block: ORDER.index(block.section if block.section in ORDER else ""))
+    order = (*ORDER, *FOLDED)
+    blocks.sort(key=lambda block: order.index(block.section if block.section in order else ""))
     return [
         Block(same[0].section, tuple(item for block in same for item in block.items), same[0].title)
         for same in grouped(blocks, lambda block: block.section)
     ]
+
+
+def _answer(run: Run) -> Block:
+    """Beside the verdict: what is judged, the run in one picture, and on paper what is signed."""
+    signed = Box("signed", (Names(verification.signed_rows(run)),))
+    return Block("answer", (Box("stack", (Pictures(("judged",)), signed)), Pictures(("overview",))))
 
 
 def _before(run: Run) -> Iterator[Block]:
@@ -146,10 +161,11 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
 def _after(run: Run) -> Iterator[Block]:
     items: list = []
     if (judged := verification.judged_table(run)) is not None:
-        items += [judged, Note(NOTES["orders"]), Pictures(("convergence",)), Heading("Words")]
-        items.append(Names(verification.WORDS))
-    if (validation := verification.validation_table(run)) is not None:
-        items += [validation, Note(NOTES["validation"])]
+        items += [judged, Note(NOTES["orders"]), Pictures(("convergence",))]
+        halves = [Box("half", (Heading("Words"), Names(verification.WORDS)))]
+        if (validation := verification.validation_table(run)) is not None:
+            halves.append(Box("half", (validation, Note(NOTES["validation"]))))
+        items.append(Box("columns", tuple(halves)))
     norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
     far = NOTES["far_boundary"] if run.plan.domain_check else ""
     why = verification.refinement_text(run)

@@ -42,6 +42,7 @@ from comparisons.studies.model_error.contributions import (
     contributions_of,
     split_variants,
 )
+from comparisons.studies.model_error.estimates import finite_flow
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import LawSolutions, law_variants
 from comparisons.studies.model_error.model_error import ModelError, Solutions
@@ -53,6 +54,7 @@ from comparisons.studies.model_error.quantities_of_interest import (
 from comparisons.studies.model_error.selection import (
     FLOW,
     NOT_CERTAIN,
+    SMALL_STRAINS,
     EffectSelection,
     select_effects,
 )
@@ -130,6 +132,7 @@ def error_budget(
             if refinement.without_laws:
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
             wholes = {mu: variants.finest(split.whole).under(mu) for mu, split in splits.items()}
+            selection = _with_plastic_strain(problem, selection, wholes)
             break
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
@@ -154,6 +157,19 @@ def error_budget(
         solutions=refined.solutions,
         took=_took(splits, variants),
     )
+
+
+def _with_plastic_strain(
+    problem: Problem, selection: EffectSelection, wholes: Mapping[float, Level]
+) -> EffectSelection:
+    """With the estimate of finite deformation by the pressures and plastic strains of wholes that
+    flow at small ones, where their fields show these."""
+    strains = [s for level in wholes.values() if (s := level.plastic_strain) is not None]
+    if selection.impossible.get("finite_strain") != SMALL_STRAINS or not strains:
+        return selection
+    peak = max(float(level.solution.pressure.max()) for level in wholes.values())
+    sizes = finite_flow(problem, peak, max(strains))
+    return selection.resized("finite_strain", sizes, problem.scene.tolerances)
 
 
 def _took(

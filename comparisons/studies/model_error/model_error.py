@@ -334,6 +334,7 @@ class Solutions:
             return self._plain_error(name, Estimate(0.0, 0.0), at)
         resolution = self.resolutions.get(name, 0.0)
         unsure = grid_convergence(apart, self._order(name), resolution).uncertainty + self.unsolved
+        unsure += self._increments(name, at)
         return self._plain_error(name, Estimate(float(apart[-1]), float(unsure)), at)
 
     def of_exact(

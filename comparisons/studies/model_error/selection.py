@@ -1,5 +1,6 @@
 """Which effects a run computes: those that may move a judged figure by a share of its tolerance."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from comparisons.common.mpi import is_several
@@ -13,6 +14,7 @@ from fem.solver.communicator import is_alone
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 FLOW = "plastic_flow"
+SMALL_STRAINS = "flow is taken at small strains"
 NOT_CERTAIN = "it is not beyond doubt (finite_element.plastic = true computes it)"
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
 NONLINEAR = ("finite_strain", FLOW)
@@ -53,6 +55,17 @@ class EffectSelection:
         impossible = dict(sorted((self.impossible | dict.fromkeys(names, why)).items()))
         return replace(self, added=added, impossible=impossible, laws=laws)
 
+    def resized(
+        self, name: str, sizes: Sizes, tolerances: Mapping[str, float]
+    ) -> "EffectSelection":
+        """The same with another estimate of an effect that is not computed, which may turn out to
+        be negligible."""
+        mine = replace(self, estimates=self.estimates | {name: sizes})
+        if not is_negligible(sizes, tolerances):
+            return mine
+        impossible = {other: why for other, why in self.impossible.items() if other != name}
+        return replace(mine, impossible=impossible, negligible=self.negligible | {name: sizes})
+
     def not_modelled(self, quantity: str) -> Sizes:
         """By name, estimates of the effects on a quantity that no model has."""
         open_effects = set(self.negligible) | set(self.impossible)  # not those of `laws`
@@ -77,11 +90,7 @@ def select_effects(
     found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
     sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
-    mattering = {
-        name
-        for name, sizes in sized.items()
-        if any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
-    }
+    mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
     flows = FLOW in own
     if no_flow is None and not flows:
         flows = why_not(FLOW, problem) is None
@@ -108,6 +117,11 @@ def select_effects(
     return EffectSelection(own, frozenset(added), negligible, impossible, sized, laws)
 
 
+def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
+    """Whether an effect moves no judged figure by a share of its tolerance that matters."""
+    return all(sizes.get(q, 0.0) <= SHARE_OF_TOLERANCE * t for q, t in tolerances.items())
+
+
 def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
     """Why an effect cannot be computed in a scene, or None; `flows`: the whole model does."""
     scene = problem.scene
@@ -124,5 +138,5 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
             'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
         } | reasons
     else:
-        reasons = {"flow is of small deformation": flows} | reasons
+        reasons = {SMALL_STRAINS: flows} | reasons
     return next((why for why, hindered in reasons.items() if hindered), None)

@@ -47,7 +47,7 @@ from comparisons.common.errors import SceneError
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.figures.figure import Column, Findings, Series, columns_of
 from comparisons.models.half_plane import expected_of
-from comparisons.models.level import Level, MeshField, refuse_too_large
+from comparisons.models.level import STRAIN, Level, MeshField, refuse_too_large
 from comparisons.models.problem import Problem
 from comparisons.studies import contact
 from comparisons.studies.study import Solved
@@ -56,7 +56,6 @@ if TYPE_CHECKING:
     from analytic.statistics.rough_bodies import RoughContact
 
 NAME = "statistics"
-STRAIN = "equivalent_plastic_strain"
 STEPS, PER_DECADE = 7, 2  # loads: from the scene's own down to a thousandth
 CUTOFFS, THINNED = (1.0, 2.0, 4.0, 8.0), (2, 4)  # shortest wavelengths; every so many samples
 QUANTILE = 0.975

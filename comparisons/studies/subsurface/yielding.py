@@ -9,7 +9,7 @@ in the plane, mu friction coefficient, G shear modulus, E* combined modulus."""
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import inf, pi
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -18,23 +18,26 @@ from analytic.exact.shakedown import UNIT, shakedown_limit
 from analytic.surface.roughness import summits
 from comparisons.common.numbers import percent, plain, significant, with_unit
 from comparisons.drawing.blocks import Block, Note, TextTable
-from comparisons.figures.figure import Findings, Statement, figures_of
-from comparisons.figures.quantity import Quantity
+from comparisons.figures.figure import Figure, Findings, Statement, figures_of
+from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.scenes.materials import kinds_of, typical_range
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.estimates import TABOR
-from comparisons.studies.model_error.model_error import Solutions
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
 from comparisons.studies.subsurface import pressure_cap
+
+if TYPE_CHECKING:
+    from comparisons.studies.model_error.error_budget import ErrorBudget
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
 FOUND = {FIELD: "in the field", PEAK: "by the peak"}
 BEYOND_DOUBT = "beyond doubt"  # name of what is said of flow
+PLASTIC_STRAIN, STRAIN_BY_SLOPE = "plastic_strain", "plastic_strain_by_slope"
 QUANTITIES = {
     "yield_stress": Quantity("yield stress", "Pa"),
     "hardness": Quantity("hardness", "Pa"),
@@ -48,6 +51,8 @@ QUANTITIES = {
     "share_at_hardness": Quantity("contact at the hardness or above"),
     "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/2"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
+    PLASTIC_STRAIN: Quantity("largest equivalent plastic strain"),
+    STRAIN_BY_SLOPE: Quantity("the same times the slope"),
     **pressure_cap.QUANTITIES,
 }
 INDICES = "plasticity_index_summits", "plasticity_index_slope"
@@ -191,17 +196,27 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             figures.append(figure)
         figures += figures_of(NAME, "scene", {"shakedown_limit": check.shakedown}, None, at)
         said.append(Statement("read", FIELD if check.from_field else PEAK, source, at))
-    if flow.flow == "plastic":
-        for solutions in _solutions(before).values():
-            figures += pressure_cap.figures_of_caps(solved.problem, solutions)
+    if flow.flow == "plastic" and MODEL_ERROR in before:
+        figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data)
     if flow.beyond_doubt:
         said.append(Statement(BEYOND_DOUBT, flow.beyond_doubt, source))
     return Findings(tuple(figures), statements=tuple(said), data=flow)
 
 
-def _solutions(before: Mapping[str, Findings]) -> Mapping[float, Solutions]:
-    """Of the model error, by friction coefficient; none without one."""
-    return before[MODEL_ERROR].data.solutions if MODEL_ERROR in before else {}
+def _figures_of_flow(problem: Problem, budget: "ErrorBudget") -> list[Figure]:
+    """Caps on the half-plane's pressure; how far the whole model flows, and over what slopes."""
+    figures, info = [], problem.surface.info
+    for solutions in budget.solutions.values():
+        figures += pressure_cap.figures_of_caps(problem, solutions)
+    for friction, level in budget.wholes.items():
+        strain = level.plastic_strain
+        if strain is not None:
+            slope = 0.5 * level.extent / problem.scene.roller.radius  # of the roller, at the edges
+            slope = max(slope, 0.0 if info is None else info.roughness.rms_slope)
+            values = {PLASTIC_STRAIN: strain, STRAIN_BY_SLOPE: strain * slope}
+            at, itself = {"friction": friction}, Uncertainty({"itself": 1.0})
+            figures += figures_of(NAME, WHOLE, values, itself, at)
+    return figures
 
 
 def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAssessment:
@@ -324,6 +339,8 @@ def flow_table(run: Run) -> TextTable:
         rows += map(row, OF_FIRST_FLOW)
     if known.one(quantity="plasticity_index_slope") is not None:
         rows += map(row, INDICES)
+    if known.one(quantity=PLASTIC_STRAIN) is not None:
+        rows += map(row, (PLASTIC_STRAIN, STRAIN_BY_SLOPE))
     head = ("", *(f"friction {plain(friction)}" for friction in frictions))
     return TextTable(flow_sentence(run), head, tuple(rows))
 

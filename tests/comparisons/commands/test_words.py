@@ -3,9 +3,12 @@
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from comparisons.cli import main
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 
 SCENE = """
 roller = {radius = "8 mm", youngs_modulus = "207 GPa", poissons_ratio = 0.3}
@@ -99,3 +102,14 @@ def test_init_says_what_it_has_assumed(folder, capsys):
     assert "assumed as examples, put in yours: roller.radius = " in out
     assert "load.hertz_peak_pressure = 1 GPa" in out and "youngs_modulus = " not in out
     assert "law of elasticity" in out
+
+
+def test_units_come_from_a_header_that_names_them(folder, capsys):
+    rows = "".join(f"{0.5 * k},{0.2 * math.sin(0.1 * k)}\n" for k in range(2000))
+    (folder / "mine.toml").write_text(SCENE + 'profile = {file = "trace.csv"}\n')
+    (folder / "trace.csv").write_text("x [um],z [nm]\n" + rows)
+    profile = surface_of(Scene.read("mine.toml")).profile
+    assert np.ptp(profile.x) == pytest.approx(999.5e-6)
+    assert np.ptp(profile.height) == pytest.approx(0.4e-9, rel=0.05)
+    (folder / "trace.csv").write_text("position,height\n" + rows)
+    assert "profile.x_unit: is missing; allowed is" in answered(capsys, "run", "mine.toml")

@@ -135,7 +135,7 @@ def test_a_run_is_counted_once(runs):
 
 
 def test_csv_on_standard_output_and_in_a_file(runs, tmp_path, capsys):
-    assert main(["table", str(runs)]) == 0
+    assert main(["table", str(runs), "--csv"]) == 0
     printed = capsys.readouterr().out
     read = list(csv.DictReader(io.StringIO(printed)))
     rows = tidy_rows([runs])

@@ -186,6 +186,7 @@ def test_every_scene_is_named_here():
         "frictional-heat",
         "layer",
         "yielding",
+        "ground-flowing",
         "ground-polished",
         "ground-run-in",
         "ground-running-in",

@@ -40,7 +40,7 @@ class TestTolerance:
             judged.append(scene.tolerances)
             raise KeyboardInterrupt
 
-        monkeypatch.setattr("comparisons.runs.run.run", stand_in)
+        monkeypatch.setattr("comparisons.runs.run.solve_scene", stand_in)
         command = ["run", "smooth", "--json", "--out", str(tmp_path / "out")]
         assert main([*command, "--tolerance", "0.01"]) == ExitStatus.INTERRUPTED
         assert set(judged[0].values()) == {0.01}

@@ -12,7 +12,7 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.curves import FOOT, LEFT, over, panels
+from comparisons.drawing.curves import FOOT, LEFT, distinct, joint_label, over, panels
 from comparisons.figures.quantity import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import mean_height
@@ -197,11 +197,12 @@ def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Sca
     few = slice(None, None, 1 + len(x) // int(POINTS_PER_INCH * axes.figure.get_figwidth()))
     x = x[few] / unit.factor
     style.fill_bodies(axes, x, scaled(body[few]), scaled(roller[few]), scaled(low), scaled(high))
-    for name, (place, *heights) in reversed(drawn.items()):
-        look = style.LINES[name] if len(drawn) > 1 else style.OUTLINE
-        for height in reversed(heights):
+    for surface in (1, 0):
+        curves = {name: (drawn[name][0], drawn[name][1 + surface]) for name in reversed(drawn)}
+        for names, (place, heights) in distinct(curves).items():
+            look = style.LINES[names[0]] if len(drawn) > 1 else style.OUTLINE
             line = {**look, "linewidth": 0.7 * look["linewidth"]}
-            axes.plot(place / unit.factor, scaled(height), **line)
+            axes.plot(place / unit.factor, scaled(heights), **line)
     # names where something is drawn: a light load may touch a rough body beside the middle only
     first, last = np.clip(x[[0, -1]], *(end / unit.factor for end in across))
     names = {"transform": axes.get_xaxis_transform(), "clip_on": True}
@@ -239,13 +240,13 @@ def surface_picture(run: Run) -> style.Picture:
     above.legend(loc="lower right", borderaxespad=0.2)
     gaps = {model: np.maximum(shown.solution.gap, 0.0) for model, shown in levels.items()}
     unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
-    for model, gap in gaps.items():
-        places = levels[model].grid.x / along.factor
-        below.plot(places, gap / unit.factor, label=LABELS[model], **style.LINES[model])
+    curves = {m: (levels[m].grid.x / along.factor, gap / unit.factor) for m, gap in gaps.items()}
+    for names, (places, gap) in distinct(curves).items():
+        below.plot(places, gap, label=joint_label(names), **style.LINES[names[0]])
     over((above, below), f"x [{along.name}]", place)
     below.set_ylabel(f"gap [{unit.name}]")
-    below.set_ylim(bottom=0.0)
-    below.legend(loc="upper center")
+    below.set_ylim(0.0, 1.3 * below.dataLim.y1)  # names stand above the curves
+    below.legend(loc="upper center", ncols=3, columnspacing=1.0, borderaxespad=0.1)
     approach = with_unit(float(np.max(body_before - body)), "m", 3)
     return style.picture(
         drawn,

@@ -23,6 +23,7 @@ LEFT, BETWEEN, LINE = 0.62, 0.5, 0.17  # inches
 LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
 LOOKS = style.LINES | {DIFFERENCE: style.DIFFERENCE}
 NAMES = LABELS | {DIFFERENCE: "difference of both models"}
+SLOPES = {1.0: (0, (1, 1.3)), 2.0: (0, (6, 2))}  # lines by order
 SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
 
 
@@ -37,7 +38,7 @@ def convergence_picture(run: Run) -> style.Picture | None:
         lambda width: _drawn(panels, width),
         f"Error over element size of each judged figure. {said}.",
         "Distance from the extrapolated value over the size of the pressure elements, both "
-        "logarithmic; dotted, the slope of the formal order. A bar: the stated uncertainty of "
+        "logarithmic; without marks, the formal order. A bar: the stated uncertainty of "
         "discretisation on the finest level. Where three levels show an order, their distances "
         "lie on its line by construction.",
     )
@@ -85,7 +86,8 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     pitch = 1e6 * np.array([max(panel[0].pitches), min(panel[0].pitches)])
     if largest[0] > 0.0:
         slope = largest[0] * (pitch / largest[1]) ** order
-        axes.plot(pitch, slope, label=f"slope of order {plain(order)}", **style.REFERENCE)
+        look = {**style.REFERENCE, "linestyle": SLOPES.get(order, "-.")}
+        axes.plot(pitch, slope, label=f"slope of order {plain(order)}", **look)
     axes.set_xscale("log")
     if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in axes.lines):
         axes.set_yscale("log")

@@ -13,7 +13,7 @@ from analytic.exact.hertz import hertz_stress
 from analytic.stress_state import StressState
 from comparisons.common.numbers import decimal, plain, significant
 from comparisons.drawing import style
-from comparisons.drawing.curves import columns
+from comparisons.drawing.curves import columns, distinct, joint_label
 from comparisons.drawing.field import (
     COVERED,
     ColourScale,
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 NEAR = 0.1  # half-widths: depth of what is enlarged next to the surface
 STRETCHED = 1.25  # inches: height of fields next to the surface
 FEWEST_ROWS = 4
-TOP, TITLE, TALL, FOOT = 0.24, 0.3, 1.85, 0.46  # inches, of sections
+TOP, TITLE, TALL, FOOT = 0.62, 0.3, 1.85, 0.46  # inches, of sections
 LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
 
 
@@ -203,10 +203,12 @@ def _section_picture(run: Run, column: int, words: str) -> style.Picture:
         panels[0].set_title(f"friction {plain(friction)}")
     for panels in sides:
         panels[-1].set_xlabel("z/a")
-    entries = (axes.get_legend_handles_labels() for axes in drawn.axes)
-    lines, place = max(entries, key=lambda known: len(known[1])), (0.985, 1.0)
-    room = {"ncols": len(lines[0]), "borderaxespad": 0.1, "columnspacing": 1.2}
-    drawn.legend(*lines, loc="upper right", bbox_to_anchor=place, **room)
+    entries = {}
+    for axes in drawn.axes:
+        lines, labels = axes.get_legend_handles_labels()
+        entries |= dict(zip(labels, lines, strict=True))
+    room = {"ncols": 2, "borderaxespad": 0.1, "columnspacing": 1.2}
+    drawn.legend(entries.values(), entries, loc="upper left", bbox_to_anchor=(0.1, 1.0), **room)
     at = decimal(run.window.x[column] / hertz.half_width)
     largest = "; ".join(
         f"friction {plain(mu)}: "
@@ -234,15 +236,16 @@ def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float)
     hertz = run.problem.hertz
     x, z = run.window.x[column], run.window.z
     shown = z <= 1.000001 * depth * hertz.half_width
-    for name in run.levels(friction):
-        values = _tau1(run, name, friction, column)[shown]
-        axes.plot(z[shown] / hertz.half_width, values, label=LABELS[name], **style.LINES[name])
+    at = z[shown] / hertz.half_width
+    curves = {n: (at, _tau1(run, n, friction, column)[shown]) for n in run.levels(friction)}
+    for names, (_, values) in distinct(curves).items():
+        axes.plot(at, values, label=joint_label(names), **style.LINES[names[0]])
     exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure
-    axes.plot(z[shown] / hertz.half_width, exact, label="Hertz, exact", **style.REFERENCE)
+    axes.plot(at, exact, label="Hertz, exact", **style.REFERENCE)
     first = next(iter(run.runs))
     for zone in zones_of(run.found.get(ZONE)):
         if (zone.model, zone.friction) == (first, friction) and "start" in zone.figures:
             ends = (zone.figures[name].value / hertz.half_width for name in ("start", "stop"))
             axes.axvspan(*ends, color="#009E73", alpha=0.14, linewidth=0.0, label="quiescent zone")
     axes.set_xlim(0.0, depth)
-    axes.locator_params(axis="x", nbins=6)
+    axes.locator_params(axis="x", nbins=5, prune="upper")  # the last would meet the next panel's

@@ -3,7 +3,7 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, listed, plain, significant, with_unit
-from comparisons.models.assumptions import support_text
+from comparisons.models.assumptions import hardening_text, support_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, CoatingSection, ElasticSection
@@ -159,7 +159,7 @@ def coating_text(coating: CoatingSection) -> str:
 def yielding_text(body: BodySection) -> str:
     """How a body flows, in one phrase."""
     modulus = body.hardening_modulus
-    harder = f", hardening by {given(modulus, 'Pa')}" if modulus else ""
+    harder = f", hardening by {given(modulus, 'Pa')}" if modulus else hardening_text(body)
     return f"at {given(body.yield_stress, 'Pa')}{harder}"
 
 

@@ -15,12 +15,14 @@ from comparisons.common.errors import one_line
 from comparisons.common.numbers import (
     given_percent,
     integer,
+    listed,
     percent,
     plain,
     scale_of,
     significant,
     with_unit,
 )
+from comparisons.common.provenance import PROJECT
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
 from comparisons.figures.figure import Figure, Figures
@@ -42,6 +44,9 @@ from comparisons.studies.study import Run
 ALL_LEVELS = "all levels together: time"
 DIFFERENCE = "difference"  # of both models, in place of one
 NO_DATA = "no data"
+# Packages that a person who signs wants to know of.
+TO_SIGN = ("name, place, date", "signature")  # by hand
+SIGNED = ("crosscheck", "python", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh")
 PARTS = {
     "discretisation": "discretisation",
     "iteration": "iteration",
@@ -251,6 +256,40 @@ def _cost(run: Run, model: ModelRun) -> dict[str, str]:
     }
 
 
+def signed_rows(run: Run) -> list[tuple[str, str]]:
+    """What a person signs who has read the report: the question, how sure, by what and when."""
+    scene, made, errors = run.problem.scene, run.record.get("made", {}), run.model_errors
+    judged = dict.fromkeys(
+        f"{label(e.quantity)} within {given_percent(e.tolerance)}" for e in errors
+    )
+    question = (
+        "May the half-plane's figures stand for those of a model with every effect that matters?"
+    )
+    if not errors:
+        question = "What are the figures of this contact? Nothing is judged against a tolerance."
+    unsure = f"every stated uncertainty covers {given_percent(COVERAGE)}"
+    if errors:
+        most = percent(max(error.numerical for error in errors))
+        unsure = f"at most {most} of a judged figure; {unsure}"
+        if any(error.not_modelled for error in errors):
+            most = percent(max(error.not_modelled for error in errors))
+            unsure += f"; what no model of the run has may add at most {most}"
+    solved = {n: v for n, v in run.record["versions"].items() if n in SIGNED and v}
+    by = ", ".join(f"{name} {value}" for name, value in solved.items())
+    rows = [
+        ("scene", f"{scene.title} ({one_line(scene.source)})"),
+        ("question", question),
+        (
+            "judged by",
+            f"{', '.join(judged)}; friction {listed(scene.load.friction)}" if judged else "",
+        ),
+        ("uncertainty", unsure),
+        ("solved by", ", ".join(filter(None, (by, f"revision {made.get('revision')}")))),
+        ("made", ", ".join(made[name] for name in ("date", "host") if made.get(name))),
+    ]
+    return [*((name, text) for name, text in rows if text), *((name, "") for name in TO_SIGN)]
+
+
 def record_rows(run: Run) -> list[tuple[str, str]]:
     """Date, host and revision, versions, machine and hashes of the run."""
     record = run.record
@@ -279,11 +318,13 @@ def refinement_text(run: Run) -> str:
 def commands(run: Run) -> list[tuple[str, str]]:
     """What to type to get this again."""
     scene, plan = run.problem.scene, run.plan
+    launcher = PROJECT / "crosscheck"  # of a checkout, which is on no path
+    program = shlex.quote(str(launcher)) if launcher.is_file() else "crosscheck"
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
     return [
-        ("repeats this run, in the folder of this page", "crosscheck rerun ."),
-        ("draws this page again, in the same folder", "crosscheck report ."),
-        ("runs the scene again", f"crosscheck run {shlex.quote(one_line(scene.source))}{models}"),
+        ("repeats this run, in the folder of this page", f"{program} rerun ."),
+        ("draws this page again, in the same folder", f"{program} report ."),
+        ("runs the scene again", f"{program} run {shlex.quote(one_line(scene.source))}{models}"),
     ]
 
 

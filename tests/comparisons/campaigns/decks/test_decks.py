@@ -145,7 +145,7 @@ def test_what_a_code_cannot_have_is_refused(tmp_path):
     for tables, code, said in (
         (hencky, "calculix", "body.law"),
         (hencky, "fenicsx", "flat ones"),
-        (crosscheck.Scene.read("yielding").given, "calculix", "finite_element.plastic"),
+        (crosscheck.Scene.read("yielding").given, "fenicsx", "finite_element.plastic"),
         (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "abaqus", "body.hardness"),
         (STRETCHED, "calculix", "partial_slip.bulk_stress"),
     ):

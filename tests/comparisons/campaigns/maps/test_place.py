@@ -177,7 +177,7 @@ def test_of_a_prescribed_approach_nothing_is_said_before_its_load_is_known(
         raise SceneError("as far as that")
 
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    monkeypatch.setattr("comparisons.runs.run.run", refused)
+    monkeypatch.setattr("comparisons.runs.run.solve_scene", refused)
     assert main(["run", pressed, "--out", str(tmp_path / "out")]) == 2
     assert "as far as that" in capsys.readouterr().err
 

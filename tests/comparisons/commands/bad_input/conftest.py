@@ -46,7 +46,7 @@ def folder(tmp_path, monkeypatch) -> Path:
     def run(*arguments):
         pytest.fail("a wrong scene was solved")
 
-    monkeypatch.setattr("comparisons.runs.run.run", run)
+    monkeypatch.setattr("comparisons.runs.run.solve_scene", run)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -21,8 +21,8 @@ from comparisons.studies.model_error.show import waterfalls
 from comparisons.studies.study import Run, Study
 
 ROOT = "{http://www.w3.org/2000/svg}"
-SECTIONS = ["problem", "comparison", "model-error", "contact", "yield", "stresses", "convergence"]
-SECTIONS += ["mesh", "cost", "checks", "skipped", "record"]
+SECTIONS = ["model-error", "comparison", "contact", "stresses", "yield"]
+SECTIONS += ["problem", "convergence", "mesh", "cost", "checks", "skipped", "record"]
 LINK = "{http://www.w3.org/1999/xlink}href"
 
 
@@ -48,7 +48,7 @@ def test_a_new_study_shows_itself(wavy_outcome, page_of, no_pictures, monkeypatc
     monkeypatch.setattr("comparisons.output.page.page.STUDIES", (study,))
     page = page_of(render(wavy_outcome))
     place = page.sections.index("slip")
-    assert page.sections[place - 1 : place + 2] == ["contact", "slip", "stresses"]
+    assert page.sections[place - 1 : place + 2] == ["stresses", "slip", "problem"]
     assert "All <i>stick</i> &amp; some slip" in page.source and "a &lt; b" in page.source
     sections = dict(re.findall(r'<section id="([\w-]+)">(.*?)</section>', page.source, re.DOTALL))
     assert 'class="columns"' not in sections["slip"] and "Nothing to see" not in sections["slip"]
@@ -188,8 +188,9 @@ def test_every_picture_says_in_words_what_it_shows(wavy_page):
 
 def test_a_rough_run_with_friction_has_all_pictures(wavy_page):
     # problem, pressure, close-up, surfaces; two fields and a near-surface one for each of the two
-    # friction coefficients; two sections; three meshes; convergence; cost; error budget
-    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1 + 1 + 1
+    # friction coefficients; two sections; three meshes; convergence; cost; error budget; what is
+    # judged, and the run in one picture
+    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1 + 1 + 1 + 2
     assert wavy_page.count("next to the surface") == 2
     assert wavy_page.count("Orthogonal shear stress") == 2
     assert wavy_page.count("over depth") == 2
@@ -198,19 +199,27 @@ def test_a_rough_run_with_friction_has_all_pictures(wavy_page):
 
 
 def test_a_smooth_run_has_no_pictures_of_roughness(smooth_page):
-    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1 + 1
+    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1 + 1 + 2
     assert smooth_page.count("next to the surface") == 0
     assert smooth_page.count("right-hand edge") == 1
     assert "Ra, Rq" not in smooth_page.text
 
 
-def test_sections_come_in_the_order_of_a_verification_report(wavy_page):
+def test_the_answer_comes_first_and_what_checks_it_is_folded_away(wavy_page, wavy_outcome):
     assert wavy_page.sections == SECTIONS
+    first, _, _ = wavy_page.source.partition("<nav")
+    assert "model errors over their tolerances" in first and "The run in one picture" in first
+    for error in wavy_outcome.model_errors:
+        assert f"tolerance {error.tolerance:.0%}".replace("%", " %") in first.replace("\xa0", " ")
+    for name in ("scene", "question", "uncertainty", "solved by", "made", "signature"):
+        assert f'<th scope="row">{name}</th>' in first
+    folded = re.findall(r'<details>.*?<section id="([\w-]+)"', wavy_page.source, re.DOTALL)
+    assert folded == SECTIONS[SECTIONS.index("problem") :]
 
 
 def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page):
     assert set(SECTIONS) - set(half_plane_page.sections) == {"model-error", "stresses", "mesh"}
-    assert len(half_plane_page.images) == 6
+    assert len(half_plane_page.images) == 7
     assert "Only the half-plane model was run" in half_plane_page.text
     assert "finite elements" not in half_plane_page.text
     assert "neither model" not in half_plane_page.text

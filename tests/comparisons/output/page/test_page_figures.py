@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import refound, unconverged
+from scenes import PROJECT, refound, unconverged
 
 from comparisons.cli import app
 from comparisons.figures.quantity import MODELS, label
@@ -164,7 +164,7 @@ def test_the_record_names_versions_hashes_and_the_command(wavy_page, wavy_outcom
     commands = [command.callback.__name__.strip("_") for command in app.registered_commands]
     for named in re.findall(r"crosscheck (\w+) [^ ]*\.toml", wavy_page.text):
         assert named in commands
-    assert "crosscheck rerun ." in wavy_page.text
+    assert f"{PROJECT}/crosscheck rerun ." in wavy_page.text
 
 
 def test_the_headline_names_a_solver_that_failed(

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from analytic.material import Law
+from analytic.material.hardening import Hardening
 from comparisons.common.errors import SceneError
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.problem import problem_of
@@ -112,12 +113,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
         ),
         (ELASTIC, {"plastic": True}, {}, "plastic: is true, but the body has no yield stress"),
         (
-            RIGID,
-            {"plastic": True, "deformation": "finite"},
-            {"body": {"yield_stress": 1e9}},
-            'plastic: is true beside deformation = "finite"',
-        ),
-        (
             ELASTIC,
             {"plastic": True, "element": "P3"},
             {"body": {"yield_stress": 1e9}},
@@ -173,10 +168,45 @@ def test_laws_of_elasticity_are_the_bodies_own():
     assert scene_of(ELASTIC).body.material.law.name == "neo-hookean"
 
 
+def test_laws_of_hardening_are_read_with_their_units_and_come_back():
+    table = {"table": [[0, "280 MPa"], [0.05, "340 MPa"]], "kinematic": "1 GPa"}
+    scene = scene_of(ELASTIC, body={"yield_stress": "280 MPa", "hardening": table})
+    law = scene.body.flow_stress()
+    assert law == Hardening(280e6, table=((0.0, 280e6), (0.05, 340e6)), kinematic=1e9)
+    again = Scene.of(scene.tables, Origin("mine", Path("."), "mine.toml"))
+    assert again.body == scene.body
+    voce = {"voce": {"rate": 12, "saturated": "400 MPa"}}
+    scene = scene_of(ELASTIC, body={"yield_stress": "280 MPa", "hardening": voce})
+    assert scene.body.flow_stress().voce == (400e6, 12.0)
+
+
 @pytest.mark.parametrize(
     ("sections", "complaint"),
     [
         ({"body": {"hardening_modulus": 1e9}}, "body.hardening_modulus: is given for a body that"),
+        ({"body": {"hardening": {"kinematic": 1e9}}}, "body.hardening: is given for a body that"),
+        *(
+            ({"body": {"yield_stress": 2e8, "hardening": law}}, f"body.hardening: {complaint}")
+            for law, complaint in (
+                ({"table": [[0, 2e8], [0.1, 1e8]]}, "is no law: a hardening table must not soften"),
+                ({"table": [[0.1, 2e8], [0.2, 3e8]]}, "is no law: a hardening table begins at"),
+                ({"table": [[0, 3e8], [0.2, 4e8]]}, "is no law: a hardening table begins at"),
+                ({"table": [[0, 2e8], [0, 3e8]]}, "is no law: plastic strains of a hardening"),
+                ({"table": [[0, 2e8], [0.1]]}, "has a row a list of its table"),
+                ({"table": []}, "has a table of 0 rows"),
+                ({"voce": {"saturated": 1e8, "rate": 3}}, "is no law: Voce's law wants"),
+                ({"voce": {"saturated": 3e8}}, "has voce = a table, not saturated and rate"),
+                ({"ludwik": {"strength": 1e8, "exponent": 2}}, "is 2; allowed is a number"),
+                ({"vocce": {}}, 'holds "vocce" .did you mean "voce"'),
+                ({}, "is a table; allowed"),
+                (1e9, "is 1000000000.0; allowed is a table with one of"),
+                (
+                    {"ludwik": {"strength": 1e8, "exponent": 0.5}, "table": [[0, 2e8], [1, 3e8]]},
+                    "is no law: a metal hardens by one of",
+                ),
+            )
+        ),
+        ({"body": {"yield_stress": 0}}, "body.yield_stress: is 0; allowed is a pressure above 0"),
         (
             {
                 "body": {"thickness": 1e-3},

@@ -26,9 +26,10 @@ def solution(*shears: float, depths=(1e-6, 2e-6, 3e-6)) -> QuantitiesOfInterest:
 
 
 def errors(
-    problem, half_plane, plain, whole, effects: dict, settled: float = 1e-4
+    problem, half_plane, plain, whole, effects: dict, settled: float = 1e-4, read=None
 ) -> dict[str, ModelError]:
-    """Of the largest shear and its depth; the same on all three levels."""
+    """Of the largest shear and its depth; the same on all three levels. `read` gives another
+    model's error of the solutions and a quantity."""
     level = SimpleNamespace
     runs = {
         name: SimpleNamespace(levels=[level(found=of)] * 3, finest=level(found=of))
@@ -54,7 +55,27 @@ def errors(
         formal_order=lambda *of: 2.0,
     ):
         solutions = Solutions(problem, None, runs, history, rows[0].friction)
+        if read is not None:
+            return {row.quantity: read(solutions, row.quantity) for row in rows}
         return {row.quantity: solutions.error(row) for row in rows}
+
+
+def test_other_models_are_judged_by_their_own_largest_values(problem_with):
+    """Finite elements without the effect that moves the maximum, with it, and a closed form; what
+    is not known of the whole is what is not known of the scene's own finite elements."""
+    plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
+
+    def found(read) -> list[tuple[float, float]]:
+        known = errors(problem_with(), plain, plain, strained, {}, 1e-3, read)
+        return [(known[n].value, known[n].uncertainty) for n in ("tau1_max", "tau1_max_depth")]
+
+    without = found(lambda solutions, name: solutions.of_variants(name, [plain] * 3))
+    assert [value for value, _ in without] == pytest.approx([3.0 / 3.19 - 1.0, 2.0 / 3.0 - 1.0])
+    assert found(lambda of, name: of.of_variants(name, [strained] * 3)) == [(0.0, 0.0)] * 2
+    exact = found(lambda of, name: of.of_exact(name, [plain] * 3, 1e-3))
+    assert [value for value, _ in exact] == pytest.approx([value for value, _ in without])
+    assert exact[0][1] == pytest.approx(1e-3 * 3.0 / 3.19)
+    assert found(lambda of, name: of.of_whole(name, 1e-3)) == [(0.0, 1e-3)] * 2
 
 
 def test_an_effect_that_moves_the_maximum_is_measured_where_the_whole_has_it(problem_with):

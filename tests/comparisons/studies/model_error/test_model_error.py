@@ -27,7 +27,7 @@ RIGID = {"radius": 10e-3, "rigid": True}
 
 def outcome_of(tables: dict, out: Path = Path("made")) -> Run:
     """A run that leaves no files."""
-    with patch("comparisons.runs.run.write_files"):
+    with patch("comparisons.runs.write.write_files"):
         return run(resolved(tables), out, MODELS)
 
 

@@ -60,7 +60,7 @@ def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
 def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_with):
     tables = {"body": {"yield_stress": 3e9}, "finite_element": {"plastic": True}}
     selection = chosen(problem_with(**tables))
-    assert "flow is of small deformation" in selection.impossible["finite_strain"]
+    assert "flow is taken at small strains" in selection.impossible["finite_strain"]
     assert selection.not_modelled("peak_pressure")["finite_strain"] > 0.0
 
 

@@ -97,6 +97,7 @@ class Tab:
         self.resize(width)
         self.ask("Page.navigate", url=page.resolve().as_uri())
         browser.wait(lambda message: message.get("method") == "Page.loadEventFired")
+        self.value("for (const folded of document.querySelectorAll('details')) folded.open = true")
 
     def resize(self, width: int) -> None:
         self.ask(

@@ -103,8 +103,8 @@ def test_the_keyboard_reaches_all_that_scrolls_and_every_control(tab, wavy_file,
     page = tab(wavy_file, width)
     page.value("document.querySelectorAll('*').forEach((e, k) => (e.dataset.number = k))")
     wanted = page.value(
-        """[...document.querySelectorAll("select, input, a, button, *")].filter((e) =>
-          e.matches("select, input, a, button") || (e.scrollWidth > e.clientWidth + 1
+        """[...document.querySelectorAll("*")].filter((e) =>
+          e.matches("select, input, a, button, summary") || (e.scrollWidth > e.clientWidth + 1
             && ["auto", "scroll"].includes(getComputedStyle(e).overflowX)))
           .map((e) => e.dataset.number)"""
     )

@@ -1,0 +1,161 @@
+"""What a reader sees first: each judged figure's error against its tolerance, and the run in one
+picture, everything over the same x."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import Scale, given_percent, percent, plain, significant
+from comparisons.drawing import style
+from comparisons.drawing.field import colour_bar, cross, fill, round_bands
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import LABELS, QUANTITIES, error_text, label
+from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
+from comparisons.studies.contact import draw_pressures
+from comparisons.studies.model_error.show import moved_text
+from comparisons.studies.study import MODEL_ERROR, Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH, LEFT, RIGHT = 8.35, 0.72, 0.12  # inches
+# Inches above a panel, and of the panel.
+PRESSURES, DIFFERENCES, SURFACES = (0.08, 2.1), (0.32, 0.55), (0.14, 1.0)
+SHEAR, BAR = (0.32, 2.0), (0.44, 0.1)
+FOOT = 0.26  # inches
+REACH = 1.15  # half-widths to either side
+
+ROW, TOP, BOTTOM = 0.56, 0.34, 0.5  # inches: of a bar and its words, and the space around all bars
+THICK = 0.34  # of a row
+FARTHEST = 6.0  # tolerances: what is beyond is cut off
+COLOURS = {"holds": "#0b5c8f", "fails": "#a8410a", "inconclusive": "#8a9199"}
+
+
+def overview_picture(run: Run) -> style.Picture:
+    """Pressures, the difference of models, surfaces under load, and the shear below."""
+    hertz, friction = run.problem.hertz, run.deciding_friction
+    compares, window = len(run.runs) > 1, run.window
+    rows = [PRESSURES, *[DIFFERENCES] * compares, SURFACES, *[SHEAR, BAR] * (window is not None)]
+    foot = FOOT if window is not None else style.LABEL + 0.15
+    drawn = style.figure(WIDTH, foot + sum(map(sum, rows)))
+    panels = style.stacked(drawn, rows, LEFT, RIGHT)
+    bar = panels.pop() if window is not None else None
+    what = run, (-REACH * hertz.half_width, REACH * hertz.half_width), Scale(hertz.half_width, "a")
+    draw_pressures(panels[0], *what)
+    panels[0].set_ylim(0.0, 1.25 * panels[0].dataLim.y1)
+    look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
+    panels[0].legend(loc="upper right", ncols=2, **look)
+    said = "Pressures over Hertz's"
+    if compares:
+        draw_difference(panels[1], *what)
+        said += f", {_norm(run, friction)}"
+        panels[1].set_title(_norm(run, friction))
+    draw_surfaces(panels[1 + compares], *what)
+    if window is not None:
+        largest = _shear(panels[-1], bar, run)
+        panels[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
+    for panel in panels:
+        panel.set_xlim(-REACH, REACH)
+        panel.yaxis.set_label_coords(-0.8 * LEFT / (WIDTH - LEFT - RIGHT), 0.5)
+        panel.tick_params(labelbottom=panel is panels[-1])
+    panels[-1].set_xlabel("x/a")
+    said += "; surfaces under load" + (f"; {largest}" if window is not None else "")
+    caption = (
+        "Over the same x: pressures over Hertz's, how far models are apart, surfaces under load"
+    )
+    caption += " with heights stretched, stresses below." if window is not None else "."
+    return style.picture(drawn, f"The run in one picture. {said}.", caption, data=False)
+
+
+def _norm(run: Run, friction: float) -> str:
+    """The models, and how far apart their pressures are."""
+    models = " − ".join(LABELS[name] for name in run.pair(friction))
+    error = run.figures.one(study=MODEL_ERROR, quantity="pressure_l2", friction=friction)
+    if error is None:
+        return models
+    moved = "".join(f", {text} on average" for text in moved_text(run, friction))
+    return f"{models}: {percent(error.value)} (relative L2 norm){moved}"
+
+
+def _shear(axes: "Axes", bar: "Axes", run: Run) -> str:
+    """The last model's principal shear; what is said of its largest."""
+    hertz, window, friction = run.problem.hertz, run.window, run.deciding_friction
+    stresses = {name: level.stress(friction) for name, level in run.levels(friction).items()}
+    [*others, last] = stresses
+    field = stresses[last].field.tau1 / hertz.peak_pressure
+    bands = round_bands([field], signed=False)
+    x, z = window.x / hertz.half_width, window.z / hertz.half_width
+    shown = fill(axes, x, z, field, bands, "viridis", False)
+    place = stresses[last].extremes["tau1"]
+    cross(axes, place.x / hertz.half_width, place.z / hertz.half_width)
+    largest = {
+        name: significant(stress.extremes["tau1"].value / hertz.peak_pressure, 3)
+        for name, stress in stresses.items()
+    }
+    beside = f" ({LABELS[others[0]]} {largest[others[0]]} p₀)" if others else ""
+    said = f"principal shear τ₁, {LABELS[last]}, friction {plain(friction)}: largest "
+    said += f"{largest[last]} p₀ at +{beside}"
+    axes.set_title(said)
+    colour_bar(axes.figure, bar, shown, "τ₁/p₀", bands)
+    return said
+
+
+def judged_picture(run: Run) -> style.Picture | None:
+    """A bar for each judged model error in tolerances; None where nothing is judged."""
+    errors = list(run.model_errors)
+    if not errors:
+        return None
+    drawn = style.figure(style.COLUMN, TOP + ROW * len(errors) + BOTTOM)
+    [axes] = style.stacked(drawn, [(TOP, ROW * len(errors))], 0.15, 0.15)
+    ends = [abs(e.value) + e.numerical + e.not_modelled for e in errors]
+    most = max(end / e.tolerance for end, e in zip(ends, errors, strict=True))
+    reach = min(max(1.5, 1.1 * most), FARTHEST) if np.isfinite(most) else FARTHEST
+    has_signs = any(not QUANTITIES[error.quantity].of_pair for error in errors)
+    axes.set_xlim(-reach if has_signs else 0.0, reach)
+    axes.set_ylim(0.6 - len(errors), 0.85)
+    axes.axvspan(-1.0, 1.0, color="#e8eef2", linewidth=0.0, zorder=0.5)
+    for row, error in enumerate(errors):
+        _bar(axes, -float(row), error, several=len(run.problem.scene.load.friction) > 1)
+    axes.axvline(0.0, color="#555555", linewidth=0.7)
+    axes.set_yticks([])
+    axes.spines["left"].set_visible(False)
+    axes.grid(False, axis="y")
+    axes.set_xlabel("model error over its tolerance")
+    axes.set_title("within the tolerance: shaded", fontsize=8.5)
+    words = "; ".join(
+        f"{label(e.quantity)}, friction {plain(e.friction)}: {_said(e)}" for e in errors
+    )
+    return style.picture(
+        drawn,
+        f"The half-plane's model errors over their tolerances. {words}.",
+        "The half-plane's model error in each judged figure over its tolerance, to the left where "
+        "the half-plane's is too low. Black: its uncertainty. Striped: what may be added by what "
+        "no model of the run has. What reaches beyond the picture is cut off.",
+        data=False,
+    )
+
+
+def _said(error: Figure) -> str:
+    unsure = percent(error.numerical)
+    size = error_text(error.quantity, error.value, error.numerical)
+    return f"{size} ± {unsure}, tolerance {given_percent(error.tolerance)}, {error.verdict}"
+
+
+def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
+    """A bar from zero to the error, its uncertainty, what is not modelled, and words above."""
+    at, colour = error.value / error.tolerance, COLOURS[error.verdict]
+    certain, left = (size / error.tolerance for size in (error.numerical, error.not_modelled))
+    limit = axes.get_xlim()[1]
+    low, high = np.clip([at - certain - left, at + certain + left], axes.get_xlim()[0], limit)
+    if left > 0.0:
+        [beyond] = axes.barh(y, high - low, left=low, height=THICK, facecolor="none", linewidth=0.0)
+        style.hatch(axes, [beyond], "#555555", width=0.5)
+    axes.barh(y, np.clip(at, -limit, limit), height=THICK, color=colour, linewidth=0.0)
+    if np.isfinite(certain):
+        look = {"elinewidth": 1.4, "capsize": 3.0, "color": "#000000", "fmt": "none"}
+        axes.errorbar(at, y, xerr=certain, **look)
+    sliding = f", friction {plain(error.friction)}" if several else ""
+    above = {"va": "bottom", "fontsize": 8.5}
+    axes.text(axes.get_xlim()[0], y + 0.56 * THICK, label(error.quantity) + sliding, **above)
+    text = {"ha": "right", "color": colour, "weight": "bold", **above}
+    axes.text(limit, y + 0.56 * THICK, _said(error), **text)

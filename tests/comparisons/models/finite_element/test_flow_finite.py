@@ -1,0 +1,39 @@
+"""Flow at finite strains through a scene: a light load is that of small strains."""
+
+import pytest
+from scenes import STEEL, changed, resolved
+
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.models.window import window_of
+
+LIGHT = {
+    "roller": {"radius": 0.8, "rigid": True},
+    "body": {**STEEL, "yield_stress": 1e8, "law": "hencky"},
+    "load": {"hertz_peak_pressure": 2.4e8, "friction": 0.1},
+    "resolution": {"elements": 4, "levels": 2},
+    "stress": {"points": [20, 10]},
+}
+
+
+def level_of(deformation):
+    settings = {"plastic": True, "deformation": deformation}
+    problem = problem_of(resolved(changed(LIGHT, finite_element=settings)))
+    plan = make_plan(problem, ("finite_element",))
+    refinement = Refinement(problem.pitches[0])
+    return finite_element_level(problem, plan, refinement, window_of(problem), Stages())
+
+
+def test_at_light_loads_finite_strains_are_small():
+    small, finite = level_of("linear"), level_of("finite")
+    assert small.plastic_strain == pytest.approx(finite.plastic_strain, rel=0.02) != 0.0
+    assert finite.contact_length == pytest.approx(small.contact_length, rel=2e-3)
+    peaks = [level.solution.pressure.max() for level in (small, finite)]
+    assert peaks[1] == pytest.approx(peaks[0], rel=2e-3)
+    largest = [level.stress(0.1).extremes["tau1"].value for level in (small, finite)]
+    assert largest[1] == pytest.approx(largest[0], rel=5e-3)
+    assert finite.mesh_field.others["residual_von_mises"].max() > 1e6
+    assert finite.material is not None and small.material is None
