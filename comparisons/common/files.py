@@ -25,11 +25,12 @@ OWN_FILES = (
     *("run_in_profile.csv", "finite_element/mesh.msh"),
     *(f"{model}/{name}" for model in OWN_FOLDERS for name in ("contact.csv", "stress.vtu")),
 )
-FURTHER = "whole/friction_*"  # of the second friction coefficient, and so on
+# of the second friction coefficient, and so on
+FURTHER = tuple(f"{model}/friction_*" for model in OWN_FOLDERS)
 ALL_FILES = (  # with patterns, and those formats of fields that a run writes when it is asked to
     *OWN_FILES,
     *(f"{model}/stress.{name}" for model in OWN_FOLDERS for name in ("vtkhdf", "msh")),
-    *(f"{FURTHER}/contact.csv", f"{FURTHER}/stress.*"),
+    *(f"{below}/{name}" for below in FURTHER for name in ("contact.csv", "mesh.msh", "stress.*")),
 )
 RECORD = "record.json"  # of a run: its "files" are this program's
 # Those whose own record is <name>.json.
@@ -252,7 +253,7 @@ def published(out: Path, files: tuple[str, ...] = ALL_FILES) -> Iterator[Path]:
             for name in ours & set(_present(out, files)):
                 if Path(name) not in made:
                     (out / name).unlink(missing_ok=True)
-            for folder in (*_present(out, (FURTHER,)), *OWN_FOLDERS):
+            for folder in (*_present(out, FURTHER), *OWN_FOLDERS):
                 with suppress(OSError):  # absent, or holds something
                     (out / folder).rmdir()
 

@@ -105,12 +105,15 @@ def expected_level(
 ) -> ExpectedCost:
     """Of a model on pressure elements of a pitch [m], in contact on `patches` (k, 2) [m]; of the
     half-plane with the stresses on a window."""
+    contacts = len(problem.scene.load.friction) if problem.friction_moves(model) else 1
     if model == "half_plane":
-        return expected_with(problem, pitch, window)
-    from comparisons.models.finite_element.cost import expected
-    from comparisons.models.finite_element.mesh import Refinement
+        cost = expected_with(problem, pitch, window)
+    else:
+        from comparisons.models.finite_element.cost import expected
+        from comparisons.models.finite_element.mesh import Refinement
 
-    return expected(problem, plan, Refinement(pitch), patches)
+        cost = expected(problem, plan, Refinement(pitch), patches)
+    return replace(cost, seconds=contacts * cost.seconds)
 
 
 def flow_seconds(problem: Problem, patches: np.ndarray) -> float:

@@ -15,7 +15,7 @@ from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
-from comparisons.models.level import ExpectedCost, Level, StressResult
+from comparisons.models.level import ExpectedCost, Level, StressResult, under_each
 from comparisons.models.problem import Problem, ends_of, pressed_on
 from comparisons.models.window import Window, search_window
 
@@ -48,8 +48,13 @@ def half_plane_level(
     problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
 ) -> Level:
     """Solve one level: contact, and stresses in a window; without `fields` their maxima alone."""
-    frictions, grid = problem.scene.load.friction, problem.grid(pitch)
-    return half_plane_on(problem, grid, problem.coupling, frictions, window, stages, fields)
+    grid = problem.grid(pitch)
+
+    def solve(problem: Problem) -> Level:
+        frictions = problem.scene.load.friction
+        return half_plane_on(problem, grid, problem.coupling, frictions, window, stages, fields)
+
+    return under_each(problem, "half_plane", solve)
 
 
 def half_plane_on(

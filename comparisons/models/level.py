@@ -1,6 +1,7 @@
 """One model's solution on one level of refinement, as data that both models fill in."""
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -180,6 +181,22 @@ class Level:
     operator: ComplianceCheck | None = None
     # (n,) [m] where what now stands at the grid's nodes stood without load; None: there
     material: np.ndarray | None = None
+    # where friction moves the contact: this one under the scene's further coefficients
+    further: tuple["Level", ...] = ()
+    friction: float | None = None  # that moves it; None: it is the same under all
+
+    @property
+    def by_friction(self) -> tuple["Level", ...]:
+        """One for each coefficient where friction moves the contact, else this alone."""
+        return self, *self.further
+
+    def under(self, friction: float) -> "Level":
+        """The level under one of the scene's friction coefficients."""
+        return next((level for level in self.further if level.friction == friction), self)
+
+    @property
+    def converged(self) -> bool:
+        return all(level.solution.converged for level in self.by_friction)
 
     @property
     def field_on_mesh(self) -> MeshField | None:
@@ -205,7 +222,7 @@ class Level:
 
     def stress(self, friction: float) -> StressResult | None:
         """Stresses under one friction coefficient, None without [stress]."""
-        return next((s for s in self.stresses if s.friction == friction), None)
+        return next((s for s in self.under(friction).stresses if s.friction == friction), None)
 
 
 @dataclass(frozen=True)
@@ -227,6 +244,16 @@ class ModelRun:
         """The level on the pressure elements of another model's, or on the nearest."""
         return min(self.levels, key=lambda level: abs(level.grid.pitch - other.grid.pitch))
 
+    def under(self, friction: float) -> "ModelRun":
+        """All levels under one of the scene's friction coefficients."""
+        check = self.far_boundary_check
+        return replace(
+            self,
+            levels=tuple(level.under(friction) for level in self.levels),
+            far_boundary_check=check and check.under(friction),
+            longer_increments=tuple(level.under(friction) for level in self.longer_increments),
+        )
+
     @property
     def seconds(self) -> dict[str, float]:
         """By stage, all levels together."""
@@ -236,6 +263,17 @@ class ModelRun:
             for stage, seconds in level.seconds.items():
                 total[stage] = total.get(stage, 0.0) + seconds
         return total
+
+
+def under_each(problem: Problem, model: str, solve: Callable[[Problem], Level]) -> Level:
+    """A model's level, where friction moves its contact solved for one coefficient after the other.
+    Seconds, and what was expected of them, are those of all."""
+    frictions = problem.scene.load.friction
+    if not problem.friction_moves(model) or len(frictions) == 1:
+        return solve(problem)
+    levels = [replace(solve(problem.under(mu)), friction=mu) for mu in frictions]
+    seconds = sum(level.expected_seconds for level in levels)
+    return replace(levels[0], expected_seconds=seconds, further=tuple(levels[1:]))
 
 
 def deformed_height(problem: Problem, level: Level) -> np.ndarray:

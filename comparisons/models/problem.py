@@ -106,6 +106,14 @@ class Problem:
         farthest = max(abs(self.extent[0]), abs(self.extent[1]))
         return max(self.scene.finite_element.block * half_width, LEAST_EXTENT * farthest)
 
+    def under(self, friction: float) -> "Problem":
+        """The problem under one of the scene's friction coefficients alone."""
+        return replace(self, scene=self.scene.unchecked({"load.friction": (friction,)}))
+
+    def friction_moves(self, model: str) -> bool:
+        """Whether a model's contact is another one under every friction coefficient."""
+        return bool(self.coupling if model == "half_plane" else self.scene.finite_element.coupled)
+
     @cached_property
     def gap(self) -> Callable[[np.ndarray], np.ndarray]:
         """Initial gap g0(x) [m] under a parabola, but for a constant."""
@@ -136,8 +144,9 @@ class Problem:
 
     @property
     def coupling(self) -> float:
-        """Friction times Dundurs' beta, by which traction moves surfaces; 0 where that is out."""
-        return self.scene.load.friction[0] * self.dundurs_beta if self.scene.load.coupled else 0.0
+        """Friction times Dundurs' beta, by which traction moves surfaces; 0 where that is out.
+        Of several coefficients the largest."""
+        return max(self.scene.load.friction) * self.dundurs_beta if self.scene.load.coupled else 0.0
 
     def grid(self, pitch: float) -> HatGrid:
         return HatGrid.within(*self.extent, pitch)
@@ -313,7 +322,11 @@ def _too_wide(scene: Scene, touching: tuple, ends: tuple) -> str:
 
 def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
     """First and last contact [m] of either model in a range, and what is too near its ends [m]."""
-    start, stop = _touched(problem, (low, high), layered=False)
+    frictions, problems = problem.scene.load.friction, [problem]
+    if problem.friction_moves("half_plane"):
+        problems = [problem.under(mu) for mu in (min(frictions), max(frictions))]
+    starts, stops = zip(*(_touched(p, (low, high), layered=False) for p in problems), strict=True)
+    start, stop = min(starts), max(stops)
     if is_layered(problem.scene):
         other = _touched(problem, (low, high), layered=True)
         start, stop = min(start, other[0]), max(stop, other[1])

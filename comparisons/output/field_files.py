@@ -65,8 +65,8 @@ def field_of(run: Run, level: Level) -> FieldFile:
     On a mesh of finite elements also their `displacement`, a vector (n, 3) [m] in the axes of the
     points, zero where the body is held; and, in single precision, `half_plane_` and `difference_`
     COMPONENTS: the half-plane's stresses at the same points, and these less the finite elements'.
-    Of several friction coefficients each array has its own in the name. Where the body yields there
-    are also what flow leaves behind when the roller is gone."""
+    Of several friction coefficients that share a contact each array has its own in the name. Where
+    the body yields there are also what flow leaves behind when the roller is gone."""
     scene = run.problem.scene
     nu = scene.body.poissons_ratio
     on_mesh = level.field_on_mesh
@@ -132,7 +132,11 @@ def _beside(
 ) -> dict[str, np.ndarray]:
     """The half-plane's stresses at points (n, 2), and these less what is `on_mesh`; NaN above the
     mean line."""
-    at_points = stresses_at(problem, half_plane, tuple(stresses), *plane.T)
+    at_points: dict[float, StressState] = {}
+    for contact in half_plane.by_friction:
+        frictions = tuple(mu for mu in stresses if contact.friction in (None, mu))
+        if frictions:
+            at_points |= stresses_at(problem, contact, frictions, *plane.T)
     nu = problem.scene.body.poissons_ratio
     arrays = _named(at_points, lambda s: _components(s, nu))
     return {

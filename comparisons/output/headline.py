@@ -20,7 +20,7 @@ from comparisons.studies.model_error.account import INPUTS, INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.selection import FLOW
-from comparisons.studies.model_error.show import flow_taken, law_range
+from comparisons.studies.model_error.show import ROUNDING, figure_of_whole, flow_taken, law_range
 from comparisons.studies.scatter.study import beside_inputs, by_inputs
 from comparisons.studies.study import MODEL_ERROR, SCATTER, Run
 from comparisons.studies.subsurface import yielding
@@ -293,7 +293,8 @@ def _figures_of_whole(run: Run) -> str:
     """The figures to use instead, at the largest friction."""
     friction = max(run.problem.scene.load.friction)
     shown = [
-        f"{label(error.quantity)} {with_unit(error.scale, QUANTITIES[error.quantity].unit)}"
+        f"{label(error.quantity)} "
+        f"{with_unit(figure_of_whole(run, error), QUANTITIES[error.quantity].unit)}"
         for error in run.model_errors
         if error.friction == friction and not QUANTITIES[error.quantity].of_pair
     ]
@@ -302,11 +303,11 @@ def _figures_of_whole(run: Run) -> str:
 
 
 def _rounded_up(size: float) -> float | None:
-    """To a leading digit, a tolerance that a user would write; None where it is not known."""
+    """To two digits, a tolerance that a user would write; None where it is not known."""
     if not math.isfinite(size) or size <= 0.0:
         return None
-    step = 10.0 ** math.floor(math.log10(size))
-    return round(math.ceil(size / step) * step, 12)
+    step = 10.0 ** (math.floor(math.log10(size)) - 1)
+    return round(math.ceil(size / step * (1.0 - ROUNDING)) * step, 12)
 
 
 def _one_model(run: Run) -> str:
@@ -326,7 +327,7 @@ def _unconverged(run: Run) -> str:
         f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
         for name, model in run.runs.items()
         for level in model.levels
-        if not level.solution.converged
+        if not level.converged
     ]
     moved = run.data(coupling.NAME)
     said += [

@@ -201,7 +201,7 @@ def _model_error(old: Mapping) -> Items:
             ]
             parts += [Part(account.INTERACTION, row["interaction"]), Part("jump", row["jump"])]
             if inputs[row["friction"]] is not None:
-                parts.append(Part(account.INPUTS, inputs[row["friction"]]))
+                parts.append(Part(account.SAMPLING, inputs[row["friction"]]))
             yield Figure(
                 *(MODEL_ERROR, name, "half_plane", row["value"], at, "whole"),
                 uncertainty=_total(row["uncertainty"]),

@@ -249,7 +249,7 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
 def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:
     """Of pressures, of the run-in surface, and of the files of answers."""
     hashes: dict[str, object] = {
-        f"{name}_pressure": digest(run.finest.solution.pressure)
+        f"{name}_pressure": digest(*(lv.solution.pressure for lv in run.finest.by_friction))
         for name, run in solved.runs.items()
     }
     run_in = solved.problem.surface.run_in

@@ -55,7 +55,7 @@ def _save_shown(here: Here, path: Path) -> None:
 
 
 def _written(outcome: Run) -> dict[str, Level]:
-    """Levels by their folders; whole models of further friction coefficients below the first's."""
+    """Levels by their folders; those of further friction coefficients below the first's."""
     levels: dict[str, Level] = {}
     for friction in outcome.problem.scene.load.friction:
         for name, level in outcome.levels(friction).items():
@@ -71,7 +71,7 @@ def _write_level(here: Here, folder: Path, name: str, fields: str) -> None:
     write_contact(folder / "contact.csv", outcome, level)
     if outcome.window is not None:
         write_field(folder, field_of(outcome, level), fields)
-    if name in outcome.runs and level.mesh is not None:
+    if name.split("/")[0] in outcome.runs and level.mesh is not None:
         write_mesh(folder / "mesh.msh", outcome, level.mesh)
 
 

@@ -11,14 +11,13 @@ HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses 
 # stresses at the edge of a contact half as large again as the largest below it.
 QUADRATIC_UP_TO = 0.49
 HALF_PLANE_BLOCK = 20.0  # half-widths: the series of the far field is exact to round-off there
-SEVERAL_FRICTIONS = "is true with {} friction coefficients; allowed is one, each moves the contact"
 
 
 class FiniteElementSection(SceneSection):
     """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
 
-    # flat: the roughness is in the gap | rough: it is the boundary
-    geometry: Annotated[str, OneOf(("flat", "rough"))] = "flat"
+    # flat: the roughness is in the gap | rough: it is the boundary, as finite deformation takes it
+    geometry: Annotated[str, OneOf(("flat", "rough"))] | None = None
     # reference: at the place before loading, pressure along the mean normal | displaced: on the
     # deformed surface, pressure along the roller's normal
     gap: Annotated[str, OneOf(("reference", "displaced"))] | None = None
@@ -59,8 +58,12 @@ class FiniteElementSection(SceneSection):
         if self.element is None:
             cubic = largest > QUADRATIC_UP_TO and not self.nonlinear
             update["element"] = "P3" if cubic else "P2"
+        geometry = self.geometry
+        if geometry is None:
+            strained = scene.profile is not None and self.deformation == "finite"
+            update["geometry"] = geometry = "rough" if strained else "flat"
         if self.gap is None:
-            update["gap"] = "displaced" if self.geometry == "rough" else "reference"
+            update["gap"] = "displaced" if geometry == "rough" else "reference"
         if self.block is None:
             update["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
         if self.coupled is None:
@@ -78,16 +81,11 @@ class FiniteElementSection(SceneSection):
         roller, body, load, profile = scene.roller, scene.body, scene.load, scene.profile
         coated, finite = scene.coating is not None, self.deformation == "finite"
         far = self.far_field == "half-plane"
-        frictions, apart = len(load.friction), max(load.friction) > 0.0 and self.coupled is False
+        apart = max(load.friction) > 0.0 and self.coupled is False
         if self.geometry == "rough" and profile is None:
             yield "geometry", 'is "rough" for a smooth body; allowed with [profile]'
         if self.plastic and far:
             yield "far_field", 'is "half-plane" for a body that yields; allowed is "held"'
-        if self.nonlinear and frictions != 1:
-            yield (
-                "plastic" if self.plastic else "deformation",
-                f"wants one friction coefficient, not {frictions}; allowed is a single number",
-            )
         if self.roller_body == "disc" and roller.rigid:
             yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
         for bound in ("thickness", "width"):
@@ -97,8 +95,6 @@ class FiniteElementSection(SceneSection):
             yield "far_field", 'is "half-plane", but the body has a coating; allowed is "held"'
         if self.plastic and body.yield_stress is None:
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
-        if self.coupled and frictions != 1:
-            yield "coupled", SEVERAL_FRICTIONS.format(frictions)
         if finite and self.plastic and coated:
             yield "plastic", "is true for a coated body; allowed without [coating]"
         if finite and profile is not None and self.geometry == "flat":

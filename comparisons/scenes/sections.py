@@ -38,7 +38,6 @@ from comparisons.scenes.fields import (
     Whole,
     allowed,
 )
-from comparisons.scenes.finite_element import SEVERAL_FRICTIONS
 from comparisons.scenes.hardening import HardeningField, hardening_of
 from comparisons.scenes.materials import ELASTIC, Solid, SolidName, solid_named, solids
 
@@ -268,8 +267,6 @@ class LoadSection(SceneSection):
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from self.unless_one_of(self.KINDS, ", ")
-        if self.coupled and len(self.friction) != 1:
-            yield "coupled", SEVERAL_FRICTIONS.format(len(self.friction))
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         for there, where, needed in (

@@ -29,7 +29,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     figures, series, said = [], [], []
     sure = Uncertainty({"iteration": KKT_TOLERANCE})
     for name, run in solved.runs.items():
-        for quantity, value in asdict(run.finest.solution.residuals).items():
+        residuals = [asdict(level.solution.residuals) for level in run.finest.by_friction]
+        for quantity in residuals[0]:
+            value = max(each[quantity] for each in residuals)
             figures.append(Figure(NAME, quantity, name, value, uncertainty=sure))
         if (check := run.finest.operator) is not None:
             series += _compliance(check, name)

@@ -54,6 +54,7 @@ def differences_of(
 ) -> dict[str, Figure]:
     """By quantity. The differences are figures of their own: both models have the same pressure
     elements, and what these leave out, is in both."""
+    half_plane, finite_element = half_plane.under(friction), finite_element.under(friction)
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
     history = [differences(one, other, problem, friction, window) for one, other in pairs]
     first, coarsest = finite_element.levels[0], half_plane.levels[0]

@@ -58,7 +58,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     ]
     statements = []
     for run in runs:
-        converged = all(level.solution.converged for level in run.levels)
+        converged = all(level.converged for level in run.levels)
         statements.append(Statement("converged", "yes" if converged else "no", run.name))
         if (why := no_approach(problem, run)) is not None:
             statements.append(Statement("no approach", why, run.name))
@@ -68,6 +68,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 
 def values_of(level: Level, problem: Problem, friction: float) -> dict[str, float]:
     """The compared quantities that one model has by itself, SI."""
+    level = level.under(friction)
     values = {
         "peak_pressure": float(level.solution.pressure.max()),
         "contact_length": level.contact_length,
@@ -92,6 +93,7 @@ def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
 
 def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
     """Of every compared quantity that the model has by itself."""
+    run = run.under(friction)
     history = [values_of(level, problem, friction) for level in run.levels]
     repeated = by_repetition(run, lambda level: values_of(level, problem, friction))
     stated = {}
@@ -152,6 +154,7 @@ def no_approach(problem: Problem, run: ModelRun) -> str | None:
 
 def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
     """The figures of one model at one friction coefficient."""
+    run = run.under(friction)
     level, half_width = run.finest, problem.hertz.half_width
     levels = [values_of(level, problem, friction) for level in run.levels]
     stated = uncertainties(run, problem, friction)
@@ -208,11 +211,14 @@ def _further(
 
 def _series(problem: Problem, run: ModelRun) -> Iterator[Series]:
     """Patches of contact, and what each level took beside what the laws of cost said."""
+    for level in run.finest.by_friction:
+        at = {} if level.friction is None else {"friction": level.friction}
+        friction = at.get("friction", problem.scene.load.friction[0])
+        stated = uncertainties(run, problem, friction)["contact_length"].total
+        edges = (stated * level.contact_length,) * len(level.patches)
+        start, stop = (Column(tuple(ends), "m", edges) for ends in level.patches.T.tolist())
+        yield Series("patches", {"start": start, "stop": stop}, run.name, at)
     level = run.finest
-    stated = uncertainties(run, problem, problem.scene.load.friction[0])["contact_length"].total
-    edges = (stated * level.contact_length,) * len(level.patches)
-    start, stop = (Column(tuple(ends), "m", edges) for ends in level.patches.T.tolist())
-    yield Series("patches", {"start": start, "stop": stop}, run.name)
     took = [
         {
             "pitch": level.grid.pitch,

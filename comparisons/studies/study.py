@@ -108,17 +108,18 @@ class Run:
     def levels(self, friction: float) -> dict[str, Level]:
         """The finest level of every model at a friction coefficient, last of the whole model where
         it is not the scene's own finite elements."""
-        finest = {name: run.finest for name, run in self.runs.items()}
-        budget, elements = self.data(MODEL_ERROR), self.runs.get("finite_element")
+        runs = {name: run.under(friction) for name, run in self.runs.items()}
+        finest = {name: run.finest for name, run in runs.items()}
+        budget = self.data(MODEL_ERROR)
         whole = None if budget is None else budget.wholes.get(friction)
-        if whole is not None and all(whole is not level for level in elements.levels):
+        if whole is not None and all(whole is not level for level in runs["finite_element"].levels):
             finest[WHOLE] = whole
         return finest
 
     def pair(self, friction: float) -> dict[str, Level]:
         """The half-plane and the last of `levels` on the same elements, or the only model."""
         name, last = list(self.levels(friction).items())[-1]
-        first = next(iter(self.runs.values()))
+        first = next(iter(self.runs.values())).under(friction)
         return {first.name: first.beside(last), name: last}
 
     def shows(self, quantity: str) -> bool:

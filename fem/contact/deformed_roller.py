@@ -11,7 +11,7 @@ the roller (x, r) = sum M_a(t) (x_a, r_a), and
 
 Forces at a point act on both bodies at the same place and against each other: p (s, 1) per
 undeformed length of the rough body, with friction towards +x along the common tangent (1, -s) on
-it. p is the vertical force per undeformed length of x of the rough body: integral p dX is the load.
+it. p is the pressure's vertical force per undeformed length of x of the rough body.
 
 The slope of quadratic edges jumps at their ends by the order of their length squared. Forces follow
 instead the line through the slopes in the middle of neighbouring edges, of the same order and

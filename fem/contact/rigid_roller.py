@@ -4,8 +4,9 @@
     T p = integral N p ((s', 1) + friction (1, -s')) dX
 
 The roller's normal at the current place of a surface point is (s', 1) up to its length, so that the
-force is the gap's derivative. p is the vertical force per undeformed length of x: integral p dX is
-the load, and p / (dx/dX) the pressure on the deformed surface.
+force is the gap's derivative. p is the pressure's vertical force per undeformed length of x, and
+p / (dx/dX) the pressure on the deformed surface. With friction's part the load is the integral of
+(1 - friction s') p dX.
 
 Nomenclature: X, Z place in the undeformed body [m], u displacement [m], s(x) rise of the roller
 above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions."""

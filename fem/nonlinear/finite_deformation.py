@@ -11,7 +11,8 @@ Friction drags the bodies past each other, by an amount that for unbounded bodie
 constant: a held block or a disc gives ten times what the half-plane's own datum gives. Left to
 itself the roller would stand over another place of the trace. Both are moved back along x until the
 displacement of each surface along x is zero in the pressure's mean: under load the roller stands
-where the scene has put it."""
+where the scene has put it. A disc also turns, which moves its surface and not its shape: of a disc
+the middle of the circle that fits its deformed rim best is moved back."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -43,6 +44,7 @@ MOST_CORRECTIONS = 25
 # Of Newton's method: mean slip of the surfaces that is left, of a hat, and solutions to get there.
 ASIDE, MOST_SETTINGS = 1e-3, 6
 MOST_CAPS = 15  # solutions until the cap on the pressure settles
+LEANING = 5e-8  # of the load: what friction on tilted tangents may still take of it
 CAP_LEFT = 1e-8  # of a cap on the pressure that the last solution's stretch would change
 
 
@@ -50,12 +52,13 @@ CAP_LEFT = 1e-8  # of a cap on the pressure that the last solution's stretch wou
 class FiniteDeformation:
     """A body in contact with a roller, in its deformed state.
 
-    pressure       (count,) [Pa] vertical force per undeformed length of x, as in the linear theory
+    pressure       (count,) [Pa] its vertical force per undeformed length of x, without friction's
     displacement   (n, 2) [m] at the body's nodes
     roller_displacement  (m, 2) [m] at those of an elastic roller, in its own frame; else empty
     approach       depth [m] of the roller's lowest point, before it deforms, below z = 0 of the
                    undeformed body
-    gap            (count,) [m] mean opening under each hat, along z"""
+    gap            (count,) [m] mean opening under each hat, along z
+    load           [N/m] vertical force of the pressure and of its friction"""
 
     body: ElasticBody
     hats: np.ndarray
@@ -63,6 +66,7 @@ class FiniteDeformation:
     friction: float
     solution: NonlinearSolution
     initial_gap: np.ndarray  # (count,) [m] that of the undeformed bodies, the approach apart
+    load: float
 
     def __post_init__(self) -> None:
         state = self.solution.state
@@ -119,6 +123,7 @@ class FiniteContact:
                the same hats, its body in its own frame, z into it, with its shape as the boundary
     start      (count,) [Pa] linear pressure under the same load
     friction   q = friction p along the common tangent, towards +x on the body
+    disc       whether an elastic roller is one, its rim the boundary with the contact
     far        gives the body's outer boundary the half-plane's displacement under `start`; None:
                the support holds it. An elastic roller has its own
     gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
@@ -134,10 +139,12 @@ class FiniteContact:
         start: np.ndarray,
         friction: float = 0.0,
         far: FarField | None = None,
+        disc: bool = False,
     ) -> None:
         own = FiniteElementCompliance(body, hats, far=far)
         self.body, self.hats, self.friction, self.start = body, hats, friction, start
         self.roller, self.elastic, self.compliance = roller, (body,), own
+        self._disc = disc
         self.linear = _started(own, start, friction)
         if isinstance(roller, FiniteElementCompliance):
             self.elastic = body, roller.body
@@ -161,15 +168,19 @@ class FiniteContact:
         as the surface under a hat is stretched, which each solution tells the next. Raises FemError
         if it does not converge, ValueError for a load that the hats cannot bear."""
         state = ContactState((self.linear,), self.start, approach=0.0)
+        asked = load and self.pressing(load, self.linear, self.start)
         constant, cap = np.zeros_like(self.weights), np.full_like(self.weights, hardness)
         for _ in range(MOST_SETTINGS if np.isinf(hardness) else MOST_CAPS):
-            problem, wanted = [(self.response, self.contact)], (load, approach, cap)
+            problem, wanted = [(self.response, self.contact)], (asked, approach, cap)
             start = constant, self.weights, state
-            begun = self._begun(load, approach, hardness)
+            begun = self._begun(asked, approach, hardness)
             solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
             state, deformed = solution.state, self.deformed(solution)
             moved, aside = self.set_back(state.displacements[0], state.pressure)
             is_settled = aside <= ASIDE * self.weights.mean()
+            if load is not None:
+                before, asked = asked, self.pressing(load, *state.displacements, state.pressure)
+                is_settled = is_settled and abs(asked - before) <= LEANING * load
             state = replace(state, displacements=(moved,))
             if np.isfinite(hardness):
                 stretched = hardness * deformed.stretch
@@ -187,15 +198,32 @@ class FiniteContact:
             replace(solution, state=replace(solution.state, pressure=state.pressure))
         )
 
+    def borne(self, moved: np.ndarray, pressure: np.ndarray) -> float:
+        """The vertical force [N/m] on the body of pressures (count,) [Pa] and of their friction,
+        which pulls along the tangents: integral (1 - mu s') p dX."""
+        if not self.friction:
+            return float(self.weights @ pressure)
+        force = self.contact.loaded(moved, pressure)[1].reshape(-1, 2)
+        return float(force[: len(self.body.nodes), 1].sum())
+
+    def pressing(self, load: float, moved: np.ndarray, pressure: np.ndarray) -> float:
+        """What pressures alone press with [N/m] where they and their friction bear a `load` [N/m],
+        by the tangents of one state."""
+        return load * float(self.weights @ pressure) / self.borne(moved, pressure)
+
     def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
         """The displacement (n, 2) [m] with each body moved along x, so that in the mean of a
-        pressure (count,) [Pa] its surface stays where it was; and by how much at most [m]."""
+        pressure (count,) [Pa] its surface stays where it was, or a disc's middle does; and by how
+        much at most [m]."""
         pieces, aside = np.split(moved, [len(self.body.nodes)]), 0.0
         at, force = self.hats[1:-1], pressure * self.weights
         for place, (body, piece) in enumerate(zip(self.elastic, pieces, strict=False)):
             surface = body.surface
-            along = np.interp(at, surface.x, piece[surface.point, 0])
-            mean = float(force @ along / force.sum())
+            if place and self._disc:
+                mean = _middle(*(body.nodes + piece)[surface.point].T)
+            else:
+                along = np.interp(at, surface.x, piece[surface.point, 0])
+                mean = float(force @ along / force.sum())
             pieces[place], aside = piece - (mean, 0.0), max(aside, abs(mean))
         return np.vstack(pieces), aside
 
@@ -230,8 +258,11 @@ class FiniteContact:
         if isinstance(roller, FiniteElementCompliance):
             reached = solution.state.displacements[0][len(self.body.nodes) :]
             roller = DeformedSurface(roller.body, reached)
-        initial = self.gap / self.weights
-        return FiniteDeformation(self.body, self.hats, roller, self.friction, solution, initial)
+        state, initial = solution.state, self.gap / self.weights
+        load = self.borne(*state.displacements, state.pressure)
+        return FiniteDeformation(
+            self.body, self.hats, roller, self.friction, solution, initial, load
+        )
 
 
 class FiniteCompliance:
@@ -313,6 +344,16 @@ class FiniteCompliance:
         )
         bodies = zip(self._contact.elastic, pieces, strict=True)
         return np.vstack([body.solve(piece) for body, piece in bodies])
+
+
+def _middle(x: np.ndarray, z: np.ndarray) -> float:
+    """x [m] of the middle of the circle that fits points (n,) [m] best, each with as much weight as
+    it has arc (Kasa 1976, IEEE Trans. Instrum. Meas. 25, 8)."""
+    size = np.ptp(x)
+    x, z = x / size, z / size
+    weight = np.sqrt(np.gradient(np.append(0.0, np.cumsum(np.hypot(np.diff(x), np.diff(z))))))
+    columns = np.column_stack([2.0 * x, 2.0 * z, np.ones_like(x)]) * weight[:, None]
+    return float(np.linalg.lstsq(columns, weight * (x**2 + z**2), rcond=None)[0][0] * size)
 
 
 def _started(

@@ -44,7 +44,8 @@ def press_plastically_finitely(
     contact  body and roller, undeformed, with the linear pressure under the first load; the body's
              material is the metal's elastic one, whose law is not asked for: it is Hencky's
     metal    of the body; the roller, where it is elastic, stays so
-    loads    P [N/m], the vertical force, the first positive; 0 removes the roller
+    loads    P [N/m] of the pressures, without what friction bears, the first positive; 0 removes
+             the roller
     travel   hats that an edge of the contact may travel in one increment
 
     Stresses and plastic strain at the mesh's points, which move by `displacement`, are

@@ -11,7 +11,8 @@ set changes with every step of Newton's method (Laursen, Computational
 Contact and Impact Mechanics, ch. 5). Small strains: the same with x = X and all slopes zero.
 
 The roller moves along x so that the mean tangential displacement between the surfaces, weighted by
-pressure, vanishes, as on half-planes: there no far boundary says how far friction drags.
+pressure, vanishes, as on half-planes: there no far boundary says how far friction drags. A disc
+also turns: in place of its surface's displacement there is that of its middle.
 """
 
 from collections.abc import Callable
@@ -48,11 +49,12 @@ def line_shapes(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 @dataclass
 class State:
     """Displacements (n, 2) of the bodies, pressures at the surface's corners, those that are
-    active, approach, and the roller's shift along x."""
+    active, those that are held at the cap, approach, and the roller's shift along x."""
 
     moved: list[np.ndarray]
     pressure: np.ndarray
     active: np.ndarray
+    capped: np.ndarray
     approach: float = 0.0
     shift: float = 0.0
 
@@ -64,6 +66,8 @@ class SurfacePair:
     rough, roller  the bodies; a rigid roller is its shape: height, slope and curvature of x
     gap            initial gap (of x) at small strains, None at finite ones
     load           vertical force per length, friction mu
+    cap            of Cauchy's pressure; where it is reached, the bodies overlap
+    middle         (n, 2) what the displacements of a disc's nodes move its middle by along x
     """
 
     rough: Solid
@@ -72,6 +76,8 @@ class SurfacePair:
     friction: float
     reach: float
     gap: Callable[[np.ndarray], np.ndarray] | None = None
+    cap: float = np.inf
+    middle: np.ndarray | None = None
 
     @property
     def solids(self) -> list[Solid]:
@@ -105,7 +111,7 @@ class SurfacePair:
         """Nothing has moved; everything within the reach is taken to touch."""
         inside = np.abs(self.x) < 0.9 * self.reach
         moved = [np.zeros_like(s.places) for s in self.solids]
-        return State(moved, np.zeros(len(self.x)), inside)
+        return State(moved, np.zeros(len(self.x)), inside, np.zeros_like(inside))
 
     def _now(self, body: int, state: State) -> np.ndarray:
         """Places (n, 2) of a body's nodes; at small strains their x stays, and z starts at 0."""
@@ -186,21 +192,20 @@ class SurfacePair:
         tangent = -(weight * pressure)[loaded, None, None] * _bent(*part, mu)
         numbers = t["numbers"]
         geometric = _summed(numbers[loaded], numbers[loaded], tangent, (count, count))
-        # pressures of active corners; what is not active is zero
-        place = np.full(len(self.x), -1)
-        place[state.active] = np.arange(np.count_nonzero(state.active))
-        size = (count, int(place.max()) + 1)
-        forces, means = (
-            _summed(numbers, place[corner], (weight[:, None] * by)[..., None] * hats[:, None], size)
+        # unknown are pressures of active corners; others are zero, or at the cap
+        every = count, len(self.x)
+        pushes, means = (
+            _summed(numbers, corner, (weight[:, None] * by)[..., None] * hats[:, None], every)
             for by in (push, normal)
         )
+        forces, means = pushes[:, state.active], means[:, state.active]
         shares = (weight * (1.0 - mu * t["slope"]))[:, None] * hats
-        upward = np.bincount(corner.ravel(), shares.ravel(), len(self.x))[state.active]
+        upward = np.bincount(corner.ravel(), shares.ravel(), len(self.x))
+        lifted, upward = upward @ state.pressure, upward[state.active]
         leaning = np.zeros(count)
         sent = -mu * (weight * pressure)[:, None] * turned
         np.add.at(leaning, numbers[numbers >= 0], sent[numbers >= 0])
         gaps = self._weighted_gaps(t)
-        active = state.pressure[state.active]
         # the roller's shift does to the contact what all its surface's displacement along x does,
         # the opposite of the rough body's
         own_x = np.zeros(count)
@@ -210,15 +215,19 @@ class SurfacePair:
             share = weight * pressure
             known = numbers >= 0
             parts = (share / share.sum())[:, None] * d
+            if self.middle is not None:
+                parts[:, 6:] = 0.0
             dragged = np.bincount(numbers[known], parts[known], count)
+            if self.middle is not None:
+                dragged[self.rough.count :] -= self.middle[~self.roller.held].ravel()
         moved = np.concatenate(
             [u[~s.held].ravel() for s, u in zip(self.solids, state.moved, strict=True)]
         )
         residual = np.concatenate(
             [
-                np.concatenate([force for force, _ in linear]) - forces @ active,
+                np.concatenate([force for force, _ in linear]) - pushes @ state.pressure,
                 gaps[state.active],
-                [upward @ active - self.load, dragged @ moved - state.shift],
+                [lifted - self.load, dragged @ moved - state.shift],
             ]
         )
         stiffness = block_diag([matrix for _, matrix in linear])
@@ -236,7 +245,7 @@ class SurfacePair:
 
     def solved(self, state: State, log: Callable[[str], None] = lambda text: None) -> State:
         """In equilibrium, from a state that is near enough. Raises NotSettledError."""
-        pressure = np.where(state.active, state.pressure, 0.0)
+        pressure = np.where(state.active | state.capped, state.pressure, 0.0)
         state = replace(state, moved=[u.copy() for u in state.moved], pressure=pressure)
         for step in range(STEPS):
             try:
@@ -252,18 +261,27 @@ class SurfacePair:
             state.pressure[state.active] += change[start:-2]
             state.approach += change[-2]
             state.shift += change[-1]
+            gaps, cap = self._weighted_gaps(self.terms(state)), self.cap * self.stretch(state)
+            capped = np.where(state.capped, gaps < 0.0, state.pressure > cap)
+            touching = np.where(state.active, state.pressure > 0.0, (gaps < 0.0) | state.capped)
+            others = np.count_nonzero((touching & ~capped) != state.active)
+            state.pressure = np.where(capped, cap, np.where(touching, state.pressure, 0.0))
             last = np.abs(state.pressure - before).max() / np.abs(state.pressure).max()
-            gaps = self._weighted_gaps(self.terms(state))
-            touching = np.where(state.active, state.pressure > 0.0, gaps < 0.0)
-            others = np.count_nonzero(touching != state.active)
-            state.pressure[~touching] = 0.0
-            state.active = touching
+            state.active, state.capped = touching & ~capped, capped
             log(f"  {step}: change {last:.1e}, {others} corners, shift {state.shift:.5g}")
             if last < SETTLED and not others:
-                if state.active[[0, -1]].any():
+                if touching[[0, -1]].any():
                     raise NotSettledError("the contact reaches the ends of the fine mesh")
                 return state
         raise NotSettledError(f"after {STEPS} steps")
+
+    def stretch(self, state: State) -> np.ndarray:
+        """Deformed over undeformed length along x at the corners."""
+        stretch, middle = np.ones(len(self.x)), self.edges[:, 1]
+        if self.gap is None:
+            now = self._now(0, state)[middle, 0]
+            stretch[1:-1] = np.diff(now) / np.diff(self.rough.mesh.nodes[middle, 0])
+        return stretch
 
     def _weighted_gaps(self, t: dict[str, np.ndarray]) -> np.ndarray:
         """Integrals of the gap times each hat."""

@@ -51,11 +51,7 @@ def figures(pair: SurfacePair, state: State) -> ContactFigures:
     mesh, u, edges = rough.mesh, state.moved[0], pair.edges
     corners = np.array([*edges[:, 0], edges[-1, 2]])
     at = pair.x + (0.0 if small else u[corners, 0])
-    middle = mesh.nodes[edges[:, 1], 0]
-    now = middle + (0.0 if small else u[edges[:, 1], 0])
-    stretch = np.ones(len(at))
-    stretch[1:-1] = np.diff(now) / np.diff(middle)
-    pressure = state.pressure / stretch
+    pressure = state.pressure / pair.stretch(state)
     top = int(pressure.argmax())
     peak, peak_x = _vertex(pair.x[top - 1 : top + 2], pressure[top - 1 : top + 2])
     ends = patch_ends(pair.x, state.pressure)

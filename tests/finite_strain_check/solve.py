@@ -42,6 +42,7 @@ class Task:
     support   of a disc, one of SUPPORTS
     coating   (modulus, ratio, thickness), bonded to the body, None where it has none; the thickness
               is the elements' size at the surface times a power of two, so that edges follow it
+    cap       of the pressure [GPa]
     """
 
     x: np.ndarray
@@ -54,6 +55,7 @@ class Task:
     law: str | tuple[float, float] = "neo-hookean"
     support: str = SECTOR
     coating: tuple[float, float, float] | None = None
+    cap: float = np.inf
 
     @property
     def modulus(self) -> float:
@@ -69,7 +71,7 @@ class Task:
     @property
     def is_disc(self) -> bool:
         """Whether the roller is a disc, else a half-plane with the circle on it.
-        Friction turns a disc, and with it the places that the shift along x goes by."""
+        Friction turns a disc."""
         return self.law != "linear" and self.half_width > SMALL * self.radius
 
     def on_disc(self, s: np.ndarray, d: np.ndarray) -> np.ndarray:
@@ -197,7 +199,21 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
                 rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
             places = np.stack([s, d + rise], axis=1)
         above = Solid(roller, places, held, *task.roller, task.law)
-    return SurfacePair(below, above, task.load, task.friction, reach, gap)
+    middle = middle_of(places, np.flatnonzero(d == 0.0), r) if roller and task.is_disc else None
+    return SurfacePair(below, above, task.load, task.friction, reach, gap, task.cap, middle)
+
+
+def middle_of(places: np.ndarray, rim: np.ndarray, radius: float) -> np.ndarray:
+    """(n, 2) that times displacements of nodes at `places` (n, 2) gives the displacement along x of
+    the middle of the circle through the nodes of the rim: by their radial displacements."""
+    rim = rim[np.argsort(places[rim, 0])]
+    outward = (places[rim] - [0.0, radius]) / radius
+    steps = np.append(0.0, np.cumsum(np.hypot(*np.diff(places[rim], axis=0).T)))
+    weight = np.sqrt(np.gradient(steps))
+    columns = np.column_stack([outward, np.ones(len(rim))]) * weight[:, None]
+    middle = np.zeros_like(places)
+    middle[rim] = (np.linalg.pinv(columns)[0] * weight)[:, None] * outward
+    return middle
 
 
 Meshes = tuple[Triangles, Triangles | None]
@@ -223,12 +239,14 @@ def carried(state: State, old: SurfacePair, new: SurfacePair) -> State:
     each = zip(old.solids, new.solids, state.moved, strict=True)
     moved = [interpolated(a.mesh, b.mesh, u) for a, b, u in each]
     pressure = np.interp(new.x, old.x, state.pressure)
-    return replace(state, moved=moved, pressure=pressure, active=pressure > 0.0)
+    capped = np.interp(new.x, old.x, state.capped) == 1.0
+    active = (pressure > 0.0) & ~capped
+    return replace(state, moved=moved, pressure=pressure, active=active, capped=capped)
 
 
 def next_refinement(pair: SurfacePair, state: State, fine: float) -> ElementSizes:
     """Where a solution touches, where its patches end and where its shear is large."""
-    at, margin = pair.x[state.active], 8.0 * fine
+    at, margin = pair.x[state.active | state.capped], 8.0 * fine
     starts = np.concatenate([[True], np.diff(at) > 2.0 * margin])
     first, last = at[starts], at[np.append(starts[1:], True)]
     large = [each > STRESSED * each.max() for each in shears(pair, state)]
@@ -261,5 +279,7 @@ def solutions(
             now = pair(task, *mesh, reach)
             state = carried(state, before, now)
         log(f"{fine:g} um: {sum(s.count for s in now.solids)} unknowns, {len(now.x)} corners")
+        if fine == levels[0] and now.middle is not None:  # held back at first
+            state = replace(now, middle=None).solved(state, log)
         state = now.solved(state, log)
         yield now, state

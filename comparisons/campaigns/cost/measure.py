@@ -240,7 +240,7 @@ def _series(
             ended = "the process that measured had ended"
             rows.append(CostRow(method, setting, FAILED, "the process that measured it ended"))
         else:
-            outcome = (OK, None) if measured.level.solution.converged else (FAILED, NOT_CONVERGED)
+            outcome = (OK, None) if measured.level.converged else (FAILED, NOT_CONVERGED)
             rows.append(CostRow(method, setting, *outcome, measured))
             left -= measured.spent
             expected = GROWTH[method.model] * measured.total

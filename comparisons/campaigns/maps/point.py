@@ -48,7 +48,7 @@ def solve_point(point: Point) -> dict:
     window = window_of(problem) if plan.stress and study is None else None
     for runs in _refined(problem, plan, window, same_pressures=study is not None):
         for run in runs.values():
-            if not run.finest.solution.converged:
+            if not run.finest.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
         if study is None:
             errors, values = errors_of(problem, runs, window)

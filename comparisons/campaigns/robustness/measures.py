@@ -231,4 +231,4 @@ def condition_estimate(matrix: csr_matrix, solve: Callable[[np.ndarray], np.ndar
     inverse = LinearOperator(
         matrix.shape, matvec=solve, rmatvec=solve, matmat=columns, rmatmat=columns, dtype=float
     )
-    return one_norm(matrix) * float(onenormest(inverse, t=2))
+    return one_norm(matrix) * float(onenormest(inverse, t=1))  # of more columns some are random

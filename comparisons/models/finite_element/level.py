@@ -37,7 +37,7 @@ from comparisons.models.finite_element.nonlinear import (
     pressed_plastically_finitely,
 )
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
-from comparisons.models.level import Level, refuse_too_large
+from comparisons.models.level import Level, refuse_too_large, under_each
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem, problem_of
@@ -79,12 +79,30 @@ def finite_element_level(
     body_cache  shared by levels whose meshes and factors may be the same
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails."""
+    body_cache = body_cache or BodyCache()
+    return under_each(
+        problem,
+        "finite_element",
+        lambda problem: _level(problem, plan, refinement, window, stages, body_cache, options),
+    )
+
+
+def _level(
+    problem: Problem,
+    plan: Plan,
+    refinement: Refinement,
+    window: Window | None,
+    stages: Stages,
+    body_cache: BodyCache,
+    options: LevelOptions,
+) -> Level:
+    """Under friction coefficients that share a contact."""
     solving = _LevelSolution(problem, plan, refinement, stages, options)
     solving.load_libraries()
     ranges, start = solving.predicted_contact()
     cost = expected(problem, plan, refinement, ranges)
     refuse_too_large(problem, cost, "finite elements", refinement.pitch)
-    meshed = solving.meshed_contact(ranges, start, body_cache or BodyCache())
+    meshed = solving.meshed_contact(ranges, start, body_cache)
     pressed = solving.pressed(meshed)
     level = Level(
         grid=solving.grid,
@@ -251,6 +269,11 @@ def problem_of_approach(
     half_width = np.sqrt(scene.roller.radius * wanted)
     modulus = scene.body.material.plane_strain_modulus
     load = np.pi * modulus * half_width**2 / (4.0 * scene.roller.radius)
+    if scene.finite_element.coupled and len(scene.load.friction) > 1:
+        raise SceneError(
+            f"{scene.source}: load.friction: has {len(scene.load.friction)} coefficients, each of "
+            "which takes another load for load.approach; allowed is one, or per_length"
+        )
     body_cache, surface = BodyCache(), surface or surface_of(scene)
     asked = LevelOptions(approach=wanted)
     for _ in range(MOST_ROUNDS):

@@ -14,11 +14,18 @@ from analytic.contact.problem import ContactSolution, assessed, solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ModelOperator
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
+from comparisons.models.finite_element.roller import is_disc
 from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
 from comparisons.models.level import STRAIN
 from comparisons.models.problem import Problem
 from fem.body.elasticity import ElasticBody
-from fem.nonlinear.finite_deformation import FiniteCompliance, FiniteContact, FiniteDeformation
+from fem.nonlinear.finite_deformation import (
+    LEANING,
+    MOST_SETTINGS,
+    FiniteCompliance,
+    FiniteContact,
+    FiniteDeformation,
+)
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
 from fem.nonlinear.press_finite import press_plastically_finitely
 from fem.nonlinear.press_plastic import (
@@ -61,9 +68,15 @@ def pressed_finitely(
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
     nodal = found.cauchy.nodal
+    if constraints.load is not None:  # of which friction on tilted tangents bears a part
+        share = float(grid.weights @ found.pressure) / found.load
+        constraints = replace(constraints, load=constraints.load * share)
     loaded = _deformed(rough.body, grid, found, constraints, counts, FINITE_TOLERANCE)
     loaded = replace(
-        loaded, stresses=lambda frictions: (nodal,) * len(frictions), across=found.cauchy.across
+        loaded,
+        solution=replace(loaded.solution, load=found.load),
+        stresses=lambda frictions: (nodal,) * len(frictions),
+        across=found.cauchy.across,
     )
     return on_undeformed_grid(
         problem, grid, found.place, loaded.displacement / grid.weights, loaded
@@ -127,16 +140,24 @@ def finite_contact(
     if not problem.scene.roller.rigid:
         roller = operator.parts[1].compliance
     friction, start = problem.scene.load.friction[0], linear.pressure
-    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far)
+    disc = is_disc(problem)
+    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far, disc)
     if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
         return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
-    bodies = FiniteCompliance(contact)
-    given = bodies, model, contact.gap, contact.weights, constraints, start
+    bodies, load = FiniteCompliance(contact), constraints.load
+    asked = replace(constraints, load=load and contact.pressing(load, contact.linear, start))
+    solver = solve_coupled if operator.coupled else solve_contact
     try:
-        solver = solve_coupled if operator.coupled else solve_contact
-        solution = solve_with_model(*given, FINITE_TOLERANCE, solver, nearer=True)
-        if solution.converged:
-            return contact.deformed(bodies.solution(solution.pressure, solution.approach))
+        for _ in range(MOST_SETTINGS):
+            given = bodies, model, contact.gap, contact.weights, asked, start
+            solution = solve_with_model(*given, FINITE_TOLERANCE, solver, nearer=True)
+            if not solution.converged:
+                break
+            start = solution.pressure
+            pressing = load and contact.pressing(load, bodies.displacement, start)
+            if load is None or abs(pressing - asked.load) <= LEANING * load:
+                return contact.deformed(bodies.solution(start, solution.approach))
+            asked = replace(asked, load=pressing)
     except FemError:
         pass  # no equilibrium from there by the linear factors
     return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
@@ -212,7 +233,8 @@ def pressed_plastically_finitely(
     scene, rough = problem.scene, operator.rough
     roller = roller_of(problem) if scene.roller.rigid else operator.parts[1].compliance
     friction, start = scene.load.friction[0], linear.pressure
-    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far)
+    disc = is_disc(problem)
+    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far, disc)
     metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
     loads = constraints.load, 0.0
     body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel)

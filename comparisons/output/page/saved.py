@@ -6,6 +6,7 @@ elements; what studies' pictures are drawn from. The mesh comes from mesh.msh, f
 from their own files; nothing is solved or meshed."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
@@ -106,14 +107,14 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
     wholes = {mu: run.levels(mu)[WHOLE] for mu in frictions if WHOLE in run.levels(mu)}
     drawn = [level for mu in frictions for level in run.pair(mu).values()]
     for name, model in run.runs.items():
-        shown = [level is model.finest or any(level is d for d in drawn) for level in model.levels]
-        levels = tuple(map(_reduced, model.levels, shown))
+        shown = [*drawn, *model.finest.by_friction]
+        levels = tuple(_reduced(level, shown) for level in model.levels)
         check = None if model.far_boundary_check is None else _reduced(model.far_boundary_check)
         longer = tuple(map(_reduced, model.longer_increments))
         runs[name] = ModelRun(name, levels, check, longer)
     data = {name: study.data for name, study in run.findings.items() if study.data is not None}
     if MODEL_ERROR in data:
-        shown = {friction: _reduced(level, True) for friction, level in wholes.items()}
+        shown = {friction: _reduced(level, [level]) for friction, level in wholes.items()}
         data[MODEL_ERROR] = replace(data[MODEL_ERROR], wholes=shown, solutions={})
     surface = run.problem.surface
     if surface.info is not None:
@@ -122,13 +123,14 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
     return replace(run.solved, problem=replace(run.problem, surface=surface), runs=runs), data
 
 
-def _reduced(level: Level, with_fields: bool = False) -> Level:
-    """A level without its mesh, and without fields or with those that are shown."""
-    stresses = []
+def _reduced(level: Level, shown: Sequence[Level] = ()) -> Level:
+    """A level without its mesh, and without fields where it is not among those that are shown."""
+    stresses, with_fields = [], any(level is each for each in shown)
     for stress in level.stresses:
         field = ShownField(stress.field.tau1, stress.field.txz) if with_fields else None
         stresses.append(replace(stress, field=field))
-    return replace(level, stresses=tuple(stresses), mesh=None, mesh_field=None)
+    further = tuple(_reduced(each, shown) for each in level.further)
+    return replace(level, stresses=tuple(stresses), mesh=None, mesh_field=None, further=further)
 
 
 def _with_mesh(run: Run, path: Path) -> Run:

@@ -167,7 +167,8 @@ def _pressures(run: Run, answers: Mapping[str, Answer]) -> style.Picture:
 
 def _curves(axes: "list[Axes]", run: Run, answer: Answer, look: dict) -> None:
     """An answer's pressures, and below what they differ from the reference by."""
-    hertz, level = run.problem.hertz, run.runs[reference_of(run)].finest
+    hertz, reference = run.problem.hertz, run.runs[reference_of(run)]
+    level = reference.finest.under(run.deciding_friction)
     few, x = len(answer.x) < MARKED, level.grid.x
     p = np.where(answer.touching, answer.pressure, 0.0) / hertz.peak_pressure
     axes[0].plot(answer.x / hertz.half_width, p, marker="." if few else None, **look)

@@ -135,7 +135,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         by_quantity = grouped(validation, itemgetter("quantity"))
         tables = {
             CONDITIONS: by_model,
-            HINTS: [asdict(hint) for hint in hints(finest, problem, model.finest)],
+            HINTS: [asdict(h) for h in hints(finest, problem, model.finest.under(frictions[0]))],
             VALIDATION: [row for rows in by_quantity for row in rows],
         }
         series += tables_of(name, tables)
@@ -187,7 +187,7 @@ def _rows(
     answers: tuple[Answer, ...],
 ) -> Iterator[AnswerRow]:
     """At one friction coefficient, in the order of QUANTITIES."""
-    problem, window = solved.problem, solved.window
+    problem, window, model = solved.problem, solved.window, model.under(friction)
     finest, first = answers[-1], model.levels[0]
 
     def against(answer: Answer, level: Level) -> dict[str, float]:

@@ -124,7 +124,8 @@ def couplings(
     for friction in problem.scene.load.friction:
         why = no_coupling(problem, friction)
         if why is None:
-            changes.append(_coupling(problem, run.finest, friction, window, callback))
+            level = run.finest.under(friction)
+            changes.append(_coupling(problem.under(friction), level, friction, window, callback))
         else:
             changes.append(Coupling(friction, {}, why=why))
     return Couplings(tuple(changes))

@@ -130,7 +130,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     """Temperatures on every level of every model that was run, with thermal stresses in the window
     where they are asked for, and the comparison; what older rules say, and in words what the
     finite elements have."""
-    problem, runs = solved.problem, solved.runs
+    problem, friction = solved.problem, friction_of(solved.problem)
+    runs = {name: run.under(friction) for name, run in solved.runs.items()}
     tasks.callback("frictional heat")
     contains = what_it_contains(problem) if "finite_element" in runs else {}
     figures, finest = heat_figures(problem, runs, effects=contains)
@@ -141,7 +142,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         figures += of_stresses
     model, contact = next(iter(finest.items()))
     stated = {f.quantity: f.uncertainty for f in figures if (f.source, f.against) == (model, None)}
-    at = {"friction": friction_of(problem)}
+    at = {"friction": friction}
     peclet = [
         figure
         for body, number in peclet_numbers(problem).items()

@@ -31,7 +31,9 @@ if TYPE_CHECKING:
     from comparisons.studies.model_error.error_budget import ErrorBudget
 
 NAME = "model_error"
-INTERACTION, JUMP, INPUTS = "interaction", "jump", "inputs"  # parts beside the effects
+# Parts beside the effects; the last is what half the samples of the trace change.
+INTERACTION, JUMP, SAMPLING = "interaction", "jump", "trace_sampling"
+INPUTS = "inputs"  # of the uncertainty: what the errors of measured constants change
 TRUST = "law of elasticity"  # name of what is said of the strains that it bears
 LEFT = "pressure_l2_after_shift"
 QUANTITIES = COMPARED | {
@@ -58,7 +60,7 @@ def figure_of(
         unknown[LAW] = error.law.half
     if error.law.scatter:
         sure[INPUTS] = error.law.scatter
-    inputs = (sampling or {}).get(error.friction, {}).get(error.quantity)
+    sampled = (sampling or {}).get(error.friction, {}).get(error.quantity)
     bound = tolerance.get(error.quantity)
     return Figure(
         study=NAME,
@@ -71,7 +73,7 @@ def figure_of(
         uncertainty=Uncertainty(sure),
         unknown=unknown,
         bounds=None if bound is None else (-bound, bound),
-        parts=(*parts, *([] if inputs is None else [Part(INPUTS, inputs)])),
+        parts=(*parts, *([] if sampled is None else [Part(SAMPLING, sampled)])),
         place=error.moved,
     )
 
@@ -107,8 +109,8 @@ def _sideways(
     runs: Mapping[str, ModelRun], whole: Level | None, friction: float
 ) -> Iterator[Figure]:
     """How far the whole model's peaks lie beside the half-plane's, and what else they differ by."""
-    other = runs["finite_element"].finest if whole is None else whole
-    half_plane = runs["half_plane"].beside(other).solution.pressure
+    other = runs["finite_element"].finest.under(friction) if whole is None else whole
+    half_plane = runs["half_plane"].under(friction).beside(other).solution.pressure
     shift = sideways_shift(other.grid, half_plane, other.solution.pressure)
     values = {
         "pressure_shift": shift.shift,

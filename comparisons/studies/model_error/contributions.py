@@ -98,7 +98,7 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
     quadratic = problem.scene.finite_element.element != STRAINED and "finite_strain" in chosen
 
     def variant(effects: frozenset[str]) -> ModelVariant:
-        shaped = effects & {COUPLED, *NONLINEAR}
+        shaped = effects & {COUPLED, *NONLINEAR} or problem.scene.load.coupled
         return ModelVariant(effects, friction if shaped else None, quadratic)
 
     def grown(effects: frozenset[str]) -> frozenset[str]:

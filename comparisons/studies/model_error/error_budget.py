@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
+import numpy as np
+
 from analytic.profile import Profile
 from comparisons.common.mpi import from_first
 from comparisons.common.numbers import with_unit
@@ -129,14 +131,15 @@ def error_budget(
             refined = refinement.result(frugal)
             if refinement.without_laws:
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
-            wholes = {mu: variants.finest(split.whole) for mu, split in splits.items()}
+            wholes = {mu: variants.finest(split.whole).under(mu) for mu, split in splits.items()}
             selection = _with_plastic_strain(problem, selection, wholes)
             break
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
                 refined = _Refined(0, _unsplit(rows), str(error), None)
-                wholes = dict.fromkeys(splits, solved.runs["finite_element"].finest)
+                own = solved.runs["finite_element"].finest
+                wholes = {mu: own.under(mu) for mu in splits}
                 break
             selection = selection.without(dropped, str(error))
     sampling = {}
@@ -230,7 +233,8 @@ def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> Solved
 
 
 def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelection:
-    pressure = solved.runs["half_plane"].finest.solution.pressure
+    contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)
+    pressure = max(contacts, key=np.max)
     mean = float(pressure @ pressure / pressure.sum())
     flow, no_flow = flow_assessment(solved.problem, solved.runs), NOT_CERTAIN
     if flow.is_certain and solved.plan.effects:
@@ -394,15 +398,15 @@ class _Refinement:
         ]
 
     def _solutions(self) -> dict[float, Solutions]:
-        problem, window, runs = self.problem, self.solved.window, self.runs
-        return {
-            mu: Solutions(
+        problem, window, made = self.problem, self.solved.window, {}
+        for mu, parts in self.history.items():
+            runs = {name: run.under(mu) for name, run in self.runs.items()}
+            made[mu] = Solutions(
                 *(problem, window, runs, parts, mu),
                 laws=self.with_laws.get(mu),
                 longer=self.longer.get(mu, []) if self.increments[mu] else None,
             )
-            for mu, parts in self.history.items()
-        }
+        return made
 
     def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:
         """Whether a finer solution leaves every verdict as it is."""

@@ -175,6 +175,11 @@ def _finite_roller(problem: Problem) -> Sizes:
 # and length 0.5 at Poisson's ratio 0, 0.63 at 0.3, 0.9 at 0.4, 1.2 at 0.48.
 SUPPORT, SUPPORT_BY_RATIO = 0.6, 3.1  # of the ratio's square
 SUPPORT_IN_NORMS = {"pressure_l2": 2.6, "tau1_field_near": 5.0}
+# Friction turns a disc by its support, about its middle; over friction, a/R and the roller's share:
+# 1.5 in norms of a smooth contact, 4 in the depth of tau1, 0.3 in the deep field. On ground and
+# wavy surfaces 1 in peak pressure and 1.7 in length, where single asperities come into contact.
+TURNED = {"pressure_l2": 1.5, "tau1_max_depth": 4.0, "tau1_field_deep": 0.3}
+TURNED_ROUGH = {"peak_pressure": 1.0, "contact_length": 1.7, "contact_ratio": 1.7}
 
 
 def _roller_support(problem: Problem) -> Sizes:
@@ -184,7 +189,10 @@ def _roller_support(problem: Problem) -> Sizes:
     share = problem.modulus / roller.material.plane_strain_modulus
     factor = SUPPORT + SUPPORT_BY_RATIO * roller.poissons_ratio**2
     size = factor * share * _curvature(problem) ** 2
-    return _equal(size) | {name: of * size for name, of in SUPPORT_IN_NORMS.items()}
+    found = _equal(size) | {name: of * size for name, of in SUPPORT_IN_NORMS.items()}
+    turned = max(problem.scene.load.friction) * share * _curvature(problem)
+    moved = TURNED | (TURNED_ROUGH if problem.scene.profile is not None else {})
+    return found | {name: found[name] + of * turned for name, of in moved.items()}
 
 
 # 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces

@@ -63,6 +63,7 @@ class QuantitiesOfInterest:
 
 def quantities_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
     """Of a solved level; `problem` is the one that it solves."""
+    level = level.under(friction)
     x = level.grid.x if level.material is None else level.material
     cell, pressure = np.searchsorted(problem.asperities, x), level.solution.pressure
     peaks = [

@@ -17,7 +17,8 @@ from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
-from comparisons.studies.model_error.account import INPUTS, INTERACTION, JUMP, LEFT, TRUST
+from comparisons.studies import contact
+from comparisons.studies.model_error.account import INTERACTION, JUMP, LEFT, SAMPLING, TRUST
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.selection import FLOW
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawn
 
+ROUNDING = 1e-12  # of a figure's scale: what two of them leave where it is zero
 WORTH_A_MOVE = 0.75  # of the pressures' difference that is left without it, at most
 SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed
 WORDS = {INTERACTION: "interaction", JUMP: "another asperity"}  # of parts that are no effects
@@ -117,7 +119,7 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
             continue
         for same in grouped(errors, lambda error: (_shown(error), error.place)):
             error, uncertainty, contributions = _shown(same[0])
-            half_plane, whole = _values(same[0])
+            half_plane, whole = _values(run, same[0])
             without = moved_text(run, same[0].friction) if name == "pressure_l2" else ()
             bound = same[0].tolerance
             rows.append(
@@ -142,12 +144,21 @@ def _shown(error: Figure) -> tuple[str, str, tuple[str, ...]]:
     return size, percent(error.numerical), contributions_in_words(error)
 
 
-def _values(error: Figure) -> tuple[str, str]:
+def figure_of_whole(run: Run, error: Figure) -> float:
+    """[SI] what a model error is against: its scale, but where that figure is zero or negative."""
+    known = {"study": contact.NAME, "source": error.source, "quantity": error.quantity}
+    half_plane = run.figures.one(**known, friction=error.friction).value
+    whole = half_plane - error.scale * error.value
+    return whole if abs(whole) > ROUNDING * error.scale else 0.0
+
+
+def _values(run: Run, error: Figure) -> tuple[str, str]:
     """The figures of the half-plane and of the whole model, as far as they are no norms."""
     meaning = QUANTITIES[error.quantity]
     if meaning.of_pair:
         return "", ""
-    pair = error.scale * (1.0 + error.value), error.scale
+    whole = figure_of_whole(run, error)
+    pair = whole + error.scale * error.value, whole
     scale = scale_of(pair, meaning.unit)
     return scale.text(pair[0]), scale.text(pair[1])
 
@@ -202,7 +213,7 @@ def contributions_of(error: Figure) -> dict[str, float]:
     figure makes the half-plane's too low. Norms have sizes alone."""
     sizes = {}
     for part in error.parts:
-        if part.name != INPUTS:
+        if part.name != SAMPLING:
             size = part.value if part.name == JUMP else -part.value
             name = EFFECTS[part.name].label if part.name in EFFECTS else WORDS[part.name]
             sizes[name] = abs(size) if QUANTITIES[error.quantity].of_pair else size

@@ -17,7 +17,7 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.model_error.catalogue import EFFECTS, contained, is_taken_apart
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained, is_taken_apart
 from comparisons.studies.model_error.contributions import NotComputedError
 from comparisons.studies.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
@@ -111,10 +111,12 @@ class SolvedVariants:
         return self.of_scene.finest if self._is_own(variant) else self.wholes[variant]
 
     def _is_own(self, variant: ModelVariant) -> bool:
-        frictions = self.problem.scene.load.friction
-        shaped = variant.friction is None or frictions == (variant.friction,)
+        there, effects = self.problem.scene.load.friction, self._own_effects
+        if effects is not None and variant.friction == 0.0:
+            effects = effects - {COUPLED}
+        shaped = variant.friction is None or variant.friction in there
         changed = variant.quadratic or variant.laws or variant.times > 1
-        return shaped and not changed and variant.effects == self._own_effects
+        return shaped and not changed and variant.effects == effects
 
     def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
         whole, problem = variant in self.wholes, problem_with(self.problem, variant)
@@ -168,7 +170,7 @@ def _solved(
         )
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error
-    if not level.solution.converged:
+    if not level.converged:
         raise NotComputedError(variant, f"the contact did not converge on level {number}")
     low, high = problem.extent
     if level.patches[0, 0] < low + CLEAR * pitch or level.patches[-1, 1] > high - CLEAR * pitch:

@@ -23,7 +23,7 @@ In: a scene with [statistics], and its solved models. Out: series, whose columns
 
 from collections.abc import Mapping, Sequence
 from contextlib import nullcontext, suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -109,10 +109,13 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     for name, run in solved.runs.items():
         stated = (f for f in before[contact.NAME].figures if f.source == name and f.levels)
         worst = max(figure.numerical for figure in stated)
-        patches = patch_rows(problem, run.finest)
-        numbers = (name for name, value in patches[0].items() if isinstance(value, float))
-        sizes = {name: [worst * abs(patch[name]) for patch in patches] for name in numbers}
-        series.append(series_of("patches", patches, sizes, name))
+        for level in run.finest.by_friction:
+            patches = patch_rows(problem, level)
+            numbers = (name for name, value in patches[0].items() if isinstance(value, float))
+            sizes = {name: [worst * abs(patch[name]) for patch in patches] for name in numbers}
+            table = series_of("patches", patches, sizes, name)
+            at = {} if level.friction is None else {"friction": level.friction}
+            series.append(replace(table, at=at))
     series.append(Series("traces", {"traces": Column((wanted.traces,))}))
     return Findings(series=tuple(series))
 

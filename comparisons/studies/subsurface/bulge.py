@@ -93,11 +93,14 @@ class Excess:
 def needs(solved: Solved) -> str | None:
     """What it takes and the scene does not have."""
     scene = solved.problem.scene
-    lone = scene.profile and len(scene.load.friction) == 1 and not scene.finite_element.plastic
+    elements, few = scene.finite_element, len(scene.load.friction) == 1
+    lone = scene.profile and (few or elements.coupled) and not elements.plastic
     if MODEL not in solved.plan.models or not any(scene.load.friction):
         return "it takes the finite elements, and friction"
-    if lone and scene.finite_element.deformation == "finite":
-        return "it takes small strains: at finite ones a profile is solved at one friction alone"
+    if lone and elements.deformation == "finite":
+        return "it takes small strains: at finite ones every friction has pressures of its own"
+    if lone and not few:
+        return "it takes finite_element.coupled = false: the same pressures at every friction"
     return "it takes a second friction coefficient, such as 0" if lone else None
 
 
@@ -151,7 +154,8 @@ def _found(
 ) -> tuple[list[Figure], list[Series]]:
     """Figures of the finite elements at one friction coefficient, the curve B(s), and on a profile
     the patches; `of_length` is the uncertainty of the contact length."""
-    problem, run, at = solved.problem, solved.runs[MODEL], {"friction": friction}
+    run = solved.runs[MODEL].under(friction)
+    problem, at = solved.problem, {"friction": friction}
     a, radius, level = problem.hertz.half_width, problem.scene.roller.radius, run.finest
     s, h = a * DISTANCES, a**2 / radius
     centres = [_centre(level) for level in run.levels]
@@ -210,9 +214,8 @@ def _work(level: Level, friction: float, centre: float, s: float) -> float:
 def _energies(solved: Solved, friction: float) -> Iterator[Figure]:
     """The finite elements' energy ahead less that behind, and each model's share ahead."""
     for name, run in solved.runs.items():
-        stored = [
-            elastic_energy(solved.problem, level, solved.window, friction) for level in run.levels
-        ]
+        levels = run.under(friction).levels
+        stored = [elastic_energy(solved.problem, lv, solved.window, friction) for lv in levels]
         known = {"energy": [front - back for back, front in stored]} if name == MODEL else {}
         known["energy_ahead"] = [front / (back + front) for back, front in stored]
         for quantity, values in known.items():

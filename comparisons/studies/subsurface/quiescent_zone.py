@@ -172,6 +172,7 @@ def zone_figures(
         dip = zone_of(problem, level, window, friction, every)
         return {name: getattr(dip, name) for name in QUANTITIES}
 
+    run = run.under(friction)
     levels, repeated = [read(level) for level in run.levels], by_repetition(run, read)
     coarse, figures = read(run.finest, every=2), []
     for name, value in levels[-1].items():
@@ -209,7 +210,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             of_zone, state = zone_figures(problem, run, window, friction)
             figures += of_zone
             states.append(Statement(STATE, state, name, at))
-            rows = asperity_rows(problem, run.finest, window, friction)
+            rows = asperity_rows(problem, run.finest.under(friction), window, friction)
             series.append(asperity_series(rows, name, at))
     return Findings(tuple(figures), tuple(series), tuple(states))
 

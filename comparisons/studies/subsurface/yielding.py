@@ -247,7 +247,7 @@ def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAsses
 
 
 def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | None) -> FlowCheck:
-    level, field = run.finest, run.finest.stress(friction)
+    level, field = run.finest.under(friction), run.finest.stress(friction)
     pressure, weights = level.solution.pressure, level.grid.weights
     peak = float(pressure.max())
     stated = uncertainties(run, problem, friction)

@@ -5,10 +5,12 @@ from dataclasses import replace
 
 from scenes import judging, posed, refound, unconverged
 
+from comparisons.common.numbers import with_unit
 from comparisons.output.headline import headline
 from comparisons.studies.model_error.laws import LawSpread, open_laws
 from comparisons.studies.model_error.model_error import Estimate, ModelError
 from comparisons.studies.model_error.selection import EffectSelection
+from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import Run
 
 TOLERANCE = 0.02
@@ -103,12 +105,26 @@ def test_a_range_by_the_law_is_said_with_its_ends_and_what_would_narrow_it(smoot
 
 
 def test_next_names_the_figures_to_use_or_the_tolerance_that_holds(smooth_outcome: Run):
-    fails = headline(judged(smooth_outcome, error_of("contact_length", -0.7, 1e-3)))
-    assert fails.next.startswith("take the whole model's contact length 1.000 m")
-    at_it = headline(judged(smooth_outcome, error_of("contact_length", 0.0199, 3e-4)))
-    assert at_it.kind == "inconclusive" and at_it.paste == ("--tolerance 0.03",)
+    known = {"study": "contact", "source": "half_plane", "quantity": "contact_length"}
+    length = smooth_outcome.figures.one(**known, friction=0.0).value
+    error = replace(error_of("contact_length", -0.7, 1e-3), scale=length / 0.3)
+    fails = headline(judged(smooth_outcome, error))
+    shown = with_unit(length / 0.3, "m")
+    assert fails.next.startswith(f"take the whole model's contact length {shown}")
+    at_it = headline(judged(smooth_outcome, error_of("contact_length", 0.0199, 3.5e-4)))
+    assert at_it.kind == "inconclusive" and at_it.paste == ("--tolerance 0.021",)
     unsure = headline(judged(smooth_outcome, error_of("contact_length", 0.01, 0.015)))
     assert unsure.kind == "inconclusive" and unsure.paste == ("[budget]\ntime = 600",)
+
+
+def test_a_figure_of_the_whole_that_is_zero_is_shown_as_zero(smooth_outcome: Run):
+    """Its error is over Hertz's."""
+    known = {"study": "contact", "source": "half_plane", "quantity": "tau1_max_depth"}
+    depth = smooth_outcome.figures.one(**known, friction=0.0).value
+    scale = smooth_outcome.problem.hertz.half_width
+    error = replace(error_of("tau1_max_depth", depth / scale, 1e-3), scale=scale)
+    [row] = model_error_rows(judged(smooth_outcome, error), judged=True)
+    assert row.whole.split()[0] == "0" and row.half_plane.split()[0] != "0"
 
 
 def test_a_norm_has_no_sign(smooth_outcome: Run):

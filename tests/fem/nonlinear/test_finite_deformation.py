@@ -270,3 +270,20 @@ def test_a_load_that_inverts_elements_is_an_error(body, monkeypatch):
     monkeypatch.setattr(nonlinear_contact, "LEAST_INCREMENT", 0.4)
     with pytest.raises(FemError, match="did not converge beyond"):
         press_finitely(body, HATS, parabola(np.inf), HERTZ, load=50.0)
+
+
+@pytest.mark.parametrize("hardness", [np.inf, 1.02])
+def test_pressure_and_friction_bear_the_load_together(body, hardness):
+    """The vertical force on the body, friction's on tilted tangents included; under a contact that
+    friction shifts, pressures alone press with another."""
+    curvature, friction = 0.2, 0.5
+    top, load = peak(curvature), 0.5 * np.pi * peak(curvature)
+    given = {"friction": friction, "hardness": hardness * top}
+    found = press_finitely(body, HATS, circle(1.0 / curvature), top * HERTZ, load, **given)
+    _, force = CurrentContact(body, HATS, circle(1.0 / curvature), friction).loaded(
+        found.displacement, found.pressure
+    )
+    assert force[1::2].sum() == pytest.approx(load, rel=2e-7)
+    assert found.load == pytest.approx(load, rel=2e-7)
+    pressing = found.pressure.sum() * EDGE / load
+    assert 0.98 < pressing < 0.999

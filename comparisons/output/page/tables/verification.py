@@ -38,7 +38,7 @@ from comparisons.figures.uncertainty import COVERAGE
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.studies import comparison, contact
-from comparisons.studies.model_error.account import INPUTS
+from comparisons.studies.model_error.account import SAMPLING
 from comparisons.studies.study import Run
 
 ALL_LEVELS = "all levels together: time"
@@ -135,7 +135,7 @@ def validation_table(run: Run) -> TextTable | None:
     """Each judged model error as ASME V&V 20 names its parts; None where none is judged."""
     rows = []
     for error in run.model_errors:
-        name, friction, inputs = error.quantity, error.friction, error.part(INPUTS)
+        name, friction, inputs = error.quantity, error.friction, error.part(SAMPLING)
         named = row_name(run, name, friction) or f"{label(name)}, friction {plain(friction)}"
         size, unsure = error_text(name, error.value, error.numerical), percent(error.numerical)
         by_inputs = "no trace" if inputs is None else percent(inputs.value)
@@ -220,9 +220,12 @@ def check_table(run: Run) -> TextTable:
     models = run.runs.values()
     rows = []
     for name, words in WORDING["residuals"].items():
-        values = [getattr(model.finest.solution.residuals, name) for model in models]
+        values = [
+            max(getattr(level.solution.residuals, name) for level in model.finest.by_friction)
+            for model in models
+        ]
         rows.append((words, *(significant(value, 2) for value in values)))
-    converged = [all(level.solution.converged for level in model.levels) for model in models]
+    converged = [all(level.converged for level in model.levels) for model in models]
     below = f"all below {significant(KKT_TOLERANCE, 1)} on every level"
     rows.append((below, *("yes" if met else "no" for met in converged)))
     return TextTable("", ("", *(LABELS[name] for name in run.runs)), tuple(rows))

@@ -33,7 +33,7 @@ from comparisons.campaigns.verify.scenes import (
     layer_scenes,
     scene_cases,
 )
-from comparisons.common.errors import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.figures import convergence
 
 SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
@@ -143,6 +143,13 @@ class TestWhole:
         verified = verify(tmp_path, cases=cases, fewest=(0, 0))
         assert verified.rows[0].error is not None and len(verified.pairs) == len(scene.exact)
         assert verified.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+
+
+def test_places_are_checked_before_scenes_are_made(monkeypatch, tmp_path):
+    monkeypatch.setattr(run, "everything", lambda: pytest.fail("scenes were made"))
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="file"):
+        verify(tmp_path / "file" / "out")
 
 
 def test_the_command_prints_the_coverage_and_ends_with_the_verdict(monkeypatch, capsys, tmp_path):

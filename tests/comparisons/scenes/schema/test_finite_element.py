@@ -65,6 +65,21 @@ def test_a_rough_boundary_is_met_where_it_has_come_to():
     assert kept.finite_element.gap == "reference"
 
 
+@pytest.mark.parametrize(("profile", "boundary"), [(WAVE, "rough"), (None, "flat")])
+def test_finite_deformation_takes_the_boundary_that_there_is(profile, boundary):
+    sections = {} if profile is None else {"profile": profile}
+    assert (
+        scene_of(RIGID, {"deformation": "finite"}, **sections).finite_element.geometry == boundary
+    )
+    assert scene_of(RIGID, {}, **sections).finite_element.geometry == "flat"
+
+
+@pytest.mark.parametrize("switches", [{"deformation": "finite"}, {"plastic": True}])
+def test_several_friction_coefficients_couple_where_each_moves_the_contact(switches):
+    body, load = {"yield_stress": 1e9}, {"friction": [0.0, 0.1]}
+    assert scene_of(RIGID, switches, body=body, load=load).finite_element.coupled
+
+
 def test_a_body_that_yields():
     steel = {"yield_stress": "2.5 GPa", "hardening_modulus": "1 GPa"}
     scene = scene_of(RIGID, {"plastic": True, "coupled": True}, body=steel)
@@ -106,7 +121,7 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
         (RIGID, {"deformation": "finite", "element": "P1"}, {}, 'element: is "P1" with'),
         (
             RIGID,
-            {"deformation": "finite"},
+            {"deformation": "finite", "geometry": "flat"},
             {"profile": WAVE},
             'geometry: is "flat" at finite deformation',
         ),
@@ -125,21 +140,9 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
         ),
         (
             ELASTIC,
-            {"plastic": True},
-            {"body": {"yield_stress": 1e9}, "load": {"friction": [0.0, 0.1]}},
-            "plastic: wants one friction coefficient, not 2",
-        ),
-        (
-            ELASTIC,
             {"plastic": True, "coupled": False},
             {"body": {"yield_stress": 1e9}},
             "coupled: is false for a body that yields",
-        ),
-        (
-            ELASTIC,
-            {"coupled": True},
-            {"load": {"friction": [0.1, 0.2]}},
-            "coupled: is true with 2 friction coefficients",
         ),
     ],
 )

@@ -9,7 +9,6 @@ import pytest
 import scenes
 from scenes import DATA, STEEL, changed, refound
 
-from comparisons.common.errors import SceneError
 from comparisons.common.numbers import UNKNOWN
 from comparisons.common.progress import Stages, no_progress
 from comparisons.figures.quantity import QUANTITIES
@@ -210,10 +209,6 @@ class TestSwitch:
         assert other.problem.extent[0] / a == pytest.approx(-1.5) and edges[0] < -1.5
         length, _ = change(other, 1.5)["contact_length"]
         assert length / a == pytest.approx(2.0 * half, rel=2e-3)
-
-    def test_one_friction_alone(self):
-        with pytest.raises(SceneError, match=r"load\.coupled: is true with 3 friction.*allowed"):
-            scene_of(RIGID, coupled=True)
 
     def test_equal_materials_are_the_same_either_way(self):
         one, other = (plain(solved(ALIKE, friction=0.3, coupled=way), 0.3) for way in (False, True))

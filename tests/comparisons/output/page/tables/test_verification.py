@@ -55,7 +55,7 @@ def test_the_quantities_of_v_and_v_20_are_named(wavy_outcome: Run):
     assert len(table.rows) == len(checks) == len({row[0] for row in table.rows})
     for row, check in zip(table.rows, checks, strict=True):
         assert row[2] == percent(check.numerical)
-        assert row[3] == percent(check.part("inputs").value)
+        assert row[3] == percent(check.part("trace_sampling").value)
 
 
 def test_one_model_has_no_comparison_error(smooth_outcome: Run):
