@@ -28,28 +28,15 @@ def outside_figures(
     A length is read to the spacing of the answer's points at either end of a zone, from both in one
     way; the norm has what these points leave out of the model's own traction, and by how much that
     differs on the level before, which is of first order."""
-    friction, grid, state = model.friction, levels[-1].grid, levels[-1].states[-1]
-    traction = state.traction
-    size = float(np.linalg.norm(traction)) or 1.0
-    refined = np.inf
-    if len(levels) > 1:
-        coarser = np.interp(grid.x, levels[-2].grid.x, levels[-2].states[-1].traction)
-        refined = REGULAR * float(np.linalg.norm(coarser - traction)) / size
-
-    def stuck(pressure: np.ndarray, shear: np.ndarray) -> tuple[float, int]:
-        """Length [m] and number of zones."""
-        held = (pressure > 0.0) & (np.abs(shear) < STUCK * friction * pressure)
-        first, after = runs_of(held)
-        return float(grid.pitch * (after - first).sum()), len(first)
-
-    reference, _ = stuck(state.normal.pressure, traction)
+    grid, state = levels[-1].grid, levels[-1].states[-1]
+    reference, _ = _stuck(state.normal.pressure, state.traction, model.friction, grid.pitch)
     for name, resolutions in answers.items():
         answer = resolutions[-1]
         if answer.shear is None:
             continue
         pressure = answer.on(grid.x)
         shear = np.where(pressure > 0.0, np.interp(grid.x, answer.x, answer.shear), 0.0)
-        length, zones = stuck(pressure, shear)
+        length, zones = _stuck(pressure, shear, model.friction, grid.pitch)
         read = 2.0 * answer.spacing * max(1, zones) ** 0.5
         common = {"study": model.study, "source": name, "at": model.at}
         scale = length or grid.pitch
@@ -70,13 +57,40 @@ def outside_figures(
             bounds=(-tolerance, tolerance),
             **common,
         )
-        seen = np.interp(answer.x, grid.x, traction, left=0.0, right=0.0)
-        coarse = np.interp(grid.x, answer.x, seen)
-        left = float(np.linalg.norm(coarse - traction)) / size
+        norm, left, refined = _apart(levels, answer, shear)
         yield Figure(
             quantity="traction_l2",
-            value=float(np.linalg.norm(shear - traction)) / size,
+            value=norm,
             against=model.source,
             uncertainty=Uncertainty({"answer": left, "model": refined}),
             **common,
         )
+
+
+def _stuck(
+    pressure: np.ndarray, shear: np.ndarray, friction: float, pitch: float
+) -> tuple[float, int]:
+    """Length [m] that sticks, and number of zones, of tractions (n,) [Pa] on a grid."""
+    held = (pressure > 0.0) & (np.abs(shear) < STUCK * friction * pressure)
+    first, after = runs_of(held)
+    return float(pitch * (after - first).sum()), len(first)
+
+
+def _apart(
+    levels: Sequence[SlippedLevel], answer: Answer, shear: np.ndarray
+) -> tuple[float, float, float]:
+    """Relative L2 norm of an answer's traction (n,) [Pa] on the finest level's grid less the
+    model's; of what the answer's points leave out of the model's; and of what the last level has
+    changed of that, infinite where there is no level before."""
+    grid, traction = levels[-1].grid, levels[-1].states[-1].traction
+    size = float(np.linalg.norm(traction)) or 1.0
+
+    def norm(other: np.ndarray) -> float:
+        return float(np.linalg.norm(other - traction)) / size
+
+    seen = np.interp(answer.x, grid.x, traction, left=0.0, right=0.0)
+    left, refined = norm(np.interp(grid.x, answer.x, seen)), np.inf
+    if len(levels) > 1:
+        before = levels[-2]
+        refined = REGULAR * norm(np.interp(grid.x, before.grid.x, before.states[-1].traction))
+    return norm(shear), left, refined
