@@ -14,7 +14,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
-from comparisons.campaigns.sweep.pictures import FRICTION, PICTURE, PICTURES, POSITION, drawn
+from comparisons.campaigns.sweep.pictures import (
+    FRICTION,
+    PICTURE,
+    PICTURES,
+    POSITION,
+    drawn,
+    is_sample,
+)
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import percent, with_unit
@@ -271,9 +278,12 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
 
     from comparisons.output.terminal import PLAIN, plain_table
 
-    table = plain_table("quantity", "", numbers=("mu", "mean", "std", "smallest", "largest"))
+    spread = ("mean", "std") if all(map(is_sample, content["over"])) else ()
+    table = plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"))
     for row in content["scatter"]:
-        table.add_row(*(cell.translate(PLAIN) for cell in _cells(row)))
+        cells = _cells(row)
+        cells = (*cells[:3], *(cells[3:5] if spread else ()), *cells[5:])
+        table.add_row(*(cell.translate(PLAIN) for cell in cells))
     points = content["points"]
     whys = failures(points)
     pictures = [file for name, file in PICTURES.items() if any(name in p for p in points)]
