@@ -27,8 +27,11 @@ MARKERS = "os^Dv<>"
 WIDTH, TALL, ABOVE, FOOT, LEFT = 7.2, 1.75, 0.3, 0.55, 0.9  # inches, of the sweep's own picture
 HANDLE, CHARACTER, ENTRY = 0.6, 0.075, 0.19  # inches, of its legend
 BAND = "mean ± standard deviation"
-DRAWN = {"peak_pressure": "peak pressure", "contact_length": "contact length"}
-DRAWN |= {"tau1_max": "largest τ₁"}
+DRAWN = {
+    "peak_pressure": "peak pressure",
+    "contact_length": "contact length",
+    "tau1_max": "largest τ₁",
+}
 # of the bulges: by the figure's name its uncertainty's, what it is drawn over, and the axis' words
 PANELS = {
     "height": ("uncertainty", "penetration", "bulge over h"),
@@ -86,27 +89,22 @@ class Axis:
         return f"{self.field} {self.text(value)} {self.unit}".rstrip()
 
 
-def is_sample(axis: dict) -> bool:
-    """Whether a field's values are a sample, of which mean and deviation mean something."""
-    return axis["field"] == POSITION
-
-
 def sweep_figure(content: dict) -> "Figure":
-    """Each figure over the first swept field, a line for each combination of the others; where that
-    field is a sample, mean and standard deviation of the first line as a band."""
+    """Each figure over the first swept field, a line for each combination of the others; over
+    placements, mean and standard deviation of the first line as a band."""
     rows = [row for point in content["points"] for row in point["rows"]]
     names = [name for name in DRAWN if any(row["quantity"] == name for row in rows)]
     axes = [Axis.of(**swept) for swept in content["over"]]
     lines = {name: _lines(content, name, axes) for name in names}
-    labels = [label for label in next(iter(lines.values()), ()) if label]
-    if is_sample(content["over"][0]):
-        labels.append(BAND)
-    longest = HANDLE + CHARACTER * max(map(len, labels), default=0)
-    abreast = max(1, int((WIDTH - 0.2) / longest))
+    line = next(iter(lines[names[0]].values()), ())
+    sample = axes[0].field == POSITION and len(line) > 2  # other values are chosen
+    labels = [*filter(None, lines[names[0]]), *([BAND] if sample else ())]
+    wide = HANDLE + CHARACTER * max(map(len, labels), default=0)
+    abreast = max(1, int((WIDTH - 0.2) / wide))
     foot = FOOT + ENTRY * -(-len(labels) // abreast)
     drawn, stack = panels(WIDTH, [(ABOVE, TALL)] * len(names), LEFT, foot=foot)
     for name, panel in zip(names, stack, strict=True):
-        _draw_lines(panel, lines[name], name, is_sample(content["over"][0]))
+        _draw_lines(panel, lines[name], name, sample)
         if not axes[0].is_number:
             panel.set_xticks(axes[0].places, axes[0].texts)
     over(stack, axes[0].label)
@@ -141,7 +139,7 @@ def _draw_lines(axes: "Axes", lines: dict[str, list], name: str, sample: bool) -
         x, y = np.array(sorted(line)).T
         look = {"marker": MARKERS[number % len(MARKERS)], "markersize": 3.2, "linewidth": 1.0}
         [drawn] = axes.plot(x, y / scale.factor, label=label, **look)
-        if sample and len(y) > 2 and number == 0:
+        if sample and number == 0:
             mean, spread = np.mean(y) / scale.factor, np.std(y, ddof=1) / scale.factor
             band = {"color": drawn.get_color(), "alpha": 0.15, "linewidth": 0.0, "label": BAND}
             axes.axhspan(mean - spread, mean + spread, **band)
@@ -154,7 +152,7 @@ def bulge_figure(content: dict) -> "Figure":
     relative penetration, a line for each friction."""
     entries = [entry for point in content["points"] for entry in point.get(bulge.NAME, ())]
     entries.sort(key=lambda entry: entry[DEPTH])
-    drawn, stack = panels(style.COLUMN, [(0.2, 1.5)] * len(PANELS), 0.85, foot=0.75)
+    drawn, stack = panels(style.COLUMN, [(ABOVE, 1.5)] * len(PANELS), 0.85, foot=0.75)
     for (name, (unsure, unit, words)), axes in zip(PANELS.items(), stack, strict=True):
         for k, friction in enumerate(sorted({entry["friction"] for entry in entries})):
             rows = [e for e in entries if e["friction"] == friction and e[unsure] is not None]

@@ -14,14 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
-from comparisons.campaigns.sweep.pictures import (
-    FRICTION,
-    PICTURE,
-    PICTURES,
-    POSITION,
-    drawn,
-    is_sample,
-)
+from comparisons.campaigns.sweep.pictures import FRICTION, PICTURE, PICTURES, POSITION, drawn
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import percent, with_unit
@@ -278,12 +271,12 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
 
     from comparisons.output.terminal import PLAIN, plain_table
 
-    spread = ("mean", "std") if all(map(is_sample, content["over"])) else ()
+    is_sample = all(axis["field"] == POSITION for axis in content["over"])
+    spread = ("mean", "std") if is_sample else ()  # of values that are chosen they mean nothing
     table = plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"))
     for row in content["scatter"]:
-        cells = _cells(row)
-        cells = (*cells[:3], *(cells[3:5] if spread else ()), *cells[5:])
-        table.add_row(*(cell.translate(PLAIN) for cell in cells))
+        *names, mean, deviation, low, high = (cell.translate(PLAIN) for cell in _cells(row))
+        table.add_row(*names, *((mean, deviation) if is_sample else ()), low, high)
     points = content["points"]
     whys = failures(points)
     pictures = [file for name, file in PICTURES.items() if any(name in p for p in points)]
