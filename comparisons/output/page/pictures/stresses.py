@@ -151,7 +151,7 @@ def _panel(
     largest = f"largest |{component.symbol}|" if component.signed else "largest"
     largest += f" {significant(abs(extreme.value) / hertz.peak_pressure)} p₀"
     title = (
-        f"{joint_label(names)}: {largest} at "
+        f"{'both models' if names[1:] else LABELS[names[0]]}: {largest} at "
         f"x = {decimal(mark[0])} a, z = {significant(mark[1], 3)} a"
     )
     inside = extreme.z <= run.window.z[len(values) - 1]
@@ -171,7 +171,8 @@ def _difference_said(
     value."""
     row, column = np.unravel_index(np.nanargmax(np.abs(difference)), difference.shape)
     largest = difference[row, column]
-    said = f"Both models coincide within {percent_as_written(COINCIDE)} or what is uncertain"
+    near = percent_as_written(COINCIDE)
+    said = f"Both models coincide, within {near} of the largest value or what is uncertain of it"
     if end is not None:
         covers = f", which covers {COVERED:g} % of the points or more, to show what is small"
         reason = covers if abs(largest) > end else ""

@@ -68,7 +68,7 @@ def test_fields_that_coincide_are_drawn_once(wavy_outcome: Run, drawn_by, apart:
     [figure, *_], [made, *_] = drawn_by(field_pictures, posed(wavy_outcome, runs=runs))
     alone = apart < 1.0
     assert len(scales_of(figure)) == (1 if alone else 2)
-    assert ("half-plane = finite elements: largest" in made.alternative) == alone
+    assert ("both models: largest" in made.alternative) == alone
     assert ("Both models coincide" in made.caption) == alone
     assert "largest difference at a point of the grid" in made.caption
     assert len(json.loads(made.field)["boxes"]) == (1 if alone else 3)
