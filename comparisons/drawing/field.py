@@ -6,7 +6,7 @@ striped, so that a grey printer leaves the sign."""
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -162,13 +162,19 @@ class ColourScale:
 
     label: str
     bands: np.ndarray
-    colours: str = "viridis"
-    signed: bool = False
+    colours: str
+    signed: bool
 
+    @classmethod
+    def over(
+        cls, label: str, fields: list[np.ndarray], colours: str = "viridis", signed: bool = False
+    ) -> Self:
+        """One scale for all the fields."""
+        return cls(label, round_bands(fields, signed), colours, signed)
 
-def signed_scale(label: str, bands: np.ndarray) -> ColourScale:
-    """Of a difference."""
-    return ColourScale(label, bands, DIFFERENCE_COLOURS, signed=True)
+    @classmethod
+    def of_differences(cls, label: str, differences: list[np.ndarray]) -> Self:
+        return cls.over(label, differences, DIFFERENCE_COLOURS, signed=True)
 
 
 def draw_fields(
@@ -176,12 +182,13 @@ def draw_fields(
     z: np.ndarray,
     panels: Sequence[FieldPanel],
     scale: ColourScale,
-    height: float,
+    height: float | None = None,
     difference: tuple[str, ColourScale] | None = None,
 ) -> "tuple[Figure, list[Axes]]":
-    """One or two fields of `height` inches above one scale; of two also the first less the second,
-    with its title, above another. The axes from top to bottom."""
-    drawn, places, bars = layout(len(panels), height)
+    """One or two fields of `height` inches, to scale without, above one scale; of two also the
+    first less the second, with its title, above another. The axes from top to bottom."""
+    to_scale = float(np.clip(WIDTH * np.ptp(z) / np.ptp(x), LOW, TALL))
+    drawn, places, bars = layout(len(panels), height or to_scale)
     rows = [(panel, scale) for panel in panels]
     if difference is not None:
         title, other = difference
@@ -197,8 +204,3 @@ def draw_fields(
         colour_bar(drawn, bar, shown[row], of.label, of.bands)
     places[-1].set_xlabel("x/a")
     return drawn, places
-
-
-def height_to_scale(x: np.ndarray, z: np.ndarray) -> float:
-    """Inches of a field as tall as it is deep, within bounds."""
-    return float(np.clip(WIDTH * np.ptp(z) / np.ptp(x), LOW, TALL))

@@ -18,8 +18,16 @@ from pydantic import PrivateAttr, ValidationError, create_model, model_validator
 
 import comparisons.scenes.studies as of_studies
 from comparisons.common.errors import InputError, SceneError, nearest
-from comparisons.common.units import describe
-from comparisons.scenes.fields import FieldError, SceneSection, Text, allowed, file_fields, plain
+from comparisons.common.units import Dimension, describe
+from comparisons.scenes.fields import (
+    FieldError,
+    SceneSection,
+    Text,
+    allowed,
+    field_type,
+    file_fields,
+    plain,
+)
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.profile import ProfileSection
@@ -219,6 +227,16 @@ def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:
 
     hints = {name: info.annotation for name, info in scene.model_fields.items()}
     return {name: section for name, hint in hints.items() for section in inside(hint)}
+
+
+def dimension_of(field: str) -> Dimension | None:
+    """What the numbers of "table.field" measure; None of what is no number of one dimension."""
+    table, _, name = field.partition(".")
+    section = sections_of(Scene).get(table)
+    if section is None or name not in file_fields(section):
+        return None
+    kind = field_type(section, name)
+    return getattr(getattr(kind, "item", kind), "dimension", None)
 
 
 def with_tolerance(scene: Scene, tolerance: float, source: str = "tolerance") -> Scene:

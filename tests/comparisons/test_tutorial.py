@@ -38,6 +38,8 @@ def test_the_tutorial_runs_and_its_answers_stand_in_it():
     (verdict, error), shown = answers[next(key for key in answers if "verdict" in key)]
     there = ast.literal_eval(shown)
     assert verdict == there[0] and error == pytest.approx(there[1], abs=2e-4)
+    suffices, shown = answers["checked.result['suffices']"]
+    assert suffices == ast.literal_eval(shown)
     spread, shown = answers["spread"]
     first = [row["half_plane"] for row in spread.rows if row["quantity"] == "peak_pressure"]
     assert len(first) == 8 and repr(spread).splitlines()[0] == shown.splitlines()[0]

@@ -2,15 +2,17 @@
 
 In: the content of sweep.json. Out: SVG, the same for the same content."""
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from comparisons.common.numbers import plain, scale_of
-from comparisons.common.units import DIMENSIONS, UnitError, to_si
+from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.drawing import style
 from comparisons.drawing.curves import over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
+from comparisons.scenes.scene import dimension_of
 from comparisons.studies.subsurface import bulge, quiescent_zone
 from comparisons.studies.subsurface.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
 
@@ -22,8 +24,14 @@ PICTURE = "sweep.svg"
 PICTURES = {quiescent_zone.NAME: "quiescent_zone.svg", bulge.NAME: "bulge.svg"}  # by study
 POSITION, FRICTION = "load.position", "load.friction"
 MARKERS = "os^Dv<>"
-WIDTH, TALL, ABOVE, FOOT, LEFT = 7.2, 1.75, 0.35, 0.8, 0.9  # inches, of the sweep's own picture
-DRAWN = ("peak_pressure", "contact_length", "tau1_max")
+WIDTH, TALL, ABOVE, FOOT, LEFT = 7.2, 1.75, 0.3, 0.55, 0.9  # inches, of the sweep's own picture
+HANDLE, CHARACTER, ENTRY = 0.6, 0.075, 0.19  # inches, of its legend
+BAND = "mean ± standard deviation"
+DRAWN = {
+    "peak_pressure": "peak pressure",
+    "contact_length": "contact length",
+    "tau1_max": "largest τ₁",
+}
 # of the bulges: by the figure's name its uncertainty's, what it is drawn over, and the axis' words
 PANELS = {
     "height": ("uncertainty", "penetration", "bulge over h"),
@@ -45,68 +53,98 @@ def drawn(content: dict) -> dict[str, str]:
         return {file: style.svg(draw(content)) for file, draw in draws.items()}
 
 
+@dataclass(frozen=True)
+class Axis:
+    """A swept field as it is drawn: its values in one unit, or as they are written where they are
+    no numbers."""
+
+    field: str
+    values: list  # as the scene has them
+    places: np.ndarray
+    texts: list[str]
+    unit: str = ""
+    is_number: bool = True
+
+    @classmethod
+    def of(cls, field: str, values: list) -> Self:
+        dimension = dimension_of(field) or DIMENSIONLESS
+        try:
+            numbers = np.array([to_si(value, dimension) for value in values])
+        except UnitError:
+            places = np.arange(len(values), dtype=float)
+            return cls(field, values, places, list(map(str, values)), is_number=False)
+        scale = scale_of(numbers, dimension.si_unit)
+        places = numbers / scale.factor
+        return cls(field, values, places, [plain(float(f"{p:.5g}")) for p in places], scale.name)
+
+    @property
+    def label(self) -> str:
+        words = "position of the roller on the trace" if self.field == POSITION else self.field
+        return f"{words}, {self.unit}" if self.unit else words
+
+    def text(self, value: object) -> str:
+        return self.texts[self.values.index(value)]
+
+    def said(self, value: object) -> str:
+        return f"{self.field} {self.text(value)} {self.unit}".rstrip()
+
+
 def sweep_figure(content: dict) -> "Figure":
-    """Each figure over the first swept field, a line for each combination of the others; of the
-    first line mean and standard deviation as a band."""
+    """Each figure over the first swept field, a line for each combination of the others; over
+    placements, mean and standard deviation of the first line as a band."""
     rows = [row for point in content["points"] for row in point["rows"]]
     names = [name for name in DRAWN if any(row["quantity"] == name for row in rows)]
-    drawn, stack = panels(WIDTH, [(ABOVE, TALL)] * len(names), LEFT, foot=FOOT)
-    for name, axes in zip(names, stack, strict=True):
-        _draw_figures(axes, content, name)
-    field = content["over"][0]["field"]
-    moved = "position of the roller on the trace, mm"
-    stack[-1].set_xlabel(moved if field == POSITION else field)
+    axes = [Axis.of(**swept) for swept in content["over"]]
+    lines = {name: _lines(content, name, axes) for name in names}
+    line = next(iter(lines[names[0]].values()), ())
+    sample = axes[0].field == POSITION and len(line) > 2  # other values are chosen
+    labels = [*filter(None, lines[names[0]]), *([BAND] if sample else ())]
+    wide = HANDLE + CHARACTER * max(map(len, labels), default=0)
+    abreast = max(1, int((WIDTH - 0.2) / wide))
+    foot = FOOT + ENTRY * -(-len(labels) // abreast)
+    drawn, stack = panels(WIDTH, [(ABOVE, TALL)] * len(names), LEFT, foot=foot)
+    for name, panel in zip(names, stack, strict=True):
+        _draw_lines(panel, lines[name], name, sample)
+        if not axes[0].is_number:
+            panel.set_xticks(axes[0].places, axes[0].texts)
+    over(stack, axes[0].label)
     stack[0].set_title(content["scene"]["title"], loc="left")
-    handles, labels = stack[-1].get_legend_handles_labels()
-    if len(labels) > 1:
-        drawn.legend(handles, labels, loc="lower left", ncols=4, borderaxespad=0.2)
+    if labels:
+        drawn.legend(*stack[0].get_legend_handles_labels(), loc="lower left", ncols=abreast)
     return drawn
 
 
-def _places(axis: dict) -> tuple[np.ndarray, list[str] | None]:
-    """Where the values of a field are drawn, and what stands there where these are no numbers."""
-    for dimension in DIMENSIONS:
-        try:
-            values = np.array([to_si(value, dimension) for value in axis["values"]])
-        except UnitError:
-            continue
-        return (1e3 * values if axis["field"] == POSITION else values), None
-    return np.arange(len(axis["values"]), dtype=float), [str(v) for v in axis["values"]]
-
-
-def _lines(content: dict, name: str, places: np.ndarray) -> dict[tuple, list[tuple[float, float]]]:
-    """Points of a quantity by the values of the other fields, and by friction where that is none:
-    by the model that the sweep is of, the half-plane where there are both."""
-    axes, lines = content["over"], {}
+def _lines(content: dict, name: str, axes: list[Axis]) -> dict[str, list[tuple[float, float]]]:
+    """Points of a quantity over the first field by what the others are, and by friction where there
+    are several: by the half-plane, or the model that the sweep is of."""
     model = "finite_element" if "half_plane" not in content["models"] else "half_plane"
-    swept = any(axis["field"] == FRICTION for axis in axes)
-    for point in content["points"]:
-        at = places[axes[0]["values"].index(point["values"][0])]
+    points = content["points"]
+    several = len({row["friction"] for point in points for row in point["rows"]}) > 1
+    several = several and all(axis.field != FRICTION for axis in axes)
+    lines: dict[str, list[tuple[float, float]]] = {}
+    for point in points:
+        first, *others = point["values"]
+        at = axes[0].places[axes[0].values.index(first)]
+        words = [axis.said(value) for axis, value in zip(axes[1:], others, strict=True)]
         for row in point["rows"]:
             if row["quantity"] == name and row[model] is not None:
-                other = (*point["values"][1:], *(() if swept else (row["friction"],)))
-                lines.setdefault(other, []).append((at, row[model]))
+                friction = [f"friction {plain(row['friction'])}"] if several else []
+                lines.setdefault(", ".join([*words, *friction]), []).append((at, row[model]))
     return lines
 
 
-def _draw_figures(axes: "Axes", content: dict, name: str) -> None:
-    places, names = _places(content["over"][0])
-    lines = _lines(content, name, places)
-    fields = [*(axis["field"] for axis in content["over"][1:]), "friction"]
+def _draw_lines(axes: "Axes", lines: dict[str, list], name: str, sample: bool) -> None:
     scale = scale_of([y for line in lines.values() for _, y in line], QUANTITIES[name].unit)
-    for number, (other, line) in enumerate(sorted(lines.items(), key=str)):
+    for number, (label, line) in enumerate(lines.items()):
         x, y = np.array(sorted(line)).T
-        label = ", ".join(f"{f} {value}" for f, value in zip(fields, other, strict=False))
         look = {"marker": MARKERS[number % len(MARKERS)], "markersize": 3.2, "linewidth": 1.0}
         [drawn] = axes.plot(x, y / scale.factor, label=label, **look)
-        if len(y) > 2 and number == 0:
-            mean, spread = np.mean(y), np.std(y, ddof=1)
-            band = {"color": drawn.get_color(), "alpha": 0.15, "linewidth": 0.0}
-            axes.axhspan((mean - spread) / scale.factor, (mean + spread) / scale.factor, **band)
-            axes.axhline(mean / scale.factor, color=drawn.get_color(), linewidth=0.6)
-    axes.set_ylabel(f"{QUANTITIES[name].label}\n{scale.name}")
-    if names is not None:
-        axes.set_xticks(places, names)
+        if sample and number == 0:
+            mean, spread = np.mean(y) / scale.factor, np.std(y, ddof=1) / scale.factor
+            band = {"color": drawn.get_color(), "alpha": 0.15, "linewidth": 0.0, "label": BAND}
+            axes.axhspan(mean - spread, mean + spread, **band)
+            axes.axhline(mean, color=drawn.get_color(), linewidth=0.6)
+    axes.set_ylabel(f"{DRAWN[name]}, {scale.name}")
 
 
 def bulge_figure(content: dict) -> "Figure":
@@ -114,7 +152,7 @@ def bulge_figure(content: dict) -> "Figure":
     relative penetration, a line for each friction."""
     entries = [entry for point in content["points"] for entry in point.get(bulge.NAME, ())]
     entries.sort(key=lambda entry: entry[DEPTH])
-    drawn, stack = panels(style.COLUMN, [(0.2, 1.5)] * len(PANELS), 0.85, foot=0.75)
+    drawn, stack = panels(style.COLUMN, [(ABOVE, 1.5)] * len(PANELS), 0.85, foot=0.75)
     for (name, (unsure, unit, words)), axes in zip(PANELS.items(), stack, strict=True):
         for k, friction in enumerate(sorted({entry["friction"] for entry in entries})):
             rows = [e for e in entries if e["friction"] == friction and e[unsure] is not None]
@@ -132,27 +170,30 @@ def bulge_figure(content: dict) -> "Figure":
 def zone_map_figure(content: dict) -> "Figure":
     """A field for each friction, a column for each value of the first swept field, a row for each
     combination of the others; in it the least mean shear over that of the Hertz zone."""
-    names, model = [axis["field"] for axis in content["over"]], content["models"][0]
-    fields = {
-        axis["field"]: axis["values"] for axis in content["over"] if axis["field"] != FRICTION
-    }
-    by_friction: dict[float, dict[tuple, dict]] = {}  # then by values of the other fields
+    model = content["models"][0]
+    axes = [Axis.of(**swept) for swept in content["over"]]
+    by_friction: dict[float, dict[tuple[str, str], dict]] = {}  # then by column and row
     for point in content["points"]:
-        values = tuple(v for n, v in zip(names, point["values"], strict=True) if n != FRICTION)
+        texts = [
+            axis.text(value)
+            for axis, value in zip(axes, point["values"], strict=True)
+            if axis.field != FRICTION
+        ]
+        place = texts[0] if texts else "", ", ".join(texts[1:])
         for entry in point.get(quiescent_zone.NAME, {}).get(model, ()):
-            by_friction.setdefault(entry["friction"], {})[values] = entry
-    first, *others = fields or [""]
-    columns = list(fields.get(first, [""]))
-    rows = list(dict.fromkeys(key[1:] for entries in by_friction.values() for key in entries))
+            by_friction.setdefault(entry["friction"], {})[place] = entry
+    axes = [axis for axis in axes if axis.field != FRICTION]
+    columns = axes[0].texts if axes else [""]
+    rows = list(dict.fromkeys(row for entries in by_friction.values() for _, row in entries))
     (across, down), left, right, above = CELL, 1.25, 0.3, 0.32
     wide = max(left + across * len(columns) + right, LEAST_WIDE)
     heights = [(above, down * len(rows))] * len(by_friction)
-    drawn, stack = panels(wide, heights, left, right, foot=0.8)
-    for axes, friction in zip(stack, sorted(by_friction), strict=True):
-        _draw_zones(axes, by_friction[friction], columns, rows)
-        axes.set_title(f"friction {plain(friction)}, {LABELS[model]}")
-    over(stack, first)
-    stack[0].set_ylabel(", ".join(others))
+    drawn, stack = panels(wide, heights, left, right, foot=1.0 if axes[1:] else 0.8)
+    for panel, friction in zip(stack, sorted(by_friction), strict=True):
+        _draw_zones(panel, by_friction[friction], columns, rows)
+        panel.set_title(f"friction {plain(friction)}, {LABELS[model]}")
+    upwards = f"\nupwards: {'; '.join(axis.label for axis in axes[1:])}" if axes[1:] else ""
+    over(stack, f"{axes[0].label if axes else ''}{upwards}")
     look = {"marker": "s", "linestyle": "none", "markersize": 7.0}
     keys = [stack[0].plot([], [], color=c, label=n, **look)[0] for n, c in COLOURS.items()]
     drawn.legend(handles=keys, loc="lower left", ncols=4, columnspacing=1.0, handlelength=1.0)
@@ -160,15 +201,15 @@ def zone_map_figure(content: dict) -> "Figure":
 
 
 def _draw_zones(axes: "Axes", entries: dict[tuple, dict], columns: list, rows: list) -> None:
-    for key, entry in entries.items():
-        at = columns.index(key[0] if key else ""), rows.index(key[1:])
+    for (column, row), entry in entries.items():
+        at = columns.index(column), rows.index(row)
         square = np.add(SQUARE, np.reshape(at, (2, 1)))
         axes.fill(*square, facecolor=COLOURS[entry["status"]], edgecolor="white")
         level = f"{entry['level']['value']:.2f}"
         axes.text(*at, level, ha="center", va="center", fontsize=8.0)
     axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
-    axes.set_xticks(range(len(columns)), [str(value) for value in columns], fontsize=7.5)
-    axes.set_yticks(range(len(rows)), [", ".join(map(str, row)) for row in rows], fontsize=7.5)
+    axes.set_xticks(range(len(columns)), columns, fontsize=7.5)
+    axes.set_yticks(range(len(rows)), rows, fontsize=7.5)
     axes.grid(False)
 
 

@@ -271,9 +271,12 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
 
     from comparisons.output.terminal import PLAIN, plain_table
 
-    table = plain_table("quantity", "", numbers=("mu", "mean", "std", "smallest", "largest"))
+    is_sample = all(axis["field"] == POSITION for axis in content["over"])
+    spread = ("mean", "std") if is_sample else ()  # of values that are chosen they mean nothing
+    table = plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"))
     for row in content["scatter"]:
-        table.add_row(*(cell.translate(PLAIN) for cell in _cells(row)))
+        *names, mean, deviation, low, high = (cell.translate(PLAIN) for cell in _cells(row))
+        table.add_row(*names, *((mean, deviation) if is_sample else ()), low, high)
     points = content["points"]
     whys = failures(points)
     pictures = [file for name, file in PICTURES.items() if any(name in p for p in points)]

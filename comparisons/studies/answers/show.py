@@ -7,14 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import (
-    Scale,
-    listed,
-    percent,
-    plain,
-    significant,
-    with_unit,
-)
+from comparisons.common.numbers import Scale, listed, percent, plain, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import (
     Block,
@@ -26,14 +19,7 @@ from comparisons.drawing.blocks import (
     compared_cells,
 )
 from comparisons.drawing.curves import over, panels
-from comparisons.drawing.field import (
-    ColourScale,
-    FieldPanel,
-    draw_fields,
-    height_to_scale,
-    round_bands,
-    signed_scale,
-)
+from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figure, Figures, Series, grouped
 from comparisons.figures.quantity import LABELS, QUANTITIES, label
 from comparisons.studies import contact
@@ -184,10 +170,9 @@ def _shear(run: Run, name: str, answer: Answer) -> style.Picture:
     fields = [known.field.tau1 / hertz.peak_pressure for known in (stress, reference)]
     names = name, LABELS[reference_of(run)]
     shown = [FieldPanel(*panel) for panel in zip(names, fields, strict=True)]
-    scale = ColourScale("τ₁/p₀", round_bands(fields, signed=False))
-    of_two = signed_scale("Δτ₁/p₀", round_bands([fields[0] - fields[1]], signed=True))
-    difference = " − ".join(names), of_two
-    drawn, _ = draw_fields(x, z, shown, scale, height_to_scale(x, z), difference)
+    scale = ColourScale.over("τ₁/p₀", fields)
+    of_two = ColourScale.of_differences("Δτ₁/p₀", [fields[0] - fields[1]])
+    drawn, _ = draw_fields(x, z, shown, scale, difference=(" − ".join(names), of_two))
     words = f"Principal shear stress τ₁ of {name} and of the {names[1]}, friction "
     words += f"{plain(stress.friction)}, and their difference, striped where negative."
     return style.picture(drawn, words, words, data=False)

@@ -8,7 +8,7 @@ from comparisons.common.numbers import percent, plain, scale_of, significant, wi
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable, judged_cells
 from comparisons.drawing.curves import over, panels
-from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields, round_bands
+from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.studies.heat.half_space import reach_of
@@ -180,7 +180,7 @@ def below_pictures(run: Run) -> list[style.Picture]:
         row, column = np.unravel_index(values.argmax(), values.shape)
         at = f"{significant(values.max())} K at x = {significant(x[column], 3)} a"
         panel = FieldPanel(f"{name}: largest {at}", values, (x[column], z[row]))
-        scale = ColourScale("rise [K]", round_bands([values], signed=False), "magma")
+        scale = ColourScale.over("rise [K]", [values], "magma")
         drawn, _ = draw_fields(x, z, [panel], scale, HEIGHT)
         words = f"Rise of temperature below the surface of the {name}"
         alternative, caption = f"{words}; {panel.title}.", f"{words}, as a half-space."

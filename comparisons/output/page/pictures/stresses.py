@@ -3,6 +3,7 @@ there is no other: fields on one colour scale, their difference on its own, and 
 after Bailey and Sayles (1991), figure 11."""
 
 import json
+import math
 from dataclasses import dataclass
 from operator import sub
 from typing import TYPE_CHECKING
@@ -11,21 +12,13 @@ import numpy as np
 
 from analytic.exact.hertz import hertz_stress
 from analytic.stress_state import StressState
-from comparisons.common.numbers import decimal, plain, significant
+from comparisons.common.numbers import decimal, percent_as_written, plain, significant
 from comparisons.drawing import style
-from comparisons.drawing.curves import columns, distinct, joint_label
-from comparisons.drawing.field import (
-    COVERED,
-    ColourScale,
-    FieldPanel,
-    draw_fields,
-    height_to_scale,
-    round_bands,
-    signed_scale,
-)
+from comparisons.drawing.curves import COINCIDE, columns, distinct, joint_label
+from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.studies.contact import peak_position
-from comparisons.studies.study import Run
+from comparisons.studies.study import MODEL_ERROR, Run
 from comparisons.studies.subsurface.quiescent_zone import NAME as ZONE
 from comparisons.studies.subsurface.quiescent_zone import zones_of
 
@@ -44,6 +37,7 @@ class Component:
     """A drawn stress: name in result files, sign and words in the page, colours of its bands."""
 
     name: str
+    largest: str  # of its size, as figures have it
     symbol: str
     words: str
     colours: str
@@ -54,8 +48,8 @@ class Component:
 
 
 COMPONENTS = (
-    Component("tau1", "τ₁", "principal shear stress", "viridis", signed=False),
-    Component("txz", "τxz", "orthogonal shear stress", "RdBu_r", signed=True),
+    Component("tau1", "tau1_max", "τ₁", "principal shear stress", "viridis", signed=False),
+    Component("txz", "txz_max_abs", "τxz", "orthogonal shear stress", "RdBu_r", signed=True),
 )
 
 
@@ -63,11 +57,10 @@ def field_pictures(run: Run) -> list[style.Picture]:
     """Of each component one for every friction coefficient; nothing without fields."""
     if run.window is None:
         return []
-    height = height_to_scale(run.window.x, run.window.z)
     return [
         picture
         for component in COMPONENTS
-        for picture in _pictures(run, component, "under the contact", len(run.window.z), height)
+        for picture in _pictures(run, component, "under the contact", len(run.window.z))
     ]
 
 
@@ -83,10 +76,10 @@ def near_surface_pictures(run: Run) -> list[style.Picture]:
 
 
 def _pictures(
-    run: Run, component: Component, place: str, rows: int, height: float
+    run: Run, component: Component, place: str, rows: int, height: float | None = None
 ) -> list[style.Picture]:
-    """One a friction coefficient, of the window's first `rows` depths, `height` inches tall; all on
-    the same colour scales."""
+    """One a friction coefficient, of the window's first `rows` depths, `height` inches tall or
+    to scale; all on the same colour scales."""
     hertz, window, frictions = run.problem.hertz, run.window, run.problem.scene.load.friction
     x, z = window.x / hertz.half_width, window.z[:rows] / hertz.half_width
     fields = [
@@ -96,18 +89,20 @@ def _pictures(
         }
         for friction in frictions
     ]
-    bands = round_bands([f for models in fields for f in models.values()], component.signed)
-    scale = ColourScale(f"{component.symbol}/p₀", bands, component.colours, component.signed)
-    differences = [sub(*models.values()) for models in fields if len(models) > 1]
-    of_differences = round_bands(differences, signed=True) if differences else None
+    every = [values for models in fields for values in models.values()]
+    label, look = f"{component.symbol}/p₀", (component.colours, component.signed)
+    scale = ColourScale.over(label, every, *look)
+    shown = [_panels(run, component, *pair) for pair in zip(frictions, fields, strict=True)]
+    apart = [sub(*m.values()) for m, p in zip(fields, shown, strict=True) if len(p) > 1]
+    of_differences = ColourScale.of_differences(f"Δ{label}", apart) if apart else None
     pictures = []
     for number, (friction, models) in enumerate(zip(frictions, fields, strict=True)):
-        panels = [_panel(run, name, friction, component, models[name]) for name in models]
-        difference, notes = None, ""
-        if differences:
-            names = " − ".join(LABELS[name] for name in models)
-            difference = names, signed_scale(f"Δ{component.symbol}/p₀", of_differences)
-            notes = _difference_said(x, z, differences[number], of_differences[-1])
+        panels, difference, notes = shown[number], None, ""
+        if len(panels) > 1:
+            difference = " − ".join(LABELS[name] for name in models), of_differences
+        if len(models) > 1:
+            end = of_differences.bands[-1] if difference else None
+            notes = _difference_said(x, z, sub(*models.values()), end)
         drawn, axes = draw_fields(x, z, panels, scale, height, difference)
         pointed = {
             "component": COMPONENTS.index(component),
@@ -118,7 +113,7 @@ def _pictures(
         }
         words = f"{component.words.capitalize()} {component.symbol} {place}"
         words += f", friction {plain(friction)}"
-        striped = ", stripes what is negative" if component.signed or differences else ""
+        striped = ", stripes what is negative" if component.signed or difference else ""
         if any(np.isnan(values).any() for values in models.values()):
             notes += " White: hollows below the mean line, from which z counts."
         if WHOLE in models:
@@ -130,16 +125,33 @@ def _pictures(
     return pictures
 
 
+def _panels(
+    run: Run, component: Component, friction: float, models: dict[str, np.ndarray]
+) -> list[FieldPanel]:
+    """A field for each model; the last alone where it is the first's, within COINCIDE or what is
+    uncertain of the largest value's model error."""
+    *others, last = models.values()
+    if others:
+        error = run.figures.one(study=MODEL_ERROR, quantity=component.largest, friction=friction)
+        unsure = error.numerical if error and math.isfinite(error.numerical) else 0.0
+        limit = max(COINCIDE, unsure) * np.nanmax(np.abs(last))
+        if np.nanmax(np.abs(others[0] - last)) <= limit:
+            return [_panel(run, tuple(models), friction, component, last)]
+    return [_panel(run, (name,), friction, component, models[name]) for name in models]
+
+
 def _panel(
-    run: Run, name: str, friction: float, component: Component, values: np.ndarray
+    run: Run, names: tuple[str, ...], friction: float, component: Component, values: np.ndarray
 ) -> FieldPanel:
-    """A model's field under its largest value, which is marked where it is inside."""
-    hertz, level = run.problem.hertz, run.pair(friction)[name]
+    """The field of models, of the last where there are several, under its largest value, which is
+    marked where it is inside."""
+    hertz, level = run.problem.hertz, run.pair(friction)[names[-1]]
     extreme = level.stress(friction).extremes[component.name]
     mark = extreme.x / hertz.half_width, extreme.z / hertz.half_width
+    largest = f"largest |{component.symbol}|" if component.signed else "largest"
+    largest += f" {significant(abs(extreme.value) / hertz.peak_pressure)} p₀"
     title = (
-        f"{LABELS[name]}: {f'largest |{component.symbol}|' if component.signed else 'largest'} "
-        f"{significant(abs(extreme.value) / hertz.peak_pressure)} p₀ at "
+        f"{'both models' if names[1:] else LABELS[names[0]]}: {largest} at "
         f"x = {decimal(mark[0])} a, z = {significant(mark[1], 3)} a"
     )
     inside = extreme.z <= run.window.z[len(values) - 1]
@@ -152,16 +164,22 @@ def _box(axes: "Axes") -> list[float]:
     return [round(v, 4) for v in (place.x0, 1.0 - place.y1, place.width, place.height)]
 
 
-def _difference_said(x: np.ndarray, z: np.ndarray, difference: np.ndarray, end: float) -> str:
-    """Where the colours of the difference end, why there, and its largest value."""
+def _difference_said(
+    x: np.ndarray, z: np.ndarray, difference: np.ndarray, end: float | None
+) -> str:
+    """Where the colours of the difference end and why there, or why it has none; its largest
+    value."""
     row, column = np.unravel_index(np.nanargmax(np.abs(difference)), difference.shape)
     largest = difference[row, column]
-    covers = f", which covers {COVERED:g} % of the points or more, to show what is small"
-    reason = covers if abs(largest) > end else ""
+    near = percent_as_written(COINCIDE)
+    said = f"Both models coincide, within {near} of the largest value or what is uncertain of it"
+    if end is not None:
+        covers = f", which covers {COVERED:g} % of the points or more, to show what is small"
+        reason = covers if abs(largest) > end else ""
+        said = f"The difference's colours end at ±{significant(end, 2)} p₀{reason}"
     return (
-        f" The difference's colours end at ±{significant(end, 2)} p₀{reason}; the largest "
-        f"difference at a point of the grid, {significant(largest, 2)} p₀, stands at "
-        f"x = {decimal(x[column])} a, z = {significant(z[row], 2)} a."
+        f" {said}; the largest difference at a point of the grid, {significant(largest, 2)} p₀, "
+        f"stands at x = {decimal(x[column])} a, z = {significant(z[row], 2)} a."
     )
 
 

@@ -8,7 +8,7 @@ import pytest
 from scenes import STEEL
 
 import comparisons as crosscheck
-from comparisons.campaigns.sweep.pictures import zone_map_figure
+from comparisons.campaigns.sweep.pictures import sweep_figure, zone_map_figure
 from comparisons.campaigns.sweep.sweep import MARGIN, scatter, sweep_request
 from comparisons.cli import main
 from comparisons.common.errors import InputError
@@ -88,6 +88,35 @@ def made(tmp_path_factory):
     asked = ["sweep", str(folder / "waves.toml"), "--out", str(folder / "out")]
     asked += ["--over", "profile.amplitude=20 nm,50 nm,never", "--over", "roller.radius=8e-3,1e-2"]
     return folder / "out", asked, main(asked)
+
+
+@pytest.mark.parametrize(
+    ("over", "label", "band"),
+    [
+        (["load=0.5 GPa,1e9"], "load.hertz_peak_pressure, GPa", False),
+        (
+            ["position=3", "roller.radius=8 mm,9e-3"],
+            "position of the roller on the trace, µm",
+            True,
+        ),
+        (["profile.rms_height=1e-7,never", "load=0.5 GPa,1e9"], "profile.rms_height", False),
+    ],
+)
+def test_pictures_have_a_unit_an_axis_all_words_inside_and_a_band_for_samples(over, label, band):
+    found = crosscheck.sweep(WAVES | {"title": "Waves"}, over, workers=1)
+    with style.drawing():
+        figure = sweep_figure(found.content)
+        figure.draw_without_rendering()
+    assert figure.axes[-1].get_xlabel() == label
+    assert band or figure.axes[0].lines[0].get_xdata()[-1] == (1.0 if len(over) == 1 else 0.0)
+    words = [axis.label for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)]
+    words += [text for legend in figure.legends for text in legend.texts]
+    for word in words:
+        box = word.get_window_extent()
+        assert box.width == 0.0 or (box.x0 >= 0.0 and box.x1 <= figure.bbox.x1 and box.y0 >= 0.0)
+    assert all(bool(axes.patches) == band for axes in figure.axes)
+    assert ("mean" in repr(found)) == (len(over) == 1 and band)
+    assert len(figure.legends) == (len(over) == 2)
 
 
 def test_the_command_leaves_table_picture_and_json(made, capsys):

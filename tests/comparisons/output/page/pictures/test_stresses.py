@@ -1,5 +1,6 @@
 """Subsurface fields as they are drawn: the values, one scale for both models, round bands."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from scenes import posed
 from scipy.interpolate import RegularGridInterpolator
 
+from comparisons.drawing.curves import COINCIDE
 from comparisons.drawing.field import colour_bar, fill, layout, round_bands
 from comparisons.drawing.style import drawing
 from comparisons.output.page.pictures.stresses import field_pictures
@@ -50,6 +52,26 @@ def test_the_caption_says_where_the_differences_colours_end(wavy_outcome: Run, d
     assert f"colours end at ±{end:#.2g} p₀, which covers 99.5 % of the points" in spiked
     place = f"x = {window.x[17] / wavy_outcome.problem.hertz.half_width:.3f} a".replace("-", "−")
     assert f"20 p₀, stands at {place}" in spiked
+
+
+@pytest.mark.parametrize("apart", [0.9, 1.1])
+def test_fields_that_coincide_are_drawn_once(wavy_outcome: Run, drawn_by, apart: float):
+    """Up to 1 %, or the uncertainty of what the largest shears differ by."""
+    error = wavy_outcome.figures.one(study="model_error", quantity="tau1_max", friction=0.0)
+    factor = 1.0 - apart * max(COINCIDE, error.numerical)
+    elements = wavy_outcome.pair(0.0)["finite_element"].stress(0.0).field
+    run = wavy_outcome.runs["half_plane"]
+    stress, *others = run.finest.stresses
+    field = replace(elements, **{n: factor * getattr(elements, n) for n in ("sx", "sz", "txz")})
+    finest = replace(run.finest, stresses=(replace(stress, field=field), *others))
+    runs = {**wavy_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], finest))}
+    [figure, *_], [made, *_] = drawn_by(field_pictures, posed(wavy_outcome, runs=runs))
+    alone = apart < 1.0
+    assert len(scales_of(figure)) == (1 if alone else 2)
+    assert ("both models: largest" in made.alternative) == alone
+    assert ("Both models coincide" in made.caption) == alone
+    assert "largest difference at a point of the grid" in made.caption
+    assert len(json.loads(made.field)["boxes"]) == (1 if alone else 3)
 
 
 def test_fields_and_their_difference_are_those_of_the_run(wavy: dict[str, list], wavy_outcome: Run):
