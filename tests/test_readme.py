@@ -384,15 +384,15 @@ class TestPicture:
         drawn = {line.get_label(): line.get_xydata() for line in pressures.lines}
         levels = outcome.levels(friction)
         for name, level in levels.items():
-            label = next(each for each in drawn if each.startswith(LABELS[name]))
+            label = next(each for each in drawn if LABELS[name] in each)
             peak = level.solution.pressure.max() / hertz.peak_pressure
-            assert drawn[label][:, 1].max() == pytest.approx(peak)
+            assert drawn[label][:, 1].max() == pytest.approx(peak, rel=0.01)  # one line for alike
         assert np.max(drawn["Hertz, smooth"][:, 1]) == pytest.approx(1.0, abs=1e-5)
         half_plane, last = (level.solution for level in outcome.pair(friction).values())
         between = differences.lines[0].get_xydata()[:, 1] * hertz.peak_pressure
         expected = half_plane.pressure - last.pressure
         assert np.abs(between).max() == pytest.approx(np.abs(expected).max())
-        assert len(surfaces.lines) == 2 * len(levels)
+        assert len(surfaces.lines) == 2 * (len(pressures.lines) - 1)  # but Hertz's
         assert shear.get_ylim() == (window.z[-1] / hertz.half_width, 0.0)
         assert {panel.get_xlim() for panel in (pressures, differences, surfaces, shear)} == {
             (-REACH, REACH)

@@ -153,7 +153,7 @@ def test_covers_the_length_evenly():
         ({"phase": 1.0}, "phase must be at least 0 and below 1 feed, not 1"),
         ({"phase": np.nan}, "phase must be at least 0"),
         ({"samples_per_feed": 131}, "samples_per_feed must be at least 132 to follow ridges"),
-        ({"ridge_radius": 1e-9}, "must be a whole number from 8"),
+        ({"ridge_radius": 1e-9}, "allowed is a whole number from 8"),
         ({"length": 1e3}, f"to {MAX_SAMPLES}"),
         ({"noise": -1e-7}, "noise must be positive"),
         ({"noise": 1e-7, "noise_wavelength": 1e-7}, "noise_wavelength 1e-07 m must be from two"),

@@ -92,11 +92,12 @@ def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
     result = content_of(smooth_outcome)
     result = result | {"scene": result["scene"] | {"title": title}}
     (tmp_path / "result.json").write_text(json.dumps(result))
-    assert main(["table", str(tmp_path)]) == 0
-    printed = capsys.readouterr().out
-    assert main(["table", str(tmp_path), "--json"]) == 0
-    as_json = capsys.readouterr().out
-    for text in (printed, as_json):
+    texts = []
+    for option in ((), ("--csv",), ("--json",)):
+        assert main(["table", str(tmp_path), *option]) == 0
+        texts.append(capsys.readouterr().out)
+    _, printed, as_json = texts
+    for text in texts:
         assert all(c.isprintable() or c == "\n" for c in text)
     assert "'=1+2\\x1b]0;owned" in printed
     assert json.loads(as_json)[0]["title"] == title

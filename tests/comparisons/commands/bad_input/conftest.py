@@ -38,7 +38,7 @@ def toml() -> Callable[[dict], str]:
 @pytest.fixture(scope="session")
 def trace() -> str:
     """What a measured profile's file may hold."""
-    return "x_um,height_um\n" + "".join(f"{i},{(i * 7) % 5 / 10}\n" for i in range(40))
+    return "x,height\n" + "".join(f"{i},{(i * 7) % 5 / 10}\n" for i in range(40))
 
 
 @pytest.fixture

@@ -48,7 +48,7 @@ VALUES = [
     ("stress.depth", "1e31", "is 1.000e+31, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
     ("roller.radius", '"8.2"', 'is "8.2", which has no unit; allowed is a length'),
     ("roller.radius", '"8.2 GPa"', 'is "8.2 GPa", a pressure; allowed is a length'),
-    ("load.per_length", '"3 kN"', 'is "3 kN", of dimension ['),
+    ("load.per_length", '"3 kN"', 'is "3 kN", a force: a force per length is "3 kN/mm"; allowed'),
     ("roller.radius", '"8.2 furlogs"', 'is "8.2 furlogs", and "furlogs" is no known unit; allowed'),
     ("body.hardness", '"7 gpa"', 'is "7 gpa", and "gpa" is no known unit (did you mean "GPa"?)'),
     ("roller.radius", '"8,2 mm"', 'is "8,2 mm", and ",2 mm" is not a unit'),

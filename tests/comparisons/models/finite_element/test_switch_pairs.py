@@ -52,7 +52,6 @@ SWITCHES = {
 REFUSED = {
     frozenset(pair)
     for pair in [
-        ("finite", "plastic"),
         ("finite", "P1"),
         ("finite", "P3"),
         ("plastic", "P1"),
