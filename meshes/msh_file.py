@@ -33,7 +33,8 @@ def side_lines(mesh: BlockMesh) -> dict[str, np.ndarray]:
 
 
 def write_msh(mesh: BlockMesh, path: str | Path) -> None:
-    """Saves the real body in x, z, 0 [m], z into the body, its named sides and its BlockSpec."""
+    """Saves the real body in x, z, 0 [m], z into the body, its named sides and its BlockSpec; its
+    shift, too, where it has one."""
     import meshio
 
     lines = side_lines(mesh)
@@ -44,7 +45,7 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
     content = meshio.Mesh(
         np.pad(real_points(mesh), ((0, 0), (0, 1))),
         cells,
-        point_data={SHIFT: np.pad(mesh.shift, ((0, 0), (0, 1)))},
+        point_data={SHIFT: np.pad(mesh.shift, ((0, 0), (0, 1)))} if mesh.shift.any() else {},
         cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
         field_data=names | {BODY[0]: np.array([BODY[1], 2])},
     )
@@ -62,15 +63,16 @@ def append_comment(path: str | Path, notes: Mapping[str, str]) -> None:
 
 
 def read_msh(path: str | Path) -> BlockMesh:
-    """The mesh that write_msh saved, with points of the flat block to rounding. Files of former
-    versions have a shift of one component, z. Raises MeshError for other files."""
+    """The mesh that write_msh saved, with points of the flat block to rounding. Former versions
+    wrote a shift of one component, z, and one that is zero. Raises MeshError for other files."""
     from meshio import gmsh  # meshio's own `read` ends the process where it cannot
 
     path = Path(path)
     spec = read_spec(path)
     with redirect_stderr(io.StringIO()):  # and says there what the caller is told by an error
         content = gmsh.read(path)
-    shift = np.asarray(content.point_data[SHIFT], dtype=float)
+    none = np.zeros(len(content.points))
+    shift = np.asarray(content.point_data.get(SHIFT, none), dtype=float)
     shift = shift[:, :2] if shift.ndim == 2 else np.column_stack([np.zeros_like(shift), shift])
     points = content.points[:, :2] - shift
     triangles = content.cells_dict["triangle6"].astype(np.int64)

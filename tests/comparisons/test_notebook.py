@@ -236,7 +236,7 @@ def test_a_view_holds_the_field_with_depth_downwards(finished):
     plotter = finished.plot.view("half_plane", "tau1 (friction 0.1)")
     mesh = plotter.mesh
     field = finished.outcome.runs["half_plane"].finest.stress(0.1).field
-    assert np.array_equal(mesh["tau1 (friction 0.1)"], field.tau1.ravel())
+    assert np.array_equal(mesh["tau1 (friction 0.1)"], field.tau1.ravel().astype(np.float32))
     assert plotter.camera.up == (0.0, -1.0, 0.0)
     sight = np.subtract(plotter.camera.focal_point, plotter.camera.position)
     assert np.cross(sight, plotter.camera.up)[0] > 0.0  # x to the right

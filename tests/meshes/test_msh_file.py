@@ -134,8 +134,11 @@ def test_interface_and_vertices_come_back(name, built, tmp_path):
 
 def test_spec_of_numpy_numbers_and_without_a_window_comes_back(tmp_path):
     spec = BlockSpec(np.float64(1.0), np.float32(2.0), np.array([[0, 1]]), 0.25)
-    write_msh(build_block(spec), tmp_path / "plain.msh")
+    mesh = build_block(spec)
+    write_msh(mesh, tmp_path / "plain.msh")
+    assert b"NodeData" not in (tmp_path / "plain.msh").read_bytes()  # of no shift
     found = read_msh(tmp_path / "plain.msh")
+    assert np.array_equal(found.points, mesh.points) and not found.shift.any()
     assert found.spec.window is None
     assert found.spec.depth == 2.0
 

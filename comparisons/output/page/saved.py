@@ -1,9 +1,9 @@
 """report.npz: what the report shows and no other file of a run holds, so that it can be redrawn.
 
-In: a finished run. Out: its report.npz; and back from its folder. Two stress components on the
-common window and the levels, exact; the whole model where it is not the scene's own finite
-elements; what studies' pictures are drawn from. The mesh comes from mesh.msh, figures and record
-from their own files; nothing is solved or meshed."""
+In: a finished run. Out: its report.npz; and back from its folder. Levels, exact; two stress
+components on the common window, in single precision; the whole model where it is not the scene's
+own finite elements; what studies' pictures are drawn from. The mesh comes from mesh.msh, figures
+and record from their own files; nothing is solved or meshed."""
 
 import json
 from collections.abc import Sequence
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from analytic.stress_state import StressState
 from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import WHOLE
@@ -35,7 +36,8 @@ KEPT = ("plan", "window", "runs", "refinement")  # of a Solved
 
 @dataclass(frozen=True)
 class ShownField:
-    """The components (m, k) [Pa] of a StressState that pictures show."""
+    """The components (m, k) [Pa] of a StressState that pictures show, as they show them: in single
+    precision."""
 
     tau1: np.ndarray
     txz: np.ndarray
@@ -127,10 +129,14 @@ def _reduced(level: Level, shown: Sequence[Level] = ()) -> Level:
     """A level without its mesh, and without fields where it is not among those that are shown."""
     stresses, with_fields = [], any(level is each for each in shown)
     for stress in level.stresses:
-        field = ShownField(stress.field.tau1, stress.field.txz) if with_fields else None
+        field = _shown_field(stress.field) if with_fields else None
         stresses.append(replace(stress, field=field))
     further = tuple(_reduced(each, shown) for each in level.further)
     return replace(level, stresses=tuple(stresses), mesh=None, mesh_field=None, further=further)
+
+
+def _shown_field(field: StressState) -> ShownField:
+    return ShownField(*(getattr(field, f.name).astype(np.float32) for f in fields(ShownField)))
 
 
 def _with_mesh(run: Run, path: Path) -> Run:

@@ -11,6 +11,7 @@ from comparisons.drawing.field import colour_bar, cross, fill, round_bands
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, QUANTITIES, error_text, label
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
+from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.contact import draw_pressures
 from comparisons.studies.model_error.show import moved_text
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -82,7 +83,7 @@ def _shear(axes: "Axes", bar: "Axes", run: Run) -> str:
     hertz, window, friction = run.problem.hertz, run.window, run.deciding_friction
     stresses = {name: level.stress(friction) for name, level in run.levels(friction).items()}
     [*others, last] = stresses
-    field = stresses[last].field.tau1 / hertz.peak_pressure
+    field = COMPONENTS[0].of(stresses[last].field) / hertz.peak_pressure
     bands = round_bands([field], signed=False)
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     shown = fill(axes, x, z, field, bands, "viridis", False)

@@ -44,7 +44,8 @@ class Component:
     signed: bool
 
     def of(self, field: StressState) -> np.ndarray:
-        return getattr(field, self.name)
+        """In single precision, as report.npz has it: a page drawn again is the same."""
+        return getattr(field, self.name).astype(np.float32)
 
 
 COMPONENTS = (
@@ -247,7 +248,7 @@ def _section_picture(run: Run, column: int, words: str) -> style.Picture:
 
 def _tau1(run: Run, name: str, friction: float, column: int) -> np.ndarray:
     field = run.levels(friction)[name].stress(friction).field
-    return field.tau1[:, column] / run.problem.hertz.peak_pressure
+    return COMPONENTS[0].of(field)[:, column] / run.problem.hertz.peak_pressure
 
 
 def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float) -> None:

@@ -71,7 +71,7 @@ def test_the_page_drawn_again_is_the_same_and_nothing_is_solved_for_it(
     assert str(folder / "report.html") in capsys.readouterr().out.replace("\n", "")
 
 
-def test_what_is_kept_is_exact_and_small(written, wavy_outcome: Run):
+def test_what_is_kept_is_exact_but_for_fields_and_small(written, wavy_outcome: Run):
     folder = written(wavy_outcome)
     again = read_run(folder)
     for name, run in wavy_outcome.runs.items():
@@ -79,11 +79,11 @@ def test_what_is_kept_is_exact_and_small(written, wavy_outcome: Run):
         np.testing.assert_array_equal(level.solution.pressure, run.finest.solution.pressure)
         for friction in wavy_outcome.problem.scene.load.friction:
             mine, solved = level.stress(friction).field, run.finest.stress(friction).field
-            np.testing.assert_array_equal(mine.tau1, solved.tau1)
-            np.testing.assert_array_equal(mine.txz, solved.txz)
+            np.testing.assert_array_equal(mine.tau1, solved.tau1.astype(np.float32))
+            np.testing.assert_array_equal(mine.txz, solved.txz.astype(np.float32))
     assert again.exit_status == wavy_outcome.exit_status
     points = wavy_outcome.window.x.size * wavy_outcome.window.z.size
-    fields = 2 * 2 * len(wavy_outcome.problem.scene.load.friction) * points * 8  # bytes
+    fields = 2 * 2 * len(wavy_outcome.problem.scene.load.friction) * points * 4  # bytes
     assert (folder / FILE).stat().st_size < fields + 250_000
 
 
