@@ -2,8 +2,7 @@
 
 Nobody has tuned the project on them: pieces of the traces that come along, places and loads taken
 at once. `values.json` holds their figures, from meshes down to 1/16 um under the asperities,
-and of `ground-unrun` with friction, down to 1/4 um. The latter's are of a disc that stands by its
-surface's mean displacement, and not by its middle as `contact` has it now: to be solved anew.
+and of `ground-unrun` with friction, down to 1/4 um.
 """
 
 import json
