@@ -59,12 +59,19 @@ class Kinks:
 
     def weights(self, centre: np.ndarray, radius: np.ndarray, seen: np.ndarray) -> Weights:
         """Weights for patches around `centre` (n, 2) [m] of a `radius` (n,) [m]. `seen` (n,) marks
-        the patches that kinks can reach: those of the material at the surface."""
-        centre, reach = centre[:, 0] + 1j * centre[:, 1], REACH * radius * seen
+        the patches that kinks can reach: those of the material at the surface.
+
+        They reach no farther than the first kink from the last one. From farther away they are one
+        force, whose stress is smooth on elements that grow with the distance. On a rough surface
+        each kink has its own tangent, as if the surface went on along it: the fields cancel nearby,
+        their sum grows with the distance, and coarse elements do not follow it."""
+        x, centre = self.place.real, centre[:, 0] + 1j * centre[:, 1]
+        width = np.sum(x[-1:] - x[:1])  # 0 without kinks
+        reach = np.minimum(REACH * radius, width) * seen
         below = np.maximum(0.0, centre.imag - self.place.imag.max(initial=-np.inf))
         across = np.sqrt(np.maximum(0.0, reach**2 - below**2))
-        first = np.searchsorted(self.place.real, centre.real - across)
-        count = np.searchsorted(self.place.real, centre.real + across) - first
+        first = np.searchsorted(x, centre.real - across)
+        count = np.searchsorted(x, centre.real + across) - first
         row, place = runs(count)
         kink = first[row] + place
         distance = np.abs(centre[row] - self.place[kink]) / reach[row]

@@ -6,7 +6,9 @@ from blocks import hooke
 
 from analytic.material import Material
 from fem.body.elasticity import Coating, Support, elastic_body
+from fem.body.surface import straight_down
 from fem.body.triangle import GAUSS, gradients, jacobians, reference_nodes, slopes
+from fem.stress.kinks import Kinks, Weights
 from fem.stress.recovery import Recovery, linear_stress, recovered_stress, stress_nodes
 from fem.stress.surface_load import SurfaceLoad
 
@@ -79,6 +81,32 @@ def test_a_jump_at_an_interface_is_kept(structured_block, thickness):
     np.testing.assert_allclose(found, exact, atol=1e-6)
     twice = np.bincount(nodes.point)[nodes.point] == 2
     assert twice.sum() == 2 * 17 and np.all(z[twice] == thickness)
+
+
+def test_stresses_far_from_a_rough_load_do_not_feel_its_roughness(structured_block, graded, rng):
+    """Patches so coarse that five radii reach the load. A linear stress that leaves the surface
+    free is exact; that of a hat of force 1, smooth there, is off by a small part of 1 / (pi r)."""
+    hats, outer = np.linspace(-1.0, 1.0, 33), 1.0 + graded(300.0, 0.05, 1.25)
+    rough = np.append(0.0, np.append(rng.normal(scale=1e-3, size=31), 0.0))
+    line = np.concatenate([-outer[:0:-1], hats, outer[1:]])
+    mesh = structured_block(line, graded(600.0, 0.05, 1.25), lambda x: np.interp(x, hats, rough))
+    body = elastic_body(mesh, MATERIAL, Support())
+    load = SurfaceLoad(body, hats, rng.uniform(0.5, 1.5, 31), 0.0, straight_down)
+    (x, z), nu = body.nodes.T, MATERIAL.poissons_ratio
+    far = np.abs(x) > 5.0  # beside the rough elements
+
+    moved = np.column_stack([x * z, -0.5 * (x**2 + nu / (1.0 - nu) * z**2)])
+    exact = np.column_stack([MATERIAL.plane_strain_modulus * z, 0.0 * z, 0.0 * z])
+    error = recovered_stress(body, moved, load) - exact
+    assert np.abs(error[far]).max() < 1e-10 * np.abs(exact).max()
+
+    flat = Kinks(np.array([-1.0, 0.0, 1.0]) + 0j, np.ones(3) + 0j, np.array([-1.0, 2.0, -1.0]) + 0j)
+    every, count = np.arange(len(x)), len(x)
+    all_of = Weights(0 * every, 3 * np.arange(count + 1), np.ones(3 * count))
+    where = all_of, every, body.nodes, every[:, None]
+    moved = flat.displacement(*where, nu)[:, 0] / MATERIAL.shear_modulus
+    error = recovered_stress(body, moved, load) - flat.stress(*where)[:, 0]
+    assert (np.abs(error).max(axis=1) * np.pi * np.hypot(x, z))[far].max() < 0.05
 
 
 def test_inner_forces_balance_the_load_and_the_support_bears_it(structured_block):
