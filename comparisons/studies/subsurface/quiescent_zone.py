@@ -103,7 +103,8 @@ def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
     if peak < bottom and shear[low] >= QUIET * min(shear[top], hertz):
         low, top = peak + int(np.argmin(shear[peak:])), peak
     least = min(shear[top], hertz)
-    level, ratio = shear[low] / hertz, shear[low] / least if least > 0.0 else 1.0
+    level = shear[low] / hertz if hertz > 0.0 else 1.0
+    ratio = shear[low] / least if least > 0.0 else 1.0
     ends, status = (nan, nan), SMOOTH if level < QUIET else BRIDGED
     if ratio < QUIET:
         status, loud = QUIESCENT, np.flatnonzero(shear >= QUIET * least)
