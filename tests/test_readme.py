@@ -392,7 +392,8 @@ class TestPicture:
         for name, level in levels.items():
             label = next(each for each in drawn if LABELS[name] in each)
             peak = level.solution.pressure.max() / hertz.peak_pressure
-            assert drawn[label][:, 1].max() == pytest.approx(peak, rel=0.01)  # one line for alike
+            off = 1e-6 if label.startswith(LABELS[name]) else 0.01  # of one that coincides with it
+            assert drawn[label][:, 1].max() == pytest.approx(peak, rel=off)
         assert np.max(drawn["Hertz, smooth"][:, 1]) == pytest.approx(1.0, abs=1e-5)
         half_plane, last = (level.solution for level in outcome.pair(friction).values())
         between = differences.lines[0].get_xydata()[:, 1] * hertz.peak_pressure

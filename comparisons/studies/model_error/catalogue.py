@@ -2,17 +2,19 @@
 
 A new finite-element effect gets its entry in effects.toml, an estimate in `estimates`, and its
 place in the sums of `selection`. A scene is reduced to what the half-plane assumes (`plain`) and
-given any effects (`with_effects`): so each is measured alone. What makes finite deformation is one
-effect: at finite strain the gap is on the deformed surface and the boundary is rough. Its parts by
-themselves are linear bodies that have one of them without the others, with largest stresses on the
-flanks of asperities that do not flatten; no model error is put together of these."""
+given any effects (`with_effects`): so each is measured alone, a `ModelVariant` on the same pressure
+elements. What makes finite deformation is one effect: at finite strain the gap is on the deformed
+surface and the boundary is rough. Its parts by themselves are linear bodies that have one of them
+without the others, with largest stresses on the flanks of asperities that do not flatten; no model
+error is put together of these."""
 
 import tomllib
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from pathlib import Path
 
+from analytic.material import Law
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
@@ -69,6 +71,7 @@ PLAIN = {
     "finite_element.plastic": False,
 }
 COUPLED = "normal_tangential_coupling"
+STRAINED = "P2"  # elements of finite deformation
 KINEMATIC = ("deformed_gap", "rough_boundary", "finite_strain")
 
 
@@ -105,3 +108,39 @@ def with_effects(scene: Scene, names: Iterable[str]) -> Scene:
         if name in names:
             made = EFFECTS[name].give(made, scene)
     return made
+
+
+@dataclass(frozen=True)
+class ModelVariant:
+    """A finite-element model of the scene with other effects."""
+
+    effects: frozenset[str]  # names of those that it has
+    # the coefficient that shapes its pressures; None: they are the same for all
+    friction: float | None = None
+    quadratic: bool = False  # its elements are those that finite deformation takes
+    laws: tuple[tuple[str, Law], ...] = ()  # by body, in place of the scene's own
+    laws_name: str = ""  # what these stand for
+    times: int = 1  # as long increments of flow
+
+    @property
+    def name(self) -> str:
+        """Of its file in a cache."""
+        words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
+        words += ["quadratic"] * self.quadratic
+        words += [f"as-{self.laws_name}"] * bool(self.laws)
+        words += [f"increments-{self.times}"] * (self.times > 1)
+        at = "" if self.friction is None else f"@{self.friction:g}"
+        return f"effect-{'+'.join(words)}{at}"
+
+
+def problem_with(problem: Problem, variant: ModelVariant) -> Problem:
+    """The problem of a variant, on the same pressure elements."""
+    scene = with_effects(problem.scene, variant.effects)
+    if variant.friction is not None:
+        scene = scene.unchecked({"load.friction": (variant.friction,)})
+    if variant.quadratic:
+        scene = scene.unchecked({"finite_element.element": STRAINED})
+    for body, law in variant.laws:
+        constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
+        scene = scene.unchecked({f"{body}.law": law.name, f"{body}.murnaghan": constants})
+    return replace(problem, scene=scene)

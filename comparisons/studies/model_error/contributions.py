@@ -18,10 +18,15 @@ from operator import sub
 from typing import Protocol
 
 from comparisons.models.problem import Problem
-from comparisons.studies.model_error.catalogue import COUPLED, KINEMATIC, kinematic
+from comparisons.studies.model_error.catalogue import (
+    COUPLED,
+    KINEMATIC,
+    STRAINED,
+    ModelVariant,
+    kinematic,
+)
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.model_error.selection import NONLINEAR, ORDER, EffectSelection
-from comparisons.studies.model_error.variants import STRAINED, ModelVariant
 
 
 class NotComputedError(Exception):

@@ -1,8 +1,5 @@
 """The error budget of a finished comparison: the model error by effects, and the trace's sampling.
 
-What the sampling leaves unknown is estimated by solving again from every other sample, the even or
-the odd ones: the larger change counts. The half-plane is enough, for both models press one curve.
-
 What cannot change a verdict is left out, unless budget.effects is "all":
 
 1. The effects beside the scene's own finite elements, where every judged figure agrees or differs
@@ -13,28 +10,23 @@ What cannot change a verdict is left out, unless budget.effects is "all":
 The model error and its uncertainty are stated for every figure in any case."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
 
-from analytic.profile import Profile
-from comparisons.common.mpi import from_first
 from comparisons.common.numbers import with_unit
-from comparisons.common.progress import Stages
-from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
+from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Figure, is_decided
 from comparisons.figures.quantity import WHOLE
 from comparisons.models.finite_element.mesh import LONGER
 from comparisons.models.forecast import flow_seconds, time_with_flow
-from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
-from comparisons.studies.model_error.catalogue import UNKNOWN
+from comparisons.studies.model_error.catalogue import UNKNOWN, ModelVariant
 from comparisons.studies.model_error.contributions import (
     EffectContributions,
     NotComputedError,
@@ -48,9 +40,8 @@ from comparisons.studies.model_error.laws import LawSolutions, law_variants
 from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
-    quantities_of,
-    relative_sizes,
 )
+from comparisons.studies.model_error.sampling import announce_sampling, sampling_changes
 from comparisons.studies.model_error.selection import (
     FLOW,
     NOT_CERTAIN,
@@ -59,11 +50,9 @@ from comparisons.studies.model_error.selection import (
     select_effects,
 )
 from comparisons.studies.model_error.solutions import SolvedVariants
-from comparisons.studies.model_error.variants import ModelVariant
 from comparisons.studies.study import Solved
 from comparisons.studies.subsurface.yielding import flow_assessment
 
-SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
 ASKED = 'budget.effects = "all" computes it'
@@ -222,7 +211,7 @@ def announce_effects(
             variants.announce(() if is_further else every, number, splitting)
 
     announce(LAST, PERHAPS)
-    _announce_sampling(problem, solved.window, half_plane.levels, tasks)
+    announce_sampling(problem, solved.window, half_plane.levels, tasks)
     return partial(announce, LATER, LATER)
 
 
@@ -476,55 +465,3 @@ def _given_up(
         if selection.added & fewer:
             return selection.added & fewer
     return selection.added
-
-
-def sampling_changes(
-    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
-) -> dict[float, dict[str, float]]:
-    """By friction coefficient and quantity, the relative change from half the samples.
-
-    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared"""
-    level, changes = levels[:SAMPLED][-1], {}
-    for first, key in enumerate(_announce_sampling(problem, window, levels, tasks)):
-        thinned, other = _thinned(problem, first), tasks.result(key)
-        for friction in problem.scene.load.friction:
-            sizes = changes.setdefault(friction, {})
-            whole = quantities_of(level, problem, friction).largest()
-            change = quantities_of(other, thinned, friction).largest() - whole
-            for name, size in relative_sizes(change, whole, problem, window).items():
-                sizes[name] = max(sizes.get(name, 0.0), abs(size))
-    return changes
-
-
-def _announce_sampling(
-    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
-) -> list[str]:
-    """The keys of the tasks that solve from the even and from the odd samples."""
-    if problem.scene.profile is None:
-        return []
-    number = min(SAMPLED, len(levels))
-    keys, grid = [f"sampling-{first}-{number}" for first in (0, 1)], levels[number - 1].grid
-    cost = expected_of(grid.count)
-    size = {"seconds": cost.seconds, "memory": cost.memory}
-    for first, key in enumerate(keys):
-        tasks.add(key, _sampled, problem, first, grid.pitch, window, **size, urgency=LAST)
-    return keys
-
-
-def _sampled(
-    here: Here, problem: Problem, first: int, pitch: float, window: Window | None
-) -> Level:
-    here.callback("error budget: sampling of the trace")
-    thinned = _thinned(problem, first)
-    return from_first(lambda: half_plane_level(thinned, pitch, window, Stages()))
-
-
-def _thinned(problem: Problem, first: int) -> Problem:
-    """The problem with every other sample of its profile from the given one on, and both ends, so
-    that nothing is cut off; on the same grids."""
-    surface = problem.surface
-    profile = surface.profile
-    last = len(profile.x) - 1
-    samples = sorted({0, *range(first, last + 1, 2), last})
-    profile = Profile(profile.x[samples], profile.height[samples])
-    return replace(problem, surface=replace(surface, profile=profile))

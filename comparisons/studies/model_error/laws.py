@@ -37,11 +37,11 @@ from comparisons.scenes.materials import (
 )
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
+from comparisons.studies.model_error.catalogue import ModelVariant
 from comparisons.studies.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     relative_sizes,
 )
-from comparisons.studies.model_error.variants import ModelVariant
 
 EFFECT = "law_of_elasticity"
 BODIES = ("body", "roller", "coating")

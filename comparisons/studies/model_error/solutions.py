@@ -17,14 +17,20 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained, is_taken_apart
+from comparisons.studies.model_error.catalogue import (
+    COUPLED,
+    EFFECTS,
+    ModelVariant,
+    contained,
+    is_taken_apart,
+    problem_with,
+)
 from comparisons.studies.model_error.contributions import NotComputedError
 from comparisons.studies.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
 from comparisons.studies.model_error.selection import NONLINEAR
-from comparisons.studies.model_error.variants import ModelVariant, problem_with
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 

@@ -8,9 +8,9 @@ import pytest
 from scenes import STEEL, changed, problem
 
 from comparisons.models.problem import Problem
+from comparisons.studies.model_error.catalogue import ModelVariant
 from comparisons.studies.model_error.contributions import NotComputedError
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
-from comparisons.studies.model_error.variants import ModelVariant
 
 BASE = {
     "roller": {"radius": 8e-3, **STEEL},

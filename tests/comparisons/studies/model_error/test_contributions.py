@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from comparisons.studies.model_error.catalogue import ModelVariant
+from comparisons.studies.model_error.catalogue import problem_with as body_problem
 from comparisons.studies.model_error.contributions import (
     NotComputedError,
     contributions_of,
@@ -17,8 +19,6 @@ from comparisons.studies.model_error.quantities_of_interest import (
     relative_sizes,
 )
 from comparisons.studies.model_error.selection import EffectSelection
-from comparisons.studies.model_error.variants import ModelVariant
-from comparisons.studies.model_error.variants import problem_with as body_problem
 
 COUPLED = "normal_tangential_coupling"
 SINGLE = ("finite_roller", "exact_circle", COUPLED, "finite_strain")

@@ -7,7 +7,7 @@ from comparisons.common.progress import Stages
 from comparisons.common.tasks import Tasks
 from comparisons.models.half_plane import half_plane_level
 from comparisons.studies.contact import values_of
-from comparisons.studies.model_error.error_budget import sampling_changes
+from comparisons.studies.model_error.sampling import sampling_changes
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
 

@@ -13,6 +13,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
 from comparisons.studies.model_error import solutions as solve
+from comparisons.studies.model_error.catalogue import ModelVariant
 from comparisons.studies.model_error.contributions import (
     NotComputedError,
     contributions_of,
@@ -20,7 +21,6 @@ from comparisons.studies.model_error.contributions import (
 )
 from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.model_error.solutions import SolvedVariants
-from comparisons.studies.model_error.variants import ModelVariant
 from comparisons.studies.study import Solved
 
 RIGID = {"rigid": True}
