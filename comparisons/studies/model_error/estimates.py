@@ -328,3 +328,20 @@ def _plastic_flow(problem: Problem, peak: float) -> Sizes:
     beyond = (peak / hardness - FIRST_FLOW) / (1.0 - FIRST_FLOW)
     # without a cap the peak itself is as much too high
     return _equal(CAP * min(1.0, beyond) + max(0.0, peak / hardness - 1.0)) if beyond > 0.0 else {}
+
+
+# What the half-plane on its deformed surface still leaves out of finite deformation: terms of third
+# order, friction's of second order, and stresses of second order under the right pressures.
+THIRD_ORDER, DRAGGED, STRESSED = 2.0, 1.0, 0.5
+
+
+def beyond_second_order(problem: Problem, peak: float) -> Sizes:
+    """Of finite deformation, where the contact is known to second order; `peak` [Pa]. Norms of
+    fields and depths are as sure as without."""
+    scene = problem.scene
+    bodies = [scene.body.youngs_modulus] + [scene.roller.youngs_modulus] * (not scene.roller.rigid)
+    strain = peak / min(bodies)
+    size = THIRD_ORDER * strain**2 + DRAGGED * max(scene.load.friction) * strain
+    known = ("peak_pressure", "contact_length", "contact_ratio")
+    stresses = dict.fromkeys(("tau1_max", "txz_max_abs"), size + STRESSED * strain)
+    return _finite_deformation(problem, peak, set()) | dict.fromkeys(known, size) | stresses
