@@ -1,6 +1,6 @@
-"""Contact of half-planes on their deformed surfaces, to second order in the displacement's gradient.
+"""Contact of half-planes on their deformed surfaces, to second order in the gradient of u.
 
-p(x) is Cauchy's pressure, a force per current length at current places x, along the current normal.
+p(x) is Cauchy's pressure, a force per current length at current places x along the current normal.
 In contact both surfaces are one curve s(x). A body's surface was at X = x - u_x before, at its
 height h there, so that
 
@@ -43,7 +43,7 @@ Solver = Callable[[np.ndarray, np.ndarray], ContactSolution]  # of weighted gap 
 
 
 @dataclass(frozen=True)
-class DeformedSurface:
+class SecondOrderSurface:
     """A body's surface under pressures (n,) [Pa] of hats at equal distances `pitch` [m]."""
 
     material: Material
@@ -70,7 +70,8 @@ class DeformedSurface:
         count = fft.next_fast_len(PADDING * len(pressure))
         k = 2.0 * np.pi * fft.fftfreq(count, self.pitch)
         divisor = np.where(k > 0.0, k, np.inf)
-        waves = np.where(k > 0.0, fft.fft(pressure, count), 0.0)
+        # the mean is half of either sign: without it the ring would bear no load
+        waves = fft.fft(pressure, count) * (0.5 * np.sign(k) + 0.5)
         ahead, integral = fft.ifft(waves), fft.ifft(waves / divisor)
         same, mixed = self.symbols
         products = mixed * fft.fft(integral * ahead.conj())
@@ -110,11 +111,11 @@ class DeformedContact:
         from scipy.interpolate import CubicSpline
 
         x, pitch = self.grid.x, self.grid.pitch
-        body = DeformedSurface(self.body, pitch)
+        body = SecondOrderSurface(self.body, pitch)
         slope = np.gradient(self.sagitta(x), x)
         below, above, second = body.aside(pressure), np.zeros(len(x)), np.zeros(len(x))
         if self.roller is not None:
-            roller = DeformedSurface(self.roller, pitch)
+            roller = SecondOrderSurface(self.roller, pitch)
             above = roller.aside(pressure)
             slope = slope + self._flattened(pressure)
             second = roller.rise(pressure, -slope)  # the roller is turned over

@@ -1,9 +1,9 @@
 """Which model suffices where no whole is solved: by estimates that bound what a model leaves out.
 
 In: the half-plane alone. Out: rungs up to it, to what an operator carries, or to its deformed
-surface. The dearest of them is the reference, and the estimates of all that it leaves out are a part of every error's
-uncertainty, added up: so a rung may hold, or be refuted by a better one, and nothing is said of the
-whole that an estimate does not bound."""
+surface. The dearest of them is the reference, and the estimates of all that it leaves out are a
+part of every error's uncertainty, added up: so a rung may hold, or be refuted by a better one, and
+nothing is said of the whole that an estimate does not bound."""
 
 from collections.abc import Mapping
 from math import inf

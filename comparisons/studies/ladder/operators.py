@@ -133,7 +133,6 @@ class OperatorModel:
             level = replace(level, stresses=stresses)
         return replace(level, peak_memory=peak_memory())
 
-
     def _solved(
         self,
         operator: ModelOperator,
