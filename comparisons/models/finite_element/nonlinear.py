@@ -68,13 +68,9 @@ def pressed_finitely(
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
     nodal = found.cauchy.nodal
-    if constraints.load is not None:  # of which friction on tilted tangents bears a part
-        share = float(grid.weights @ found.pressure) / found.load
-        constraints = replace(constraints, load=constraints.load * share)
     loaded = _deformed(rough.body, grid, found, constraints, counts, FINITE_TOLERANCE)
     loaded = replace(
         loaded,
-        solution=replace(loaded.solution, load=found.load),
         stresses=lambda frictions: (nodal,) * len(frictions),
         across=found.cauchy.across,
     )
@@ -94,13 +90,16 @@ def _deformed(
     """A contact on deformed surfaces, at the displaced nodes of the grid, without its stresses."""
     weights, x, pressure = grid.weights, grid.x, found.pressure
     initial = found.initial_gap * weights
+    if constraints.load is not None:  # of which friction on tilted tangents bears a part
+        share = float(weights @ pressure) / found.load
+        constraints = replace(constraints, load=constraints.load * share)
     if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
         pressure, weights = found.cauchy_pressure, weights * found.stretch
     moved = (found.gap + found.approach) * weights - initial
     given = moved, pressure, initial, weights, found.approach, constraints, counts
     solution = assessed(*given, tolerance)
     patches = contact_patches(x, solution.pressure, solution.gap)
-    solution = replace(solution, pressure=found.cauchy_pressure)
+    solution = replace(solution, pressure=found.cauchy_pressure, load=found.load)
     down = body.at_points(found.displacement)[body.top.point, 1]
     depth = np.interp(x, body.top.x, down)
     return LoadedBody(
