@@ -176,11 +176,7 @@ class FiniteContact:
             begun = self._begun(asked, approach, hardness)
             solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
             state, deformed = solution.state, self.deformed(solution)
-            moved, aside = self.set_back(state.displacements[0], state.pressure)
-            is_settled = aside <= ASIDE * self.weights.mean()
-            if load is not None:
-                before, asked = asked, self.pressing(load, *state.displacements, state.pressure)
-                is_settled = is_settled and abs(asked - before) <= LEANING * load
+            moved, asked, is_settled = self.settled(state, load, asked)
             state = replace(state, displacements=(moved,))
             if np.isfinite(hardness):
                 stretched = hardness * deformed.stretch
@@ -197,6 +193,24 @@ class FiniteContact:
         return self.deformed(
             replace(solution, state=replace(solution.state, pressure=state.pressure))
         )
+
+    def settled(
+        self,
+        state: ContactState,
+        load: float | None,
+        asked: float | None,
+        looser: float = 1.0,
+    ) -> tuple[np.ndarray, float | None, bool]:
+        """What to solve next after the state of pressures that press with `asked` [N/m]: from a
+        displacement (n, 2) [m] with the bodies moved back, and pressing with what a `load` [N/m]
+        leaves to pressures; None where the approach is prescribed. And whether neither differs by
+        more than ASIDE of a hat and LEANING of the load, or so many times more."""
+        moved, off = self.set_back(state.displacements[0], state.pressure)
+        is_settled = off <= looser * ASIDE * self.weights.mean()
+        if load is None:
+            return moved, None, is_settled
+        pressing = self.pressing(load, *state.displacements, state.pressure)
+        return moved, pressing, is_settled and abs(pressing - asked) <= looser * LEANING * load
 
     def borne(self, moved: np.ndarray, pressure: np.ndarray) -> float:
         """The vertical force [N/m] on the body of pressures (count,) [Pa] and of their friction,

@@ -68,13 +68,9 @@ def pressed_finitely(
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
     nodal = finite.cauchy.nodal
-    if constraints.load is not None:  # of which friction on tilted tangents bears a part
-        share = float(grid.weights @ finite.pressure) / finite.load
-        constraints = replace(constraints, load=constraints.load * share)
     loaded = _deformed(rough.body, grid, finite, constraints, counts, FINITE_TOLERANCE)
     loaded = replace(
         loaded,
-        solution=replace(loaded.solution, load=finite.load),
         stresses=lambda frictions: (nodal,) * len(frictions),
         across=finite.cauchy.across,
     )
@@ -94,13 +90,16 @@ def _deformed(
     """A contact on deformed surfaces, at the displaced nodes of the grid, without its stresses."""
     weights, x, pressure = grid.weights, grid.x, finite.pressure
     initial = finite.initial_gap * weights
+    if constraints.load is not None:  # of which friction on tilted tangents bears a part
+        share = float(weights @ pressure) / finite.load
+        constraints = replace(constraints, load=constraints.load * share)
     if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
         pressure, weights = finite.cauchy_pressure, weights * finite.stretch
     moved = (finite.gap + finite.approach) * weights - initial
     contact_state = moved, pressure, initial, weights, finite.approach, constraints, counts
     solution = assessed(*contact_state, tolerance)
     patches = contact_patches(x, solution.pressure, solution.gap)
-    solution = replace(solution, pressure=finite.cauchy_pressure)
+    solution = replace(solution, pressure=finite.cauchy_pressure, load=finite.load)
     down = body.at_points(finite.displacement)[body.top.point, 1]
     depth = np.interp(x, body.top.x, down)
     return LoadedBody(

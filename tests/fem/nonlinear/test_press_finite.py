@@ -11,7 +11,7 @@ from analytic.material.hardening import Hardening
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.rigid_roller import CurrentContact, circle, parabola
-from fem.nonlinear import hyperelastic, press_finite
+from fem.nonlinear import finite_deformation, hyperelastic
 from fem.nonlinear.finite_deformation import FiniteContact
 from fem.nonlinear.finite_plasticity import FinitePlasticBody
 from fem.nonlinear.plasticity import ElasticPlastic
@@ -54,13 +54,13 @@ def touching(body, curvature, friction=0.0, roller=None):
 @pytest.mark.parametrize(("elastic", "friction"), [(False, 0.0), (True, 0.2)])
 def test_without_flow_it_is_henckys_law(body, roller, monkeypatch, elastic, friction):
     monkeypatch.setattr(hyperelastic, "quadrature_degree", lambda *_: 2)
-    monkeypatch.setattr(press_finite, "ASIDE", 1e-7)
+    monkeypatch.setattr(finite_deformation, "ASIDE", 1e-7)
+    monkeypatch.setattr(finite_deformation, "LEANING", 1e-11)
     contact, load, peak = touching(body, 0.1, friction, roller if elastic else None)
-    monkeypatch.setattr("fem.nonlinear.finite_deformation.ASIDE", 1e-7)
     wanted = contact.by_newton(load)
-    pressing = [float(contact.weights @ wanted.pressure)]  # without what friction bears
     metal = ElasticPlastic(METAL, Hardening(1e3))
-    _, (state,) = press_plastically_finitely(contact, metal, pressing)
+    _, (state,) = press_plastically_finitely(contact, metal, [load])
+    assert state.deformed.load == pytest.approx(load, rel=1e-10)
     np.testing.assert_allclose(state.pressure, wanted.pressure, atol=1e-9 * peak)
     assert state.approach == pytest.approx(wanted.approach, rel=1e-9)
     np.testing.assert_allclose(state.displacement, wanted.displacement, atol=1e-9)
@@ -118,7 +118,10 @@ def test_work_is_elastic_and_plastic_and_friction(body):
         sliding.append(both - normal[-1])
     moved = [np.zeros(body.unknowns), *(state.displacement.ravel() for state in history)]
     approach = [0.0, *(state.approach for state in history)]
-    loads = [0.0, *loads]
+    borne = [state.deformed.load for state in history]
+    np.testing.assert_allclose(borne, loads, rtol=1e-7)
+    loads = [0.0, *(float(contact.weights @ s.pressure) for s in history)]  # the rest rubs
+    assert abs(loads[-1] / borne[-1] - 1.0) > 1e-4
     aside = [u.reshape(-1, 2)[body.held.all(axis=1)][0, 0] for u in moved]
     work = pushed = rubbed = supported = 0.0
     for k in range(1, len(loads)):
