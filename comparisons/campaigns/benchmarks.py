@@ -53,6 +53,16 @@ class Benchmarks(Campaign):
             for row in self.rows
         }
 
+    def as_dict(self) -> dict:
+        """With a table of texts, a row for each published figure."""
+        columns = ("published_figure", *HEAD[1:-1], "note")
+        rows = [
+            {"benchmark": name} | dict(zip(columns, row, strict=True))
+            for name, rows in self.tables.items()
+            for row in rows
+        ]
+        return super().as_dict() | {"table": rows}
+
     def summary(self) -> "RenderableType":
         from rich.console import Group
 
