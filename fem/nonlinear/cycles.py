@@ -39,9 +39,33 @@ class CyclePass:
 
     loaded: PlasticContact  # under the load; of a row of places, at the middle one
     released: PlasticContact  # without the roller
+    opening: np.ndarray  # (count,) [m] mean gap of `loaded`
+    lowering: np.ndarray  # (count,) [m] mean displacement into the body that is left, of all passes
     work: float  # of the contact on the body [J/m]
     plastic_work: float  # [J/m] dissipated, or stored in hardening
     stored: float  # [J/m] change of the elastic energy of the body that is left
+
+
+class Anderson:
+    """Anderson's acceleration of an iteration x -> f(x), from a first point."""
+
+    def __init__(self, point: np.ndarray) -> None:
+        self.point, self._last = point, None
+        self._moves: list[np.ndarray] = []
+        self._changes: list[np.ndarray] = []
+
+    def next(self, image: np.ndarray) -> None:
+        """Go on from f(`point`), an array of its shape."""
+        rest = image - self.point
+        if self._last is not None:
+            self._moves = [*self._moves, (self.point - self._last[0]).ravel()][-MEMORY:]
+            self._changes = [*self._changes, (rest - self._last[1]).ravel()][-MEMORY:]
+        self._last, self.point = (self.point, rest), image
+        if self._changes:
+            changes = np.array(self._changes).T
+            share = np.linalg.lstsq(changes, rest.ravel(), rcond=None)[0]
+            step = (np.array(self._moves).T + changes) @ share
+            self.point = image - step.reshape(rest.shape)
 
 
 class CycledBody(LoadHistory):
@@ -63,16 +87,25 @@ class CycledBody(LoadHistory):
         self.state = replace(self.state, pressure=self._guess, approach=0.0, load=0.0)
         self._former = 0.0, self.body.state
         count = self.to(load)
-        loaded = self.contact(load, count)
+        loaded, opening = self.contact(load, count), self._opening()
         for number, gap in enumerate(gaps[1:], 1):
             self._move(gap)
             if number == len(gaps) // 2:
-                loaded = self.contact(load, count)
+                loaded, opening = self.contact(load, count), self._opening()
         self.to(LAST_TOUCH * load)
         self.release()
         work, plastic_work = self._work - work, self._plastic_work - plastic_work
         stored = self._energy() - stored
-        return CyclePass(loaded, self.contact(0.0, 0), work, plastic_work, stored)
+        released = self.contact(0.0, 0)
+        lowering = self._compliance.weighted(released.displacement) / self._weights
+        return CyclePass(loaded, released, opening, lowering, work, plastic_work, stored)
+
+    def _opening(self) -> np.ndarray:
+        """Mean gap (count,) [m] now."""
+        state, moved = self.state, self._compliance.weighted(self.state.displacements[0])
+        if self._flexible is not None:
+            moved = moved + self._flexible @ state.pressure
+        return (self._gap + moved) / self._weights - state.approach
 
     def release(self) -> None:
         """Without the roller."""
@@ -99,23 +132,16 @@ class CycledBody(LoadHistory):
         """The contact under a load [N/m]; None where the iteration does not settle."""
         body = self.body
         shear, limit = body.metal.elastic.shear_modulus, body.metal.hardening.yield_stress
-        strain, last, moves, changes = body.state.strain, None, [], []
+        mixed = Anderson(body.state.strain)
         for _ in range(MOST_ITERATIONS):
             self.iterations += 1
-            end = self._frozen(load, replace(body.state, strain=strain))
+            end = self._frozen(load, replace(body.state, strain=mixed.point))
             if end is None:
                 return None
-            rest = body.step(end.displacements[0]).state.strain - strain
-            if 2.0 * shear * np.abs(rest).max() <= SETTLED * limit:
+            flowed = body.step(end.displacements[0]).state.strain
+            if 2.0 * shear * np.abs(flowed - mixed.point).max() <= SETTLED * limit:
                 return end
-            if last is not None:
-                moves = [*moves, (strain - last[0]).ravel()][-MEMORY:]
-                changes = [*changes, (rest - last[1]).ravel()][-MEMORY:]
-            last, strain = (strain, rest), strain + rest
-            if changes:
-                matrix = np.array(changes).T
-                share = np.linalg.lstsq(matrix, rest.ravel(), rcond=None)[0]
-                strain = strain - ((np.array(moves).T + matrix) @ share).reshape(rest.shape)
+            mixed.next(flowed)
         return None
 
     def _measured(self) -> tuple[np.ndarray, np.ndarray]:
