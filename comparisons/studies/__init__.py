@@ -16,6 +16,7 @@ from comparisons.studies import (
     scatter,
     statistics,
 )
+from comparisons.studies.cycles import CYCLES
 from comparisons.studies.friction import PARTIAL_SLIP, coupling
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies.subsurface import bulge, quiescent_zone, yielding
@@ -25,7 +26,7 @@ STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
-    *(PARTIAL_SLIP, ladder.STUDY),
+    *(PARTIAL_SLIP, CYCLES, ladder.STUDY),
 )
 
 

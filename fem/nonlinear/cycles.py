@@ -69,13 +69,11 @@ class Anderson:
 
 
 class CycledBody(LoadHistory):
-    """The contact from pass to pass; arguments as of `press_plastically`.
-
-    iterations  of the moving contact, so far"""
+    """The contact from pass to pass; arguments as of `press_plastically`."""
 
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)
-        self.iterations, self._guess, self._place = 0, self.state.pressure, self._gap
+        self._guess, self._place = self.state.pressure, self._gap
         self._work = self._plastic_work = 0.0
         self._stresses = self._measured()
 
@@ -111,7 +109,9 @@ class CycledBody(LoadHistory):
         """Without the roller."""
         before, flowed = self.state, self.body.state
         super().release()
-        self._add_work(before, flowed, replace(self.state, pressure=0.0 * before.pressure, load=0.0))
+        self._add_work(
+            before, flowed, replace(self.state, pressure=0.0 * before.pressure, load=0.0)
+        )
 
     def _accept(self, found: ContactState) -> None:
         before, flowed = self.state, self.body.state
@@ -134,7 +134,6 @@ class CycledBody(LoadHistory):
         shear, limit = body.metal.elastic.shear_modulus, body.metal.hardening.yield_stress
         mixed = Anderson(body.state.strain)
         for _ in range(MOST_ITERATIONS):
-            self.iterations += 1
             end = self._frozen(load, replace(body.state, strain=mixed.point))
             if end is None:
                 return None
@@ -160,18 +159,16 @@ class CycledBody(LoadHistory):
         """Of the step from a contact with a plastic state to that of now."""
         energy, (stress, _) = self._energy(), self._stresses
         self._stresses = self._measured()
-        moved, place = self._gap - self._place, self._place
-        self._place = self._gap
-        if self.body.state.equivalent is flowed.equivalent or np.array_equal(
-            self.body.state.equivalent, flowed.equivalent
-        ):
+        moved, self._place = self._gap - self._place, self._gap
+        if np.array_equal(self.body.state.equivalent, flowed.equivalent):
             self._work += self._energy() - energy
             return
         flow = plastic_parts(self.body.state) - plastic_parts(flowed)
         mean = 0.5 * (stress + self._stresses[0])
         self._plastic_work += float(self.body.areas.ravel() @ (mean * flow).sum(axis=1))
-        first = before.pressure if before.load else np.zeros_like(place)
-        pressure, change = 0.5 * (first + now.pressure), now.displacements[0] - before.displacements[0]
+        first = before.pressure if before.load else np.zeros_like(moved)
+        pressure = 0.5 * (first + now.pressure)
+        change = now.displacements[0] - before.displacements[0]
         if before.load and now.load:
             risen = self._weights * (now.approach - before.approach) - moved
             if self._flexible is not None:
@@ -180,11 +177,17 @@ class CycledBody(LoadHistory):
             risen = self._compliance.weighted(change)
         self._work += float(pressure @ risen)
         if self._friction:
-            along = self._compliance.tangential.T @ change[self._compliance.body.surface.point].ravel()
-            self._work += self._friction * float(pressure @ along)
+            top = change[self._compliance.body.surface.point].ravel()
+            along = self._compliance.tangential @ pressure
+            self._work += self._friction * float(along @ top)
 
 
 def plastic_parts(state: PlasticState) -> np.ndarray:
     """Plastic exx, ezz, gxz, eyy (k, 4) of a state."""
     xx, zz, xz = state.strain.T
     return np.column_stack([xx, zz, 2.0 * xz, -xx - zz])
+
+
+def equivalent_of(parts: np.ndarray) -> np.ndarray:
+    """Equivalent strain (k,) of plastic exx, ezz, gxz, eyy (k, 4)."""
+    return np.sqrt(2.0 / 3.0 * (parts**2 @ [1.0, 1.0, 0.5, 1.0]))

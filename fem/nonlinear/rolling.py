@@ -1,4 +1,4 @@
-"""A roller that rolls over an elastic-plastic half-plane from far behind to far ahead, again and again.
+"""A roller that rolls over an elastic-plastic half-plane from far behind to far ahead, many times.
 
 Seen from the roller a pass is steady: what a point of the metal undergoes while the roller passes
 stands along the line of its depth, from far ahead, where the metal is as the last pass left it, to
@@ -7,10 +7,10 @@ far behind. With ep the plastic strain on all these lines,
     ep = march(e(ep)),    e(ep) strain of the elastic bodies in contact with plastic strain ep,
 
 where `march` integrates the flow along each line, point by point of the elements. The iteration is
-accelerated by Anderson's method. (Dang Van and Maitournam 1993, J. Mech. Phys. Solids 41, 1691-1710,
-solve steady rolling so.) There are no increments: what is left is the mesh's error.
+accelerated by Anderson's method (Dang Van and Maitournam 1993, J. Mech. Phys. Solids 41, 1691-1710,
+solve steady rolling along lines, too). There are no increments: the mesh's error is all.
 
-What the passes before have left is the same all along the surface, and so are its residual stresses,
+What the passes before have left is the same all along the surface, and so are residual stresses,
 
     sx = -E/(1 - nu^2) (ep_xx + nu ep_yy),   sy the same with xx and yy exchanged,   sz = txz = 0.
 
@@ -91,8 +91,8 @@ class RollingPass:
     sx: np.ndarray  # [Pa] that is left
     sy: np.ndarray  # [Pa]
     plastic_work: float  # [J/m^2] over the length travelled
+    dragged: float  # [J/m^2] of the friction's tractions on the body
     stored: float  # [J/m^2] elastic energy that is left more than before
-    iterations: int
 
 
 class RolledBody(LoadHistory):
@@ -105,7 +105,7 @@ class RolledBody(LoadHistory):
         body, before = self.body, self.body.state
         shear, limit = body.metal.elastic.shear_modulus, body.metal.hardening.yield_stress
         mixed = Anderson(before.strain)
-        for count in range(1, MOST_ITERATIONS + 1):
+        for _ in range(MOST_ITERATIONS):
             end = self._frozen(load, replace(before, strain=mixed.point))
             if end is None:
                 raise FemError("the contact of a body that is rolled over did not settle")
@@ -121,9 +121,20 @@ class RolledBody(LoadHistory):
         if self._flexible is not None:
             moved = moved + self._flexible @ end.pressure
         opening = (self._gap + moved) / self._weights - end.approach
-        work, stored = self._plastic_work(strain, now), self._stored()
+        work, stored, dragged = self._plastic_work(strain, now), self._stored(), 0.0
+        if self._friction:  # as the roller moves on, what it drags meets ux of x - its place
+            surface = end.displacements[0][self._compliance.body.surface.point].ravel()
+            along = np.gradient(self._compliance.tangential.T @ surface) / self._weights
+            dragged = -self._friction * float(end.pressure @ along)
         body.spread(now)
-        return self._pass(before, end.pressure, opening, work, self._stored() - stored, count)
+        return RollingPass(
+            pressure=end.pressure,
+            opening=opening,
+            **self._profiles(before),
+            plastic_work=work,
+            dragged=dragged,
+            stored=self._stored() - stored,
+        )
 
     @cached_property
     def _profile(self) -> tuple[np.ndarray, np.ndarray]:
@@ -158,26 +169,14 @@ class RolledBody(LoadHistory):
             total += float(thickness @ (mean * flow).sum(axis=(1, 2)))
         return total
 
-    def _pass(
-        self,
-        before: PlasticState,
-        pressure: np.ndarray,
-        opening: np.ndarray,
-        work: float,
-        stored: float,
-        count: int,
-    ) -> RollingPass:
+    def _profiles(self, before: PlasticState) -> dict[str, np.ndarray]:
+        """Of a pass from a plastic state on, by their names in `RollingPass`."""
         at, now, rest = self._profile[0], self.body.state, self._rest()
-        return RollingPass(
-            pressure=pressure,
-            opening=opening,
-            depth=self.body.points[at, 1],
-            plastic=plastic_parts(now)[at],
-            added=(now.equivalent - before.equivalent)[at],
-            equivalent=now.equivalent[at],
-            sx=rest[:, 0],
-            sy=rest[:, 3],
-            plastic_work=work,
-            stored=stored,
-            iterations=count,
-        )
+        return {
+            "depth": self.body.points[at, 1],
+            "plastic": plastic_parts(now)[at],
+            "added": (now.equivalent - before.equivalent)[at],
+            "equivalent": now.equivalent[at],
+            "sx": rest[:, 0],
+            "sy": rest[:, 3],
+        }

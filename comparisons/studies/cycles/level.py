@@ -1,16 +1,16 @@
-"""Passes on one level of refinement: the body, the row of places, and what is read of each pass.
+"""Passes on one level of refinement: what is read of each, and how they are solved.
 
-Nomenclature: a half-width and p0 peak pressure of the smooth contact, k = Y/sqrt(3) yield stress in
-shear by von Mises, ep plastic strain."""
+A smooth body that is rolled over is endless, each pass steady (`fem.nonlinear.rolling`). Else the
+roller is pressed on, may move along the trace, and is lifted (`fem.nonlinear.cycles`)."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
 from time import process_time
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from analytic.contact.patches import contact_patches
-from analytic.exact.shakedown import peak_carried
 from analytic.grid import HatGrid, roller_gap
 from analytic.profile import surface
 from comparisons.common.errors import SceneError
@@ -20,90 +20,56 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels, Problem, mean_height, problem_of, surface_ends
+from comparisons.studies.cycles import endless
+from comparisons.studies.cycles.passes import CycledLevel, Passes
 
 if TYPE_CHECKING:
     from fem.nonlinear.cycles import CycledBody, CyclePass
     from fem.nonlinear.plasticity import PlasticState
 
-COARSEST = 4.0  # pressure elements, and places, on a half-width where smooth bodies roll, level 1
+COARSEST = 4.0  # places of a roller that travels on a half-width, on level 1
 DEPTH = 1.3  # half-widths: refined down to there, where the roller travels
 MIDDLE = 0.125  # of the travel, to both sides: what lies there has been rolled over alike
-AXIS = 0.15  # half-widths to both sides of a roller that does not travel: its profile of stresses
+AXIS = 0.15  # half-widths to both sides of the largest pressure of a roller that does not travel
 PROFILE_DEPTH, PROFILE_STEP = 2.0, 0.1  # half-widths: of the profile of residual stresses
-# Seconds of an iteration and of each of its unknowns, and iterations a place: measured from 5 000
-# to 60 000 unknowns.
+# Seconds of an iteration and of each of its unknowns, and iterations a place, from 5 000 to 60 000
+# unknowns.
 ITERATION, EACH_UNKNOWN, ITERATIONS = 1e-3, 6e-7, 26.0
 
 
-@dataclass(frozen=True)
-class CycledLevel:
-    """The passes on one level; arrays (m,) have an entry a pass."""
+def is_endless(problem: Problem) -> bool:
+    scene = problem.scene
+    return scene.cycles.kind == "roll" and scene.profile is None
 
-    pitch: float  # of the pressure elements [m]
-    unknowns: int
-    seconds: float  # of the processor
-    places: int  # of the roller in a pass
-    flow: np.ndarray  # largest equivalent plastic strain that a pass adds, to and fro
-    net: np.ndarray  # largest equivalent of the change of plastic strain by a pass
-    work: np.ndarray  # [J/m] of the contact on the body
-    plastic_work: np.ndarray  # [J/m]
-    stored: np.ndarray  # [J/m] elastic energy that a pass leaves more
-    residual: np.ndarray  # [Pa] largest compression sx without the roller, negative
-    residual_depth: np.ndarray  # [m]
-    peak: np.ndarray  # [Pa] largest pressure, mean over neighbouring hats
-    length: np.ndarray  # [m] in contact
-    carried: float  # p0/k that the residual stresses left carry without flow; nan: not known
-    x: np.ndarray  # (n,) [m] of the pressure elements
-    height: np.ndarray  # (n,) [m] mean heights before
-    lowering: np.ndarray  # (2, n) [m] by the first pass and by all
-    pressure: np.ndarray  # (2, n) [Pa] in the first pass and in the last
-    z: np.ndarray  # (j,) [m] depths of the profile
-    profile: np.ndarray  # (2, j, 2) [Pa] sx and sy there, after the first pass and after all
 
-    @property
-    def balance(self) -> np.ndarray:
-        """Work less what flow took and what is stored, over the plastic work of the first pass."""
-        return (self.work - self.plastic_work - self.stored) / (self.plastic_work[0] or 1.0)
+def travel_of(problem: Problem) -> float:
+    """What the roller travels on a trace [m]."""
+    travel = problem.scene.cycles.travel
+    return 0.0 if travel is None else travel.metres(problem.hertz.half_width)
 
 
 def cycled_problem(problem: Problem) -> Problem:
     """The problem of a scene's passes: flowing, at its largest friction coefficient, with pressure
     elements wherever the roller goes. Raises SceneError where that is beyond the trace."""
-    scene, cycles = problem.scene, problem.scene.cycles
-    half_width = problem.hertz.half_width
-    travel = cycles.distance(half_width)
-    fields: dict[str, object] = {
-        "cycles": None,
-        "finite_element.plastic": True,
-        "load.friction": max(scene.load.friction),
-    }
+    scene, half_width, travel = problem.scene, problem.hertz.half_width, travel_of(problem)
+    friction = max(scene.load.friction)
+    fields: dict[str, object] = {"cycles": None, "load.friction": friction}
+    fields["finite_element.plastic"] = True
     if travel:
-        range_now = 0.5 * travel / half_width + 1.0
-        fields["stress"] = {"depth": DEPTH, "half_range": range_now}
-        if scene.profile is None:
-            fields["resolution"] = {"elements": COARSEST}
+        fields["stress"] = {"depth": DEPTH, "half_range": 0.5 * travel / half_width + 1.0}
     elif scene.stress is None:
         fields["stress"] = {}
-    load = problem.hertz.load_per_length
-    levels = Levels(max(2, cycles.levels))
+    load, levels = problem.hertz.load_per_length, Levels(max(2, scene.cycles.levels))
     posed = problem_of(scene.changed(fields), problem.surface, load, levels)
     low, high = posed.extent[0] - 0.5 * travel, posed.extent[1] + 0.5 * travel
     start, stop = surface_ends(posed)
     if travel and (low < start or high > stop):
         raise SceneError(
-            f"{scene.source}: cycles.travel: is {travel:.3g} m, and the contact would reach from "
+            f"{scene.source}: cycles.travel: is {travel:.3g} m, and the contact may reach from "
             f"{low:.3g} m to {high:.3g} m of a body from {start:.3g} m to {stop:.3g} m; allowed is "
             "less, or a longer trace"
         )
     return replace(posed, extent=(low, high))
-
-
-def places_of(problem: Problem, travel: float, number: int) -> np.ndarray:
-    """x [m] of the roller on a level from 1, in turn."""
-    if not travel:
-        return np.zeros(1)
-    step = problem.hertz.half_width / (COARSEST * 2.0 ** (number - 1))
-    return np.linspace(-0.5, 0.5, max(3, round(travel / step) + 1)) * travel
 
 
 def expected_seconds(problem: Problem) -> float:
@@ -111,19 +77,40 @@ def expected_seconds(problem: Problem) -> float:
     from comparisons.models.finite_element.cost import expected
     from comparisons.models.finite_element.mesh import Refinement
 
-    cycles, posed, total = problem.scene.cycles, cycled_problem(problem), 0.0
+    cycles, numbers = problem.scene.cycles, range(1, problem.scene.cycles.levels + 1)
+    if is_endless(problem):
+        return sum(endless.expected_seconds(problem, number, cycles.passes) for number in numbers)
+    posed, travel, total = cycled_problem(problem), travel_of(problem), 0.0
     plan, patches = make_plan(posed, MODELS), np.array([posed.extent])
-    travel = cycles.distance(problem.hertz.half_width)
-    for number in range(1, cycles.levels + 1):
+    for number in numbers:
         cost = expected(posed, plan, Refinement(posed.pitches[number - 1]), patches)
-        places = len(places_of(posed, travel, number)) - 1
-        moving = places * ITERATIONS * (ITERATION + EACH_UNKNOWN * cost.unknowns)
+        moves = len(_places(posed, travel, number)) - 1
+        moving = moves * ITERATIONS * (ITERATION + EACH_UNKNOWN * cost.unknowns)
         total += cost.seconds + cycles.passes * moving
     return total
 
 
-def solved_level(here: Here, problem: Problem, number: int, passes: int, travel: float) -> CycledLevel:
-    """The passes on a level from 1, of `cycled_problem`; a task. Raises FemError, MeshError."""
+def solved_level(here: Here, problem: Problem, number: int) -> CycledLevel:
+    """The passes of a scene on a level from 1; a task. Raises FemError, MeshError."""
+    began, passes, endlessly = process_time(), problem.scene.cycles.passes, is_endless(problem)
+    words = f"cycles: level {number}, pass {{}} of {passes}"
+    if endlessly:
+        level = endless.rolled(problem, number, lambda n: here.callback(words.format(n)))
+    else:
+        level = _cycled(problem, number, lambda n: here.callback(words.format(n)))
+    return replace(level, seconds=process_time() - began)
+
+
+def _places(problem: Problem, travel: float, number: int) -> np.ndarray:
+    """x [m] of the roller on a level from 1, in turn."""
+    if not travel:
+        return np.zeros(1)
+    step = problem.hertz.half_width / (COARSEST * 2.0 ** (number - 1))
+    return np.linspace(-0.5, 0.5, max(3, round(travel / step) + 1)) * travel
+
+
+def _cycled(scene_problem: Problem, number: int, begin: Callable[[int], None]) -> CycledLevel:
+    """Of a roller that is pressed on, and may travel; `begin` is called with each pass."""
     from comparisons.models.finite_element.bodies import BodyCache, bodies_of
     from comparisons.models.finite_element.contact import mutual_compliance
     from comparisons.models.finite_element.mesh import Refinement
@@ -132,11 +119,14 @@ def solved_level(here: Here, problem: Problem, number: int, passes: int, travel:
     from fem.nonlinear.press_plastic import TRAVEL
     from fem.solver.mumps import FemError
 
-    here.callback(f"cycles: level {number}")
-    began, scene, load = process_time(), problem.scene, problem.hertz.load_per_length
-    grid, friction = problem.grid(problem.pitches[number - 1]), scene.load.friction[0]
-    places = places_of(problem, travel, number)
-    gaps = [_gap(problem, grid, place) for place in places]
+    problem, travel = cycled_problem(scene_problem), travel_of(scene_problem)
+    scene, load, friction = (
+        problem.scene,
+        problem.hertz.load_per_length,
+        problem.scene.load.friction[0],
+    )
+    grid = problem.grid(problem.pitches[number - 1])
+    gaps = [_gap(problem, grid, place) for place in _places(problem, travel, number)]
     model = nearest_operator(scene, grid, friction if scene.finite_element.coupled else 0.0)
     guess = solve_on(model, gaps[0], grid.weights, problem.widest)
     patches = contact_patches(grid.x, guess.pressure, guess.gap)
@@ -151,14 +141,14 @@ def solved_level(here: Here, problem: Problem, number: int, passes: int, travel:
         operator.rough, metal, gaps[0], grid.weights, guess.pressure, friction, roller, TRAVEL
     )
     reader = _Reader(problem, grid, body, travel)
-    for count in range(1, passes + 1):
-        here.callback(f"cycles: level {number}, pass {count} of {passes}")
+    for count in range(1, scene_problem.scene.cycles.passes + 1):
+        begin(count)
         before = body.body.state
-        done = body.press(load, gaps if travel else (), *reader.alike)
+        done = body.press(load, gaps if travel else ())
         if done.loaded.pressure[[0, -1]].any():
             raise FemError("the contact of the flowing body reaches beyond the pressure elements")
         reader.read(before, done)
-    return reader.level(len(places), sum(b.unknowns for b in bodies.all), process_time() - began)
+    return reader.level(sum(each.unknowns for each in set(bodies.all)))
 
 
 def _gap(problem: Problem, grid: HatGrid, place: float) -> np.ndarray:
@@ -172,98 +162,69 @@ def _gap(problem: Problem, grid: HatGrid, place: float) -> np.ndarray:
 
 
 class _Reader:
-    """What is read of each pass, in the middle of what was rolled over, or of a roller that stays
-    everywhere; profiles over depth there, or below the roller's place."""
+    """What is read of each pass: of flow in the middle of what was rolled over, or of a roller that
+    stays everywhere; of stresses over depth there, or below the largest pressure."""
 
     def __init__(self, problem: Problem, grid: HatGrid, body: "CycledBody", travel: float) -> None:
-        self.problem, self.grid, self.body, self.travel = problem, grid, body, travel
+        self.problem, self.grid, self.body = problem, grid, body
         x, self.depth = body.body.points.T
-        half_width = problem.hertz.half_width
-        self.area = body.body.areas.ravel()
+        half_width, self.area = problem.hertz.half_width, body.body.areas.ravel()
         self.inside = np.abs(x) <= (MIDDLE * travel if travel else np.inf)
-        below = np.abs(x) <= (MIDDLE * travel if travel else AXIS * half_width)
-        edges = np.arange(0.0, PROFILE_DEPTH, PROFILE_STEP) * half_width
-        layer = np.digitize(self.depth, np.append(edges, PROFILE_DEPTH * half_width)) - 1
-        self.layer = np.where(below & (layer < len(edges)), layer, len(edges))
-        # a smooth body that is rolled over is alike everywhere then
-        endless = travel and problem.scene.profile is None
-        self.alike = (self.inside, 0.5 * grid.pitch) if endless else ()
-        if endless:
-            self.inside = np.ones_like(self.inside)
-        self.rows: list[tuple[float, ...]] = []
-        self.lowering: list[np.ndarray] = []
-        self.pressure: list[np.ndarray] = []
-        self.profiles: list[np.ndarray] = []
+        peak = grid.x[body.state.pressure.argmax()]
+        below = self.inside if travel else np.abs(x - peak) <= AXIS * half_width
+        layer = (self.depth // (PROFILE_STEP * half_width)).astype(int)
+        count = round(PROFILE_DEPTH / PROFILE_STEP)
+        self.layer = np.where(below & (layer < count), layer, count)
+        self.rows: list[dict[str, float]] = []
+        self.arrays: list[tuple[np.ndarray, ...]] = []
 
     def read(self, before: "PlasticState", done: "CyclePass") -> None:
         """A pass from a plastic state on."""
-        from fem.nonlinear.cycles import plastic_parts
+        from fem.nonlinear.cycles import equivalent_of, plastic_parts
         from fem.nonlinear.press_plastic import averaged_pressure
 
-        now, inside = done.released.state, self.inside
-        change = plastic_parts(now) - plastic_parts(before)
-        net = np.sqrt(2.0 / 3.0 * (change**2 @ [1.0, 1.0, 0.5, 1.0]))
-        sx, sy = self._residual(done)
+        now, inside, left = done.released.state, self.inside, done.released
+        net = equivalent_of(plastic_parts(now) - plastic_parts(before))
+        stress, sy = self.body.body.stress(left.displacement, left.state)
+        sx = stress[:, 0]
         lowest = np.where(inside, sx, 0.0).argmin()
         pressure = averaged_pressure(done.loaded.pressure)
-        values = (now.equivalent - before.equivalent)[inside].max(), net[inside].max()
-        values += done.work, done.plastic_work, done.stored, sx[lowest], self.depth[lowest]
-        self.rows.append((*values, pressure.max(), self._length(done)))
-        self.lowering.append(done.lowering)
-        self.pressure.append(pressure)
-        self.profiles.append(np.column_stack([self._layers(sx), self._layers(sy)]))
+        patches = contact_patches(self.grid.x, done.loaded.pressure, done.opening)
+        self.rows.append(
+            {
+                "flow": (now.equivalent - before.equivalent)[inside].max(),
+                "net": net[inside].max(),
+                "work": done.work,
+                "plastic_work": done.plastic_work,
+                "stored": done.stored,
+                "residual": sx[lowest],
+                "residual_depth": self.depth[lowest],
+                "peak": pressure.max(),
+                "length": np.ptp(patches, axis=1).sum(),
+            }
+        )
+        profile = np.column_stack([self._layers(sx), self._layers(sy)])
+        self.arrays.append((pressure, done.lowering, profile))
 
-    def level(self, places: int, unknowns: int, seconds: float) -> CycledLevel:
-        names = "flow net work plastic_work stored residual residual_depth peak length".split()
-        columns = dict(zip(names, np.array(self.rows).T, strict=True))
-        ends = [0, -1]
+    def level(self, unknowns: int) -> CycledLevel:
+        """All that was read."""
+        ends = zip(self.arrays[0], self.arrays[-1], strict=True)
+        pressure, lowering, profile = (np.array(pair) for pair in ends)
         return CycledLevel(
             pitch=self.grid.pitch,
             unknowns=unknowns,
-            seconds=seconds,
-            places=places,
-            carried=self._carried(),
+            seconds=0.0,
+            passes=Passes.of(self.rows),
             x=self.grid.x,
+            pressure=pressure,
+            lowering=lowering,
             height=mean_height(self.problem, self.grid),
-            lowering=np.array(self.lowering)[ends],
-            pressure=np.array(self.pressure)[ends],
             z=self._layers(self.depth),
-            profile=np.array(self.profiles)[ends],
-            **columns,
+            profile=profile,
         )
 
-    def _residual(self, done: "CyclePass") -> tuple[np.ndarray, np.ndarray]:
-        """sx and sy [Pa] at the body's points without the roller."""
-        left = done.released
-        inside, across = self.body.body.stress(left.displacement, left.state)
-        return inside[:, 0], across
-
-    def _length(self, done: "CyclePass") -> float:
-        """In contact [m], of the place whose pressures are read."""
-        loaded = done.loaded
-        patches = contact_patches(self.grid.x, loaded.pressure, done.opening)
-        return float(np.ptp(patches, axis=1).sum())
-
     def _layers(self, values: np.ndarray) -> np.ndarray:
-        """Means (j,) over layers of depth of what stands at the points."""
-        count = self.layer.max()
-        area = np.bincount(self.layer, self.area, count + 1)[:count]
-        return np.bincount(self.layer, self.area * values, count + 1)[:count] / area
-
-    def _carried(self) -> float:
-        """Of a smooth body that was rolled over, by the means over depth."""
-        from fem.nonlinear.cycles import plastic_parts
-
-        if not self.travel or self.problem.scene.profile is not None:
-            return np.nan
-        body, state = self.body.body, self.body.body.state
-        sx, sy = self.profiles[-1].T
-        back = 2.0 / 3.0 * body.metal.hardening.kinematic * plastic_parts(state)
-        back[:, 2] *= 0.5  # of the shear strain gxz
-        rest = np.column_stack([sx, 0.0 * sx, 0.0 * sx, sy])
-        rest -= np.column_stack([self._layers(part) for part in back.T])
-        shear = body.metal.hardening.yield_stress / 3**0.5
-        flow = self._layers(body.metal.hardening.stress(state.equivalent)) / 3**0.5
-        friction, nu = self.problem.scene.load.friction[0], body.metal.elastic.poissons_ratio
-        z = self._layers(self.depth) / self.problem.hertz.half_width
-        return peak_carried(z, rest / shear, flow / shear, friction, nu)
+        """Means over layers of depth, where there are points, of what stands at the points."""
+        area = np.bincount(self.layer, self.area)[:-1]
+        known = np.flatnonzero(area)
+        return np.bincount(self.layer, self.area * values)[known] / area[known]

@@ -1,0 +1,19 @@
+"""A roller that comes again and again over a body that flows: does it shake down, what is left."""
+
+from comparisons.studies.cycles import show
+from comparisons.studies.cycles.study import NAME, QUANTITIES, CycleStudy, begin, needs, solve
+from comparisons.studies.study import Study
+
+CYCLES = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=lambda solved: solved.problem.scene.cycles is not None,
+    needs=needs,
+    begin=begin,
+    data=CycleStudy,
+    blocks=show.blocks,
+    pictures=show.PICTURES,
+    files=show.files,
+    lines=show.lines,
+)
