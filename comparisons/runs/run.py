@@ -55,7 +55,8 @@ REPORT = (
 # What shapes levels, and the answers of studies that are kept beside them.
 CODE = (
     *LEVEL_CODE,
-    *(f"comparisons/studies/{name}" for name in ("cycles", "model_error", "scatter", "statistics")),
+    *(f"comparisons/studies/{name}" for name in ("model_error", "scatter", "statistics")),
+    "comparisons/studies/subsurface/cycles",
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone

@@ -11,11 +11,11 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
-from comparisons.studies.cycles.level import expected_seconds
-from comparisons.studies.cycles.passes import CycledLevel, Passes
-from comparisons.studies.cycles.study import LONGEST, needs, outcome
-from comparisons.studies.cycles.surfaces import FLATTENED, FRESH, LAST, ONCE
 from comparisons.studies.study import unsolved
+from comparisons.studies.subsurface.cycles.level import expected_seconds
+from comparisons.studies.subsurface.cycles.passes import CycledLevel, Passes
+from comparisons.studies.subsurface.cycles.study import LONGEST, needs, outcome
+from comparisons.studies.subsurface.cycles.surfaces import FLATTENED, FRESH, LAST, ONCE
 
 ROLLED = {
     "roller": {"radius": 8e-3, **STEEL},
@@ -61,7 +61,7 @@ def test_the_half_plane_bears_the_load_on_what_flow_leaves(pressed):
         assert reloaded == pytest.approx(value(pressed, last), rel=0.01)
     peaks = [value(pressed, "peak_reloaded", source=name) for name in (FRESH, ONCE, LAST)]
     hertz = pressed.problem.hertz.peak_pressure
-    assert peaks[0] == pytest.approx(hertz, rel=0.01) and peaks[1] < 0.95 * hertz
+    assert peaks[0] == pytest.approx(hertz, rel=0.01) and peaks[1] < 0.98 * hertz
     assert peaks[2] == pytest.approx(peaks[1], rel=0.01)
     # at 3 Y running-in has nothing to take off: it knows no flow below the surface
     assert value(pressed, "peak_reloaded", source=FLATTENED) == pytest.approx(peaks[0], rel=1e-3)

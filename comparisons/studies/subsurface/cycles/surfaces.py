@@ -14,8 +14,8 @@ from analytic.profile import Profile
 from analytic.running_in import run_in
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.problem import Problem
-from comparisons.studies.cycles.passes import CycledLevel
 from comparisons.studies.model_error.estimates import TABOR
+from comparisons.studies.subsurface.cycles.passes import CycledLevel
 from fem.nonlinear.press_plastic import averaged_pressure
 
 FRESH, ONCE, LAST, FLATTENED = "fresh", "pressed_once", "after_all", "run_in"

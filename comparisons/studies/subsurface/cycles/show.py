@@ -10,9 +10,9 @@ from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import over, panels
 from comparisons.figures.figure import Figure
-from comparisons.studies.cycles.study import NAME, QUANTITIES, SOURCE, VERDICT
-from comparisons.studies.cycles.surfaces import FLATTENED, FRESH, LAST, ONCE
 from comparisons.studies.study import WHY_NOT, Run
+from comparisons.studies.subsurface.cycles.study import NAME, QUANTITIES, SOURCE, VERDICT
+from comparisons.studies.subsurface.cycles.surfaces import FLATTENED, FRESH, LAST, ONCE
 
 WORDS = {FRESH: "fresh", ONCE: "pressed once", LAST: "after all passes", FLATTENED: "run in"}
 COLOURS = {FRESH: "#222222", ONCE: "#0072B2", LAST: "#D55E00", FLATTENED: "#009E73"}

@@ -17,17 +17,17 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.studies.cycles.endless import peak_over_shear, yield_in_shear
-from comparisons.studies.cycles.level import (
+from comparisons.studies.study import Solved
+from comparisons.studies.subsurface.cycles.endless import peak_over_shear, yield_in_shear
+from comparisons.studies.subsurface.cycles.level import (
     cycled_problem,
     expected_seconds,
     is_endless,
     solved_level,
     travel_of,
 )
-from comparisons.studies.cycles.passes import CycledLevel
-from comparisons.studies.cycles.surfaces import LeftSurfaces, left_surfaces
-from comparisons.studies.study import Solved
+from comparisons.studies.subsurface.cycles.passes import CycledLevel
+from comparisons.studies.subsurface.cycles.surfaces import LeftSurfaces, left_surfaces
 
 NAME = "cycles"
 SOURCE = "finite_element"

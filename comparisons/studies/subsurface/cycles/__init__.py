@@ -1,8 +1,15 @@
 """A roller that comes again and again over a body that flows: does it shake down, what is left."""
 
-from comparisons.studies.cycles import show
-from comparisons.studies.cycles.study import NAME, QUANTITIES, CycleStudy, begin, needs, solve
 from comparisons.studies.study import Study
+from comparisons.studies.subsurface.cycles import show
+from comparisons.studies.subsurface.cycles.study import (
+    NAME,
+    QUANTITIES,
+    CycleStudy,
+    begin,
+    needs,
+    solve,
+)
 
 CYCLES = Study(
     name=NAME,

@@ -20,8 +20,8 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels, Problem, mean_height, problem_of, surface_ends
-from comparisons.studies.cycles import endless
-from comparisons.studies.cycles.passes import CycledLevel, Passes
+from comparisons.studies.subsurface.cycles import endless
+from comparisons.studies.subsurface.cycles.passes import CycledLevel, Passes
 
 if TYPE_CHECKING:
     from fem.nonlinear.cycles import CycledBody, CyclePass

@@ -11,7 +11,7 @@ from analytic.contact.patches import contact_patches
 from analytic.exact.shakedown import peak_carried
 from analytic.grid import HatGrid
 from comparisons.models.problem import Problem
-from comparisons.studies.cycles.passes import CycledLevel, Passes
+from comparisons.studies.subsurface.cycles.passes import CycledLevel, Passes
 from meshes.block import structured
 
 COARSEST = 4.0  # elements on a half-width, on level 1
