@@ -133,6 +133,7 @@ class _FiniteHistory(LoadHistory):
             end, residuals = newton_by_contacts(
                 *(self._bodies, np.zeros_like(self._gap), self._weights, start, load),
                 residual=residual,
+                factor=self._factor,
             )
             contacts += len(residuals)
             end = _Start(end.displacements, end.pressure, end.approach, end.load, start.aside)
