@@ -76,9 +76,9 @@ class ElasticContact:
             before, on = hats.states.copy(), np.flatnonzero(hats.states == CONTACT)
             system = ContactSystem([], flexible, weights, on, modulus, True, False)
             right = np.append(gap[on] / width, load / modulus)
-            found = self._factor.solve(system, right)
-            pressure, approach = np.zeros_like(gap), float(found[-1])
-            pressure[on] = found[:-1] * (modulus / width)
+            solution = self._factor.solve(system, right)
+            pressure, approach = np.zeros_like(gap), float(solution[-1])
+            pressure[on] = solution[:-1] * (modulus / width)
             opening = (gap + flexible @ pressure) / weights - approach
             opening[on] = 0.0
             hats.exchange(pressure, opening, stiff)
