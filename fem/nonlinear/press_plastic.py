@@ -27,9 +27,10 @@ from fem.body.sums import nodal_sums
 from fem.body.triangle import GAUSS, reference_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState
+from fem.contact.system import ReusedFactor
 from fem.contact.terms import LinearContact
 from fem.nonlinear.condensed import Condensed, ElasticContact
-from fem.nonlinear.newton import RESIDUAL, newton_by_contacts
+from fem.nonlinear.newton import ACCURACY, RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
 
@@ -138,6 +139,7 @@ class LoadHistory:
         self._elastic = ElasticContact(both, weights)
         self._bodies = [(self.body, LinearContact(compliance, friction))]
         self.state = ContactState((np.zeros(self.body.held.shape),), guess, approach=0.0)
+        self._factor = ReusedFactor(ACCURACY)
         self._former = 0.0, self.body.state  # load and plastic state before the last increment
 
     def through(self, loads: Sequence[float]) -> tuple[PlasticContact, ...]:
@@ -232,6 +234,7 @@ class LoadHistory:
             *(self._bodies, self._gap, self._weights, start, load),
             residual=residual,
             flexible=self._flexible,
+            factor=self._factor,
         )
         self._accept(end)
         return len(residuals)
