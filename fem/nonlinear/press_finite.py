@@ -92,10 +92,10 @@ class _FiniteHistory(LoadHistory):
     def release(self) -> None:
         """Without the roller: from the last touch, unloaded elastically."""
         both, state = self.state.displacements[0], self.state
-        own, other = np.split(both, [len(self.body.held)])
+        displacement, other = np.split(both, [len(self.body.held)])
         linear = self._contact.compliance.displacement(state.pressure, self._friction)
         scale = np.abs(self._contact.contact.loaded(both, state.pressure)[1]).max()
-        free = unloaded(self.body, own - linear, scale)
+        free = unloaded(self.body, displacement - linear, scale)
         self.state = replace(state, displacements=(np.vstack([free, other]),))
 
     def _to_elastic(self, load: float) -> bool:
@@ -113,8 +113,8 @@ class _FiniteHistory(LoadHistory):
         return True
 
     def _flows(self, state: ContactState) -> bool:
-        own = state.displacements[0][: len(self.body.held)]
-        return bool(self.body.step(own).yields.any())
+        displacement = state.displacements[0][: len(self.body.held)]
+        return bool(self.body.step(displacement).yields.any())
 
     def _to_plastic(self, load: float, start: ContactState, residual: float) -> int:
         looser = 1.0 if residual == RESIDUAL else LOOSER
@@ -147,11 +147,11 @@ class _FiniteHistory(LoadHistory):
 
     def _linear(self, pressure: np.ndarray, plastic: PlasticState) -> np.ndarray:
         """Displacement (n, 2) [m] of all nodes at small strains, held ones included."""
-        own = self._contact.compliance.displacement(pressure, self._friction)
-        own = own + self.body.body.solve(self.body.plastic_force(plastic))
+        displacement = self._contact.compliance.displacement(pressure, self._friction)
+        displacement = displacement + self.body.body.solve(self.body.plastic_force(plastic))
         if self._opposite is None:
-            return own
-        return np.vstack([own, self._opposite.displacement(pressure, -self._friction)])
+            return displacement
+        return np.vstack([displacement, self._opposite.displacement(pressure, -self._friction)])
 
     def _frozen(self, load: float, plastic: PlasticState) -> "_Start | None":
         there = self.state.displacements[0], self.state.pressure
@@ -163,13 +163,13 @@ class _FiniteHistory(LoadHistory):
         back, _ = self._contact.set_back(moved, linear.pressure)
         return self._set_back(_Start((moved,), linear.pressure, linear.approach, load), back)
 
-    def _accept(self, found: "_Start") -> None:
+    def _accept(self, state: "_Start") -> None:
         self._former = self.state.load, self.body.state
-        self._response.accept(found.displacements[0])
-        self.state = found
-        linear = self._linear(found.pressure, self.body.state)
-        self._beyond = found.displacements[0] - found.aside - linear
-        gap, _ = self._contact.contact.loaded(found.displacements[0], found.pressure)
-        self._gap = gap - self._elastic.flexible @ found.pressure
+        self._response.accept(state.displacements[0])
+        self.state = state
+        linear = self._linear(state.pressure, self.body.state)
+        self._beyond = state.displacements[0] - state.aside - linear
+        gap, _ = self._contact.contact.loaded(state.displacements[0], state.pressure)
+        self._gap = gap - self._elastic.flexible @ state.pressure
         flowed = self.body.body.solve(self.body.plastic_force(self.body.state))
         self._gap -= self._contact.compliance.weighted(flowed)
