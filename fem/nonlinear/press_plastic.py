@@ -32,6 +32,7 @@ from fem.nonlinear.condensed import Condensed, ElasticContact
 from fem.nonlinear.newton import RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
+from fem.stress.recovery import stress_nodes
 
 # Residual on the way to a load: it moves pressures under the load by 1e-8 of the largest, the
 # plastic strain at single points by 1e-5. With 3e-3 predicted edges are so inaccurate that a finer
@@ -312,7 +313,8 @@ def unloaded(body: PlasticBody, displacement: np.ndarray, scale: float) -> np.nd
 
 @dataclass(frozen=True)
 class PlasticFields:
-    """Fields at the mesh's n points under one load."""
+    """Fields at n nodes (`fem.stress.recovery.stress_nodes`) under one load: the mesh's points, on a
+    coating's interface one for each material."""
 
     stress: StressState  # (n,) [Pa] in the plane
     sy: np.ndarray  # (n,) [Pa] across the plane, nu (sx + sz) only without plastic strain
@@ -326,11 +328,12 @@ class PlasticFields:
 
 def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     """Stresses and plastic strain of a body under a contact of its history. Area-weighted means of
-    the linear fields through the three points of each element around a mesh point. Patches of
+    the linear fields through the three points of each element around a node. Patches of
     higher degree (`fem.stress.recovery`) would overshoot at the plastic zone's kinks."""
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
-    elements, count = body.body.elements, len(body.body.nodes)
+    nodes = stress_nodes(body.body)
+    elements, count = nodes.triangles, len(nodes.point)
     areas = np.repeat(body.areas.sum(axis=1), 6).reshape(elements.shape)
     values = EXTRAPOLATION @ sampled.reshape(len(elements), 3, -1) * areas[..., None]
     total = nodal_sums(elements, areas, count)

@@ -140,7 +140,6 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
     if name == FLOW:
         reasons = {
             "the body has no yield stress": scene.body.yield_stress is None,
-            "it takes no coating": scene.coating is not None,
             "it takes no prescribed approach": scene.load.kind == "approach",
             'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
         } | reasons
