@@ -313,8 +313,8 @@ def unloaded(body: PlasticBody, displacement: np.ndarray, scale: float) -> np.nd
 
 @dataclass(frozen=True)
 class PlasticFields:
-    """Fields at n nodes (`fem.stress.recovery.stress_nodes`) under one load: the mesh's points, on a
-    coating's interface one for each material."""
+    """Fields at n nodes under one load: the mesh's points, on a coating's interface one for each
+    material (`fem.stress.recovery.stress_nodes`)."""
 
     stress: StressState  # (n,) [Pa] in the plane
     sy: np.ndarray  # (n,) [Pa] across the plane, nu (sx + sz) only without plastic strain
