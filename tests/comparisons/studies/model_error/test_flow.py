@@ -1,5 +1,7 @@
 """Flow beside a half-plane that exceeds the yield stress beyond doubt, or why there is none."""
 
+from dataclasses import replace
+
 import pytest
 from scenes import STEEL, changed, resolved
 
@@ -10,6 +12,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.output.headline import headline
 from comparisons.runs.run import run
+from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.subsurface.yielding import blocks as yield_blocks
 
@@ -83,6 +86,13 @@ def test_the_cap_by_peak_is_what_the_whole_bears(beside, switched_on):
     assert caps[0].numerical == pytest.approx(caps[1].numerical, rel=1e-6)
     rows = {row[0]: row for row in yield_blocks(beside)[0].items[2].rows}
     assert rows["cap by peak"][3].startswith(f"{bears:.3g} ±")
+
+
+def test_flow_beside_linear_elements_is_of_quadratic_ones(beside):
+    scene = beside.problem.scene.unchecked({"finite_element.element": "P1"})
+    selection = beside.data("model_error").selection
+    split = split_variants(replace(beside.problem, scene=scene), selection, 0.0)
+    assert split.whole.quadratic and split.of_scene.quadratic
 
 
 def test_finite_strain_is_chosen_where_it_decides(beside, finite):
