@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from analytic.exact.shakedown import shakedown_limit
-from comparisons.common.numbers import percent, significant, with_unit
+from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.common.tasks import NEEDED, Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
@@ -150,9 +150,10 @@ def verdict(solved: Solved, level: CycledLevel) -> str:
     if what == "elastic":
         return f"nothing flows, not even in the first pass{limit}"
     if what == "shakes down":
+        share = percent_as_written(cycles.share)
         return (
-            f"shakes down: from pass {count} on a pass adds less than {percent(cycles.share)} of "
-            f"the first one's plastic strain{limit}"
+            f"shakes down: from pass {count} on a pass adds less than {share} of the first one's "
+            f"plastic strain{limit}"
         )
     if what == "settling":
         return (
@@ -208,9 +209,11 @@ def _of_passes(
     for name, value in read.items():
         place = (float(finest.residual_depth[-1]),) if name == "residual_stress" else None
         yield _figure(name, [value(level.passes) for level in levels], at, place=place)
-    what, count = outcome(levels[-1], solved.problem.scene.cycles.share)
-    if what == "shakes down":
-        yield Figure(NAME, "passes_to_shakedown", SOURCE, float(count), at)
+    share = solved.problem.scene.cycles.share
+    reached = [outcome(level, share) for level in levels]
+    counts = [float(count) for what, count in reached if what == "shakes down"]
+    if reached[-1][0] == "shakes down":
+        yield _figure("passes_to_shakedown", counts, at)
 
 
 def _of_limits(
