@@ -25,6 +25,25 @@ _SERIES = 0.25  # open fraction 1 - r below which the mean gap is summed
 
 
 @dataclass(frozen=True)
+class FlatContact:
+    """Flat bodies under a `peak_pressure` [Pa] that is the same everywhere, on one period, twice
+    `half_width` [m]: what a periodic surface without its waves is. `load_per_length` [N/m] of a
+    period, `combined_modulus` [Pa]."""
+
+    half_width: float
+    peak_pressure: float
+    combined_modulus: float
+
+    @property
+    def load_per_length(self) -> float:
+        return 2.0 * self.half_width * self.peak_pressure
+
+    def pressure(self, x: ArrayLike) -> np.ndarray:
+        """[Pa] at x [m]."""
+        return np.full(np.shape(x), self.peak_pressure)
+
+
+@dataclass(frozen=True)
 class WestergaardContact:
     """A wavy contact: `wavelength` lambda [m], `amplitude` A [m], half of peak to valley,
     `combined_modulus` E* [Pa], `mean_pressure` pm [Pa], `half_width` a [m] of each of the

@@ -17,13 +17,15 @@ from comparisons.scenes.fields import (
     OneOf,
     SceneSection,
     Text,
+    Truth,
     Unit,
     Whole,
     allowed,
 )
 
 AUTOMATIC = "auto"
-FILTER = ("cutoff", "short_cutoff")  # fields of every variety
+FILTER = ("cutoff", "short_cutoff")
+COMMON = (*FILTER, "periodic")  # fields of every variety
 POSITIVE = Number(LENGTH, above=0.0)
 PLACE = Number(LENGTH, at_least=0.0)
 
@@ -130,6 +132,7 @@ class ProfileSection(SceneSection):
     noise_wavelength: Length | None = None
     cutoff: Annotated[float | str, CutOff()] | None = None
     short_cutoff: Length | None = None
+    periodic: Annotated[bool, Truth()] | None = None
 
     @property
     def variety(self) -> str:
@@ -153,8 +156,8 @@ class ProfileSection(SceneSection):
         variety = VARIETIES[self.variety]
         for name in sorted(self.model_fields_set - variety.fields()):
             if getattr(self, name) is not None:
-                others = sorted(variety.fields() - {"kind", "file", *FILTER})
-                there = ", ".join([*others, *FILTER])
+                others = sorted(variety.fields() - {"kind", "file", *COMMON})
+                there = ", ".join([*others, *COMMON])
                 yield name, f"does not belong to {variety.title}; allowed there are {there}"
         for name in variety.needed:
             if getattr(self, name) is None:
@@ -179,7 +182,7 @@ class Variety:
 
     def fields(self) -> set[str]:
         groups = (*self.one_of, *self.at_most_one_of)
-        return set().union(self.needed, self.optional, self.defaults, FILTER, *groups)
+        return set().union(self.needed, self.optional, self.defaults, COMMON, *groups)
 
 
 _TABLES = tomllib.loads(Path(__file__).with_name("varieties.toml").read_text(encoding="utf-8"))
