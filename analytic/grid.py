@@ -57,7 +57,7 @@ class HatGrid:
         return np.arange(self.first - (not self.periodic), self.last + 2) * self.pitch
 
     def unfolded(self, values: np.ndarray) -> np.ndarray:
-        """Values (n,) as they stand on three periods (3n,), and those on a free line as they are."""
+        """Values (n,) as they stand on three periods (3n,); those on a free line as they are."""
         return np.tile(values, 3) if self.periodic else values
 
     @property

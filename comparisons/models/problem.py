@@ -17,9 +17,9 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
+from analytic.exact.westergaard import FlatContact
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants
-from analytic.exact.westergaard import FlatContact
 from analytic.operators.half_plane import ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
 from analytic.operators.tangential import CoupledHalfPlane

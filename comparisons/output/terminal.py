@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import LABELS, QUANTITIES, error_text
+from comparisons.models.smooth import scale_words
 from comparisons.output.headline import headline
 from comparisons.output.page.tables.comparison import comparison_rows, figure_rows
 from comparisons.output.page.tables.problem import in_mm
@@ -122,7 +123,8 @@ def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
 
 
 def _figures(outcome: Run) -> "Table":
-    table = plain_table("quantity", numbers=("mu", "value", "of Hertz", "uncert.\n%"))
+    over = f"of {scale_words(outcome.problem)}"
+    table = plain_table("quantity", numbers=("mu", "value", over, "uncert.\n%"))
     for quantity, *cells in figure_rows(outcome):
         table.add_row(SHORT[quantity], *map(_cell, cells))
     return table

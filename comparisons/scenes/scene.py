@@ -30,7 +30,6 @@ from comparisons.scenes.fields import (
 )
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.finite_element import FiniteElementSection
-from comparisons.scenes.periodic import is_periodic, misfits
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.running_in import RunningInSection
 from comparisons.scenes.sections import (
@@ -169,7 +168,7 @@ class SceneBase(SceneSection):
     @property
     def periodic(self) -> bool:
         """Whether the surface repeats, under a flat body."""
-        return is_periodic(self)
+        return self.profile is not None and bool(self.profile.periodic)
 
     @property
     def tolerances(self) -> dict[str, float]:
@@ -190,7 +189,6 @@ class SceneBase(SceneSection):
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         for _, section in self.sections():
             yield from section.misfits(self)
-        yield from misfits(self)
         body, load, coating = self.body, self.load, self.coating
         if coating and body.thickness is not None and coating.thickness >= body.thickness:
             thick = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"

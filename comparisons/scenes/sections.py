@@ -200,6 +200,10 @@ class RollerSection(ElasticSection):
                 both = "youngs_modulus with poissons_ratio, or rigid = true"
                 yield name, f"is missing; allowed is {both}"
 
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        if self.radius is None and not (scene.profile and scene.profile.periodic):
+            yield "roller.radius", f"is missing; allowed is {allowed(type(self), 'radius')}"
+
     def completed(self, scene: SceneSection) -> Self:
         return self if self.radius is not None else self.model_copy(update={"radius": inf})
 
@@ -263,7 +267,12 @@ class LoadSection(SceneSection):
     position: Annotated[float, Number(LENGTH)] | None = None
     coupled: Annotated[bool, Truth()] = False
 
-    KINDS: ClassVar[tuple[str, ...]] = ("per_length", "hertz_peak_pressure", "approach", "mean_pressure")
+    KINDS: ClassVar[tuple[str, ...]] = (
+        "per_length",
+        "hertz_peak_pressure",
+        "approach",
+        "mean_pressure",
+    )
 
     @property
     def kind(self) -> str:
@@ -285,6 +294,9 @@ class LoadSection(SceneSection):
             if self.approach is not None and not there:
                 why = f"has no meaning {where}, whose displacement has no datum"
                 yield "load.approach", f"{why}; allowed is per_length, or approach with {needed}"
+        if self.mean_pressure is not None and not (scene.profile and scene.profile.periodic):
+            where = "under a roller, whose load is per length"
+            yield "load.mean_pressure", f"is given {where}; allowed with profile.periodic = true"
 
 
 class StressSection(SceneSection):

@@ -154,9 +154,9 @@ def hat_forces(
 ) -> csr_matrix:
     """Nodal forces B (2k, count) [m] of unit hat pressures. `hats` (count + 2,) [m] are the hats'
     nodes, ascending, with the outer feet; or (count + 1,) of a `periodic` surface from one side to
-    the other, where the halves of the first hat are. A pressure is a force per length of x, not of arc. Rows
-    2a and 2a+1 are the x and z force at surface node a. Exact for a `direction` linear on each
-    piece between vertices and hat nodes. Errors as of `hat_points`."""
+    the other, where the halves of the first hat are. A pressure is a force per length of x, not of
+    arc. Rows 2a and 2a+1 are the x and z force at surface node a. Exact for a `direction` linear on
+    each piece between vertices and hat nodes. Errors as of `hat_points`."""
     points, count = hat_points(surface, hats), len(hats) - 2
     along = np.stack(np.broadcast_arrays(*direction(points.x)))
     # value[a, c, h, piece]: shape function, component, hat, piece

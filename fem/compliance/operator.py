@@ -21,8 +21,8 @@ BATCH = 32
 class FiniteElementCompliance:
     """Maps pressures on `count` hats to weighted displacements of `body`.
 
-    hats        (count + 2,) [m] the hats' nodes, ascending, with the outer feet; on a body with tied
-                sides (count + 1,) from one side to the other, the last the first
+    hats        (count + 2,) [m] the hats' nodes, ascending, with the outer feet; on a body with
+                tied sides (count + 1,) from one side to the other, the last the first
     direction   function of x [m] that gives the force (d_x, d_z) per length of x of a unit
                 pressure; None: (0, 1). On a rough boundary (slope, 1) of the smooth roller
     far         gives the body's boundary the half-plane's displacement; None: the support holds it

@@ -96,7 +96,9 @@ def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], ro
     load = f"{'p₀' if scene.periodic else 'P'} = {_load(problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
-    roller = "flat body" if scene.periodic else f"roller\nR = {as_written(scene.roller.radius, 'm')}"
+    roller = (
+        "flat body" if scene.periodic else f"roller\nR = {as_written(scene.roller.radius, 'm')}"
+    )
     roller = f"{roller}\n{material}"
     axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
     rough = "rough body" if scene.profile is not None else "body"

@@ -15,6 +15,7 @@ from comparisons.drawing.blocks import TextTable, compared_cells
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, label
 from comparisons.models.problem import Problem
+from comparisons.models.smooth import scale_words
 from comparisons.studies import comparison, contact
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -107,8 +108,8 @@ def figure_rows(run: Run) -> list[tuple[str, ...]]:
 
 def figure_table(run: Run) -> TextTable:
     """The same for the page."""
-    [model] = run.runs
-    head = ("quantity", "friction", f"{HYPHENATED[model]} model", "over Hertz", "uncertainty")
+    [model], over = run.runs, f"over {scale_words(run.problem)}"
+    head = ("quantity", "friction", f"{HYPHENATED[model]} model", over, "uncertainty")
     rows = ((label(name), *cells) for name, *cells in figure_rows(run))
     return TextTable("", head, tuple(rows))
 

@@ -180,7 +180,11 @@ def _load(problem: Problem) -> Rows:
     rows.append(("friction coefficient µ", listed(scene.load.friction)))
     if scene.periodic:
         period = with_unit(2.0 * hertz.half_width, "m")
-        return [*rows, ("period 2a", period), ("mean pressure p₀", with_unit(scene.load.value, "Pa"))]
+        return [
+            *rows,
+            ("period 2a", period),
+            ("mean pressure p₀", with_unit(scene.load.value, "Pa")),
+        ]
     return [
         *rows,
         ("Hertz half-width a", with_unit(hertz.half_width, "m")),
