@@ -46,7 +46,7 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
         return Path(name)
     path = Path(name)
     beside = path.with_suffix(".toml")
-    others = [found.name for found in path.parent.glob("*.toml")]
+    others = [other.name for other in path.parent.glob("*.toml")]
     alike = beside.name if beside.exists() else nearest(path.name, others, ALIKE)
     if alike is not None:
         there = f"there is no such file, but {path.with_name(alike)}"

@@ -182,13 +182,13 @@ def _stresses(
     """Fields on the window and extremes on either side of an interface."""
     sides = _sides(problem, level, window)
     for friction in frictions:
-        found = [side.maxima(problem, level, friction) for side in sides]
+        largest = [side.maxima(problem, level, friction) for side in sides]
         maxima = {
-            name: _larger([one.cells[key] for one in found])
+            name: _larger([one.cells[key] for one in largest])
             for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
         }
-        extremes = {name: highest(each) for name, each in maxima.items()}
-        extremes["von_mises"] = max((one.von_mises for one in found), key=lambda e: e.value)
+        extremes = {name: highest(cells) for name, cells in maxima.items()}
+        extremes["von_mises"] = max((one.von_mises for one in largest), key=lambda e: e.value)
         state = _on_window(sides, level, friction) if fields else None
         yield StressResult(friction, extremes, state, maxima)
 
@@ -213,7 +213,7 @@ def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
     )
     inside, below = (
         [replace(points, z=z) for points, z in zip((window, searched), depths, strict=True)]
-        for depths in zip(*(_split(each.z, thickness) for each in (window, searched)), strict=True)
+        for depths in zip(*(_split(part.z, thickness) for part in (window, searched)), strict=True)
     )
     goes_on = not body.rigid and len(below[1].z) > 0
     if goes_on:  # both sides of the interface are searched

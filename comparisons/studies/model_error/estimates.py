@@ -189,10 +189,10 @@ def _roller_support(problem: Problem) -> Sizes:
     share = problem.modulus / roller.material.plane_strain_modulus
     factor = SUPPORT + SUPPORT_BY_RATIO * roller.poissons_ratio**2
     size = factor * share * _curvature(problem) ** 2
-    found = _equal(size) | {name: of * size for name, of in SUPPORT_IN_NORMS.items()}
+    sizes = _equal(size) | {name: of * size for name, of in SUPPORT_IN_NORMS.items()}
     turned = max(problem.scene.load.friction) * share * _curvature(problem)
     moved = TURNED | (TURNED_ROUGH if problem.scene.profile is not None else {})
-    return found | {name: found[name] + of * turned for name, of in moved.items()}
+    return sizes | {name: sizes[name] + of * turned for name, of in moved.items()}
 
 
 # 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
