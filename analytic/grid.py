@@ -54,7 +54,9 @@ class HatGrid:
     def hats(self) -> np.ndarray:
         """Nodes [m] with the feet of the outer two hats (n + 2,); of a periodic line (n + 1,), the
         last the first."""
-        return np.arange(self.first - (not self.periodic), self.last + 2) * self.pitch
+        x = self.x
+        before = [] if self.periodic else [x[0] - self.pitch]
+        return np.concatenate([before, x, [x[-1] + self.pitch]])
 
     def unfolded(self, values: np.ndarray) -> np.ndarray:
         """Values (n,) as they stand on three periods (3n,); those on a free line as they are."""

@@ -429,6 +429,8 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     scene = problem.scene
     levels = scene.resolution.levels if problem.levels is None else problem.levels.models
     asked, elements = scene.resolution.pitch, scene.resolution.elements
+    if scene.resolution.nodes:
+        asked = 2.0 ** (levels - 1) * np.ptp(problem.extent) / scene.resolution.nodes
     if asked or elements:
         asked = asked or problem.hertz.half_width / elements
         return tuple(_whole(problem, asked) / 2.0**k for k in range(levels))

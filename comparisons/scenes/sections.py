@@ -331,15 +331,20 @@ class ToleranceSection(SceneSection):
 
 class ResolutionSection(SceneSection):
     """`pitch` [m] of the coarsest pressure elements, or `elements` of them on a half-width of the
-    smooth contact (neither: automatic), and `levels` to begin with."""
+    smooth contact, or `nodes` of the finest of the first levels (none: automatic), and `levels` to
+    begin with."""
 
     pitch: Length | None = None
     elements: Annotated[float, Number(DIMENSIONLESS, at_least=1.0, at_most=1e4)] | None = None
+    nodes: Annotated[int, Whole(64, 2_000_000)] | None = None
     levels: Annotated[int, Whole(2, 6)] = 3
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.pitch is not None and self.elements is not None:
             yield "elements", "is given beside pitch; allowed is one of the two"
+        if self.nodes is not None and (self.pitch or self.elements):
+            beside = "pitch" if self.pitch else "elements"
+            yield "nodes", f"is given beside {beside}; allowed is one of the two"
 
 
 class BudgetSection(SceneSection):

@@ -246,9 +246,11 @@ def peak_position(level: Level) -> float:
 
 
 def closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
-    """Places and pressures with the feet of the first and last hat."""
-    x, pitch = level.grid.x, level.grid.pitch
-    return np.array([x[0] - pitch, *x, x[-1] + pitch]), np.pad(level.solution.pressure, 1)
+    """Places and pressures with the feet of the first and last hat; of a periodic surface from one
+    end of the period to the other."""
+    grid, pressure = level.grid, level.solution.pressure
+    ends = (pressure[:0], pressure[:1]) if grid.periodic else (np.zeros(1), np.zeros(1))
+    return grid.hats, np.concatenate([ends[0], pressure, ends[1]])
 
 
 def draw_pressures(
