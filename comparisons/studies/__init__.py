@@ -12,6 +12,7 @@ from comparisons.studies import (
     heat,
     ladder,
     problem,
+    published,
     running_in,
     scatter,
     statistics,
@@ -25,7 +26,7 @@ STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
-    *(PARTIAL_SLIP, ladder.STUDY),
+    *(PARTIAL_SLIP, published.STUDY, ladder.STUDY),
 )
 
 
