@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scenes import STEEL, changed, problem, resolved
 
+from analytic.layers.layered import LayeredBody, normal_compliance
 from comparisons.common.errors import ExitStatus, SceneError
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
@@ -128,6 +129,27 @@ def test_full_contact_is_of_second_order(model):
     assert values_of(levels[-1], outcome.problem, 0.0)["contact_ratio"] == 1.0
     off = [abs(level.solution.pressure.max() / exact - 1.0) for level in levels[:3]]
     assert off[2] < 1e-4 and np.log2(off[:2] / np.array(off[1:])) == pytest.approx(2.0, abs=0.2)
+
+
+LAYER = {"body": {"thickness": 0.1e-3}}
+COATING = {"coating": {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}}
+
+
+@pytest.mark.parametrize("layers", [LAYER, COATING], ids=["layer", "coating"])
+def test_a_layer_in_full_contact_bears_its_own_wave(layers):
+    """p = pm + A/C(q) cos qx, C the layer's compliance."""
+    closed = changed(WAVE, load={"mean_pressure": 900e6, "friction": 0.0}, **layers)
+    del closed["stress"]
+    outcome = run(resolved(closed), None, ("finite_element",))
+    scene, levels = outcome.problem.scene, outcome.runs["finite_element"].levels
+    top, below = scene.body, scene.body.base
+    if scene.coating is not None:
+        top, below = scene.coating, scene.body.material
+    body = LayeredBody(top.material, top.thickness, below)
+    compliance = float(normal_compliance(body, np.array([2.0 * np.pi / PERIOD]))[0])
+    exact = 900e6 + AMPLITUDE / compliance
+    off = [level.solution.pressure.max() / exact - 1.0 for level in levels]
+    assert 0.0 < off[-1] < 1e-4 and 2.5 < off[1] / off[2] < 6.0
 
 
 TRACE = "0,0.0\n1,0.2\n2,0.3\n3,0.2\n4,{last}\n"
