@@ -50,6 +50,8 @@ THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are
 def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
     """What an operator can carry of the whole's effects, and a cap where the body yields."""
     scene, held = problem.scene, set(effects) & set(WORDS)
+    if scene.periodic:
+        return frozenset()
     if scene.body.thickness is None:
         held.discard("finite_size")
     yields = scene.body.yield_stress is not None and scene.body.hardness is None
