@@ -19,7 +19,7 @@ from comparisons.commands.arguments import (
     out_option,
 )
 from comparisons.commands.output import progress, show_either, show_written
-from comparisons.common.errors import ExitStatus
+from comparisons.common.errors import ExitStatus, tell
 from comparisons.common.mpi import from_first
 
 Axis = Annotated[
@@ -92,7 +92,7 @@ def map_of(
         request_of,
         show_finished,
     )
-    from comparisons.campaigns.maps.place import problem_named
+    from comparisons.campaigns.maps.place import problem_named, unlike
 
     marked = mark and from_first(lambda: problem_named(mark))
     solves = again or any(option is not None for option in (points, x, y, workers))
@@ -108,6 +108,8 @@ def map_of(
             content = make_map(request, directory, workers, callback, marked)
     if content is None:  # it worked for the first process
         return ExitStatus.DONE
+    if marked and (why := unlike(content, marked)):
+        tell(f"--mark: {marked.scene.name} {why}; the map's errors are those of its own scene")
     show_either(as_json, content, lambda: map_table(content, directory))
     return exit_status(content)
 

@@ -49,13 +49,17 @@ THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are
 
 def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
     """What an operator can carry of the whole's effects, and a cap where the body yields."""
-    scene, held = problem.scene, set(effects) & set(WORDS)
-    if scene.body.thickness is None:
-        held.discard("finite_size")
+    scene, held = problem.scene, set(carried_linear(problem.scene, effects))
     yields = scene.body.yield_stress is not None and scene.body.hardness is None
     if yields and flow.worst.peak > TABOR * scene.body.yield_stress:
         held.add(CAP)
     return frozenset(held)
+
+
+def carried_linear(scene: Scene, effects: Iterable[str]) -> frozenset[str]:
+    """The same without a cap."""
+    alone = {"finite_size"} if scene.body.thickness is None else set()
+    return frozenset(set(effects) & set(WORDS) - alone)
 
 
 def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]:
