@@ -39,6 +39,9 @@ def cost(
     scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
     repeats: Annotated[int, Option(help="Times that each setting is measured.")] = 3,
+    whole: Annotated[
+        bool, Option("--whole", help="Against the whole model: every effect that matters.")
+    ] = False,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
     """Measure error against time of every method; name the cheapest for each tolerance."""
@@ -49,7 +52,7 @@ def cost(
     asked = Scene.read(scene)
     directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
-        study = measured_cost(asked, directory, repeats, callback)
+        study = measured_cost(asked, directory, repeats, callback, whole=whole)
     path = directory / "cost.json"
     show_written(as_json, path, lambda: cost_table(study))
     if not as_json:
