@@ -67,10 +67,7 @@ def _marked(axes: "Axes", content: dict, mark: Mark | None) -> list[object]:
     if mark is None:
         return []
     name, values = mark
-    at = [
-        np.clip(places(content[axis], value)[0], *ends)
-        for axis, value, ends in zip("xy", values, (axes.get_xlim(), axes.get_ylim()), strict=True)
-    ]
+    at = [places(content[axis], value)[0] for axis, value in zip("xy", values, strict=True)]
     look = {"marker": "*", "markersize": 15.0, "color": "#E6007A", "markeredgecolor": "white"}
     look |= {"linestyle": "none", "label": name}
     return axes.plot(*at, zorder=5, clip_on=False, **look)
