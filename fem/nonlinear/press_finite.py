@@ -132,7 +132,6 @@ class _FiniteHistory(LoadHistory):
             end, residuals = newton_by_contacts(
                 *(self._bodies, np.zeros_like(self._gap), self._weights, start, asked),
                 residual=residual,
-                factor=self._factor,
             )
             contacts += len(residuals)
             end = _Start(end.displacements, end.pressure, end.approach, load, start.aside)
