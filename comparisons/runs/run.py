@@ -56,6 +56,7 @@ REPORT = (
 CODE = (
     *LEVEL_CODE,
     *(f"comparisons/studies/{name}" for name in ("model_error", "scatter", "statistics")),
+    "comparisons/studies/subsurface/cycles",
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
@@ -96,7 +97,7 @@ def solve_scene(
     opens: Opens | None = None,
     known: Known = Known(),
 ) -> Run:
-    """Solve a scene, compare and judge. Of its files there is nothing yet (`finish`), but what is
+    """Solve a scene, compare and judge. Its files are written by `finish`. Until then what is
     solved is kept beside `out`: a run that is stopped goes on from there.
 
     models    of half_plane, finite_element; fewer where budget.up_to asks for no more
