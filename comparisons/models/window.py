@@ -37,8 +37,8 @@ class Window:
 
 def window_of(problem: Problem) -> Window:
     """The points of the scene's [stress], graded towards the surface.
-    The spacing in x is the pitch of the coarsest level times or over a power of two, next to the
-    one asked for, so that the grid belongs to every level's own and no field is interpolated.
+    The spacing in x is the coarsest level's pitch times a power of two, of either sign, next to the
+    one asked for: the points are some of every level's own, and no field is interpolated.
     Raises SceneError for a window that reaches beyond the body's mesh or shows nothing."""
     scene, wanted = problem.scene, problem.scene.stress
     half_width = problem.hertz.half_width

@@ -55,9 +55,9 @@ OF_STRESS = [name for name, quantity in QUANTITIES.items() if quantity.needs_str
 
 
 class SolidSection(SceneSection):
-    """What may be named after a solid, which a file calls its `material`: moduli, and where they
-    are the solid's own its measured law of elasticity, then follow; what is written beside the
-    name wins."""
+    """A section that may name a solid, which a file calls its `material`. The solid gives the
+    moduli and its law of elasticity, unless they are written beside the name; the measured
+    constants of a law belong to the solid's own moduli alone."""
 
     solid: Annotated[str, SolidName()] | None = Field(None, alias="material")
 

@@ -57,10 +57,9 @@ class BodyPair:
 
 
 class BodyCache:
-    """The latest meshes and factored bodies: what asks for the same again shares them.
+    """The latest meshes and factored bodies, which all that need the same ones share.
     Loads, friction coefficients and profiles in the gap change neither, but for a load that changes
-    where the contact may be. Few are held: the next
-    request is mostly the same, or older ones never return."""
+    where the contact may be. Few are held: a request mostly repeats one of the last."""
 
     def __init__(self) -> None:
         self._meshes: OrderedDict[Hashable, BlockMesh] = OrderedDict()

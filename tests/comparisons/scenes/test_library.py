@@ -192,6 +192,7 @@ def test_every_scene_is_named_here():
         "ground-run-in",
         "ground-running-in",
         "ground-unrun",
+        "rolling-shakedown",
         "rough-statistics",
         "self-affine",
         "sinusoid",
