@@ -130,7 +130,7 @@ def _law_leaned_on(run: Run) -> str:
     """For the end of a sentence: the law of elasticity that the whole has, or that none changes the
     verdict; nothing where the whole deforms little."""
     selection, scene = run.data(MODEL_ERROR).selection, run.problem.scene
-    if "finite_strain" not in selection.whole:
+    if "finite_strain" not in selection.whole or FLOW in selection.whole:  # that has Hencky's
         return ""
     if not without_law(scene):
         return f", with {laws(scene)} elasticity"
@@ -243,10 +243,9 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
         paste = '[roller]\nsupport = "opposite"'
         others = '"half disc" or {hub = "…"}'
         return f'roller.support = "opposite", {others}: what holds the roller.', (paste,)
-    if largest == "finite_strain" and FLOW in run.data(MODEL_ERROR).selection.whole:
-        paste = '[finite_element]\nplastic = true\ndeformation = "finite"'
-        both = 'plastic = true, deformation = "finite"'
-        return f"finite_element = {{{both}}} computes it.", (paste,)
+    if largest == "finite_strain" and (time := run.data(MODEL_ERROR).selection.time):
+        time = _rounded_up(time)
+        return f"budget.time = {time:g} computes it.", (f"[budget]\ntime = {time:g}",)
     if largest == "plastic_flow":
         paste = "[finite_element]\nplastic = true"
         missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"

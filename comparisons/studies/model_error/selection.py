@@ -40,6 +40,8 @@ class EffectSelection:
     impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
     estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
     laws: tuple[OpenLaw, ...] = ()  # of elasticity, with which the whole is solved once more
+    # [s] budget.time in which finite strain of what flows can be computed, where it is too short
+    time: float | None = None
 
     @property
     def whole(self) -> frozenset[str]:
@@ -54,6 +56,11 @@ class EffectSelection:
             names, laws = names | {LAW}, ()
         impossible = dict(sorted((self.impossible | dict.fromkeys(names, why)).items()))
         return replace(self, added=added, impossible=impossible, laws=laws)
+
+    def flowing_finitely(self) -> "EffectSelection":
+        """The same with finite strain of what flows, which could not be computed before."""
+        impossible = {name: why for name, why in self.impossible.items() if name != "finite_strain"}
+        return replace(self, added=self.added | {"finite_strain"}, impossible=impossible)
 
     def resized(
         self, name: str, sizes: Sizes, tolerances: Mapping[str, float]
@@ -133,7 +140,6 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
     if name == FLOW:
         reasons = {
             "the body has no yield stress": scene.body.yield_stress is None,
-            "it takes no coating": scene.coating is not None,
             "it takes no prescribed approach": scene.load.kind == "approach",
             'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
         } | reasons
