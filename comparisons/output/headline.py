@@ -264,6 +264,8 @@ def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[st
         fields = " and ".join(f'{n}.material = "{_like(s)}"' for n, s in unnamed.items())
         return f"{fields}, or what it is (crosscheck materials), for its moduli.", paste
     unmeasured = dict.fromkeys(part.solid for part in sections.values())
+    if not unmeasured:
+        return f"{tolerance} holds.", (tolerance,)
     known = f"no third-order constants of {' or '.join(unmeasured)} are published"
     return f"{tolerance} holds; {known}.", (tolerance,)
 
@@ -315,10 +317,11 @@ def _one_model(run: Run) -> str:
     known = run.figures.of(study=contact.NAME, source=name)
     peak, p0 = known.one(quantity="peak_pressure").value, run.problem.hertz.peak_pressure
     length = known.one(quantity="contact_length").value
+    smooth = "the mean" if run.problem.scene.periodic else "Hertz"
     return (
         f"Only the {HYPHENATED[name]} model was run: peak pressure {with_unit(peak, 'Pa')}, "
-        f"{significant(peak / p0)} times Hertz, contact length {with_unit(length, 'm')}; nothing "
-        "was compared."
+        f"{significant(peak / p0)} times {smooth}, contact length {with_unit(length, 'm')}; "
+        "nothing was compared."
     )
 
 

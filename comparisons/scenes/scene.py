@@ -166,6 +166,11 @@ class SceneBase(SceneSection):
         return tables
 
     @property
+    def periodic(self) -> bool:
+        """Whether the surface repeats, under a flat body."""
+        return self.profile is not None and bool(self.profile.periodic)
+
+    @property
     def tolerances(self) -> dict[str, float]:
         """Relative, by compared quantity; others are not judged."""
         return {name: value for name, value in self.tolerance if value is not None}

@@ -207,13 +207,13 @@ def _took(
 def announce_effects(
     solved: Solved, couplings: tuple[Coupling, ...], tasks: Tasks
 ) -> Callable[[], None]:
-    """Make known to the tasks what `error_budget` will ask for, as far as the half-plane alone, on
-    the levels that the scene asks for, can tell: they may begin before the finite elements are
-    done. Should the half-plane's finest level select other effects, these are solved then.
+    """Add to the tasks what `error_budget` will ask for, as the half-plane on the levels that the
+    scene asks for selects it: it may begin before the finite elements are done. Should a finer
+    half-plane select other effects, these are solved then.
 
     Call what is returned once the scene's own finite elements leave a figure open on the least
-    levels: the whole will leave it open, too, and its further level need not wait until it does. A
-    process then stays with the bodies of one level."""
+    levels. The whole will leave it open, too: its further level need not wait, and a process stays
+    with the bodies of one level."""
     problem, half_plane = solved.problem, solved.runs["half_plane"]
     selection, variants = _selected(solved, couplings), _variants(solved, tasks, None)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.load.friction]
@@ -243,7 +243,7 @@ def announce_effects(
 
 
 def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> SolvedVariants:
-    """None of them solved yet; `own` are the scene's finite elements."""
+    """None of them is solved yet; `of_scene` are the scene's own finite elements."""
     patches = solved.runs["half_plane"].levels[0].patches
     return SolvedVariants(solved.problem, solved.window, of_scene, tasks, patches)
 

@@ -16,6 +16,7 @@ SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 FLOW = "plastic_flow"
 SMALL_STRAINS = "flow is taken at small strains"
 NOT_CERTAIN = "it is not beyond doubt (finite_element.plastic = true computes it)"
+ON_ONE_PERIOD = ("finite_size", "coating")  # effects that a periodic surface may have
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
 NONLINEAR = ("finite_strain", FLOW)
 ORDER = (
@@ -132,6 +133,8 @@ def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
 def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
     """Why an effect cannot be computed in a scene, or None; `flows`: the whole model does."""
     scene = problem.scene
+    if scene.periodic and name not in ON_ONE_PERIOD:
+        return "the bodies of a periodic surface are linear, its roughness is in the gap"
     if name == "roller_support":
         return "no support is given: a sector of the disc is held at 0.4 of its radius"
     if name not in (*NONLINEAR, LAW):

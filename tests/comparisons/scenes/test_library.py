@@ -185,6 +185,7 @@ def test_every_scene_is_named_here():
         "fretting",
         "frictional-heat",
         "layer",
+        "periodic",
         "yielding",
         "ground-flowing",
         "ground-polished",

@@ -108,11 +108,11 @@ def surfaces_table(run: Run) -> TextTable:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """The verdict; what pressing flat misses; or why nothing was done."""
-    found, known = run.findings[NAME], run.figures.of(study=NAME)
-    why_not = found.said(WHY_NOT)
+    findings, known = run.findings[NAME], run.figures.of(study=NAME)
+    why_not = findings.said(WHY_NOT)
     if why_not is not None:
         return [("cycles", f"not done: it {why_not}")]
-    said = [("cycles", f"the body {found.said(VERDICT)}")]
+    said = [("cycles", f"the body {findings.said(VERDICT)}")]
     flat, once = (known.one(quantity="peak_reloaded", source=name) for name in (FLATTENED, ONCE))
     if flat is not None:
         lengths = [

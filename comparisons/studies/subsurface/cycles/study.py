@@ -97,7 +97,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     seconds = expected_seconds(problem)
     tasks.callback(f"planned: cycles, about {with_unit(seconds, 's', 2)}")
     for number in numbers:
-        share = 4.0**number / sum(4.0**each for each in numbers)
+        share = 4.0**number / sum(4.0**earlier for earlier in numbers)
         tasks.add(
             _key(number), solved_level, problem, number, seconds=share * seconds, urgency=NEEDED
         )
@@ -254,6 +254,6 @@ def _series(solved: Solved, levels: tuple[CycledLevel, ...], at: Mapping[str, fl
     for name, unit in units.items():
         values = getattr(finest, name)
         moved = values if len(levels) < 2 else values - getattr(levels[-2].passes, name)
-        unsure = tuple(float(each) for each in 3.0 * np.abs(moved))
+        unsure = tuple(float(size) for size in 3.0 * np.abs(moved))
         columns[name] = Column(tuple(map(float, values)), unit, unsure)
     return Series("passes", columns, SOURCE, at)

@@ -19,7 +19,7 @@ LIGHT = {
 }
 
 
-COATING = {"thickness": 1e-4, "youngs_modulus": 300e9, "poissons_ratio": 0.25, "law": "hencky"}
+COATING = {"thickness": 1e-3, "youngs_modulus": 300e9, "poissons_ratio": 0.25, "law": "hencky"}
 
 
 def level_of(deformation, coating):
