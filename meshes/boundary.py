@@ -79,7 +79,7 @@ def top_nodes(spec: BlockSpec) -> np.ndarray:
     reached = low
     if spec.vertices is None:
         ranges = np.asarray(spec.intervals, dtype=float)
-        inner = [np.linspace(*each, interval_edges(spec, *each) + 1) for each in ranges]
+        inner = [np.linspace(*interval, interval_edges(spec, *interval) + 1) for interval in ranges]
     else:
         inner = [own_vertices(spec)]
     for inside in inner:

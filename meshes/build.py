@@ -37,7 +37,7 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
             return None
         return np.round(np.asarray(value, dtype=float) / unit, UNIT_DECIMALS).tolist()
 
-    lengths = (each.name for each in fields(spec) if each.name != "growth")
+    lengths = (field.name for field in fields(spec) if field.name != "growth")
     return replace(spec, **{name: scaled(getattr(spec, name)) for name in lengths})
 
 
@@ -193,16 +193,16 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     began = time.perf_counter()
     check_spec(spec)
     unit = spec.surface_size
-    given, small = outline(spec), in_units(spec, unit)
+    outer, small = outline(spec), in_units(spec, unit)
     # Rounding can give the scaled block another number of points.
     scaled = outline(small).points
-    if scaled.shape != given.points.shape:
-        scaled = given.points / unit
+    if scaled.shape != outer.points.shape:
+        scaled = outer.points / unit
     points = np.round(scaled, UNIT_DECIMALS)
-    vertices, triangles = run_worker((points, given.lines, given.regions, small), timeout)
+    vertices, triangles = run_worker((points, outer.lines, outer.regions, small), timeout)
     vertices = vertices * unit
-    vertices[: len(given.points)] = given.points
-    vertices, triangles = with_layers(vertices, triangles, spec.interface, given.beside)
+    vertices[: len(outer.points)] = outer.points
+    vertices, triangles = with_layers(vertices, triangles, spec.interface, outer.beside)
     refuse_unfilled(vertices, triangles, 2.0 * spec.half_width * spec.depth)
     points, triangles = add_midpoints(vertices, triangles)
     mesh = BlockMesh(points, triangles, np.zeros_like(points), spec)

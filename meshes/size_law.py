@@ -44,12 +44,12 @@ def largest_size(spec: BlockSpec) -> float:
 
 def boxes(spec: BlockSpec) -> list[tuple[float, float, float, float]]:
     """Boxes x0, x1, z1, size [m] with z <= z1 in which no element is larger than size."""
-    found = [] if spec.window is None else [spec.window]
+    limits = [] if spec.window is None else [spec.window]
     if spec.interface is not None:
         size, half = layer_size(spec), spec.half_width
-        found.append((*core(spec), spec.interface, size))
-        found.append((-half, half, spec.interface, LONGEST * size))
-    return found
+        limits.append((*core(spec), spec.interface, size))
+        limits.append((-half, half, spec.interface, LONGEST * size))
+    return limits
 
 
 def finest_size(spec: BlockSpec) -> float:
@@ -74,12 +74,12 @@ def surface_edge(spec: BlockSpec) -> float:
 
 def own_vertices(spec: BlockSpec) -> np.ndarray:
     """spec.vertices [m], their edges cut where `finest_size` is smaller."""
-    given = np.asarray(spec.vertices, dtype=float)
-    parts = parts_of(np.diff(given), spec)
+    vertices = np.asarray(spec.vertices, dtype=float)
+    parts = parts_of(np.diff(vertices), spec)
     edge = np.repeat(np.arange(len(parts)), parts)
     number = np.arange(len(edge)) - np.repeat(np.cumsum(parts) - parts, parts)
-    cut = number * (np.diff(given) / parts)[edge] + given[edge]
-    return np.append(cut, given[-1])
+    cut = number * (np.diff(vertices) / parts)[edge] + vertices[edge]
+    return np.append(cut, vertices[-1])
 
 
 def local_edges(vertices: np.ndarray) -> np.ndarray:
@@ -191,7 +191,7 @@ def _estimated(pickled: bytes) -> int:
     outer += [[x, x, 0.0, depth] for x in (-half, half)]
     # Euler: v - e + m = 1 and 2 e = 3 m + b give v + e = 1 + 2 m + b.
     triangles = [TRIANGLES_PER_EQUILATERAL * 4.0 / np.sqrt(3.0)] * len(filled)
-    factors = [2.0 * each for each in triangles + [2.0 * LAYERS] * len(layered)] + [1.0] * 4
+    factors = [2.0 * count for count in triangles + [2.0 * LAYERS] * len(layered)] + [1.0] * 4
     return round(2.0 * (1.0 + sum_of_integrals(spec, filled + layered + outer, factors)))
 
 

@@ -78,10 +78,10 @@ def unconverged(run: "Run", model: str) -> "Run":
     """A finished run whose model did not converge on its finest level."""
     from comparisons.studies import contact
 
-    own = run.runs[model]
-    solution = replace(own.finest.solution, converged=False)
-    levels = (*own.levels[:-1], replace(own.finest, solution=solution))
-    failed = posed(run, runs={**run.runs, model: replace(own, levels=levels)})
+    levels_of = run.runs[model]
+    solution = replace(levels_of.finest.solution, converged=False)
+    levels = (*levels_of.levels[:-1], replace(levels_of.finest, solution=solution))
+    failed = posed(run, runs={**run.runs, model: replace(levels_of, levels=levels)})
     said = contact.solve(failed.solved, {}, None).statements
     return refound(failed, contact.NAME, statements=said)
 
@@ -90,5 +90,5 @@ def budgeted(run: "Run", budget: object) -> "Run":
     """A finished run whose model errors are those of another error budget."""
     from comparisons.studies.model_error.account import NAME, findings_of
 
-    found = findings_of(budget, run.problem, run.runs)
-    return replace(run, findings={**run.findings, NAME: found})
+    findings = findings_of(budget, run.problem, run.runs)
+    return replace(run, findings={**run.findings, NAME: findings})

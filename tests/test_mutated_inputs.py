@@ -39,18 +39,18 @@ def one_reader(monkeypatch):
 @pytest.mark.parametrize("inputs", [scenes, profiles])
 @pytest.mark.usefixtures("one_reader")
 def test_a_seed_gives_the_same_inputs_and_each_is_read_or_refused(tmp_path, inputs):
-    found = []
+    rounds = []
     for again in ("first", "second"):
         (tmp_path / again).mkdir()
         made = inputs(tmp_path / again, range(40), 7)
-        found.append([(n, path.read_bytes(), outcome(resolve, path)) for n, path in made])
-    assert found[0] == found[1]
-    assert {word for _, _, (word, _) in found[0]} == {"resolved", "refused"}
-    assert len({content for _, content, _ in found[0]}) > 10
+        rounds.append([(n, path.read_bytes(), outcome(resolve, path)) for n, path in made])
+    assert rounds[0] == rounds[1]
+    assert {word for _, _, (word, _) in rounds[0]} == {"resolved", "refused"}
+    assert len({content for _, content, _ in rounds[0]}) > 10
 
 
 @pytest.mark.parametrize(
-    ("error", "told"),
+    ("error", "cause"),
     [
         (ZeroDivisionError("why"), "ZeroDivisionError: why"),
         (SystemExit(1), "SystemExit: 1"),
@@ -60,6 +60,6 @@ def test_a_seed_gives_the_same_inputs_and_each_is_read_or_refused(tmp_path, inpu
         (InputError("scene.toml: a map of nan m by 1 m"), "a number that is none"),
     ],
 )
-def test_what_is_a_defect(tmp_path, error, told):
+def test_what_is_a_defect(tmp_path, error, cause):
     word, account = outcome(raising(error), tmp_path / "scene.toml")
-    assert word == "DEFECT" and told in account
+    assert word == "DEFECT" and cause in account

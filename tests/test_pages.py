@@ -31,25 +31,25 @@ def rows(page: str, heading: str) -> list[list[str]]:
     """Cells of the table whose first column is called `heading`."""
     lines = TEXT[page].splitlines()
     start = next(n for n, line in enumerate(lines) if line.startswith(f"| {heading} |"))
-    found = []
+    cells = []
     for line in lines[start + 2 :]:
         if not line.startswith("|"):
             break
-        found.append([cell.strip() for cell in line.strip("|").split(" | ")])
-    return found
+        cells.append([cell.strip() for cell in line.strip("|").split(" | ")])
+    return cells
 
 
 def every_row(page: str, heading: str) -> list[list[str]]:
     """Those of all tables whose first column is called `heading` and whose third `allowed`."""
-    found, inside = [], False
+    cells, inside = [], False
     for line in TEXT[page].splitlines():
         if line.startswith(f"| {heading} | is | allowed |"):
             inside = True
         elif not line.startswith("|"):
             inside = False
         elif inside and not line.startswith("| ---"):
-            found.append([cell.strip() for cell in line.removesuffix("|")[1:].split(" | ")])
-    return found
+            cells.append([cell.strip() for cell in line.removesuffix("|")[1:].split(" | ")])
+    return cells
 
 
 def model_of(section: str) -> type[SceneSection]:
@@ -109,7 +109,7 @@ def test_commands_are_the_programs(name):
         command, *rest = shlex.split(text)
         if command in ("test", "COMMAND") or command.startswith("-"):
             continue
-        options = {option for each in commands[command].params for option in each.opts}
+        options = {option for parameter in commands[command].params for option in parameter.opts}
         assert {word for word in rest if word.startswith("-")} <= options | {"--help"}
 
 
@@ -159,26 +159,26 @@ class TestReference:
 
     def test_quantities_are_those_of_the_studies(self):
         """Those that several studies share are named at the first."""
-        found, study = {}, ""
+        listed, study = {}, ""
         for first, quantities, _ in rows("reference", "study"):
             study = first.strip("`") or study
-            found.setdefault(study, set()).update(re.findall(r"`(\w+)`", quantities))
-        assert list(found) == [study.name for study in STUDIES]
-        others = set(found)  # a row may say "those of `contact`"
+            listed.setdefault(study, set()).update(re.findall(r"`(\w+)`", quantities))
+        assert list(listed) == [study.name for study in STUDIES]
+        others = set(listed)  # a row may say "those of `contact`"
         for study in STUDIES:
-            assert found[study.name] - others <= study.quantities.keys()
-        named = set().union(*found.values())
+            assert listed[study.name] - others <= study.quantities.keys()
+        named = set().union(*listed.values())
         assert {name for study in STUDIES for name in study.quantities} <= named
 
     def test_entries_of_the_result_file_are_those_of_a_result(self):
         """A half-plane's run has most fields; the others are those of a model error."""
-        found = run("smooth", models="half-plane").result
+        result = run("smooth", models="half-plane").result
         entries = [name for cell, _ in rows("reference", "entry") for name in NAMES(cell)]
-        assert sorted(entries) == sorted(found)
+        assert sorted(entries) == sorted(result)
         fields = [
             name for cell, _ in rows("reference", "field of a figure") for name in NAMES(cell)
         ]
-        assert {name for figure in found["figures"] for name in figure} <= set(fields)
+        assert {name for figure in result["figures"] for name in figure} <= set(fields)
         assert set(fields) == set(Figure.__dataclass_fields__) - {"unknown"} | {
             *("unit", "convergence", "verdict", "not_modelled")
         }

@@ -390,7 +390,7 @@ class TestPicture:
         drawn = {line.get_label(): line.get_xydata() for line in pressures.lines}
         levels = outcome.levels(friction)
         for name, level in levels.items():
-            label = next(each for each in drawn if LABELS[name] in each)
+            label = next(word for word in drawn if LABELS[name] in word)
             peak = level.solution.pressure.max() / hertz.peak_pressure
             off = 1e-6 if label.startswith(LABELS[name]) else 0.01  # of one that coincides with it
             assert drawn[label][:, 1].max() == pytest.approx(peak, rel=off)

@@ -110,13 +110,13 @@ def krylov_step(apply: _Vectors, target: np.ndarray, goal: float) -> tuple[np.nd
         if abs(right[-1]) <= goal or left == 0.0:
             break
         basis.append(image / left)
-    found = np.zeros(len(target))
+    solution = np.zeros(len(target))
     shares = np.zeros(len(columns))
     for k in reversed(range(len(columns))):
         later = sum(columns[j][k] * shares[j] for j in range(k + 1, len(columns)))
         shares[k] = (right[k] - later) / columns[k][k]
-        found += shares[k] * basis[k]
-    return found, abs(float(right[-1]))
+        solution += shares[k] * basis[k]
+    return solution, abs(float(right[-1]))
 
 
 COARSEST = 128  # nodes; below this a coarser start saves nothing
@@ -163,8 +163,8 @@ def solve_coupled(
 def _solution(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:
     limits = problem.constraints
     pressure = np.clip(pressure, 0.0, limits.hardness)
-    moved, given = problem.apply(pressure), (problem.weighted_gap, problem.weights)
-    return assessed(moved, pressure, *given, problem.approach, limits, problem.spent)
+    moved, gap_and_weights = problem.apply(pressure), (problem.weighted_gap, problem.weights)
+    return assessed(moved, pressure, *gap_and_weights, problem.approach, limits, problem.spent)
 
 
 def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:

@@ -84,9 +84,9 @@ def solve_with_model(
         counts = {"steps": step, "applications": step + probes}
         counts["model_applications"] = model_applications
         free = _free(pressure, constraints)
-        given = weighted_displacement, pressure, weighted_gap, weights
-        approach = _approach(*given, constraints)
-        solution = assessed(*given, approach, constraints, counts, tolerance)
+        contact = weighted_displacement, pressure, weighted_gap, weights
+        approach = _approach(*contact, constraints)
+        solution = assessed(*contact, approach, constraints, counts, tolerance)
         misfit = weighted_displacement - model.apply(pressure) - carried
         if constraints.approach is None:  # the approach takes up what is common to all nodes
             misfit -= (weights @ misfit) / (weights @ weights) * weights

@@ -78,15 +78,15 @@ class EndStress:
     def parts(self, x: ArrayLike, z: ArrayLike) -> np.ndarray:
         """sx, sz, txz under p and sx under q = p (4, …) [Pa] at x, z >= 0 [m]; 0 far from ends."""
         x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
-        pitch, found = self.x_nodes[1] - self.x_nodes[0], np.zeros((4, *x.shape))
+        pitch, change = self.x_nodes[1] - self.x_nodes[0], np.zeros((4, *x.shape))
         for patch in self.patches:
             away = np.minimum(*(np.abs(x - end) for end in patch.ends))
             near = np.hypot(away, z) < REACH * pitch
             if near.any():
-                own, at = slice(patch.first, patch.last + 1), (x[near], z[near])
-                hats = LoadedLine(self.x_nodes[own], self.pressure[own], pitch, "hat")
-                found[:, near] += patch.parts(*at) - tree_stress(hats, *at)
-        return found
+                inside, at = slice(patch.first, patch.last + 1), (x[near], z[near])
+                hats = LoadedLine(self.x_nodes[inside], self.pressure[inside], pitch, "hat")
+                change[:, near] += patch.parts(*at) - tree_stress(hats, *at)
+        return change
 
     def at(self, friction: float) -> Callable[[ArrayLike, ArrayLike], StressState]:
         """Stresses [Pa] at x, z [m] under p and q = friction * p; goes through pickle."""
@@ -104,12 +104,12 @@ def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> En
     pitch = x_nodes[1] - x_nodes[0]
     hats = np.concatenate([[x_nodes[0] - pitch], x_nodes, [x_nodes[-1] + pitch]])
     nodal = nodal_values(hats, pressure)
-    found = (
+    patches = (
         _balanced(int(first), int(last), ends, x_nodes, pressure, nodal)
         for (first, last), ends in zip(*contact_ends(hats, pressure, gap), strict=True)
         if last - first + 1 >= FEWEST
     )
-    return EndStress(x_nodes, pressure, tuple(filter(None, found)))
+    return EndStress(x_nodes, pressure, tuple(filter(None, patches)))
 
 
 def _balanced(
@@ -122,11 +122,11 @@ def _balanced(
 ) -> SmoothPatch | None:
     """With ends, near these, where the curve has the hats' force and moment; None if none has."""
     count, pitch = last - first + 1, x_nodes[1] - x_nodes[0]
-    held, own = slice(first + DISTURBED, last + 1 - DISTURBED), slice(first, last + 1)
+    held, whole = slice(first + DISTURBED, last + 1 - DISTURBED), slice(first, last + 1)
     places, values = x_nodes[held], nodal[held]
     middle = 0.5 * (x_nodes[first] + x_nodes[last])
-    force = pitch * pressure[own].sum()
-    moment = pitch * (pressure[own] * (x_nodes[own] - middle)).sum()
+    force = pitch * pressure[whole].sum()
+    moment = pitch * (pressure[whole] * (x_nodes[whole] - middle)).sum()
     terms = min(4 * (count + 1), TERMS)
     angle = np.pi * np.arange(1, terms + 1) / (terms + 1)
     # an end that moves out takes two thirds of the value at the next held node with it

@@ -300,9 +300,9 @@ class EquilibriumProblem:
         nodes = np.flatnonzero(active.free)
         pressure = np.zeros_like(start)
         np.copyto(pressure, self.constraints.hardness, where=active.upper)
-        found = self._solve(nodes, pressure)
-        if found is not None:
-            pressure[nodes] = found
+        solved = self._solve(nodes, pressure)
+        if solved is not None:
+            pressure[nodes] = solved
             return self.as_equilibrium(pressure, self.apply(pressure), True)
         pressure[nodes] = start[nodes]
         weighted_displacement, accurate = self._iterate(nodes, pressure, reduction)
@@ -326,17 +326,17 @@ class EquilibriumProblem:
         weighted_gap = self.weighted_gap[nodes]
         if pressure.any():
             weighted_gap = weighted_gap + self.apply(pressure)[nodes]
-        found = self.operator.solve(nodes, np.array([weighted_gap, weights]).T)
-        if found is None:
+        solutions = self.operator.solve(nodes, np.array([weighted_gap, weights]).T)
+        if solutions is None:
             return None
-        from_gap, from_weights = found.T
+        from_gap, from_weights = solutions.T
         if self.by_load:
             load = self.constraints.load - self.weights @ pressure
             self.approach = float((load + weights @ from_gap) / (weights @ from_weights))
-        found = self.approach * from_weights - from_gap
+        solutions = self.approach * from_weights - from_gap
         if self.by_load:  # which a large approach has cost digits
-            found += (load - weights @ found) / (weights @ from_weights) * from_weights
-        return found
+            solutions += (load - weights @ solutions) / (weights @ from_weights) * from_weights
+        return solutions
 
     def _iterate(
         self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
@@ -359,7 +359,7 @@ class EquilibriumProblem:
         tight = max(self.tight * np.linalg.norm(balanced), floor)
         total = (self.weighted_gap + weighted_displacement)[search.stretch]
         line, places = np.zeros_like(total), nodes - search.stretch.start
-        found, direction = pressure[nodes], np.zeros(len(nodes))
+        iterate, direction = pressure[nodes], np.zeros(len(nodes))
         goal, slope_before, least, since_least = None, 1.0, np.inf, 0
         while since_least < (PATIENT if least > ROUNDED * tight else IMPATIENT):
             residual = total[places]
@@ -369,12 +369,12 @@ class EquilibriumProblem:
             size = np.linalg.norm(residual)
             goal = max(reduction * size, tight) if goal is None else goal
             if size <= goal:
-                pressure[nodes] = found
+                pressure[nodes] = iterate
                 moved = self.apply(pressure) if search.cropped else total - self.weighted_gap
                 return moved, bool(size <= tight)
             since_least = 0 if size < PROGRESS * least else since_least + 1
             if size < least:
-                best, least = found.copy(), size
+                best, least = iterate.copy(), size
             step = search.step(residual)
             slope = residual @ step
             direction *= slope / slope_before
@@ -386,7 +386,7 @@ class EquilibriumProblem:
             curvature = direction @ image[places]
             if not (slope > 0.0 and curvature > 0.0):
                 break
-            found -= (slope / curvature) * direction
+            iterate -= (slope / curvature) * direction
             image *= slope / curvature
             total -= image
         # rounding is reached; what followed the least residual drifts off

@@ -74,7 +74,7 @@ def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
         """(k, m) at ends (k, m): the determinant of both powers and the gaps on the three hats."""
         over = np.maximum(local[:, None] - end[..., None], 0.0)
         once = over**3 * np.sqrt(over)  # the power 3/2 integrated twice, but for its factor
-        hats = (np.diff(np.diff(each) / step[:, None]) for each in (once, once * over))
+        hats = (np.diff(np.diff(values) / step[:, None]) for values in (once, once * over))
         return (np.cross(*hats) * weighted[:, None]).sum(axis=-1)
 
     sampled = np.linspace(*WITHIN, STEPS + 1)

@@ -198,7 +198,7 @@ def exact_contacts() -> tuple[ExactContact, ...]:
     """The gallery of cases.toml, that every numerical model is held to."""
     gallery = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
     return tuple(
-        MAKERS[kind](name, (MATERIALS[body], MATERIALS[roller]), *given)
+        MAKERS[kind](name, (MATERIALS[body], MATERIALS[roller]), *parameters)
         for kind, cases in gallery["contacts"].items()
-        for name, body, roller, *given in cases
+        for name, body, roller, *parameters in cases
     )

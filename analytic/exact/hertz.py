@@ -155,11 +155,11 @@ def _highest(friction: float, value: _OfShear, slope: _OfSlope) -> tuple[float, 
         shear, along, down = _shear(point[0], abs(point[1]), friction)
         return np.array([slope(shear, along), slope(shear, down)])
 
-    found = root(gradient, [x[0, column], depth[row, 0]], tol=1e-14)
-    peak = float(value(_shear(found.x[0], abs(found.x[1]), friction)[0]))
-    if np.max(np.abs(gradient(found.x))) > 1e-12 or peak < heights[row, column]:
+    stationary = root(gradient, [x[0, column], depth[row, 0]], tol=1e-14)
+    peak = float(value(_shear(stationary.x[0], abs(stationary.x[1]), friction)[0]))
+    if np.max(np.abs(gradient(stationary.x))) > 1e-12 or peak < heights[row, column]:
         raise RuntimeError(f"no stationary shear found for friction {friction:g}")
-    return peak, found.x[0], abs(found.x[1])
+    return peak, stationary.x[0], abs(stationary.x[1])
 
 
 def _shear(

@@ -257,14 +257,14 @@ class ManufacturedContact:
             for best in np.argsort(values)[-_STARTS:]:
                 starts.append((values[best], x[best], z[best], 0.1 * patch.half_width))
         top, *place, step = np.array(sorted(starts)[-_STARTS:]).T
-        place, each = np.column_stack(place), np.arange(len(top))
+        place, rows = np.column_stack(place), np.arange(len(top))
         stencil = np.array([(i, j) for i in range(-2, 3) for j in range(-2, 3)]) / 2.0
         for _ in range(_ZOOMS):
             at = place[:, None] + step[:, None, None] * stencil
             at[..., 1] = np.clip(at[..., 1], 0.0, depth)
             values = value(self.stress(at[..., 0], at[..., 1]))
             best = values.argmax(axis=1)
-            values, at = values[each, best], at[each, best]
+            values, at = values[rows, best], at[rows, best]
             place = np.where((values > top)[:, None], at, place)
             top, step = np.maximum(values, top), _ZOOM * step
         best = top.argmax()

@@ -81,7 +81,7 @@ def _cell_integrals(
     """Integrals of f and s f over the cells from m to m + 1 = m + s pitches, m from -count to
     count - 1, with f = e^{-X} K0(R), or ln(reach / r) at rest; lengths in pitches."""
     cells = np.arange(-count, count)
-    found = np.empty((2, 2 * count))
+    integrals = np.empty((2, 2 * count))
     far = (cells >= _FAR) | (cells < -_FAR)
     near = (cells == 0) | (cells == -1)
     points, weights = _gauss(_SINGULAR_POINTS)
@@ -95,8 +95,8 @@ def _cell_integrals(
         start = np.where(cells[part] == -1, 0, cells[part])[:, None]
         share = place if place[0] > 0.0 else 1.0 + place
         value = line_source(start + place, peclet, depth, reach)
-        found[0, part], found[1, part] = value @ weight, value @ (weight * share)
-    return found[0], found[1]
+        integrals[0, part], integrals[1, part] = value @ weight, value @ (weight * share)
+    return integrals[0], integrals[1]
 
 
 def line_source(

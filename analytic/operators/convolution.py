@@ -110,8 +110,8 @@ class Convolution:
             start = self._start_of_row(nodes)
             if start is not None:
                 in_a_row = np.concatenate((right[start:], right[:start]))
-                found = solve_toeplitz(self.column[:count], in_a_row, check_finite=False)
-                return np.concatenate((found[count - start :], found[: count - start]))
+                solution = solve_toeplitz(self.column[:count], in_a_row, check_finite=False)
+                return np.concatenate((solution[count - start :], solution[: count - start]))
         if count > DIRECT:
             return None
         return cholesky_solve(self.block(nodes), right)

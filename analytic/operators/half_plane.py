@@ -106,13 +106,13 @@ class HalfPlane(Convolution):
         without it a search for pressures first moves off, and may end as rounding what is none."""
         c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
         sine = np.sin(np.pi * c) / np.pi
-        own, lower, upper = 1.0 / c, 1.0 / (1.0 - c), 1.0 / (1.0 + c)
+        first, lower, upper = 1.0 / c, 1.0 / (1.0 - c), 1.0 / (1.0 + c)
         if self.element == "hat":  # each (sine / |c + j|)^4 / |c + j|
             seen = sum(
-                (sine * alias) ** 2 * (sine * alias) ** 2 * alias for alias in (own, lower, upper)
+                (sine * alias) ** 2 * (sine * alias) ** 2 * alias for alias in (first, lower, upper)
             )
         else:
-            seen = sine * (own**2 + lower**2 - upper**2)
+            seen = sine * (first**2 + lower**2 - upper**2)
         seen[cycles == 0.0] += 2.0 * self._further / cycles[1]
         return self.pitch**2 / (np.pi * self.modulus) * seen
 

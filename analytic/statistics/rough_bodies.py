@@ -54,17 +54,17 @@ def rough_cylinder(load: float, radius: float, modulus: float, summits: Summits)
     """Line contact in SI under P [N/m] of R [m], E* [Pa]; raises as `rough_contact` does."""
     check_positive(load=load, radius=radius, modulus=modulus)
     s = summits.deviation
-    found = rough_contact("cylinder", 2.0 * load / (s * modulus), bearing_of(summits, radius))
+    unit = rough_contact("cylinder", 2.0 * load / (s * modulus), bearing_of(summits, radius))
     length = float(np.sqrt(2.0 * radius * s))
     stress = modulus * float(np.sqrt(s / (8.0 * radius)))
     return replace(
-        found,
-        smooth=(length * found.smooth[0], stress * found.smooth[1]),
-        rho=length * found.rho,
-        steps=length * found.steps,
-        pressure=stress * found.pressure,
-        effective_width=length * found.effective_width,
-        mean_real_pressure=modulus * float(np.sqrt(s / summits.radius)) * found.mean_real_pressure,
+        unit,
+        smooth=(length * unit.smooth[0], stress * unit.smooth[1]),
+        rho=length * unit.rho,
+        steps=length * unit.steps,
+        pressure=stress * unit.pressure,
+        effective_width=length * unit.effective_width,
+        mean_real_pressure=modulus * float(np.sqrt(s / summits.radius)) * unit.mean_real_pressure,
     )
 
 

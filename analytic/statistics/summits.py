@@ -79,11 +79,11 @@ def counted_peaks(profile: Profile) -> Summits:
     return Summits(len(place) / profile.length, float(1.0 / bend.mean()), spread, mean)
 
 
-def summits_of_peaks(counted: Summits, found: SpectralMoments) -> Summits:
+def summits_of_peaks(counted: Summits, profile_moments: SpectralMoments) -> Summits:
     """Summits of an isotropic surface with a profile's counted peaks: density, curvature, variance
     and mean height are carried over by the ratios, and the differences, that a Gaussian one has.
     Raises ValueError where the peaks are hardly of different height."""
-    peaks_expected, expected = found.peaks(), found.summits()
+    peaks_expected, expected = profile_moments.peaks(), profile_moments.summits()
     spread = counted.deviation**2 - peaks_expected.deviation**2 + expected.deviation**2
     if not spread > 0.0:
         raise ValueError("the profile's peaks are all as high; statistics need random ones")

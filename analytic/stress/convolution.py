@@ -71,7 +71,7 @@ def half_line(
 
     def halves(block: slice) -> np.ndarray:
         first, last, _ = block.indices(len(depths))
-        found = np.empty((4, last - first, reach + 1))
+        kernel = np.empty((4, last - first, reach + 1))
         far = max(0, shallow - first)
         # A level that is deep itself is far from the element throughout.
         reached = [start for start, _ in FAR_TERMS if start <= depths[first]]
@@ -81,14 +81,14 @@ def half_line(
             low = 0 if start in reached else start * subdivisions
             run = slice(low, int(min(end * subdivisions, reach + 1)))
             if run.start < run.stop:
-                element_potential(x[run], depths[first:last], element, terms, found[:, :, run])
+                element_potential(x[run], depths[first:last], element, terms, kernel[:, :, run])
         if far:
-            found[:, :far, : len(close)] = near[:, first:last]
+            kernel[:, :far, : len(close)] = near[:, first:last]
             if first + far < last:
                 rest = depths[first + far : last]
                 terms = FAR_TERMS[0][1]
-                element_potential(close, rest, element, terms, found[:, far:, : len(close)])
-        return found
+                element_potential(close, rest, element, terms, kernel[:, far:, : len(close)])
+        return kernel
 
     return halves
 

@@ -64,8 +64,8 @@ def stress_maxima(
     )
     rows, columns, owner = [], [], []  # an owner is a quantity in a cell
     cell, count = np.searchsorted(cells, field.x), len(cells) + 1
-    found = np.full((len(quantities), 3, count), np.nan)
-    found[:, 0] = 0.0
+    largest = np.full((len(quantities), 3, count), np.nan)
+    largest[:, 0] = 0.0
     edges = [0, *np.searchsorted(field.x, cells, side="right"), len(field.x)]
     for index, quantity in enumerate(quantities):
         values = quantity(field.stress)
@@ -76,7 +76,7 @@ def stress_maxima(
                 continue
             i, j = np.unravel_index(np.argmax(values[:, start:stop]), (len(values), stop - start))
             j += start
-            found[index, :, k] = values[i, j], field.x[j], field.z[i]
+            largest[index, :, k] = values[i, j], field.x[j], field.z[i]
             if values[i, j] >= NEAR * highest and not np.any(cell[column] == k):
                 row, column = np.append(row, i), np.append(column, j)
         rows.append(row)
@@ -101,9 +101,9 @@ def stress_maxima(
     for one in np.unique(owner):
         mine = np.flatnonzero(owner == one)
         best = mine[np.argmax(top[mine])]
-        found[one // count, :, one % count] = top[best], *place[best]
-    best = (Extremum(*map(float, each[:, np.argmax(each[0])])) for each in found)
-    return StressMaxima(*best, dict(zip(("tau1", "txz_abs"), found, strict=False)))
+        largest[one // count, :, one % count] = top[best], *place[best]
+    best = (Extremum(*map(float, by_cell[:, np.argmax(by_cell[0])])) for by_cell in largest)
+    return StressMaxima(*best, dict(zip(("tau1", "txz_abs"), largest, strict=False)))
 
 
 def _local_maxima(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

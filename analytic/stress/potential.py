@@ -58,16 +58,16 @@ def element_potential(
     """
     value = element_moments(element, 2 * terms)[::2] / np.pi
     slope = -value * (2.0 * np.arange(terms) + 1.0)
-    found = np.empty((4, len(z), len(x))) if out is None else out
+    derivatives = np.empty((4, len(z), len(x))) if out is None else out
     step = max(1, _BLOCK // len(x))
     for start in range(0, len(z), step):
         rows = slice(start, start + step)
-        _fill(x, z[rows, None], value, slope, found[:, rows])
-    return found
+        _fill(x, z[rows, None], value, slope, derivatives[:, rows])
+    return derivatives
 
 
 def _fill(
-    x: np.ndarray, z: np.ndarray, value: np.ndarray, slope: np.ndarray, found: np.ndarray
+    x: np.ndarray, z: np.ndarray, value: np.ndarray, slope: np.ndarray, derivatives: np.ndarray
 ) -> None:
     size = 1.0 / (x**2 + z**2)  # |s|
     right, down = x * size, -z * size  # Re v, Im v
@@ -81,11 +81,11 @@ def _fill(
     np.subtract(twice, size, out=work)
     work *= second
     work += first
-    np.multiply(work, right, out=found[0])
+    np.multiply(work, right, out=derivatives[0])
     size += twice
     size *= second
     size += first
-    np.multiply(size, down, out=found[1])
+    np.multiply(size, down, out=derivatives[1])
 
     first, second = _divided(slope, twice, norm, work)
     # d0 s + d1 s^2 = (d0 + m d1) s - n d1
@@ -95,10 +95,10 @@ def _fill(
     second *= norm
     second *= z
     turn *= first
-    np.subtract(turn, second, out=found[2])
+    np.subtract(turn, second, out=derivatives[2])
     right *= down
     right *= 2.0  # Im s
-    np.multiply(right, first, out=found[3])
+    np.multiply(right, first, out=derivatives[3])
 
 
 def _divided(

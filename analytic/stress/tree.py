@@ -79,8 +79,8 @@ def _levels(load: bytes, element: Element, boxes: list[np.ndarray]) -> list[BoxL
         outer.append(_parents(outer[-1]))
     ids = []
     for index in range(len(outer)):
-        own = np.unique(boxes[index]) if index < len(boxes) else np.empty(0, dtype=int)
-        ids.append(np.union1d(own, ids[-1] // 2) if ids else own)
+        used = np.unique(boxes[index]) if index < len(boxes) else np.empty(0, dtype=int)
+        ids.append(np.union1d(used, ids[-1] // 2) if ids else used)
     levels = []
     for index in reversed(range(len(outer))):
         sources = np.column_stack([outer[index], np.zeros(ORDER)])
@@ -120,10 +120,10 @@ def _parents(outer: np.ndarray) -> np.ndarray:
 def _from_far(sources: np.ndarray, box: np.ndarray, right: int) -> np.ndarray:
     """Inner coefficients of boxes, all `right` or left halves, from what only their parents had."""
     away, matrix = _far_boxes(right)
-    found = inside(box + away[:, None], sources.shape[1] - 1)
-    if np.all(found == sources.shape[1] - 1):
+    column = inside(box + away[:, None], sources.shape[1] - 1)
+    if np.all(column == sources.shape[1] - 1):
         return np.zeros((ORDER, len(box)))
-    return matrix @ sources.T[found].transpose(0, 2, 1).reshape(-1, len(box))
+    return matrix @ sources.T[column].transpose(0, 2, 1).reshape(-1, len(box))
 
 
 @cache
@@ -204,9 +204,9 @@ def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> 
     angle, log_sum = np.einsum("ij,ij->i", bend, lean), np.einsum("ij,ij->i", bend, log)
     rise_moment = np.einsum("ij,ij->i", bend, distance * rise)
     log_moment = np.einsum("ij,ij->i", bend, x * log)
-    own = np.einsum("ij,ij->i", load, np.maximum(1.0 - distance, 0.0))
+    surface_pressure = np.einsum("ij,ij->i", load, np.maximum(1.0 - distance, 0.0))
     z = z[:, 0]
-    sz = rise_moment / np.pi - own
+    sz = rise_moment / np.pi - surface_pressure
     sx, txz = sz + z * log_sum / np.pi, z * angle / np.pi
     return np.array([sx, sz, txz, -(3.0 * z * angle + log_moment) / np.pi])
 
@@ -256,13 +256,13 @@ def _among(line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, down: np.nda
             potential += near
             slope += near_slope
         slope *= u.imag
-        found = stresses(potential, slope) / (np.pi * tree.half)
+        sums = stresses(potential, slope) / (np.pi * tree.half)
         if tree is levels[0]:
             for i in range(0, len(here), _NEAR_BLOCK):
                 block = slice(i, i + _NEAR_BLOCK)
-                own = here[block]
-                found[:, block] += near_stress(line, nearest[own], rest[own], down[own], box[own])
-        parts[:, here] = found
+                at = here[block]
+                sums[:, block] += near_stress(line, nearest[at], rest[at], down[at], box[at])
+        parts[:, here] = sums
 
     blocks = [slice(i, min(i + _BLOCK, stop)) for a, stop in runs for i in range(a, stop, _BLOCK)]
     for_each(add_up, blocks)

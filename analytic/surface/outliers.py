@@ -30,9 +30,9 @@ def spikes(profile: Profile) -> Spikes | None:
     along = x - x.mean()
     line = height.mean() + along * (along @ height) / (along @ along)
     most = max(BEYOND * np.quantile(np.abs(apart), 0.95), LEAST * np.std(height - line))
-    found = np.abs(apart) > most
-    if not np.any(found):
+    outlying = np.abs(apart) > most
+    if not np.any(outlying):
         return None
-    starts = found & ~np.concatenate(([False], found[:-1]))
+    starts = outlying & ~np.concatenate(([False], outlying[:-1]))
     largest = int(np.argmax(np.abs(apart)))
     return Spikes(int(np.count_nonzero(starts)), float(apart[largest]), float(x[largest]))

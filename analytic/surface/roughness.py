@@ -39,8 +39,8 @@ def roughness(profile: Profile) -> Roughness:
     """Roughness figures of the profile's spline."""
     # Taking off an offset first keeps the powers free of cancellation.
     offset = float(np.mean(profile.height))
-    found = figures_of(CubicSpline(profile.x, profile.height - offset))
-    return replace(found, mean=offset + found.mean)
+    figures = figures_of(CubicSpline(profile.x, profile.height - offset))
+    return replace(figures, mean=offset + figures.mean)
 
 
 def moments(profile: Profile) -> tuple[float, float, float]:

@@ -106,7 +106,7 @@ def standard_cutoff(profile: Profile) -> float:
 def standard_short_cutoff(profile: Profile, cutoff: float) -> float | None:
     """lambda_s [m] that belongs to `cutoff` [m] (ISO 3274:1996, table 1). None where the samples
     are too far apart for it: they are what limits the short waves then."""
-    fitting = (short for _, given, short in CLASSES if given >= cutoff * (1.0 - 1e-9))
+    fitting = (short for _, long, short in CLASSES if long >= cutoff * (1.0 - 1e-9))
     short = next(fitting, CLASSES[-1][2])
     if short >= cutoff:
         return None

@@ -37,11 +37,17 @@ def verify(
     answers: Annotated[
         Path | None, Option(help="Only judge the form of such a folder, filled in.")
     ] = None,
-    as_json: Annotated[bool, json_option("verify.json")] = False,
+    benchmarks: Annotated[
+        bool, Option("--benchmarks", help="Solve published benchmarks instead.")
+    ] = False,
+    as_json: Annotated[bool, json_option("verify.json, or benchmarks.json")] = False,
 ) -> int:
     """Hold both models to exact solutions, and stated uncertainties to true errors."""
-    if sum(option is not None for option in (export, answers, out or junit)) > 1:
-        raise InputError("verify: allowed is one of --export, --answers, and --out with --junit")
+    others = benchmarks or out or junit
+    if sum(option is not None for option in (export, answers, others or None)) > 1:
+        raise InputError(
+            "verify: allowed is one of --export, --answers, and --benchmarks, --out, --junit"
+        )
     if export is not None:
         from comparisons.campaigns.verify.form import export_form
 
@@ -53,6 +59,14 @@ def verify(
         judged = judged_form(answers)
         show_either(as_json, judged.as_dict(), lambda: form_table(judged))
         return judged.exit_status
+    if benchmarks:
+        from comparisons.campaigns.benchmarks import run_benchmarks
+
+        directory = out or RESULTS / "benchmarks"
+        with progress() as callback:
+            solved = run_benchmarks(directory, junit, callback)
+        show_written(as_json, directory / "benchmarks.json", lambda: solved.summary())
+        return solved.exit_status
     from comparisons.campaigns.verify.run import verify as verify_all
 
     directory = out or RESULTS / "verify"

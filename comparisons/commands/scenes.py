@@ -15,11 +15,16 @@ Code = Literal["calculix", "abaqus", "fenicsx"]
 
 
 @job
-def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = False) -> int:
+def scenes(
+    benchmarks: Annotated[
+        bool, Option("--benchmarks", help="Those of which figures are published.")
+    ] = False,
+    as_json: Annotated[bool, json_option("names and titles as JSON")] = False,
+) -> int:
     """List the scenes that come with crosscheck."""
     from comparisons.scenes.files import scene_titles
 
-    titles = scene_titles()
+    titles = scene_titles(benchmarks)
     if as_json:
         show_json(titles)
         return ExitStatus.DONE

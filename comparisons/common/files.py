@@ -34,7 +34,7 @@ ALL_FILES = (  # with patterns, and those formats of fields that a run writes wh
 )
 RECORD = "record.json"  # of a run: its "files" are this program's
 # Those whose own record is <name>.json.
-STUDIES = ("cost", "map", "paper", "stability", "sweep", "verify")
+STUDIES = ("benchmarks", "cost", "map", "paper", "stability", "sweep", "verify")
 RECORDS = (RECORD, *(f"{name}.json" for name in STUDIES))
 LARGEST_RECORD = 2**28  # bytes; a larger one is nobody's that this program knows
 PART = ".part"  # ends the name of a file that is not whole yet

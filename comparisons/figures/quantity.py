@@ -27,8 +27,8 @@ def _one(hertz: "HertzContact") -> float:
 _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")
 
 # Models from the cheapest on that a run may end with: the half-plane, that with what an operator
-# carries, linear finite elements, finite deformation, and all that matters.
-UP_TO = ("half-plane", "operators", "linear", "finite", "whole")
+# carries, that on its deformed surface, linear finite elements, finite deformation, and the whole.
+UP_TO = ("half-plane", "operators", "deformed", "linear", "finite", "whole")
 
 
 @dataclass(frozen=True)

@@ -223,7 +223,9 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
     holds_at = _rounded_up(abs(worst.value) + worst.total)
     tolerance = f"--tolerance {holds_at:g}" if holds_at else ""
     largest = max(worst.unknown, key=worst.unknown.get, default="")
-    if largest == LAW and not worst.is_unresolved:
+    why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
+    not_asked = "budget.effects" in why
+    if largest == LAW and not worst.is_unresolved and not not_asked:
         return _next_of_law(run, worst, tolerance)
     if worst.is_unresolved and worst.uncertainty.parts.get(INPUTS, 0.0) > 0.5 * worst.numerical:
         return f"{tolerance} holds; third-order constants are measured no better.", (tolerance,)
@@ -234,8 +236,7 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
         time = 2.0 * run.problem.scene.budget.time
         said = f"budget = {{time = {time:g}}}, finer levels for a smaller uncertainty."
         return said, (f"[budget]\ntime = {time:g}",)
-    why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
-    if "budget.effects" in why:
+    if not_asked:
         asked = "true" if "not asked for" in why else '"all"'
         return f"budget.effects = {asked} computes it.", (f"[budget]\neffects = {asked}",)
     if largest == "roller_support":

@@ -51,6 +51,7 @@ ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
 CODE = (
     *LEVEL_CODE,
     *(f"comparisons/studies/{name}" for name in ("model_error", "scatter", "statistics")),
+    "comparisons/studies/subsurface/cycles",
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone

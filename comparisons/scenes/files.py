@@ -9,6 +9,7 @@ from pathlib import Path
 from comparisons.common.errors import SceneError, nearest, one_line
 
 SCENES = Path(__file__).parent / "library"
+BENCHMARKS = SCENES / "benchmarks"
 LARGEST_FILE = 2**20  # bytes; a scene has a few hundred
 ALIKE = 0.8  # difflib's ratio of a name that may be meant
 MOST_PARTS = 32  # of a dotted key; a scene has two, and the time of reading grows by their square
@@ -27,9 +28,15 @@ def scene_names() -> list[str]:
     return sorted(path.stem for path in SCENES.glob("*.toml"))
 
 
-def scene_titles() -> dict[str, str]:
-    """Name and title of every scene that comes with the project."""
-    return {name: read_toml(SCENES / f"{name}.toml")["title"] for name in scene_names()}
+def benchmark_names() -> list[str]:
+    """Scenes that come along with what is published of them."""
+    return sorted(path.stem for path in BENCHMARKS.glob("*.toml"))
+
+
+def scene_titles(benchmarks: bool = False) -> dict[str, str]:
+    """Name and title of every scene that comes with the project, or of every benchmark."""
+    names = benchmark_names() if benchmarks else scene_names()
+    return {name: read_toml(find_scene(name))["title"] for name in names}
 
 
 def find_scene(name_or_path: str | os.PathLike) -> Path:
@@ -42,18 +49,20 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
     names = scene_names()
     if name in names:
         return SCENES / f"{name}.toml"
+    if name in benchmark_names():
+        return BENCHMARKS / f"{name}.toml"
     if os.path.lexists(name):
         return Path(name)
     path = Path(name)
     beside = path.with_suffix(".toml")
-    others = [found.name for found in path.parent.glob("*.toml")]
+    others = [other.name for other in path.parent.glob("*.toml")]
     alike = beside.name if beside.exists() else nearest(path.name, others, ALIKE)
     if alike is not None:
         there = f"there is no such file, but {path.with_name(alike)}"
         raise SceneError(f"{name}: {there}; allowed is a scene's file or name")
     if path.suffix or os.path.dirname(name):
         raise SceneError(f"{name}: there is no such file; allowed is a scene's file or name")
-    near, every = nearest(name, names), ", ".join(names)
+    near, every = nearest(name, [*names, *benchmark_names()]), ", ".join(names)
     why = "is neither a file nor a scene; the nearest scene is"
     raise SceneError(f"{name}: {why} {near}, all are {every}")
 

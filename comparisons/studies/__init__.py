@@ -12,6 +12,7 @@ from comparisons.studies import (
     heat,
     ladder,
     problem,
+    published,
     running_in,
     scatter,
     statistics,
@@ -19,13 +20,14 @@ from comparisons.studies import (
 from comparisons.studies.friction import PARTIAL_SLIP, coupling
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies.subsurface import bulge, quiescent_zone, yielding
+from comparisons.studies.subsurface.cycles import CYCLES
 
 # In the order in which they are done, and their figures shown.
 STUDIES = (
     *(contact.STUDY, comparison.STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, bulge.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
-    *(PARTIAL_SLIP, ladder.STUDY),
+    *(PARTIAL_SLIP, CYCLES, published.STUDY, ladder.STUDY),
 )
 
 

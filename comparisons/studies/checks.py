@@ -31,7 +31,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     for name, run in solved.runs.items():
         residuals = [asdict(level.solution.residuals) for level in run.finest.by_friction]
         for quantity in residuals[0]:
-            value = max(each[quantity] for each in residuals)
+            value = max(row[quantity] for row in residuals)
             figures.append(Figure(NAME, quantity, name, value, uncertainty=sure))
         if (check := run.finest.operator) is not None:
             series += _compliance(check, name)

@@ -124,8 +124,8 @@ class MeshedBody:
         if self.degree == 2:
             return displacement
         result = np.empty((*displacement.shape[:-2], *self.mesh.points.shape))
-        own, share = displacement[..., self.elements, :], shapes(reference_nodes(2), self.degree)
-        result[..., self.mesh.triangles, :] = np.einsum("...mac,qa->...mqc", own, share)
+        nodal, share = displacement[..., self.elements, :], shapes(reference_nodes(2), self.degree)
+        result[..., self.mesh.triangles, :] = np.einsum("...mac,qa->...mqc", nodal, share)
         return result
 
 
@@ -236,9 +236,9 @@ def elastic_body(
     conditions = conditions_of(space, held[node])
 
     owned = node[: space.dofmap.index_map.size_local]
-    given = (mesh, material, coating, coated, numbering)
+    form_of_body = (mesh, material, coating, coated, numbering)
     assemble = partial(compat.petsc_matrix, form, conditions)
-    return ElasticBody(*given, support, held, owned, assemble, space)
+    return ElasticBody(*form_of_body, support, held, owned, assemble, space)
 
 
 def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":

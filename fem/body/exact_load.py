@@ -27,18 +27,18 @@ def forces_of(
     turn = np.sign(double_areas(points, mesh.triangles))
     count = elements.max() + 1
     inner = [range(3 + k * (degree - 1), 3 + (k + 1) * (degree - 1)) for k in range(3)]
-    own = elements[:, [[k, *inner[k], (k + 1) % 3] for k in range(3)]].reshape(-1, degree + 1)
+    border = elements[:, [[k, *inner[k], (k + 1) % 3] for k in range(3)]].reshape(-1, degree + 1)
     edges = mesh.triangles[:, [[0, 3, 1], [1, 4, 2], [2, 5, 0]]].reshape(-1, 3)
     turn = np.repeat(turn, 3)
     outer = np.bincount(edges[:, 1], minlength=len(points))[edges[:, 1]] == 1
-    edges, own, turn = edges[outer], own[outer], turn[outer]
+    edges, border, turn = edges[outer], border[outer], turn[outer]
     place = edge_shapes(LINE) @ points[edges]
     tangent = edge_slopes(LINE) @ points[edges] * turn[:, None, None]
     sx, sz, txz = np.broadcast_arrays(*stress(place[..., 0], place[..., 1]))
     along, down = tangent[..., 1], -tangent[..., 0]
     traction = np.stack([sx * along + txz * down, txz * along + sz * down], axis=-1)
     shape = LINE_WEIGHT[:, None] * edge_shapes(LINE, degree)
-    load = nodal_sums(own, shape.T @ traction, count)
+    load = nodal_sums(border, shape.T @ traction, count)
     if body_force is not None:
         nodes = points[mesh.triangles]
         place = np.einsum("mac,qa->mqc", nodes, shapes(AREA))

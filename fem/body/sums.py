@@ -10,7 +10,7 @@ def matrix_of(
     value: np.ndarray, row: np.ndarray, column: np.ndarray, shape: tuple[int, int]
 ) -> csr_matrix:
     """Each value added at its row and column; the three arrays are broadcast together."""
-    value, row, column = (each.ravel() for each in np.broadcast_arrays(value, row, column))
+    value, row, column = (array.ravel() for array in np.broadcast_arrays(value, row, column))
     return csr_matrix((value, (row, column)), shape=shape)
 
 

@@ -89,10 +89,10 @@ def gradients(
 def inverse(matrix: np.ndarray) -> np.ndarray:
     """Of 2 by 2 matrices (..., 2, 2): ten times as fast as numpy's for any size."""
     (a, b), (c, d) = np.moveaxis(matrix, (-2, -1), (0, 1))
-    found = np.empty_like(matrix)
-    found[..., 0, 0], found[..., 0, 1], found[..., 1, 0], found[..., 1, 1] = d, -b, -c, a
-    found /= (a * d - b * c)[..., None, None]
-    return found
+    result = np.empty_like(matrix)
+    result[..., 0, 0], result[..., 0, 1], result[..., 1, 0], result[..., 1, 1] = d, -b, -c, a
+    result /= (a * d - b * c)[..., None, None]
+    return result
 
 
 def collapsed_gauss(count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -116,11 +116,11 @@ class PairContact:
         self, displacement: np.ndarray, pressure: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """The gap (count,) [m^2] and the nodal forces (2n,) [N/m] of `at` alone: cheaper."""
-        surface, cuts, own = self._surfaces(displacement)
+        surface, cuts, deformed = self._surfaces(displacement)
         under = hat_points(self._body.surface, self._hats, cuts)
-        x, z = ((under.shape * c[under.node][..., None]).sum(0) for c in (own.x, own.z))
+        x, z = ((under.shape * c[under.node][..., None]).sum(0) for c in (deformed.x, deformed.z))
         edge, t = surface.edge(x.ravel())
-        rise, slope, _ = (each.reshape(x.shape) for each in surface(x.ravel(), (edge, t)))
+        rise, slope, _ = (array.reshape(x.shape) for array in surface(x.ravel(), (edge, t)))
         node, part = 2 * edge + np.arange(3)[:, None], edge_shapes(t).T
 
         column, hat = under.column + 1, under.hat * under.weight  # with the feet, which bear none
@@ -131,7 +131,7 @@ class PairContact:
         for axis, value, back in ((0, along, -along), (1, down, down)):
             on_body = (under.shape * value).sum(-1).ravel()
             force[self._body.surface.point, axis] = np.bincount(
-                under.node.ravel(), on_body, len(own.x)
+                under.node.ravel(), on_body, len(deformed.x)
             )
             force[self._first + self._roller.surface.point, axis] = np.bincount(
                 node.ravel(), (part * back.ravel()).ravel(), len(surface.x)
@@ -180,9 +180,9 @@ class PairContact:
     ) -> tuple[DeformedSurface, np.ndarray, DeformedSurface]:
         """The roller's, where its edges end on the undeformed rough body's, x [m], and that one."""
         surface = DeformedSurface(self._roller, displacement[self._first :])
-        own = DeformedSurface(self._body, displacement[: self._first])
-        below = surface.x[::2][(surface.x[::2] > own.x[0]) & (surface.x[::2] < own.x[-1])]
-        return surface, along_edges(self._body.surface.edges, *own.edge(below)), own
+        deformed = DeformedSurface(self._body, displacement[: self._first])
+        below = surface.x[::2][(surface.x[::2] > deformed.x[0]) & (surface.x[::2] < deformed.x[-1])]
+        return surface, along_edges(self._body.surface.edges, *deformed.edge(below)), deformed
 
     def _of_roller(self, node: np.ndarray, value: np.ndarray) -> list[csr_matrix]:
         """Rows (q, 2n): x, z at points under hats from surface nodes (q, 3) by factors (q, 3)."""

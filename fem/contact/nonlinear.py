@@ -378,7 +378,7 @@ def solve_nonlinear_contact(
         if load is None:
             guess = replace(guess, approach=target)
         try:
-            found, opening, history = newton(problem, guess, None if load is None else target)
+            solution, opening, history = newton(problem, guess, None if load is None else target)
         except FemError as error:
             cuts += 1
             step *= 0.5
@@ -387,9 +387,9 @@ def solve_nonlinear_contact(
                     f"the contact did not converge beyond {100.0 * done:.3g} % of the load: {error}"
                 ) from error
             continue
-        for (body, _), displacement in zip(bodies, found.displacements, strict=True):
+        for (body, _), displacement in zip(bodies, solution.displacements, strict=True):
             body.accept(displacement)
         histories.append(tuple(history))
-        state, done = found, part
+        state, done = solution, part
         step = min(1.0, LONGER * step)
     return NonlinearSolution(state, opening, tuple(histories), cuts)

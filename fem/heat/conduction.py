@@ -98,8 +98,7 @@ class Conduction:
             if kind == "held":
                 self.held[getattr(side, name)] = True
             elif kind == "open":
-                given = getattr(side, name), centre, reach
-                self.matrix = self.matrix + self._leaving(name, *given)
+                self.matrix = self.matrix + self._leaving(name, getattr(side, name), centre, reach)
 
     def _leaving(self, name: str, node: np.ndarray, centre: float, reach: float) -> csr_matrix:
         """integral N_a h N_b on one side (n, n) [W/(m K)]."""
@@ -133,13 +132,13 @@ class Conduction:
         """Temperature (n,) [K] under nodal heat (n,) [W/m]; `held` (n,) [K] are the given ones,
         read at held nodes only. Raises FemError if nothing holds the temperature."""
         free = ~self.held
-        found = np.where(free, 0.0, 0.0 if held is None else held)
-        found[free] = self._factor.solve((load - self.matrix @ found)[free])
-        return found
+        temperature = np.where(free, 0.0, 0.0 if held is None else held)
+        temperature[free] = self._factor.solve((load - self.matrix @ temperature)[free])
+        return temperature
 
     def transient(
         self, load: Callable[[float], np.ndarray], times: np.ndarray, start: np.ndarray
     ) -> Iterator[np.ndarray]:
         """As of `fem.heat.transient.march`."""
-        given = self.matrix, self.held, load, times, start
-        return march(self.body.capacity, *given, symmetric=not self.velocity)
+        system = self.matrix, self.held, load, times, start
+        return march(self.body.capacity, *system, symmetric=not self.velocity)

@@ -64,10 +64,10 @@ class FrictionalHeat:
         touching = np.pad(contact, 1)
         self.nodes = np.flatnonzero(touching[1:] | touching[:-1])
         self.x, self.bodies = np.asarray(x, dtype=float), bodies
-        self._hats = [hat_integrals(each.body, self.x, contact)[:, self.nodes] for each in bodies]
+        self._hats = [hat_integrals(side.body, self.x, contact)[:, self.nodes] for side in bodies]
         first, second = self._hats
         pitch, middle = np.diff(self.x)[contact], (0.5 * (self.x[1:] + self.x[:-1]))[contact]
-        spaced = np.min([node_spacing(each.body.surface, middle) for each in bodies], axis=0)
+        spaced = np.min([node_spacing(side.body.surface, middle) for side in bodies], axis=0)
         if np.any(pitch < spaced * LEAST_PITCH):
             raise ValueError(
                 f"hats of {pitch.min():g} m are finer than the nodes of both surfaces: mesh one of "
@@ -81,7 +81,7 @@ class FrictionalHeat:
             [first.T, -second.T, None],
         ]
         self._matrix = bmat(rows, format="csr")
-        self._held = np.concatenate([*(each.held for each in bodies), np.zeros(count, dtype=bool)])
+        self._held = np.concatenate([*(side.held for side in bodies), np.zeros(count, dtype=bool)])
 
     def steady(self, heat: np.ndarray, bulk: tuple[float, float] = (0.0, 0.0)) -> Partition:
         """Partition of `heat` (m,) [W/m^2] at x, linear between. FemError: nothing holds a body."""
@@ -99,10 +99,10 @@ class FrictionalHeat:
         """Partitions at `times` (k,) [s] of the heat (m,) [W/m^2] at each, with both bodies at
         their bulk temperatures at the first, where the partition is not known (NaN)."""
         count = self._sizes[2]
-        stored = [*(each.body.capacity for each in self.bodies), csr_matrix((count, count))]
+        stored = [*(side.body.capacity for side in self.bodies), csr_matrix((count, count))]
         capacity, start = block_diag(stored, format="csr"), np.zeros(len(self._held))
-        given = capacity, self._matrix, self._held, lambda t: self._load(heat(t), bulk)
-        states = march(*given, times, start)
+        system = capacity, self._matrix, self._held, lambda t: self._load(heat(t), bulk)
+        states = march(*system, times, start)
         for time, state in zip(times, states, strict=True):
             if time == times[0]:
                 state[-count:] = np.nan

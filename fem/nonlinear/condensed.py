@@ -60,9 +60,9 @@ class ElasticContact:
             system = np.zeros((len(on) + 1, len(on) + 1))
             system[:-1, :-1] = flexible[np.ix_(on, on)] * stiff
             system[:-1, -1], system[-1, :-1] = -weights[on], weights[on]
-            found = np.linalg.solve(system, np.append(-stiff * gap[on], load))
-            pressure, approach = np.zeros_like(gap), float(found[-1]) / stiff
-            pressure[on] = found[:-1]
+            solution = np.linalg.solve(system, np.append(-stiff * gap[on], load))
+            pressure, approach = np.zeros_like(gap), float(solution[-1]) / stiff
+            pressure[on] = solution[:-1]
             opening = (gap + flexible @ pressure) / weights - approach
             opening[on] = 0.0
             hats.exchange(pressure, opening, stiff)

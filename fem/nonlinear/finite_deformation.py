@@ -141,14 +141,14 @@ class FiniteContact:
         far: FarField | None = None,
         disc: bool = False,
     ) -> None:
-        own = FiniteElementCompliance(body, hats, far=far)
+        compliance = FiniteElementCompliance(body, hats, far=far)
         self.body, self.hats, self.friction, self.start = body, hats, friction, start
-        self.roller, self.elastic, self.compliance = roller, (body,), own
+        self.roller, self.elastic, self.compliance = roller, (body,), compliance
         self._disc = disc
-        self.linear = _started(own, start, friction)
+        self.linear = _started(compliance, start, friction)
         if isinstance(roller, FiniteElementCompliance):
             self.elastic = body, roller.body
-            moduli = tuple(each.material.youngs_modulus for each in self.elastic)
+            moduli = tuple(part.material.youngs_modulus for part in self.elastic)
             self.response = TwoBodies(*map(HyperelasticBody, self.elastic), moduli)
             self.contact = PairContact(body, hats, roller.body, friction)
             self.linear = np.vstack([self.linear, _started(roller, start, -friction)])
@@ -176,11 +176,7 @@ class FiniteContact:
             begun = self._begun(asked, approach, hardness)
             solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
             state, deformed = solution.state, self.deformed(solution)
-            moved, aside = self.set_back(state.displacements[0], state.pressure)
-            is_settled = aside <= ASIDE * self.weights.mean()
-            if load is not None:
-                before, asked = asked, self.pressing(load, *state.displacements, state.pressure)
-                is_settled = is_settled and abs(asked - before) <= LEANING * load
+            moved, asked, is_settled = self.settled(state, load, asked)
             state = replace(state, displacements=(moved,))
             if np.isfinite(hardness):
                 stretched = hardness * deformed.stretch
@@ -197,6 +193,24 @@ class FiniteContact:
         return self.deformed(
             replace(solution, state=replace(solution.state, pressure=state.pressure))
         )
+
+    def settled(
+        self,
+        state: ContactState,
+        load: float | None,
+        asked: float | None,
+        looser: float = 1.0,
+    ) -> tuple[np.ndarray, float | None, bool]:
+        """What to solve next after the state of pressures that press with `asked` [N/m]: from a
+        displacement (n, 2) [m] with the bodies moved back, and pressing with what a `load` [N/m]
+        leaves to pressures; None where the approach is prescribed. And whether neither differs by
+        more than ASIDE of a hat and LEANING of the load, or so many times more."""
+        moved, off = self.set_back(state.displacements[0], state.pressure)
+        is_settled = off <= looser * ASIDE * self.weights.mean()
+        if load is None:
+            return moved, None, is_settled
+        pressing = self.pressing(load, *state.displacements, state.pressure)
+        return moved, pressing, is_settled and abs(pressing - asked) <= looser * LEANING * load
 
     def borne(self, moved: np.ndarray, pressure: np.ndarray) -> float:
         """The vertical force [N/m] on the body of pressures (count,) [Pa] and of their friction,
@@ -233,13 +247,13 @@ class FiniteContact:
         """The linear solution under any part of the load."""
 
         def begun(part: float) -> ContactState:
-            wanted = [part * each if each else each for each in (load, approach)]
+            wanted = [part * value if value else value for value in (load, approach)]
             rest = state_at_rest(self._linear, self.start)
-            given = self._linear, self.gap, self.weights, rest, *wanted, hardness
-            found = solve_nonlinear_contact(*given).state
-            moved, _ = self.set_back(np.vstack(found.displacements), found.pressure)
+            problem = self._linear, self.gap, self.weights, rest, *wanted, hardness
+            state = solve_nonlinear_contact(*problem).state
+            moved, _ = self.set_back(np.vstack(state.displacements), state.pressure)
             moved = np.where(self.response.held, part * self.linear, moved)
-            return replace(found, displacements=(moved,), load=0.0)
+            return replace(state, displacements=(moved,), load=0.0)
 
         return begun
 
@@ -248,8 +262,8 @@ class FiniteContact:
         """The linear bodies in contact on their undeformed surfaces."""
         pairs = zip(self.elastic, (self.friction, -self.friction), strict=False)
         return [
-            (LinearResponse(each), LinearContact(FiniteElementCompliance(each, self.hats), drag))
-            for each, drag in pairs
+            (LinearResponse(body), LinearContact(FiniteElementCompliance(body, self.hats), drag))
+            for body, drag in pairs
         ]
 
     def deformed(self, solution: NonlinearSolution) -> "FiniteDeformation":
@@ -340,7 +354,7 @@ class FiniteCompliance:
 
     def _corrected(self, force: np.ndarray) -> np.ndarray:
         pieces = np.split(
-            force, np.cumsum([len(each.nodes) for each in self._contact.elastic])[:-1]
+            force, np.cumsum([len(body.nodes) for body in self._contact.elastic])[:-1]
         )
         bodies = zip(self._contact.elastic, pieces, strict=True)
         return np.vstack([body.solve(piece) for body, piece in bodies])

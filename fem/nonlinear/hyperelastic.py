@@ -139,8 +139,8 @@ class CauchyRecovery(Recovery):
         node = nodes.at_surface(top)
         self._place = np.full(len(nodes.point), -1)  # of the nodes on the surface, along it
         self._place[node] = np.arange(len(top))
-        own = Recovery(body, displacement).at(node) + self._second_order[node]
-        known = self._on_surface(np.arange(len(top)), own) - self._second_order[node]
+        surface_stress = Recovery(body, displacement).at(node) + self._second_order[node]
+        known = self._on_surface(np.arange(len(top)), surface_stress) - self._second_order[node]
         tractions = (load.pressure, load.friction, load.direction)
         super().__init__(body, displacement, _MatchedLoad(body, load.hats, *tractions, known))
 

@@ -41,7 +41,7 @@ def energy(law: Law, gradient: "Expr", mu: "Expr", lame: "Expr", unit: float) ->
     if law.name in ("st-venant-kirchhoff", "murnaghan"):
         strain = 0.5 * (gradient + gradient.T + gradient.T * gradient)
         first, second = ufl.tr(strain), ufl.det(strain)
-        ell, m, _ = (each / unit for each in law.murnaghan or (0.0, 0.0, 0.0))
+        ell, m, _ = (constant / unit for constant in law.murnaghan or (0.0, 0.0, 0.0))
         quadratic = (0.5 * lame + mu) * first**2 - 2.0 * mu * second
         return quadratic + (ell + 2.0 * m) / 3.0 * first**3 - 2.0 * m * first * second
     log = ufl.ln(volume)

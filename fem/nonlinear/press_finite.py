@@ -16,16 +16,15 @@ import numpy as np
 
 from fem.contact.deformed_roller import TwoBodies
 from fem.contact.nonlinear import ContactState, NonlinearSolution
-from fem.nonlinear.finite_deformation import FiniteContact, FiniteDeformation
+from fem.nonlinear.finite_deformation import MOST_SETTINGS, FiniteContact, FiniteDeformation
 from fem.nonlinear.finite_plasticity import FinitePlasticBody
 from fem.nonlinear.newton import RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticState
 from fem.nonlinear.press_plastic import TRAVEL, LoadHistory, PlasticContact, unloaded
 from fem.solver.mumps import FemError
 
-# Mean slip of the surfaces that is left, of a hat: under a load, and on the way there.
-ASIDE, ASIDE_ON_THE_WAY = 1e-3, 0.05
-MOST_SETTINGS = 6
+# On the way to a load surfaces may slip and friction bear so many times more than under it.
+LOOSER = 50.0
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ def press_plastically_finitely(
     contact  body and roller, undeformed, with the linear pressure under the first load; the body's
              material is the metal's elastic one, whose law is not asked for: it is Hencky's
     metal    of the body; the roller, where it is elastic, stays so
-    loads    P [N/m] of the pressures, without what friction bears, the first positive; 0 removes
+    loads    P [N/m] vertical force of pressures and their friction, the first positive; 0 removes
              the roller
     travel   hats that an edge of the contact may travel in one increment
 
@@ -79,7 +78,7 @@ class _FiniteHistory(LoadHistory):
             response = TwoBodies(self.body, contact.response.parts[1], moduli)
         self._response, self._bodies = response, [(response, contact.contact)]
         self._beyond = np.zeros_like(contact.linear)  # displacements that are not linear
-        self.state = _Start((np.zeros_like(contact.linear),), start, approach=0.0)
+        self.state = _Start((contact.linear,), start, approach=0.0)
 
     def contact(self, load: float, iterations: int) -> FinitePlasticContact:
         common = dict(vars(super().contact(load, iterations)))
@@ -93,10 +92,10 @@ class _FiniteHistory(LoadHistory):
     def release(self) -> None:
         """Without the roller: from the last touch, unloaded elastically."""
         both, state = self.state.displacements[0], self.state
-        own, other = np.split(both, [len(self.body.held)])
+        displacement, other = np.split(both, [len(self.body.held)])
         linear = self._contact.compliance.displacement(state.pressure, self._friction)
         scale = np.abs(self._contact.contact.loaded(both, state.pressure)[1]).max()
-        free = unloaded(self.body, own - linear, scale)
+        free = unloaded(self.body, displacement - linear, scale)
         self.state = replace(state, displacements=(np.vstack([free, other]),))
 
     def _to_elastic(self, load: float) -> bool:
@@ -105,7 +104,7 @@ class _FiniteHistory(LoadHistory):
         if start is None or self._flows(start):
             return False
         try:
-            end, _ = self._settled(load, start, RESIDUAL, ASIDE)
+            end, _ = self._settled(load, start)
         except FemError:
             return False
         if self._flows(end):
@@ -114,63 +113,63 @@ class _FiniteHistory(LoadHistory):
         return True
 
     def _flows(self, state: ContactState) -> bool:
-        own = state.displacements[0][: len(self.body.held)]
-        return bool(self.body.step(own).yields.any())
+        displacement = state.displacements[0][: len(self.body.held)]
+        return bool(self.body.step(displacement).yields.any())
 
     def _to_plastic(self, load: float, start: ContactState, residual: float) -> int:
-        aside = ASIDE if residual == RESIDUAL else ASIDE_ON_THE_WAY
-        end, contacts = self._settled(load, start, residual, aside)
+        looser = 1.0 if residual == RESIDUAL else LOOSER
+        end, contacts = self._settled(load, start, residual, looser)
         self._accept(end)
         return contacts
 
     def _settled(
-        self, load: float, start: "_Start", residual: float, aside: float
+        self, load: float, start: "_Start", residual: float = RESIDUAL, looser: float = 1.0
     ) -> tuple["_Start", int]:
-        """The contact under a load [N/m], where no surface slips aside in the mean by more than a
-        part of a hat, and the linear contacts to get there."""
-        contacts = 0
+        """The contact under a load [N/m], `FiniteContact.settled`, and the linear contacts to get
+        there."""
+        contacts, asked = 0, self._contact.pressing(load, *start.displacements, start.pressure)
         for _ in range(MOST_SETTINGS):
             end, residuals = newton_by_contacts(
-                *(self._bodies, np.zeros_like(self._gap), self._weights, start, load),
+                *(self._bodies, np.zeros_like(self._gap), self._weights, start, asked),
                 residual=residual,
             )
             contacts += len(residuals)
-            end = _Start(end.displacements, end.pressure, end.approach, end.load, start.aside)
-            start, off = self._set_back(end)
-            if off <= aside * self._weights.mean():
+            end = _Start(end.displacements, end.pressure, end.approach, load, start.aside)
+            moved, asked, is_settled = self._contact.settled(end, load, asked, looser)
+            if is_settled:
                 break
+            start = self._set_back(end, moved)
         return end, contacts
 
-    def _set_back(self, state: "_Start") -> tuple["_Start", float]:
-        """The state with each body moved back along x, and by how much at most [m]."""
-        [moved] = state.displacements
-        back, off = self._contact.set_back(moved, state.pressure)
-        return replace(state, displacements=(back,), aside=state.aside + back - moved), off
+    def _set_back(self, state: "_Start", to: np.ndarray) -> "_Start":
+        """The state with its bodies moved back along x, to displacements (n, 2) [m]."""
+        return replace(state, displacements=(to,), aside=state.aside + to - state.displacements[0])
 
     def _linear(self, pressure: np.ndarray, plastic: PlasticState) -> np.ndarray:
         """Displacement (n, 2) [m] of all nodes at small strains, held ones included."""
-        own = self._contact.compliance.displacement(pressure, self._friction)
-        own = own + self.body.body.solve(self.body.plastic_force(plastic))
+        displacement = self._contact.compliance.displacement(pressure, self._friction)
+        displacement = displacement + self.body.body.solve(self.body.plastic_force(plastic))
         if self._opposite is None:
-            return own
-        return np.vstack([own, self._opposite.displacement(pressure, -self._friction)])
+            return displacement
+        return np.vstack([displacement, self._opposite.displacement(pressure, -self._friction)])
 
     def _frozen(self, load: float, plastic: PlasticState) -> "_Start | None":
-        linear = super()._frozen(load, plastic)
+        there = self.state.displacements[0], self.state.pressure
+        linear = super()._frozen(self._contact.pressing(load, *there), plastic)
         if linear is None:
             return None
         moved = self._linear(linear.pressure, plastic)
         moved = moved + np.where(self._response.held, 0.0, self._beyond)
-        start, _ = self._set_back(replace(self.state, displacements=(moved,), aside=0.0))
-        return replace(start, pressure=linear.pressure, approach=linear.approach, load=load)
+        back, _ = self._contact.set_back(moved, linear.pressure)
+        return self._set_back(_Start((moved,), linear.pressure, linear.approach, load), back)
 
-    def _accept(self, found: "_Start") -> None:
+    def _accept(self, state: "_Start") -> None:
         self._former = self.state.load, self.body.state
-        self._response.accept(found.displacements[0])
-        self.state = found
-        linear = self._linear(found.pressure, self.body.state)
-        self._beyond = found.displacements[0] - found.aside - linear
-        gap, _ = self._contact.contact.loaded(found.displacements[0], found.pressure)
-        self._gap = gap - self._elastic.flexible @ found.pressure
+        self._response.accept(state.displacements[0])
+        self.state = state
+        linear = self._linear(state.pressure, self.body.state)
+        self._beyond = state.displacements[0] - state.aside - linear
+        gap, _ = self._contact.contact.loaded(state.displacements[0], state.pressure)
+        self._gap = gap - self._elastic.flexible @ state.pressure
         flowed = self.body.body.solve(self.body.plastic_force(self.body.state))
         self._gap -= self._contact.compliance.weighted(flowed)

@@ -126,15 +126,15 @@ class LoadHistory:
         self._compliance, self._gap, self._weights = compliance, gap, weights
         self._friction, self._travel = friction, travel
         self.body = self.kind(compliance.body, metal)
-        own = both = Condensed(partial(compliance.columns, friction=friction), len(weights))
+        alone = both = Condensed(partial(compliance.columns, friction=friction), len(weights))
         self._flexible = None
         if roller is not None:
             # its z points away from the body; on it the traction acts towards -x
-            self._flexible = own
+            self._flexible = alone
             if friction or not _alike(roller, compliance):
                 columns = partial(roller.columns, friction=-friction)
                 self._flexible = Condensed(columns, len(weights))
-            both = Condensed(lambda hats: own.of(hats) + self._flexible.of(hats), len(weights))
+            both = Condensed(lambda hats: alone.of(hats) + self._flexible.of(hats), len(weights))
         self._elastic = ElasticContact(both, weights)
         self._bodies = [(self.body, LinearContact(compliance, friction))]
         self.state = ContactState((np.zeros(self.body.held.shape),), guess, approach=0.0)
@@ -254,10 +254,10 @@ class LoadHistory:
         moved = self.body.body.solve(compliance.load(pressure, self._friction) + flowed)
         return ContactState((moved,), pressure, approach, load)
 
-    def _accept(self, found: ContactState) -> None:
+    def _accept(self, state: ContactState) -> None:
         self._former = self.state.load, self.body.state
-        self.body.accept(found.displacements[0])
-        self.state = found
+        self.body.accept(state.displacements[0])
+        self.state = state
 
 
 def edge_travel(before: np.ndarray, after: np.ndarray) -> float:

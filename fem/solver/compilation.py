@@ -128,16 +128,16 @@ def c_function(source: Path, name: str) -> Callable[..., None]:
         spec.loader.exec_module(loaded)
     function, buffer = getattr(loaded.lib, name), loaded.ffi.from_buffer
 
-    def call(*given: float | np.ndarray) -> None:
+    def call(*values: float | np.ndarray) -> None:
         kinds = {"i": ("long[]", np.int_), "f": ("double[]", float)}
         function(
             *(
                 buffer(
-                    kinds[each.dtype.kind][0], np.ascontiguousarray(each, kinds[each.dtype.kind][1])
+                    kinds[item.dtype.kind][0], np.ascontiguousarray(item, kinds[item.dtype.kind][1])
                 )
-                if isinstance(each, np.ndarray)
-                else each
-                for each in given
+                if isinstance(item, np.ndarray)
+                else item
+                for item in values
             )
         )
 

@@ -47,9 +47,9 @@ def release_with(owner: object, *objects: "Object") -> None:
     """Free PETSc's objects when Python frees their owner. From 3.18 on PETSc keeps them until all
     processes of the communicator destroy them in the same order. Several processes do not free
     owners in the same order: there nothing is freed."""
-    for each in objects:
-        if each.comm.size == 1:
-            weakref.finalize(owner, each.destroy).atexit = False
+    for item in objects:
+        if item.comm.size == 1:
+            weakref.finalize(owner, item.destroy).atexit = False
 
 
 class SymmetricFactor:

@@ -104,16 +104,16 @@ class Kinks:
         near, single = np.flatnonzero(weights.count[patch]), (*self.jump.shape[1:], columns)
         total, count = np.zeros((*point.shape, *single)), len(near) * point.shape[1]
         if count:
-            found = np.zeros((len(near), *total.shape[1:]))
+            sums = np.zeros((len(near), *total.shape[1:]))
             sizes = len(near), point.shape[1], len(place), self.jump[0].size, columns, nu
             of_rows = patch[near], point[near], place, weights.first, weights.start, weights.value
             begin, order = np.zeros(len(place) + 1, dtype=np.int64), np.empty(count, dtype=np.int64)
-            room = begin, order, np.empty((len(self.place), *single)), found
-            own = (
-                each.astype(complex).view(float) for each in (self.place, self.tangent, self.jump)
+            room = begin, order, np.empty((len(self.place), *single)), sums
+            kinks = (
+                array.astype(complex).view(float) for array in (self.place, self.tangent, self.jump)
             )
-            c_function(SOURCE, "add_up")(*sizes, *of_rows, *own, *room)
-            total[near] = found
+            c_function(SOURCE, "add_up")(*sizes, *of_rows, *kinks, *room)
+            total[near] = sums
         return total
 
 

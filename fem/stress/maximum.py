@@ -73,8 +73,8 @@ def maximum(
     same stresses. Raises ValueError if no sample lies in the window."""
     rough = quantity(MaterialStress(*nodal.estimate().T, nodal.poissons_ratio))
     samples = samples or Samples(body, nodal)
-    (found,) = _between_nodes(body, nodal, quantity, rough, [window], samples)
-    return found
+    (highest,) = _between_nodes(body, nodal, quantity, rough, [window], samples)
+    return highest
 
 
 def maxima(
@@ -106,18 +106,18 @@ def maxima(
     few = order[np.arange(len(order)) - first[cell[order]] < FEW]
     node, cell = inside[few], cell[few]
     value = quantity(MaterialStress(*nodal.at(node).T, nu[node]))
-    found = np.full((3, len(ends) - 1), np.nan)
-    found[0], least = 0.0, NEAR * value.max(initial=0.0)
+    largest = np.full((3, len(ends) - 1), np.nan)
+    largest[0], least = 0.0, NEAR * value.max(initial=0.0)
     for k in np.unique(cell):
         mine = np.flatnonzero(cell == k)
         highest = mine[np.argmax(value[mine])]
-        found[:, k] = value[highest], *points[node[highest]]
-    near = np.flatnonzero((found[0] >= least) & (found[0] > 0.0)) if least > 0.0 else []
+        largest[:, k] = value[highest], *points[node[highest]]
+    near = np.flatnonzero((largest[0] >= least) & (largest[0] > 0.0)) if least > 0.0 else []
     windows = [(ends[k], ends[k + 1], z1) for k in near]
-    given = body, nodal, quantity, rough, windows, samples or Samples(body, nodal)
-    for k, best in zip(near, _between_nodes(*given), strict=True):
-        found[:, k] = best.value, best.x, best.z
-    return found
+    search = body, nodal, quantity, rough, windows, samples or Samples(body, nodal)
+    for k, best in zip(near, _between_nodes(*search), strict=True):
+        largest[:, k] = best.value, best.x, best.z
+    return largest
 
 
 def highest_node(
@@ -154,7 +154,7 @@ def _between_nodes(
         stress = np.moveaxis(samples.of(held, count), -1, 0)
         nu = np.broadcast_to(body.poissons_ratio[held, None], stress.shape[1:])
         value = quantity(MaterialStress(*stress, nu))
-        ends = np.cumsum([len(each) for each in elements])[:-1]
+        ends = np.cumsum([len(part) for part in elements])[:-1]
         return [
             (np.where(_inside(place[mine], window), value[mine], -np.inf), place[mine])
             for mine, window in zip(np.split(which, ends), windows, strict=True)
@@ -187,15 +187,15 @@ def _promising(
     least = min(top - DOUBT * abs(top) if top > -np.inf else -np.inf for top in tops)
     some = np.flatnonzero((rough >= least)[triangles].any(axis=1))
     node = triangles[some]
-    value, place, found = rough[node], points[node], []
+    value, place, elements = rough[node], points[node], []
     for top, window in zip(tops, windows, strict=True):
         if top == -np.inf:
-            found.append(np.arange(len(triangles)))
+            elements.append(np.arange(len(triangles)))
             continue
         highest = np.where(_inside(place, window), value, -np.inf).max(axis=1)
         order = np.argsort(-highest, kind="stable")[:MANY]
-        found.append(some[order[highest[order] >= top - DOUBT * abs(top)]])
-    return found
+        elements.append(some[order[highest[order] >= top - DOUBT * abs(top)]])
+    return elements
 
 
 def _top(
@@ -216,7 +216,7 @@ def _top(
         raise ValueError(f"no part of the body lies in the window {window}")
     high = fine >= top - ALIKE * abs(top)
     element, point = np.argwhere(high)[0]
-    found = Extremum(float(fine[element, point]), *map(float, place[element, point]))
+    top_sample = Extremum(float(fine[element, point]), *map(float, place[element, point]))
 
     away = np.linalg.norm(place[high] - place[element, point], axis=-1)
     size = np.ptp(place[element], axis=0).max()
@@ -227,10 +227,10 @@ def _top(
         patch = np.unique(nodal.nodes.triangles[around])
         if surface[patch].any():
             continue
-        smooth = _smooth_maximum(points[patch], nodal.at(patch), degree, nu, quantity, found)
+        smooth = _smooth_maximum(points[patch], nodal.at(patch), degree, nu, quantity, top_sample)
         if smooth and _inside(np.array([smooth.x, smooth.z]), window):
             return smooth
-    return found
+    return top_sample
 
 
 def _lattice(count: int) -> np.ndarray:

@@ -85,9 +85,9 @@ class StressNodes:
 
     def of_triangles(self, value: np.ndarray) -> np.ndarray:
         """(k,) of values (m,) of the triangles, which those around a node share."""
-        found = np.empty(len(self.point))
-        found[self.triangles] = value[:, None]
-        return found
+        values = np.empty(len(self.point))
+        values[self.triangles] = value[:, None]
+        return values
 
     def around(self, inner: np.ndarray) -> np.ndarray:
         """Triangles that touch some inner ones, these included."""
@@ -338,13 +338,13 @@ class _NearKinks:
         moved = displacement[node] - self._displacement(patch, node)
         stretch = np.einsum("qk,sk...->sq...", edge_slopes(at, body.degree), moved)
         number = np.arange(place[..., 0].size).reshape(place.shape[:2])
-        own = self.kinks.stress(self.weights, patch, place.reshape(-1, 2), number)
+        stress = self.kinks.stress(self.weights, patch, place.reshape(-1, 2), number)
 
         x = place[..., 0].ravel()
-        single = *number.shape, *(1,) * (own.ndim - 3), 2
+        single = *number.shape, *(1,) * (stress.ndim - 3), 2
         t, longer = load.tangent(x).reshape(single), longer.reshape(single)
-        s_nn, s_nt = (s.reshape(own.shape[:-1]) for s in load.across(x))
-        _, kinks_nn, kinks_nt = to_surface(t, own)
+        s_nn, s_nt = (s.reshape(stress.shape[:-1]) for s in load.across(x))
+        _, kinks_nn, kinks_nt = to_surface(t, stress)
         s_nn, s_nt = s_nn - kinks_nn, s_nt - kinks_nt
         material = body.surface_material
         nu = material.poissons_ratio

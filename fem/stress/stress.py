@@ -37,9 +37,9 @@ class FurtherStress:
         flat = place.reshape(-1, 2)
         x = flat[:, 0]
         t, depth = tangent_on(self.surface, x), np.maximum(flat[:, 1] - self.surface(x), 0.0)
-        own = (each(x, depth) for each in self.of)
-        found = [from_surface(t, each.sx, each.sz, -each.txz) for each in own]
-        return np.stack(found, axis=1).reshape(*place.shape[:-1], len(self.of), 3)
+        states = (stress(x, depth) for stress in self.of)
+        turned = [from_surface(t, state.sx, state.sz, -state.txz) for state in states]
+        return np.stack(turned, axis=1).reshape(*place.shape[:-1], len(self.of), 3)
 
 
 @dataclass(frozen=True)
@@ -172,13 +172,13 @@ def evaluate_all(
     x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
     element, at = body.locator(np.column_stack([x.ravel(), z.ravel()]))
     inside, fields, known = element >= 0, [], {}
-    for each in nodal:
-        every, column = each.together or (each, ...)
+    for recovered in nodal:
+        every, column = recovered.together or (recovered, ...)
         if id(every) not in known:
             known[id(every)] = within(body, every, element[inside], at[inside, None])[:, 0]
-        found = np.full((3, x.size), np.nan)
-        found[:, inside] = known[id(every)][:, column].T
-        fields.append(StressState(*found.reshape(3, *x.shape)))
+        values = np.full((3, x.size), np.nan)
+        values[:, inside] = known[id(every)][:, column].T
+        fields.append(StressState(*values.reshape(3, *x.shape)))
     return fields
 
 
@@ -205,8 +205,8 @@ def within(body: MeshedBody, nodal: NodalStress, element: np.ndarray, at: np.nda
         value -= nodal.further.at(body.points[triangles]).reshape(value.shape)
     place = np.einsum("rac,rqa->rqc", body.points[triangles[which]], share, optimize=True)
     number = np.arange(place.shape[0] * place.shape[1]).reshape(place.shape[:2])
-    found = (share @ value.reshape(len(held), 6, -1)[which]).reshape(*number.shape, *shape)
-    found += nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
+    values = (share @ value.reshape(len(held), 6, -1)[which]).reshape(*number.shape, *shape)
+    values += nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
     if nodal.further is not None:
-        found += nodal.further.at(place).reshape(found.shape)
-    return found
+        values += nodal.further.at(place).reshape(values.shape)
+    return values

@@ -119,7 +119,7 @@ def from_surface(t: np.ndarray, s_tt: np.ndarray, s_nn: np.ndarray, s_nt: np.nda
 
     def component(i: int, j: int) -> np.ndarray:
         mixed = t[..., i] * n[..., j] + n[..., i] * t[..., j]
-        own = s_tt * t[..., i] * t[..., j] + s_nn * n[..., i] * n[..., j]
-        return own + s_nt * mixed
+        direct = s_tt * t[..., i] * t[..., j] + s_nn * n[..., i] * n[..., j]
+        return direct + s_nt * mixed
 
     return np.stack([component(0, 0), component(1, 1), component(0, 1)], axis=-1)

@@ -52,7 +52,7 @@ def test_average_of_a_spline_is_exact_between_its_knots(pitch):
     knots = np.sort(rng.uniform(-20.0, 20.0, 40))
     spline = CubicSpline(knots, rng.standard_normal(40))
     grid = HatGrid.within(-15.0, 15.0, pitch)
-    found = grid.hat_integrals(spline, knots)
+    means = grid.hat_integrals(spline, knots)
     for i in (0, 1, grid.count // 2, grid.count - 1):
         node = grid.x[i]
 
@@ -61,7 +61,7 @@ def test_average_of_a_spline_is_exact_between_its_knots(pitch):
 
         breaks = np.union1d(knots[np.abs(knots - node) < pitch], [node - pitch, node, node + pitch])
         pairs = pairwise(breaks)
-        assert found[i] == pytest.approx(sum(quad(integrand, *pair)[0] for pair in pairs), abs=1e-9)
+        assert means[i] == pytest.approx(sum(quad(integrand, *pair)[0] for pair in pairs), abs=1e-9)
 
 
 def test_gap_of_a_rough_surface_is_the_parabola_less_the_heights():
@@ -78,18 +78,18 @@ def test_averages_over_unequal_hats_are_exact_for_polynomials():
         # The hat's second derivative is three deltas: integrate x^k twice.
         whole = [t ** (power + 2.0) / ((power + 1.0) * (power + 2.0)) for t in (a, b, c)]
         exact[i] = (whole[0] - whole[1]) / (b - a) + (whole[2] - whole[1]) / (c - b)
-    found = np.stack([hat_integrals(hats, lambda x, k=k: x**k) for k in power], axis=1)
-    assert found == pytest.approx(exact, rel=1e-12, abs=1e-14)
-    assert found[:, 0] == pytest.approx(0.5 * (hats[2:] - hats[:-2]), rel=1e-14)
+    means = np.stack([hat_integrals(hats, lambda x, k=k: x**k) for k in power], axis=1)
+    assert means == pytest.approx(exact, rel=1e-12, abs=1e-14)
+    assert means[:, 0] == pytest.approx(0.5 * (hats[2:] - hats[:-2]), rel=1e-14)
 
 
 def test_averages_with_a_knot_follow_a_kink():
     hats = np.array([0.0, 1.0, 3.0])
     kink = 1.6
-    found = hat_integrals(hats, lambda x: np.abs(x - kink), np.array([kink]))
+    means = hat_integrals(hats, lambda x: np.abs(x - kink), np.array([kink]))
     x = np.linspace(0.0, 3.0, 300001)
     direct = trapezoid(np.interp(x, hats, [0, 1, 0]) * np.abs(x - kink), x)
-    assert found == pytest.approx(direct, rel=1e-8)
+    assert means == pytest.approx(direct, rel=1e-8)
 
 
 def test_a_grid_of_hats_has_the_same_averages():

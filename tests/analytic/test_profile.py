@@ -20,9 +20,9 @@ def test_spline_reproduces_a_cubic_with_its_derivatives():
     height = surface(cubic_profile())
     x = np.linspace(-3.0, 6.0, 37).reshape(1, 37)
     for derivative, exact in enumerate((cubic(x), 0.75 * x**2 - 2.0 * x, 1.5 * x - 2.0)):
-        found = height(x, derivative)
-        assert found.shape == x.shape
-        np.testing.assert_allclose(found, exact, rtol=1e-12, atol=1e-12)
+        value = height(x, derivative)
+        assert value.shape == x.shape
+        np.testing.assert_allclose(value, exact, rtol=1e-12, atol=1e-12)
 
 
 def test_length_is_end_to_end_and_spacing_the_median():

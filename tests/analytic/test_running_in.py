@@ -37,9 +37,9 @@ def ran_in(profile: Profile = WAVY, positions=PLACES, constraints=CAPPED, **how)
     return run_in(profile, RADIUS, MODULUS, constraints, positions, **how)
 
 
-def pressed(profile: Profile, position: float, pitch: float, **given):
+def pressed(profile: Profile, position: float, pitch: float, **changes):
     """Elastic contact (unless capped) over the whole profile: grid from the roller's centre."""
-    pair = {"radius": RADIUS, "modulus": MODULUS, "load": LOAD, "hardness": np.inf, **given}
+    pair = {"radius": RADIUS, "modulus": MODULUS, "load": LOAD, "hardness": np.inf, **changes}
     placed = profile.shifted(position)
     grid = HatGrid.within(placed.x[0], placed.x[-1], pitch)
     solution = solve_contact(
@@ -65,7 +65,7 @@ class TestCylinder:
         counts, errors = np.array([20, 40, 80, 160]), []
         for count in counts:
             profile = smooth(length=4.0 * exact.contact, samples=4 * count + 1)
-            found = [
+            settled = [
                 ran_in(
                     profile,
                     [place * profile.spacing],
@@ -73,10 +73,10 @@ class TestCylinder:
                 )
                 for place in np.arange(0.03, 1.0, 0.12)
             ]
-            assert all(one.status == "settled" for one in found)
+            assert all(one.status == "settled" for one in settled)
             ratios = [
                 [one.volume / flowed_volume(exact), one.largest_lowering / largest_overlap(exact)]
-                for one in found
+                for one in settled
             ]
             errors.append(np.sqrt(np.mean(np.square(np.array(ratios) - 1.0), axis=0)))
         orders = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
@@ -88,8 +88,8 @@ class TestCylinder:
         counts, errors = np.array([40, 80, 160, 320]), []
         for count in counts:
             profile = smooth(length=4.0 * exact.contact, samples=4 * count + 1)
-            found = ran_in(profile, [0.0], Constraints(load=LOAD, hardness=exact.hardness))
-            grid, solution = pressed(found.profile, 0.0, profile.spacing / 1.7)
+            settled = ran_in(profile, [0.0], Constraints(load=LOAD, hardness=exact.hardness))
+            grid, solution = pressed(settled.profile, 0.0, profile.spacing / 1.7)
             wanted = exact.pressure(grid.x)
             errors.append(np.linalg.norm(solution.pressure - wanted) / np.linalg.norm(wanted))
         order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
@@ -98,10 +98,10 @@ class TestCylinder:
 
     def test_below_the_hardness_nothing_moves(self):
         profile = smooth(length=6.0 * A, samples=301)
-        found = ran_in(profile, [-A, A], Constraints(load=LOAD, hardness=1.01 * P0))
-        assert found.status == "settled" and found.sweeps == 1
-        assert found.volume == 0.0 and found.largest_lowering == 0.0
-        assert np.array_equal(found.profile.height, profile.height)
+        settled = ran_in(profile, [-A, A], Constraints(load=LOAD, hardness=1.01 * P0))
+        assert settled.status == "settled" and settled.sweeps == 1
+        assert settled.volume == 0.0 and settled.largest_lowering == 0.0
+        assert np.array_equal(settled.profile.height, profile.height)
 
 
 class TestAccount:
@@ -143,9 +143,9 @@ class TestAccount:
         assert np.all(wavy.lowering[untouched] == 0.0)
 
     def test_too_few_sweeps_are_reported(self, wavy):
-        found = ran_in(sweeps=1)
-        assert found.status == "passes spent" and found.sweeps == 1
-        assert found.passes == wavy.passes[: len(PLACES)]
+        settled = ran_in(sweeps=1)
+        assert settled.status == "passes spent" and settled.sweeps == 1
+        assert settled.passes == wavy.passes[: len(PLACES)]
 
     def test_running_in_again_moves_next_to_nothing(self, wavy):
         again = ran_in(wavy.profile, sweeps=1)
@@ -160,9 +160,9 @@ class TestAccount:
             return replace(solution, converged=len(calls) != 2)
 
         monkeypatch.setattr(analytic.running_in, "solve_contact", loose)
-        found = ran_in(sweeps=1)
-        assert not found.converged
-        assert [one.converged for one in found.passes] == [True, False, True, True]
+        worn = ran_in(sweeps=1)
+        assert not worn.converged
+        assert [one.converged for one in worn.passes] == [True, False, True, True]
 
 
 class TestRefinement:
@@ -171,10 +171,10 @@ class TestRefinement:
         place, x = PLACES[-1], np.linspace(-1.5, 1.5, 4001) * A
         volumes, profiles, peaks = [], [], []
         for halvings in range(4):
-            found = ran_in(pitch=WAVY.spacing * 2.0 ** (1 - halvings), sweeps=1)
-            volumes.append(found.volume)
-            profiles.append(found.profile.spline()(x))
-            _, solution = pressed(found.profile, place, WAVY.spacing / 8.0)
+            worn = ran_in(pitch=WAVY.spacing * 2.0 ** (1 - halvings), sweeps=1)
+            volumes.append(worn.volume)
+            profiles.append(worn.profile.spline()(x))
+            _, solution = pressed(worn.profile, place, WAVY.spacing / 8.0)
             peaks.append(solution.pressure.max() / CAPPED.hardness - 1.0)
         steps = np.abs(np.diff(volumes)) / volumes[-1]
         assert np.log2(steps[0] / steps[-1]) / 2.0 == pytest.approx(2.0, abs=0.6)
@@ -189,10 +189,10 @@ class TestRefinement:
         x = np.linspace(-2.0, 2.0, 40_001) * A
         lifts = []
         for hats in (1.0, 2.0, 4.0):
-            found = wavy if hats == 1.0 else ran_in(pitch=WAVY.spacing / hats)
-            assert np.all(found.lowering >= 0.0)
-            rise = found.profile.spline()(x) - WAVY.spline()(x)
-            lifts.append(rise.max() / found.largest_lowering)
+            worn = wavy if hats == 1.0 else ran_in(pitch=WAVY.spacing / hats)
+            assert np.all(worn.lowering >= 0.0)
+            rise = worn.profile.spline()(x) - WAVY.spline()(x)
+            lifts.append(rise.max() / worn.largest_lowering)
         assert lifts == pytest.approx([0.0035, 0.0013, 0.0004], rel=0.2)
 
     def test_curve_of_a_rough_surface_of_few_samples_a_wave_rises_by_more(self):
@@ -208,31 +208,31 @@ class TestRefinement:
         x = np.linspace(*rough.x[[0, -1]], 100_001)
         lifts = []
         for pitch in (rough.spacing, None):
-            found = ran_in(rough, pitch=pitch, sweeps=2)
-            rise = found.profile.spline()(x) - rough.spline()(x)
-            lifts.append(rise.max() / found.largest_lowering)
+            worn = ran_in(rough, pitch=pitch, sweeps=2)
+            rise = worn.profile.spline()(x) - rough.spline()(x)
+            lifts.append(rise.max() / worn.largest_lowering)
         assert lifts == pytest.approx([0.032, 0.010], rel=0.3)
 
     def test_narrower_hats_add_samples_where_the_roller_was(self):
         """Two hats a sample, which is the default."""
-        found = ran_in(pitch=None, positions=[0.0], sweeps=1)
-        assert found.pitch == pytest.approx(0.5 * WAVY.spacing, rel=1e-12)
-        kept = np.isclose(found.profile.x[:, None], WAVY.x, rtol=0.0, atol=1e-15).any(axis=0)
+        worn = ran_in(pitch=None, positions=[0.0], sweeps=1)
+        assert worn.pitch == pytest.approx(0.5 * WAVY.spacing, rel=1e-12)
+        kept = np.isclose(worn.profile.x[:, None], WAVY.x, rtol=0.0, atol=1e-15).any(axis=0)
         assert np.all(kept)
-        steps = np.diff(found.profile.x) / WAVY.spacing
-        middle = np.abs(found.profile.x[1:]) < 1.5 * A
+        steps = np.diff(worn.profile.x) / WAVY.spacing
+        middle = np.abs(worn.profile.x[1:]) < 1.5 * A
         assert steps[middle] == pytest.approx(0.5, rel=1e-6)
         assert steps[[0, -1]] == pytest.approx(1.0, rel=1e-6)
-        assert found.profile.height[found.lowering == 0.0] == pytest.approx(
-            WAVY.spline()(found.profile.x[found.lowering == 0.0]), abs=1e-20
+        assert worn.profile.height[worn.lowering == 0.0] == pytest.approx(
+            WAVY.spline()(worn.profile.x[worn.lowering == 0.0]), abs=1e-20
         )
 
     def test_hats_wider_than_the_samples_leave_no_kinks(self):
         """Straight between the middles of hats, ground would press 10 % above the hardness."""
-        found = ran_in(pitch=2.0 * WAVY.spacing)
-        _, solution = pressed(found.profile, PLACES[1], WAVY.spacing / 4.0)
+        worn = ran_in(pitch=2.0 * WAVY.spacing)
+        _, solution = pressed(worn.profile, PLACES[1], WAVY.spacing / 4.0)
         assert solution.pressure.max() < 1.04 * CAPPED.hardness
-        assert np.all(found.lowering >= 0.0)
+        assert np.all(worn.lowering >= 0.0)
 
     def test_samples_need_not_be_even(self):
         """Samples anywhere, hats from the same places: the same surface runs in the same way."""
@@ -255,7 +255,7 @@ class TestSymmetry:
     def test_units_do_not_matter(self, wavy):
         """Lengths by s, moduli and pressures by m: volume by s^2; factors of two leave rounding."""
         s, m = 2.0**-20, 2.0**13
-        found = run_in(
+        worn = run_in(
             Profile(s * WAVY.x, s * WAVY.height),
             s * RADIUS,
             m * MODULUS,
@@ -263,29 +263,29 @@ class TestSymmetry:
             s * PLACES,
             pitch=s * WAVY.spacing,
         )
-        assert found.volume / s**2 == pytest.approx(wavy.volume, rel=1e-10)
-        assert found.lowering / s == pytest.approx(wavy.lowering, abs=1e-7 * wavy.largest_lowering)
-        assert (found.status, found.sweeps) == (wavy.status, wavy.sweeps)
+        assert worn.volume / s**2 == pytest.approx(wavy.volume, rel=1e-10)
+        assert worn.lowering / s == pytest.approx(wavy.lowering, abs=1e-7 * wavy.largest_lowering)
+        assert (worn.status, worn.sweeps) == (wavy.status, wavy.sweeps)
 
     def test_mirrored_profile_runs_into_the_mirrored_one(self, wavy):
-        found = ran_in(WAVY.mirrored(), -PLACES)
-        assert found.profile.mirrored().height == pytest.approx(
+        worn = ran_in(WAVY.mirrored(), -PLACES)
+        assert worn.profile.mirrored().height == pytest.approx(
             wavy.profile.height, abs=1e-8 * wavy.largest_lowering
         )
 
     def test_place_on_the_trace_does_not_matter(self, wavy):
-        found = ran_in(WAVY.shifted(-0.02), PLACES + 0.02)
-        assert found.lowering == pytest.approx(wavy.lowering, abs=1e-6 * wavy.largest_lowering)
-        assert found.passes[0].position == pytest.approx(wavy.passes[0].position + 0.02)
+        worn = ran_in(WAVY.shifted(-0.02), PLACES + 0.02)
+        assert worn.lowering == pytest.approx(wavy.lowering, abs=1e-6 * wavy.largest_lowering)
+        assert worn.passes[0].position == pytest.approx(wavy.passes[0].position + 0.02)
 
     def test_far_ground_does_not_matter(self):
         """Each pass looks at the ground within reach alone."""
         longer = sinusoid(wavelength=0.2 * A, amplitude=0.15e-6, length=60.0 * A)
-        found, short = ran_in(longer), ran_in()
+        worn, short = ran_in(longer), ran_in()
         x = np.linspace(-2.0, 2.0, 999) * A
-        apart = found.profile.spline()(x) - short.profile.spline()(x)
+        apart = worn.profile.spline()(x) - short.profile.spline()(x)
         assert np.abs(apart).max() < 1e-6 * short.largest_lowering
-        assert found.volume == pytest.approx(short.volume, rel=1e-6)
+        assert worn.volume == pytest.approx(short.volume, rel=1e-6)
 
     def test_contact_beyond_the_ground_looked_at_is_found(self):
         """The search starts wide enough; even from one too narrow for the contact it gets there."""
@@ -297,18 +297,18 @@ class TestSymmetry:
         )
         wanted = wide.press(0.3 * A)
         narrow._span(0.97 * A)
-        found = narrow.press(0.3 * A)
+        worn = narrow.press(0.3 * A)
         assert narrow.reach > 1.5 * A
-        assert found.volume == pytest.approx(wanted.volume, rel=1e-8)
-        assert not found.at_end
+        assert worn.volume == pytest.approx(wanted.volume, rel=1e-8)
+        assert not worn.at_end
 
 
 class TestEndsOfTheTrace:
     def test_contact_at_an_end_is_reported_and_the_end_goes_down(self):
-        found = ran_in(positions=[WAVY.x[0] + 0.4 * A, 0.0], sweeps=1)
-        assert [one.at_end for one in found.passes] == [True, False]
-        assert found.lowering[1] == pytest.approx(found.lowering[0], rel=1e-12)
-        assert found.lowering[0] > 0.0
+        worn = ran_in(positions=[WAVY.x[0] + 0.4 * A, 0.0], sweeps=1)
+        assert [one.at_end for one in worn.passes] == [True, False]
+        assert worn.lowering[1] == pytest.approx(worn.lowering[0], rel=1e-12)
+        assert worn.lowering[0] > 0.0
 
     def test_a_trace_that_cannot_carry_the_load(self):
         with pytest.raises(ContactError, match="exceeds what the surface can carry"):
@@ -404,7 +404,7 @@ class TestGroundSurface:
         assert peak == pytest.approx(1.66, abs=0.02)
 
     def test_further_sweeps_settle_it(self, truncated, one_sweep):
-        found = self.run_in(truncated)
-        assert found.status == "settled" and found.converged and found.sweeps <= 6
-        assert one_sweep.volume < found.volume < 1.1 * one_sweep.volume
-        assert found.passes[:14] == one_sweep.passes
+        worn = self.run_in(truncated)
+        assert worn.status == "settled" and worn.converged and worn.sweeps <= 6
+        assert one_sweep.volume < worn.volume < 1.1 * one_sweep.volume
+        assert worn.passes[:14] == one_sweep.passes

@@ -88,16 +88,16 @@ def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
 
 def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressResult, ...]:
     hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller.radius, modulus)
-    found = []
+    results = []
     for friction in problem.scene.load.friction:
         known = hertz_extremes(hertz, friction)
         txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
         field = hertz_stress(hertz, window.x, window.z[:, None], friction)
         deepest = Extremum(2.0 * known.tau1.value, known.tau1.x, known.tau1.z)
-        found.append(
+        results.append(
             StressResult(friction, {"tau1": known.tau1, "txz": txz, "von_mises": deepest}, field)
         )
-    return tuple(found)
+    return tuple(results)
 
 
 def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -> Level:
@@ -157,11 +157,11 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     solved = Solved(problem, plan, window, runs, resolved_all)
     rows = {mu: dict.fromkeys(QUANTITIES, SAMPLING) for mu in scene.load.friction}
     with patch("comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows):
-        found = studied(STUDIES, solved, {}, Tasks())
+        findings = studied(STUDIES, solved, {}, Tasks())
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
     }
-    return Run(solved, found, record_of(problem, runs, hashes), Path("results/made"))
+    return Run(solved, findings, record_of(problem, runs, hashes), Path("results/made"))
 
 
 @pytest.fixture(scope="session")
@@ -238,15 +238,15 @@ def meshed_once(meshed: dict[bytes, tuple[np.ndarray, np.ndarray]]) -> Iterator[
 
 def running(leader: int) -> list[int]:
     """Processes that run in a session; zombies have ended."""
-    found = []
+    numbers = []
     for path in Path("/proc").glob("[0-9]*/stat"):
         try:
             fields = path.read_text().rpartition(")")[2].split()
         except OSError:
             continue
         if int(fields[3]) == leader and fields[0] != "Z":
-            found.append(int(path.parent.name))
-    return found
+            numbers.append(int(path.parent.name))
+    return numbers
 
 
 @pytest.fixture(scope="session")

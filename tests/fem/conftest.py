@@ -158,9 +158,9 @@ class Pressed:
         x, z = np.meshgrid(np.linspace(-1.5, 1.5, 61), np.linspace(0.0, 1.5, 41))
         inside = (z >= low) & (z < high)
         exact = hertz_stress(self.hertz, x[inside], z[inside], friction)
-        found = evaluate(self.body, self.stress(friction), x[inside], z[inside])
-        found, exact = (np.stack([s.sx, s.sz, s.txz]) for s in (found, exact))
-        return np.sqrt(np.sum((found - exact) ** 2) / np.sum(exact**2))
+        stress = evaluate(self.body, self.stress(friction), x[inside], z[inside])
+        stress, exact = (np.stack([s.sx, s.sz, s.txz]) for s in (stress, exact))
+        return np.sqrt(np.sum((stress - exact) ** 2) / np.sum(exact**2))
 
 
 @pytest.fixture(scope="session")

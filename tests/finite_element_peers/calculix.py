@@ -17,7 +17,7 @@ from time import perf_counter
 
 import numpy as np
 
-from tests.finite_element_peers import task as given
+from tests.finite_element_peers import task as benchmark
 from tests.harness import AbsentError, timed
 
 COMMAND = "ccx"
@@ -47,7 +47,7 @@ def check_installed() -> None:
         raise AbsentError(f"CalculiX is not installed: {get}")
 
 
-def solve(task: given.BlockTask) -> given.BlockAnswer:
+def solve(task: benchmark.BlockTask) -> benchmark.BlockAnswer:
     """Raises FailedError."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -57,8 +57,8 @@ def solve(task: given.BlockTask) -> given.BlockAnswer:
         whole = (perf_counter() - began, seconds)
         nodes, pressure = last_contact((folder / "contact.frd").read_text())
     count = len(task.mesh.points)  # further nodes are the punch's
-    peak = pressure[nodes <= count].max() * given.MATERIAL.youngs_modulus / MODULUS
-    return given.BlockAnswer(float(peak), 2 * count, whole)
+    peak = pressure[nodes <= count].max() * benchmark.MATERIAL.youngs_modulus / MODULUS
+    return benchmark.BlockAnswer(float(peak), 2 * count, whole)
 
 
 def seconds_of(command: Sequence[str], folder: Path, limit: float) -> float:
@@ -70,16 +70,16 @@ def seconds_of(command: Sequence[str], folder: Path, limit: float) -> float:
     try:
         return timed(lambda: subprocess.run(command, **options))[0]
     except subprocess.TimeoutExpired as late:
-        raise given.FailedError(f"not done after {limit:g} s") from late
+        raise benchmark.FailedError(f"not done after {limit:g} s") from late
     except subprocess.CalledProcessError as failure:
         said = (failure.stdout + failure.stderr).decode(errors="replace")
-        raise given.FailedError(" ".join(said.split())[-200:]) from failure
+        raise benchmark.FailedError(" ".join(said.split())[-200:]) from failure
 
 
-def deck(task: given.BlockTask) -> str:
+def deck(task: benchmark.BlockTask) -> str:
     """The model of one task, without its step; y points out of the body."""
     x, z = task.mesh.points.T
-    y = np.where(task.touchable(x, z), -z - given.gap(x), -z)
+    y = np.where(task.touchable(x, z), -z - benchmark.gap(x), -z)
     triangles = task.mesh.triangles[:, REVERSED]
     top = task.touchable(x, z)
     start, stop = task.ends
@@ -99,7 +99,7 @@ def deck(task: given.BlockTask) -> str:
         elements = np.flatnonzero(top[triangles[:, ends]].all(axis=1))
         lines += [f"{e + 1},S{face}" for e in elements]
     lines += ["*SURFACE,NAME=FLAT", f"{last},S1", "*MATERIAL,NAME=ELASTIC", "*ELASTIC"]
-    lines += [f"{MODULUS:g},{given.MATERIAL.poissons_ratio:.14g}"]
+    lines += [f"{MODULUS:g},{benchmark.MATERIAL.poissons_ratio:.14g}"]
     for part in ("BLOCK", "PUNCH"):
         lines += [f"*SOLID SECTION,ELSET={part},MATERIAL=ELASTIC", "1."]
     lines += ["*SURFACE INTERACTION,NAME=PENALTY"]
@@ -117,6 +117,6 @@ def last_contact(text: str) -> tuple[np.ndarray, np.ndarray]:
     _, head, rest = text.rpartition("\n -4  CONTACT")
     rows = [row for row in rest.partition("\n -3")[0].splitlines() if row.startswith(" -1")]
     if not (head and rows):
-        raise given.FailedError("ccx wrote no contact pressures")
+        raise benchmark.FailedError("ccx wrote no contact pressures")
     # fields of 12 after the node's 10: three displacements, then the pressure
     return np.array([int(row[3:13]) for row in rows]), np.array([float(row[49:61]) for row in rows])

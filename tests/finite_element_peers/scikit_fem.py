@@ -13,7 +13,7 @@ from importlib import import_module
 
 import numpy as np
 
-from tests.finite_element_peers import task as given
+from tests.finite_element_peers import task as benchmark
 from tests.harness import AbsentError
 
 MOST_STEPS = 100
@@ -27,7 +27,7 @@ def check_installed() -> None:
         raise AbsentError("scikit-fem is not installed: pip install scikit-fem") from missing
 
 
-def solve(task: given.BlockTask) -> given.BlockAnswer:
+def solve(task: benchmark.BlockTask) -> benchmark.BlockAnswer:
     """Raises FailedError if the active set does not settle."""
     from scipy.sparse.linalg import splu
     from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri
@@ -38,7 +38,7 @@ def solve(task: given.BlockTask) -> given.BlockAnswer:
     vertices = task.mesh.points[: 1 + corners.max()]
     mesh = MeshTri(np.ascontiguousarray(vertices.T), corners.T.copy())
     basis = Basis(mesh, element, intorder=2)
-    lame = lame_parameters(given.MATERIAL.youngs_modulus, given.MATERIAL.poissons_ratio)
+    lame = lame_parameters(benchmark.MATERIAL.youngs_modulus, benchmark.MATERIAL.poissons_ratio)
     stiffness = linear_elasticity(*lame).assemble(basis)
     place = basis.doflocs
     vertical = np.zeros(basis.N, dtype=bool)
@@ -48,7 +48,7 @@ def solve(task: given.BlockTask) -> given.BlockAnswer:
     facets = mesh.facets_satisfying(lambda x: task.touchable(*x))
     top = FacetBasis(mesh, element, facets=facets, intorder=2)
     share = LinearForm(lambda v, _: v[1]).assemble(top)[contact]
-    least = task.approach - given.gap(place[0, contact])
+    least = task.approach - benchmark.gap(place[0, contact])
 
     active = least > 0.0
     for _ in range(MOST_STEPS):
@@ -66,8 +66,8 @@ def solve(task: given.BlockTask) -> given.BlockAnswer:
         )
         u[inner] = factor.solve(-(rows @ u))
         force = np.where(active, stiffness[contact] @ u, 0.0)
-        touching = force + given.MATERIAL.youngs_modulus * (least - u[contact]) > 0.0
+        touching = force + benchmark.MATERIAL.youngs_modulus * (least - u[contact]) > 0.0
         if np.array_equal(touching, active):
-            return given.BlockAnswer(float((force / share).max()), basis.N)
+            return benchmark.BlockAnswer(float((force / share).max()), basis.N)
         active = touching
-    raise given.FailedError(f"the active set has not settled after {MOST_STEPS} steps")
+    raise benchmark.FailedError(f"the active set has not settled after {MOST_STEPS} steps")

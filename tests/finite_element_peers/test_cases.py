@@ -44,9 +44,9 @@ def test_a_process_prints_the_peak_of_its_solution(cylinder, tmp_path, monkeypat
     monkeypatch.setattr(whole_process, "ROUNDS", 1)
     task = cylinder.task(5, 0.4)
     file = stored(task, tmp_path / "task.npz")
-    (wall, seconds), found = process("P2", file)
+    (wall, seconds), printed = process("P2", file)
     known = cases.solved(2, 1, task)
-    assert found == [known.unknowns, pytest.approx(known.peak, rel=1e-9)]
+    assert printed == [known.unknowns, pytest.approx(known.peak, rel=1e-9)]
     assert wall > 0.0 and seconds > 0.0
 
 
@@ -66,18 +66,18 @@ def task(cylinder):
 
 def blocks(deck: str) -> dict[str, list[list[str]]]:
     """Rows by their keyword line."""
-    found: dict[str, list[list[str]]] = {}
+    cards: dict[str, list[list[str]]] = {}
     for line in deck.splitlines():
         if line.startswith("*"):
-            rows = found.setdefault(line, [])
+            rows = cards.setdefault(line, [])
         else:
             rows.append(line.split(","))
-    return found
+    return cards
 
 
 def test_calculix_block_has_the_gap_on_its_top(task):
-    found = blocks(deck(task))
-    nodes = np.array(found["*NODE"], dtype=float)
+    cards = blocks(deck(task))
+    nodes = np.array(cards["*NODE"], dtype=float)
     count = len(task.mesh.points)
     x, z = task.mesh.points.T
     top = task.touchable(x, z)
@@ -86,7 +86,7 @@ def test_calculix_block_has_the_gap_on_its_top(task):
     np.testing.assert_allclose(nodes[:count, 2], -z - lowered, rtol=1e-13, atol=1e-13)
     assert np.abs(nodes[:count, 2] + z).max() > 1e-6
     assert nodes[count:, 2].min() == 0.0  # the punch begins where the gap does
-    elements = np.array(found["*ELEMENT,TYPE=CPE6,ELSET=BLOCK"], dtype=int)[:, 1:] - 1
+    elements = np.array(cards["*ELEMENT,TYPE=CPE6,ELSET=BLOCK"], dtype=int)[:, 1:] - 1
     corner = nodes[elements[:, :3], 1:]
     side, other = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     assert (side[:, 0] * other[:, 1] - side[:, 1] * other[:, 0]).min() > 0.0
@@ -96,13 +96,13 @@ def test_calculix_block_has_the_gap_on_its_top(task):
 
 
 def test_calculix_faces_cover_the_top_and_sets_the_support(task):
-    found = blocks(deck(task))
-    elements = np.array(found["*ELEMENT,TYPE=CPE6,ELSET=BLOCK"], dtype=int)[:, 1:] - 1
-    faces = found["*SURFACE,NAME=TOP"]
+    cards = blocks(deck(task))
+    elements = np.array(cards["*ELEMENT,TYPE=CPE6,ELSET=BLOCK"], dtype=int)[:, 1:] - 1
+    faces = cards["*SURFACE,NAME=TOP"]
     ends = {"S1": (0, 1), "S2": (1, 2), "S3": (2, 0)}
     pairs = np.array([elements[int(e) - 1][list(ends[face])] for e, face in faces])
     assert np.abs(np.diff(task.mesh.points[pairs, 0])).sum() == pytest.approx(np.ptp(task.ends))
-    fixed = np.array(found["*NSET,NSET=FIXED"], dtype=int).ravel() - 1
+    fixed = np.array(cards["*NSET,NSET=FIXED"], dtype=int).ravel() - 1
     np.testing.assert_array_equal(fixed, np.flatnonzero(task.fixed(*task.mesh.points.T)))
 
 

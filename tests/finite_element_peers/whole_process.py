@@ -28,7 +28,7 @@ from time import perf_counter
 import numpy as np
 
 from meshes.block import BlockMesh, BlockSpec
-from tests.finite_element_peers import task as given
+from tests.finite_element_peers import task as benchmark
 from tests.harness import AbsentError, Demand, print_demands, print_table, run_on_one_thread, timed
 
 GROWTHS, EDGES = (0.4, 0.2, 0.1), (10, 20, 40, 80)
@@ -45,14 +45,14 @@ Times = tuple[float, float]  # wall, processor [s]
 
 def solve(code: str, file: str | Path) -> None:
     """What a process is timed at: print unknowns and peak pressure, but of MESH."""
-    found = dict(np.load(file))
-    start, stop, size, growth = found["spec"]
-    spec = BlockSpec(given.BLOCK, given.BLOCK, np.array([[start, stop]]), size, growth)
+    block = dict(np.load(file))
+    start, stop, size, growth = block["spec"]
+    spec = BlockSpec(benchmark.BLOCK, benchmark.BLOCK, np.array([[start, stop]]), size, growth)
     if code == PEER:
         from tests.finite_element_peers.scikit_fem import solve as solved
 
-        points = found["points"]
-        mesh = BlockMesh(points, found["triangles"], np.zeros_like(points), spec)
+        points = block["points"]
+        mesh = BlockMesh(points, block["triangles"], np.zeros_like(points), spec)
     else:
         from meshes.build import build_block
 
@@ -62,11 +62,11 @@ def solve(code: str, file: str | Path) -> None:
         from tests.finite_element_peers.cases import solved as solved_by_us
 
         solved = partial(solved_by_us, *CONFIGURATIONS[code])
-    answer = solved(given.BlockTask(mesh, float(found["approach"])))
+    answer = solved(benchmark.BlockTask(mesh, float(block["approach"])))
     print(json.dumps([int(answer.unknowns), answer.peak]))
 
 
-def stored(task: given.BlockTask, file: Path) -> Path:
+def stored(task: benchmark.BlockTask, file: Path) -> Path:
     """The task as a process reads it."""
     spec, mesh = task.mesh.spec, task.mesh
     known = {"spec": [*task.ends, spec.surface_size, spec.growth], "approach": task.approach}
@@ -113,7 +113,7 @@ def main() -> int:
                     try:
                         peak, unknowns, whole = calculix.solve(task)
                         runs["CalculiX"] = whole, [unknowns, peak]
-                    except given.FailedError as failure:
+                    except benchmark.FailedError as failure:
                         print(f"CalculiX, growth {growth:g}, {edges} edges: {failure}")
                 for name, ((wall, seconds), (unknowns, peak)) in runs.items():
                     error = abs(peak / case.peak - 1.0)
@@ -135,15 +135,15 @@ def verdicts(curves: Curves, peers: list[str]) -> list[Demand]:
     least: dict[str, list[float]] = {}
     for (code, _), curve in curves.items():
         owner = code.partition(",")[0]
-        times = [time_at([(error, each[k]) for error, *each in curve], ERROR) for k in (0, 1)]
+        times = [time_at([(error, both[k]) for error, *both in curve], ERROR) for k in (0, 1)]
         least[owner] = list(map(min, least.get(owner, times), times))
-    found, ours = [], least[OURS][0]
+    wanted, ours = [], least[OURS][0]
     for name in peers:
         reading, meshed = (theirs / ours for theirs in least[name])
         text = f"peak to {ERROR:g}: ours {ours:.2f} s, {name} {least[name][1]:.2f} s, "
         text += f"{meshed:.2g} times; {reading:.2g} times where it reads its mesh"
-        found.append(Demand(meshed >= 1.0, text))
-    return found
+        wanted.append(Demand(meshed >= 1.0, text))
+    return wanted
 
 
 def time_at(curve: Sequence[tuple[float, float]], target: float) -> float:

@@ -65,25 +65,25 @@ def solved(
     task: Task, levels: Sequence[float], log: Callable[[str], None] = lambda text: None
 ) -> list[ContactFigures]:
     """Figures on every mesh, coarse to fine."""
-    return [figures(*each) for each in solutions(task, levels, REACH * task.half_width, log)]
+    return [figures(*end) for end in solutions(task, levels, REACH * task.half_width, log)]
 
 
-def kept(found: list[ContactFigures], levels: Sequence[float]) -> dict:
+def kept(by_level: list[ContactFigures], levels: Sequence[float]) -> dict:
     """For `values.json`, SI units: the finest mesh's figures, and as uncertainty of each what the
     last refinement by two changed; all meshes; the largest tau1 of each asperity in contact."""
-    fine, coarse = found[-1], found[-2]
+    fine, coarse = by_level[-1], by_level[-2]
 
     def figure(name: str, unit: float) -> dict[str, float]:
         value = getattr(fine, name)
         return {"value": value * unit, "uncertainty": abs(value - getattr(coarse, name)) * unit}
 
-    values = {key: figure(*each) for key, each in QUANTITIES.items()}
+    values = {key: figure(*terms) for key, terms in QUANTITIES.items()}
     for key, name in (("peak_pressure", "peak"), ("tau1_max", "tau1"), ("txz_max_abs", "txz")):
         places = (getattr(fine, f"{name}_{axis}", 0.0) * 1e-6 for axis in ("x", "depth"))
         values[key]["x"], values[key]["depth"] = places
     meshes = [
         {"element": size * 1e-6} | {q: getattr(f, n) * unit for q, (n, unit) in QUANTITIES.items()}
-        for size, f in zip(levels, found, strict=True)
+        for size, f in zip(levels, by_level, strict=True)
     ]
     names = ("start", "end", "peak_pressure", "tau1_max", "x", "depth")
     units = np.array([1e-6, 1e-6, 1e9, 1e9, 1e-6, 1e-6])
@@ -101,8 +101,8 @@ def write_values(values: dict[str, dict]) -> None:
 
     def rounded(value):
         if isinstance(value, dict):
-            return {name: rounded(each) for name, each in value.items()}
+            return {name: rounded(item) for name, item in value.items()}
         return [rounded(v) for v in value] if isinstance(value, list) else float(f"{value:.7g}")
 
-    scenes = (f'"{name}": {json.dumps(rounded(each))}' for name, each in sorted(values.items()))
+    scenes = (f'"{name}": {json.dumps(rounded(scene))}' for name, scene in sorted(values.items()))
     VALUES.write_text("{\n" + ",\n".join(scenes) + "\n}\n")

@@ -41,27 +41,27 @@ class Held(NamedTuple):
     quantity: str
     stated: float
     uncertainty: float
-    found: float
-    own: float
+    computed: float
+    numerical: float
 
     @property
     def ratio(self) -> float:
         """Of the difference to both uncertainties: within where it is at most 1."""
-        return abs(self.stated - self.found) / math.hypot(self.uncertainty, self.own)
+        return abs(self.stated - self.computed) / math.hypot(self.uncertainty, self.numerical)
 
 
 def held(name: str, stated: Figures, independent: dict) -> list[Held]:
     """Every model error that a run has stated beside `independent` figures of `cases.kept`."""
-    found = []
+    rows = []
     for error in stated.of(study="model_error", source="half_plane"):
         if error.quantity in cases.QUANTITIES:
             value = stated.one(study="contact", source="half_plane", quantity=error.quantity).value
             known = independent[error.quantity]
             ratio = value / known["value"]
-            own = ratio * known["uncertainty"] / known["value"]
+            numerical = ratio * known["uncertainty"] / known["value"]
             of_figure = name, error.friction, error.quantity, error.value, error.numerical
-            found.append(Held(*of_figure, ratio - 1, own))
-    return found
+            rows.append(Held(*of_figure, ratio - 1, numerical))
+    return rows
 
 
 def demands(rows: list[Held]) -> list[Demand]:
@@ -85,16 +85,16 @@ def main(arguments: list[str] | None = None) -> int:
             scene = scene_of(paths[name])
             task = cases.task_of(scene, scene.load.friction[0])
             levels = cases.levels_of(task)
-            found = cases.solved(task, levels, print)
+            meshes = cases.solved(task, levels, print)
             values = cases.read_values() if cases.VALUES.exists() else {}
-            cases.write_values(values | {name: cases.kept(found, levels)})
+            cases.write_values(values | {name: cases.kept(meshes, levels)})
         return 0
     values, rows = cases.read_values(), []
     for name in options.scenes:
         rows += held(name, crosscheck.run(paths[name]).figures, values[name]["figures"])
     cells = []
     for row in rows:
-        percents = (row.stated, row.uncertainty, row.found, row.own)
+        percents = (row.stated, row.uncertainty, row.computed, row.numerical)
         numbers = (f"{100.0 * value:+.2f}" for value in percents)
         within = f"{row.ratio:.2f}", "yes" if row.ratio <= 1.0 else "NO"
         cells.append((row.scene, f"{row.friction:g}", row.quantity, *numbers, *within))

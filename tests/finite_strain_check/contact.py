@@ -86,15 +86,15 @@ class SurfacePair:
     @cached_property
     def edges(self) -> np.ndarray:
         """The rough body's surface edges that may touch, (k, 3), without holes."""
-        found = self.rough.mesh.surface
-        return found[(np.abs(self.rough.mesh.nodes[found, 0]) < self.reach).all(axis=1)]
+        edges = self.rough.mesh.surface
+        return edges[(np.abs(self.rough.mesh.nodes[edges, 0]) < self.reach).all(axis=1)]
 
     @cached_property
     def roller_edges(self) -> np.ndarray:
         """Those of the roller's surface (k, 3) that are no steeper than 60 degrees."""
-        found = self.roller.mesh.surface
-        x, z = self.roller.places[found[:, [0, 2]]].T
-        return found[np.abs(z[1] - z[0]) < np.sqrt(3.0) * (x[1] - x[0])]
+        edges = self.roller.mesh.surface
+        x, z = self.roller.places[edges[:, [0, 2]]].T
+        return edges[np.abs(z[1] - z[0]) < np.sqrt(3.0) * (x[1] - x[0])]
 
     @cached_property
     def x(self) -> np.ndarray:
@@ -140,12 +140,12 @@ class SurfacePair:
         edge = np.repeat((breaks + 0.5 * width).astype(int), len(GAUSS))
         t = (breaks[:, None] + width[:, None] * GAUSS).ravel() - edge
         weight = (width[:, None] * WEIGHTS).ravel() * np.diff(self.x)[edge]
-        shape, own = line_shapes(t)[0], self.edges[edge]
-        x, z = np.einsum("pa,pai->ip", shape, now[own])
+        shape, ends = line_shapes(t)[0], self.edges[edge]
+        x, z = np.einsum("pa,pai->ip", shape, now[ends])
         rows = {name: np.zeros((len(x), 12)) for name in "DFXZ"}
         rows["D"][:, 0:6:2], rows["F"][:, 1:6:2] = shape, shape
         numbers = np.full((len(x), 12), -1)
-        numbers[:, :6] = self.rough.numbers[own].reshape(-1, 6)
+        numbers[:, :6] = self.rough.numbers[ends].reshape(-1, 6)
         slope, bend, along = 0.0 * x, 0.0 * x, np.ones_like(x)
         if deformable:
             met = _met(above[edges, 0], x)
@@ -166,9 +166,9 @@ class SurfacePair:
         else:
             height, slope, bend = self.roller(x - state.shift)
         gap = height - z - state.approach + (self.gap(x) if small else 0.0)
-        found = {"gap": gap, "slope": slope, "bend": bend, "along": along, "weight": weight}
+        terms = {"gap": gap, "slope": slope, "bend": bend, "along": along, "weight": weight}
         hats = np.stack([1.0 - t, t], axis=1)
-        return found | rows | {"numbers": numbers, "hats": hats, "corner": edge[:, None] + [0, 1]}
+        return terms | rows | {"numbers": numbers, "hats": hats, "corner": edge[:, None] + [0, 1]}
 
     def assembled(self, state: State) -> tuple[np.ndarray, csr_matrix]:
         """Residual and tangent of displacements, active pressures, approach and shift. With `rows`
@@ -334,9 +334,9 @@ def _solution(matrix: csr_matrix, right: np.ndarray) -> np.ndarray:
     b = PETSc.Vec().createWithArray(right)
     x = b.duplicate()
     solver.solve(b, x)
-    found = x.array.copy()
-    for each in (factor, method, solver, a, b, x):  # all: what is left to Python is not freed
-        each.destroy()
-    if not np.isfinite(found).all():
+    step = x.array.copy()
+    for item in (factor, method, solver, a, b, x):  # all: what is left to Python is not freed
+        item.destroy()
+    if not np.isfinite(step).all():
         raise NotSettledError("the matrix is singular")
-    return found
+    return step

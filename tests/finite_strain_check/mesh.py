@@ -49,8 +49,8 @@ class Triangles:
         left_right = np.take_along_axis(
             pairs[on], np.argsort(self.corners[pairs[on], 0], axis=1), axis=1
         )
-        found = np.stack([left_right[:, 0], on + len(self.corners), left_right[:, 1]], axis=1)
-        return found[np.argsort(self.corners[found[:, 0], 0])]
+        edges = np.stack([left_right[:, 0], on + len(self.corners), left_right[:, 1]], axis=1)
+        return edges[np.argsort(self.corners[edges[:, 0], 0])]
 
 
 def strip(square: float, across: int, down: int) -> Triangles:
@@ -98,14 +98,14 @@ def refined(mesh: Triangles, size: Sizes) -> Triangles:
 
 def interpolated(coarse: Triangles, fine: Triangles, values: np.ndarray) -> np.ndarray:
     """Nodal values (n, k) of a mesh at the nodes of its refinement, exactly."""
-    found = np.empty((len(fine.nodes), values.shape[1]))
+    result = np.empty((len(fine.nodes), values.shape[1]))
     corners = coarse.corners[coarse.triangles[fine.parent]]
     origin = corners[:, :1]
     matrix = (corners[:, 1:] - origin).transpose(0, 2, 1)
     local = np.linalg.solve(matrix, (fine.nodes[fine.elements] - origin).transpose(0, 2, 1))
     shape = quadratic(local[:, 0], local[:, 1])
-    found[fine.elements] = np.einsum("ena,eak->enk", shape, values[coarse.elements[fine.parent]])
-    return found
+    result[fine.elements] = np.einsum("ena,eak->enk", shape, values[coarse.elements[fine.parent]])
+    return result
 
 
 def quadratic(r: np.ndarray, t: np.ndarray) -> np.ndarray:

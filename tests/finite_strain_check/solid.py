@@ -52,7 +52,7 @@ class Solid:
     def lame(self) -> np.ndarray:
         """lambda and mu (2, m) of each element."""
         count = len(self.mesh.elements)
-        e, v = (np.broadcast_to(each, count) for each in (self.modulus, self.ratio))
+        e, v = (np.broadcast_to(constant, count) for constant in (self.modulus, self.ratio))
         return np.stack([e * v / ((1 + v) * (1 - 2 * v)), e / (2 * (1 + v))])
 
     @cached_property
@@ -73,8 +73,8 @@ class Solid:
 
     def nominal(self, f: np.ndarray, part: slice = slice(None)) -> tuple[np.ndarray, np.ndarray]:
         """P (m, 3, 2, 2) and dP/dF (m, 3, 2, 2, 2, 2) of F in a part of the elements."""
-        lam, mu = (each[part, None, None, None] for each in self.lame)
-        lam4, mu4 = (each[..., None, None] for each in (lam, mu))
+        lam, mu = (constant[part, None, None, None] for constant in self.lame)
+        lam4, mu4 = (constant[..., None, None] for constant in (lam, mu))
         if self.law == "neo-hookean":
             det = f[..., 0, 0] * f[..., 1, 1] - f[..., 0, 1] * f[..., 1, 0]
             if (det <= 0.0).any():
@@ -97,7 +97,7 @@ class Solid:
             return stress, np.broadcast_to(moduli, (*f.shape, 2, 2))
         green = 0.5 * (np.einsum("...ki,...kj->...ij", f, f) - I2)
         trace = np.trace(green, axis1=-2, axis2=-1)[..., None, None]
-        ell, m = (each * mu for each in (self.law if isinstance(self.law, tuple) else (0.0, 0.0)))
+        ell, m = (part * mu for part in (self.law if isinstance(self.law, tuple) else (0.0, 0.0)))
         square = np.einsum("...ij,...ij->...", green, green)[..., None, None]
         second = lam * trace + (ell - m) * trace**2 + m * square
         lam4 = (lam + 2 * (ell - m) * trace)[..., None, None]
@@ -115,10 +115,10 @@ class Solid:
     @cached_property
     def numbers(self) -> np.ndarray:
         """(n, 2) unknown of each node and direction, -1 where held."""
-        found = np.full((len(self.places), 2), -1)
+        numbers = np.full((len(self.places), 2), -1)
         free = np.flatnonzero(~self.held)
-        found[free] = np.arange(2 * len(free)).reshape(-1, 2)
-        return found
+        numbers[free] = np.arange(2 * len(free)).reshape(-1, 2)
+        return numbers
 
     @property
     def count(self) -> int:
@@ -128,8 +128,8 @@ class Solid:
     @cached_property
     def _pattern(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Entries of element matrices that stay, their places in the matrix, and its structure."""
-        own = self.numbers[self.mesh.elements].reshape(-1, 12)
-        row, column = (a.ravel() for a in np.broadcast_arrays(own[:, :, None], own[:, None, :]))
+        n = self.numbers[self.mesh.elements].reshape(-1, 12)
+        row, column = (a.ravel() for a in np.broadcast_arrays(n[:, :, None], n[:, None, :]))
         stays = np.flatnonzero((row >= 0) & (column >= 0))
         key, at = np.unique(row[stays] * self.count + column[stays], return_inverse=True)
         row, column = np.divmod(key, self.count)
@@ -157,8 +157,9 @@ class Solid:
                     matrix[part, :, k, :, i] = block.swapaxes(1, 2)
         stays, at, start, column = self._pattern
         data = np.bincount(at, weights=matrix.ravel()[stays], minlength=len(column))
-        own = self.numbers[elements].ravel()
-        total = np.bincount(own[own >= 0], weights=force.ravel()[own >= 0], minlength=self.count)
+        numbers = self.numbers[elements].ravel()
+        free = numbers >= 0
+        total = np.bincount(numbers[free], weights=force.ravel()[free], minlength=self.count)
         return total, csr_matrix((data, column, start), shape=(self.count, self.count))
 
     def cauchy(self, u: np.ndarray) -> np.ndarray:

@@ -236,8 +236,8 @@ def meshes(task: Task, wanted: ElementSizes, coarse: Meshes | None = None) -> Me
 
 def carried(state: State, old: SurfacePair, new: SurfacePair) -> State:
     """The state at the nodes of finer meshes."""
-    each = zip(old.solids, new.solids, state.moved, strict=True)
-    moved = [interpolated(a.mesh, b.mesh, u) for a, b, u in each]
+    pairs = zip(old.solids, new.solids, state.moved, strict=True)
+    moved = [interpolated(a.mesh, b.mesh, u) for a, b, u in pairs]
     pressure = np.interp(new.x, old.x, state.pressure)
     capped = np.interp(new.x, old.x, state.capped) == 1.0
     active = (pressure > 0.0) & ~capped
@@ -249,7 +249,7 @@ def next_refinement(pair: SurfacePair, state: State, fine: float) -> ElementSize
     at, margin = pair.x[state.active | state.capped], 8.0 * fine
     starts = np.concatenate([[True], np.diff(at) > 2.0 * margin])
     first, last = at[starts], at[np.append(starts[1:], True)]
-    large = [each > STRESSED * each.max() for each in shears(pair, state)]
+    large = [shear > STRESSED * shear.max() for shear in shears(pair, state)]
     spots = pair.rough.mesh.nodes[np.logical_or(*large)]
     intervals = np.stack([first - margin, last + margin], axis=1)
     return ElementSizes(fine, intervals, spots, patch_ends(pair.x, state.pressure).ravel())

@@ -41,11 +41,11 @@ def finest(law: str) -> tuple[SurfacePair, State]:
 
 def test_small_strains_meet_hertz():
     task, (pair, state) = smooth(0.05, "linear"), finest("linear")
-    found, peak = figures(pair, state), 2.0 * task.load / (100.0 * np.pi)
-    assert found.peak == pytest.approx(peak, rel=3e-4)
-    assert found.length == pytest.approx(200.0, rel=3e-3)
-    assert found.tau1 == pytest.approx(0.30028 * peak, rel=5e-3)
-    assert found.tau1_depth == pytest.approx(78.6, rel=0.1)
+    result, peak = figures(pair, state), 2.0 * task.load / (100.0 * np.pi)
+    assert result.peak == pytest.approx(peak, rel=3e-4)
+    assert result.length == pytest.approx(200.0, rel=3e-3)
+    assert result.tau1 == pytest.approx(0.30028 * peak, rel=5e-3)
+    assert result.tau1_depth == pytest.approx(78.6, rel=0.1)
     exact = peak * np.sqrt(np.maximum(1.0 - (pair.x / 100.0) ** 2, 0.0))
     assert np.abs(state.pressure - exact)[np.abs(pair.x) < 80.0].max() < 2e-3 * peak
 
@@ -109,7 +109,7 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
     body, coating = (1.0, 0.3), (3.0, 0.2, 64.0)
     task = replace(smooth(0.2, "neo-hookean"), coating=coating)
     *_, last = solutions(task, (8.0, 4.0), 200.0)
-    found, peak = figures(*last), 2.0 * task.load / (100.0 * np.pi)
+    result, peak = figures(*last), 2.0 * task.load / (100.0 * np.pi)
     scene = problem(
         {
             "roller": {"radius": 500e-6, "rigid": True},
@@ -123,10 +123,10 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
     plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
     pitch = scene.hertz.half_width / 32.0
     level = finite_element_level(scene, plan, Refinement(pitch), window, Stages())
-    assert level.solution.pressure.max() == pytest.approx(1e9 * found.peak, rel=1e-3)
-    assert level.contact_length == pytest.approx(1e-6 * found.deformed_length, rel=5e-3)
+    assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=1e-3)
+    assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=5e-3)
     [stress] = level.stresses
-    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * found.txz, rel=4e-3)
+    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=4e-3)
 
 
 @pytest.mark.parametrize(
@@ -155,17 +155,17 @@ def test_measured_constants_are_those_of_the_projects_own_elements(name, surface
     height = 0.05 * np.cos(2.0 * np.pi * x / 40.0) if surface == "waves" else 0.0 * x
     constants = solid.material.youngs_modulus / 1e9, solid.material.poissons_ratio
     task = Task(x, height, constants, None, radius, load, 0.0, law)
-    found = cases.solved(task, (2.0, 1.0))[-1]
+    result = cases.solved(task, (2.0, 1.0))[-1]
     plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
     pitch = scene.hertz.half_width / 48.0
     level = finite_element_level(scene, plan, Refinement(pitch), window, Stages())
     peak = level.solution.pressure.max()
-    assert peak == pytest.approx(1e9 * found.peak, rel=2e-3)
+    assert peak == pytest.approx(1e9 * result.peak, rel=2e-3)
     assert level.contact_length == pytest.approx(
-        1e-6 * found.deformed_length, rel=1.5e-2
+        1e-6 * result.deformed_length, rel=1.5e-2
     )  # an element at each end
     [stress] = level.stresses
-    assert stress.extremes["tau1"].value == pytest.approx(1e9 * found.tau1, rel=6e-3)
+    assert stress.extremes["tau1"].value == pytest.approx(1e9 * result.tau1, rel=6e-3)
 
 
 def test_model_errors_under_friction_are_within_what_a_run_states():
@@ -180,12 +180,12 @@ def test_model_errors_under_friction_are_within_what_a_run_states():
     run = crosscheck.run(tables)
     x = np.linspace(-500.0, 500.0, 101)
     load = run.outcome.problem.hertz.load_per_length / 1e3
-    found = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.3), (2.0, 1.0))[-1]
+    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.3), (2.0, 1.0))[-1]
     for quantity in ("peak_pressure", "contact_length", "tau1_max"):
         name, unit = cases.QUANTITIES[quantity]
         half_plane = run.figure(quantity, "half_plane").value
         stated = run.figure(quantity, "half_plane", "model_error")
-        error = half_plane / (getattr(found, name) * unit) - 1.0
+        error = half_plane / (getattr(result, name) * unit) - 1.0
         assert stated.value == pytest.approx(error, abs=stated.total)
         assert stated.total < 0.02
 
@@ -202,15 +202,15 @@ def test_strong_friction_is_those_of_the_projects_own_elements():
     scene = problem(tables)
     load = scene.hertz.load_per_length / 1e3
     x = np.linspace(-500.0, 500.0, 101)
-    found = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.5), (2.0, 1.0))[-1]
+    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.5), (2.0, 1.0))[-1]
     plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
     refinement = Refinement(scene.hertz.half_width / 48.0)
     level = finite_element_level(scene, plan, refinement, window, Stages())
     assert level.solution.load == pytest.approx(scene.hertz.load_per_length, rel=1e-6)
-    assert level.solution.pressure.max() == pytest.approx(1e9 * found.peak, rel=3e-4)
-    assert level.contact_length == pytest.approx(1e-6 * found.deformed_length, rel=3e-3)
+    assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=3e-4)
+    assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=3e-3)
     [stress] = level.stresses
-    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * found.txz, rel=1e-3)
+    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=1e-3)
 
 
 def test_a_capped_pressure_is_that_of_the_projects_own_elements():
@@ -220,7 +220,7 @@ def test_a_capped_pressure_is_that_of_the_projects_own_elements():
     task = smooth(curvature, "neo-hookean")
     peak = 2.0 * task.load / (100.0 * np.pi)
     task = replace(task, friction=0.2, cap=share * peak)
-    found = cases.solved(task, (4.0, 2.0))[-1]
+    result = cases.solved(task, (4.0, 2.0))[-1]
     hertz = {"hertz_peak_pressure": 1e9 * peak, "friction": 0.2}
     body = {"youngs_modulus": 1e9, "poissons_ratio": 0.3, "law": "neo-hookean"}
     scene = problem(
@@ -236,10 +236,10 @@ def test_a_capped_pressure_is_that_of_the_projects_own_elements():
     refinement = Refinement(scene.hertz.half_width / 48.0)
     level = finite_element_level(scene, plan, refinement, window, Stages())
     assert level.solution.converged
-    assert level.contact_length == pytest.approx(1e-6 * found.deformed_length, rel=1e-3)
+    assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=1e-3)
     [stress] = level.stresses
-    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * found.txz, rel=1e-3)
-    assert stress.extremes["tau1"].value == pytest.approx(1e9 * found.tau1, rel=4e-3)
+    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=1e-3)
+    assert stress.extremes["tau1"].value == pytest.approx(1e9 * result.tau1, rel=4e-3)
 
 
 def test_small_strains_meet_the_half_plane_on_a_rough_body():
@@ -248,20 +248,20 @@ def test_small_strains_meet_the_half_plane_on_a_rough_body():
     run = crosscheck.run(scene, models="half-plane")
     known = {f.quantity: f.value for f in run.figures.of(study="contact")}
     task = cases.task_of(scene, 0.0, "linear")
-    found = cases.solved(task, (1.0, 0.125))[-1]
-    assert 1e9 * found.peak == pytest.approx(known["peak_pressure"], rel=2e-3)
-    assert 1e9 * found.tau1 == pytest.approx(known["tau1_max"], rel=2e-3)
-    assert 1e9 * found.txz == pytest.approx(known["txz_max_abs"], rel=2e-3)
-    assert 1e-6 * found.length == pytest.approx(known["contact_length"], rel=0.015)
-    assert len(found.patches) == len(run.outcome.runs["half_plane"].finest.patches)
+    result = cases.solved(task, (1.0, 0.125))[-1]
+    assert 1e9 * result.peak == pytest.approx(known["peak_pressure"], rel=2e-3)
+    assert 1e9 * result.tau1 == pytest.approx(known["tau1_max"], rel=2e-3)
+    assert 1e9 * result.txz == pytest.approx(known["txz_max_abs"], rel=2e-3)
+    assert 1e-6 * result.length == pytest.approx(known["contact_length"], rel=0.015)
+    assert len(result.patches) == len(run.outcome.runs["half_plane"].finest.patches)
 
 
 def test_kept_values_are_those_of_the_finest_mesh():
     values = cases.read_values()
     assert values.keys() == cases.scene_paths().keys()
-    for name, each in values.items():
-        last, before = each["meshes"][-1], each["meshes"][-2]
-        for quantity, figure in each["figures"].items():
+    for name, case in values.items():
+        last, before = case["meshes"][-1], case["meshes"][-2]
+        for quantity, figure in case["figures"].items():
             if quantity in last:
                 assert figure["value"] == last[quantity]
                 change = abs(last[quantity] - before[quantity])
@@ -269,7 +269,7 @@ def test_kept_values_are_those_of_the_finest_mesh():
                     change, rel=1e-2, abs=1e-6 * last[quantity]
                 )
         assert (
-            max(p["tau1_max"] for p in each["patches"]) == each["figures"]["tau1_max"]["value"]
+            max(p["tau1_max"] for p in case["patches"]) == case["figures"]["tau1_max"]["value"]
         ), name
 
 

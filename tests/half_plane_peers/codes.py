@@ -115,7 +115,7 @@ def contact_mechanics() -> list[LineCode]:
         substrate = body(case.count, case.pitch * case.count)
         mean = case.load / case.count
         with contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
-            found = constrained_conjugate_gradients_with_restart(
+            result = constrained_conjugate_gradients_with_restart(
                 lambda force: substrate.evaluate_disp(-force) - case.heights,
                 lambda force: substrate.evaluate_disp(-force),
                 np.full(case.count, mean),
@@ -124,7 +124,7 @@ def contact_mechanics() -> list[LineCode]:
                 gtol=tolerance * np.ptp(case.heights),
                 maxiter=most,
             )
-        return LineAnswer(found.x / case.pitch, found.nit)
+        return LineAnswer(result.x / case.pitch, result.nit)
 
     name = f"ContactMechanics {ContactMechanics.__version__}"
     return [LineCode(name, "point", solve, decades(-6, -13))]

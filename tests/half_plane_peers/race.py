@@ -68,14 +68,14 @@ def main(arguments: list[str] | None = None) -> int:
     ours, peers = crosscheck(), installed(tamaas, contact_mechanics)
     cases = {"cylinder": cylinder, "sinusoid": sinusoid}
     cases |= {f"self-affine, seed {seed}": partial(rough, seed=seed) for seed in options.seeds}
-    found, rows = [], []
+    wanted, rows = [], []
     for title, case_of in cases.items():
         for count in options.sizes:
             results = race(case_of(count), ours + peers, options.limit, options.repeats)
             rows += [(title, str(count), *_cells(result, results[0])) for result in results]
-            found += demands(f"{title}, n = {count}", count, results[0], results[len(ours) :])
+            wanted += demands(f"{title}, n = {count}", count, results[0], results[len(ours) :])
     print_table("Processor time; ratio: time over that of the first row", COLUMNS, rows)
-    return print_demands(found, peers)
+    return print_demands(wanted, peers)
 
 
 def _cells(result: LineResult, ours: LineResult) -> list[str]:
@@ -126,8 +126,8 @@ def _most_steps(code: LineCode, case: LineCase, limit: float) -> int:
     tight = code.tolerances[-1]
     code.solve(case, tight, few)
     spent = [_timed(code, case, tight, steps)[1] for steps in (few, more)]
-    each = max((spent[1] - spent[0]) / (more - few), 1e-7)
-    return max(more, int(limit / each))
+    per_step = max((spent[1] - spent[0]) / (more - few), 1e-7)
+    return max(more, int(limit / per_step))
 
 
 def _loosest(code: LineCode, case: LineCase, most: int, limit: float) -> LineResult:
@@ -137,27 +137,27 @@ def _loosest(code: LineCode, case: LineCase, most: int, limit: float) -> LineRes
         answer, seconds = _timed(code, case, tolerance, most)
         residuals = measure(case, answer.pressure, code.element)
         over = residuals.worst > TOLERANCE and seconds > 0.8 * limit
-        found = LineResult(code.name, seconds, over, tolerance, answer.steps, residuals)
-        if found.meets or seconds >= 0.999 * before > 1.0:
+        result = LineResult(code.name, seconds, over, tolerance, answer.steps, residuals)
+        if result.meets or seconds >= 0.999 * before > 1.0:
             break  # or stopped by the limit, as with all tighter ones
         before = seconds
-    return found
+    return result
 
 
 def demands(title: str, count: int, ours: LineResult, peers: list[LineResult]) -> list[Demand]:
     """Demands on `ours` beside the `peers` on one case of `count` nodes."""
-    found = [Demand(ours.meets, f"{title}: ours meets the yardstick")]
+    wishes = [Demand(ours.meets, f"{title}: ours meets the yardstick")]
     rivals = [peer for peer in peers if peer.meets or peer.over]
     misses = [peer.code for peer in peers if peer not in rivals]
-    found += [Demand(True, f"{title}: {code} never meets the yardstick") for code in misses]
+    wishes += [Demand(True, f"{title}: {code} never meets the yardstick") for code in misses]
     if rivals:
         wanted = WANTED.get(count, 1.0)
         ratio = min(peer.seconds for peer in rivals) / ours.seconds
         text = f"{title}: {ratio:.3g} times faster, wanted {wanted:g}"
-        found.append(Demand(ratio >= wanted, text))
+        wishes.append(Demand(ratio >= wanted, text))
     errors = [peer.residuals.error for peer in rivals if peer.meets]
     if errors:
         error, least = ours.residuals.error, min(errors)
         text = f"{title}: error {error:.3g}, of the best peer {least:.3g}"
-        found.append(Demand(error <= (1.0 + SAME) * least, text))
-    return found
+        wishes.append(Demand(error <= (1.0 + SAME) * least, text))
+    return wishes

@@ -27,9 +27,9 @@ def test_points_sink_under_a_wave_as_the_half_plane_does():
 def test_ours_meets_the_yardstick_and_the_reference(name):
     case = CASES[name](256)
     for code in crosscheck():
-        found = measure(case, code.solve(case, 0.0, 0).pressure, code.element)
-        assert found.worst < TOLERANCE
-        assert found.error < (0.06 if name == "rough" else 0.005)
+        measured = measure(case, code.solve(case, 0.0, 0).pressure, code.element)
+        assert measured.worst < TOLERANCE
+        assert measured.error < (0.06 if name == "rough" else 0.005)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -54,9 +54,9 @@ def test_one_node_that_overlaps_is_seen():
     node = np.argmax(open_gap)
     raised = case.gaps.copy()
     raised[node] -= open_gap[node] + 1e-6 * np.ptp(moved)
-    found = measure(replace(case, gaps=raised), pressure, "strip")
-    assert found.penetration == pytest.approx(1e-6, rel=1e-6)
-    assert found.complementarity < TOLERANCE
+    measured = measure(replace(case, gaps=raised), pressure, "strip")
+    assert measured.penetration == pytest.approx(1e-6, rel=1e-6)
+    assert measured.complementarity < TOLERANCE
 
 
 def test_hertz_solves_the_periodic_line_that_the_peers_are_given():

@@ -85,8 +85,8 @@ def test_area_is_that_of_the_sector(curved_area):
     exact = np.arcsin(1.2 / RADIUS) * (RADIUS**2 - (RADIUS - 1.0) ** 2)
     errors = []
     for size in (0.15, 0.075, 0.0375):
-        found = curved_area(bent(even_block(size), RADIUS))
-        errors.append(abs(found / exact - 1.0))
+        area = curved_area(bent(even_block(size), RADIUS))
+        errors.append(abs(area / exact - 1.0))
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(4.0, abs=0.5)
     assert errors[-1] < 1e-6
 
@@ -131,10 +131,10 @@ def test_scales_with_the_unit_of_length(flat, disc):
 
 def test_comes_back_from_its_file(disc, tmp_path):
     write_msh(disc, tmp_path / "disc.msh")
-    found = read_msh(tmp_path / "disc.msh")
-    assert np.array_equal(found.shift, disc.shift)
-    assert found.points == pytest.approx(disc.points, abs=1e-15)
-    assert real_points(found) == pytest.approx(real_points(disc), abs=1e-15)
+    mesh = read_msh(tmp_path / "disc.msh")
+    assert np.array_equal(mesh.shift, disc.shift)
+    assert mesh.points == pytest.approx(disc.points, abs=1e-15)
+    assert real_points(mesh) == pytest.approx(real_points(disc), abs=1e-15)
 
 
 def test_rounded_about_the_contact():

@@ -100,19 +100,19 @@ def on_top(mesh):
 
 @of_kinds("own vertices")
 def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
-    given, x = mesh.spec.vertices, on_top(mesh)
-    inside = x[(x >= given[0]) & (x <= given[-1])]
-    assert np.isin(given, inside).all()
+    vertices, x = mesh.spec.vertices, on_top(mesh)
+    inside = x[(x >= vertices[0]) & (x <= vertices[-1])]
+    assert np.isin(vertices, inside).all()
     if mesh.spec.window is None and mesh.spec.interface is None and mesh.spec.depth > 1.0:
-        assert np.array_equal(inside, given)
+        assert np.array_equal(inside, vertices)
     else:
-        added = np.setdiff1d(inside, given)
+        added = np.setdiff1d(inside, vertices)
         assert len(added) > 0
-        parts = (added - given[np.searchsorted(given, added) - 1]) / np.diff(given)[
-            np.searchsorted(given, added) - 1
+        parts = (added - vertices[np.searchsorted(vertices, added) - 1]) / np.diff(vertices)[
+            np.searchsorted(vertices, added) - 1
         ]
-        count = np.bincount(np.searchsorted(given, added)) + 1
-        whole = parts * count[np.searchsorted(given, added)]
+        count = np.bincount(np.searchsorted(vertices, added)) + 1
+        whole = parts * count[np.searchsorted(vertices, added)]
         assert whole == pytest.approx(np.round(whole), abs=1e-6)
 
 
@@ -153,8 +153,8 @@ def test_edges_are_cut_into_the_fewest_parts_that_fit():
     spec = SPECS["own vertices"]["graded, thin"]
     edge = np.diff(own_vertices(spec))
     assert edge.max() <= 0.075
-    given = np.diff(GRADED)
-    assert len(edge) == np.ceil(given / 0.075 - 1e-9).sum()
+    spacing = np.diff(GRADED)
+    assert len(edge) == np.ceil(spacing / 0.075 - 1e-9).sum()
 
 
 @pytest.mark.parametrize(

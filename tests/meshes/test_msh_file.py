@@ -32,31 +32,31 @@ def path(mesh, tmp_path_factory):
 def test_meshio_reads_the_real_body_without_a_warning(mesh, path, capsys):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = meshio.read(path)
+        file = meshio.read(path)
     out, err = capsys.readouterr()
     assert out.strip() == err == ""  # an empty line is what trying its other .msh format prints
-    assert np.array_equal(found.points[:, :2], real_points(mesh))
-    assert not found.points[:, 2].any()
-    assert np.array_equal(found.cells_dict["triangle6"], mesh.triangles)
-    assert {name: int(tag[1]) for name, tag in found.field_data.items()} == {
+    assert np.array_equal(file.points[:, :2], real_points(mesh))
+    assert not file.points[:, 2].any()
+    assert np.array_equal(file.cells_dict["triangle6"], mesh.triangles)
+    assert {name: int(tag[1]) for name, tag in file.field_data.items()} == {
         "top": 1, "right": 1, "bottom": 1, "left": 1, "body": 2
     }  # fmt: skip
 
 
 def test_named_sides_lie_where_they_should(mesh, path):
-    found = meshio.read(path)
-    tags = found.cell_data_dict["gmsh:physical"]["line3"]
-    lines = found.cells_dict["line3"]
+    file = meshio.read(path)
+    tags = file.cell_data_dict["gmsh:physical"]["line3"]
+    lines = file.cells_dict["line3"]
 
     def nodes(name):
-        return found.points[np.unique(lines[tags == found.field_data[name][0]])]
+        return file.points[np.unique(lines[tags == file.field_data[name][0]])]
 
     assert (nodes("left")[:, 0] == -3.0).all() and (nodes("right")[:, 0] == 3.0).all()
     assert (nodes("bottom")[:, 1] == 4.0).all()
     x, z = nodes("top")[:, :2].T
     assert z == pytest.approx(-0.02 * np.cos(7.0 * x) - 0.01, abs=1e-15)
     assert (x.min(), x.max()) == (-3.0, 3.0)
-    assert (found.cell_data_dict["gmsh:physical"]["triangle6"] == found.field_data["body"][0]).all()
+    assert (file.cell_data_dict["gmsh:physical"]["triangle6"] == file.field_data["body"][0]).all()
 
 
 def test_sides_are_chains_from_corner_to_corner(mesh):
@@ -89,26 +89,26 @@ print(json.dumps({{
 }}))
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    found = json.loads(done.stdout.splitlines()[-1])
-    assert not [line for line in found["log"] if not line.startswith("Info")]
-    assert found["names"] == ["body", "bottom", "left", "right", "top"]
-    assert found["triangles"] == len(mesh.triangles)
-    assert found["least"] > 0.0
+    answer = json.loads(done.stdout.splitlines()[-1])
+    assert not [line for line in answer["log"] if not line.startswith("Info")]
+    assert answer["names"] == ["body", "bottom", "left", "right", "top"]
+    assert answer["triangles"] == len(mesh.triangles)
+    assert answer["least"] > 0.0
 
 
 def test_round_trip(mesh, path):
-    found = read_msh(path)
-    assert np.array_equal(found.triangles, mesh.triangles)
-    assert np.array_equal(found.shift, mesh.shift)
-    assert found.points == pytest.approx(mesh.points, abs=1e-15)
-    assert np.array_equal(found.points[:, 1] == 0.0, mesh.points[:, 1] == 0.0)
-    assert np.array_equal(real_points(found)[:, 0], real_points(mesh)[:, 0])
-    assert found.spec.window == SPEC.window
-    assert np.array_equal(found.spec.intervals, SPEC.intervals)
-    assert (found.spec.half_width, found.spec.depth) == (3.0, 4.0)
-    assert (found.spec.surface_size, found.spec.growth) == (0.1, 0.3)
+    again = read_msh(path)
+    assert np.array_equal(again.triangles, mesh.triangles)
+    assert np.array_equal(again.shift, mesh.shift)
+    assert again.points == pytest.approx(mesh.points, abs=1e-15)
+    assert np.array_equal(again.points[:, 1] == 0.0, mesh.points[:, 1] == 0.0)
+    assert np.array_equal(real_points(again)[:, 0], real_points(mesh)[:, 0])
+    assert again.spec.window == SPEC.window
+    assert np.array_equal(again.spec.intervals, SPEC.intervals)
+    assert (again.spec.half_width, again.spec.depth) == (3.0, 4.0)
+    assert (again.spec.surface_size, again.spec.growth) == (0.1, 0.3)
     shared = {key: value for key, value in mesh.quality.items() if key != "seconds"}
-    assert found.quality == pytest.approx(shared, rel=1e-9)
+    assert again.quality == pytest.approx(shared, rel=1e-9)
 
 
 def test_files_with_a_shift_in_z_alone_are_still_read(mesh, path, tmp_path):
@@ -117,19 +117,19 @@ def test_files_with_a_shift_in_z_alone_are_still_read(mesh, path, tmp_path):
     meshio.write(tmp_path / "former.msh", content, file_format="gmsh22", binary=True)
     with (tmp_path / "former.msh").open("ab") as file:
         file.write(b"\n$BlockSpec" + path.read_bytes().split(b"$BlockSpec")[1])
-    found = read_msh(tmp_path / "former.msh")
-    assert np.array_equal(found.shift, mesh.shift)
-    assert found.points == pytest.approx(mesh.points, abs=1e-15)
+    again = read_msh(tmp_path / "former.msh")
+    assert np.array_equal(again.shift, mesh.shift)
+    assert again.points == pytest.approx(mesh.points, abs=1e-15)
 
 
 @pytest.mark.parametrize("name", ["as thick as the contact", "uneven"])
 def test_interface_and_vertices_come_back(name, built, tmp_path):
     spec, quality = built(name).spec, built(name).quality
     write_msh(built(name), tmp_path / "mesh.msh")
-    found = read_msh(tmp_path / "mesh.msh")
-    assert found.spec.interface == spec.interface
-    assert np.array_equal(found.spec.vertices, spec.vertices)
-    assert found.quality == pytest.approx({key: quality[key] for key in found.quality}, rel=1e-9)
+    again = read_msh(tmp_path / "mesh.msh")
+    assert again.spec.interface == spec.interface
+    assert np.array_equal(again.spec.vertices, spec.vertices)
+    assert again.quality == pytest.approx({key: quality[key] for key in again.quality}, rel=1e-9)
 
 
 def test_spec_of_numpy_numbers_and_without_a_window_comes_back(tmp_path):
@@ -137,10 +137,10 @@ def test_spec_of_numpy_numbers_and_without_a_window_comes_back(tmp_path):
     mesh = build_block(spec)
     write_msh(mesh, tmp_path / "plain.msh")
     assert b"NodeData" not in (tmp_path / "plain.msh").read_bytes()  # of no shift
-    found = read_msh(tmp_path / "plain.msh")
-    assert np.array_equal(found.points, mesh.points) and not found.shift.any()
-    assert found.spec.window is None
-    assert found.spec.depth == 2.0
+    again = read_msh(tmp_path / "plain.msh")
+    assert np.array_equal(again.points, mesh.points) and not again.shift.any()
+    assert again.spec.window is None
+    assert again.spec.depth == 2.0
 
 
 def test_same_mesh_same_file(mesh, path, tmp_path):

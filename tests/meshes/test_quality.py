@@ -21,33 +21,33 @@ def figures(*args):
 
 
 def test_equilateral_triangles_are_perfect():
-    found = figures([[0, 0], [1, 0], [0.5, HIGH], [1.5, HIGH]], [[0, 1, 2], [1, 3, 2]])
-    assert found["least_angle_degrees"] == pytest.approx(60.0)
-    assert found["least_jacobian"] == pytest.approx(1.0)
-    assert found["mean_jacobian"] == pytest.approx(1.0)
-    assert found["least_gamma"] == pytest.approx(1.0)
-    assert found["size_jump"] == pytest.approx(1.0)
-    assert (found["elements"], found["nodes"], found["unknowns"]) == (2, 9, 18)
+    quality = figures([[0, 0], [1, 0], [0.5, HIGH], [1.5, HIGH]], [[0, 1, 2], [1, 3, 2]])
+    assert quality["least_angle_degrees"] == pytest.approx(60.0)
+    assert quality["least_jacobian"] == pytest.approx(1.0)
+    assert quality["mean_jacobian"] == pytest.approx(1.0)
+    assert quality["least_gamma"] == pytest.approx(1.0)
+    assert quality["size_jump"] == pytest.approx(1.0)
+    assert (quality["elements"], quality["nodes"], quality["unknowns"]) == (2, 9, 18)
 
 
 def test_known_triangle():
     # Sides 3, 4, 5: inradius 1, circumradius 2.5, least angle asin(3/5).
-    found = figures([[0, 0], [4, 0], [0, 3]], [[0, 1, 2]])
-    assert found["least_angle_degrees"] == pytest.approx(np.degrees(np.arcsin(0.6)))
-    assert found["least_gamma"] == pytest.approx(2.0 * 1.0 / 2.5)
-    assert found["least_jacobian"] == pytest.approx(2.0 / np.sqrt(3.0) * 0.6)
+    quality = figures([[0, 0], [4, 0], [0, 3]], [[0, 1, 2]])
+    assert quality["least_angle_degrees"] == pytest.approx(np.degrees(np.arcsin(0.6)))
+    assert quality["least_gamma"] == pytest.approx(2.0 * 1.0 / 2.5)
+    assert quality["least_jacobian"] == pytest.approx(2.0 / np.sqrt(3.0) * 0.6)
 
 
 def test_size_jump_is_between_neighbours_only():
     vertices = [[0, 0], [1, 0], [0, 1], [4, 4], [20, 4]]
-    found = figures(vertices, [[0, 1, 2], [1, 3, 2], [1, 4, 3]])
+    quality = figures(vertices, [[0, 1, 2], [1, 3, 2], [1, 4, 3]])
     areas = np.array([0.5, 3.5, 32.0])
-    assert found["size_jump"] == pytest.approx(np.sqrt((areas[1:] / areas[:-1]).max()))
+    assert quality["size_jump"] == pytest.approx(np.sqrt((areas[1:] / areas[:-1]).max()))
 
 
 def test_obtuse_triangle_has_its_least_angle_at_the_sharp_corner():
-    found = figures([[0, 0], [10, 0], [5, 0.5]], [[0, 1, 2]])
-    assert found["least_angle_degrees"] == pytest.approx(np.degrees(np.arctan(0.1)))
+    quality = figures([[0, 0], [10, 0], [5, 0.5]], [[0, 1, 2]])
+    assert quality["least_angle_degrees"] == pytest.approx(np.degrees(np.arctan(0.1)))
 
 
 def test_curved_edge_lowers_the_jacobian_at_its_ends():

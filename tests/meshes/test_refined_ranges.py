@@ -118,8 +118,8 @@ INTERVALS = np.array([[0.0, 1.0], [1.0, 2.0], [5.0, 6.0]])
     ],
 )
 def test_contact_outside_the_refined_ranges_is_found(active, reach, missed):
-    found = unrefined_contact(INTERVALS, np.array(active), reach)
-    assert found == pytest.approx(np.array(missed).reshape(-1, 2))
+    outside = unrefined_contact(INTERVALS, np.array(active), reach)
+    assert outside == pytest.approx(np.array(missed).reshape(-1, 2))
 
 
 def test_everything_is_missed_when_nothing_was_refined():

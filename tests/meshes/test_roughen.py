@@ -155,8 +155,8 @@ def test_carried_down_as_the_exact_solution():
         n = mesh.triangles[:, :3].max() + 1
         x, z = mesh.points[:n].T
         exact = np.cos(np.pi * x) * np.sinh(np.pi / 3 * (4.0 - z)) / np.sinh(np.pi / 3 * 4.0)
-        found = carried_down(mesh.points[:n], mesh.triangles[:, :3], np.where(z == 0, exact, 0.0))
-        errors.append(np.sqrt(np.mean((found - exact) ** 2)))
+        shift = carried_down(mesh.points[:n], mesh.triangles[:, :3], np.where(z == 0, exact, 0.0))
+        errors.append(np.sqrt(np.mean((shift - exact) ** 2)))
     order = np.log2(np.array(errors[:-1]) / errors[1:])
     assert order == pytest.approx(2.0, abs=0.35)
     assert errors[-1] < 1e-3

@@ -96,7 +96,7 @@ def results(folder: Path, numbers: Iterable[int], seed: int) -> Iterator[tuple[i
         shutil.copytree(draw.choice(bases), path)
         file = path / draw.choice(("result.json", "record.json", "report.npz", "report.npz"))
         if draw.random() < 0.2:
-            file = draw.choice([each for each in path.rglob("*") if each.is_file()])
+            file = draw.choice([entry for entry in path.rglob("*") if entry.is_file()])
             file.write_bytes(flipped(draw, file.read_bytes()))
         elif file.suffix == ".json":
             for _ in range(draw.choice((1, 1, 3))):

@@ -118,8 +118,8 @@ def mutated_scene(draw: random.Random, text: str) -> bytes:
         lines = text.split("\n")
         kind = draw.randrange(10)
         if kind < 6 and assigned:
-            found = draw.choice(assigned)
-            text = text[: found.start(2)] + hostile_value(draw, found[2]) + text[found.end(2) :]
+            match = draw.choice(assigned)
+            text = text[: match.start(2)] + hostile_value(draw, match[2]) + text[match.end(2) :]
         elif kind == 6:  # a field that the scene does not have, in its section
             section, name = draw.choice(FIELDS)
             head = f"[{section}]"
@@ -138,9 +138,9 @@ def mutated_scene(draw: random.Random, text: str) -> bytes:
             lines.insert(draw.randrange(len(lines)), line)
             text = "\n".join(lines)
         elif kind == 8 and assigned:
-            found = draw.choice(assigned)
-            name = draw.choice(("", draw.choice(FIELDS)[1], found[1].replace("=", "x ="), "a.b.c"))
-            text = f"{text[: found.start(1)]}{name} = {text[found.start(2) :]}"
+            match = draw.choice(assigned)
+            name = draw.choice(("", draw.choice(FIELDS)[1], match[1].replace("=", "x ="), "a.b.c"))
+            text = f"{text[: match.start(1)]}{name} = {text[match.start(2) :]}"
         else:
             broken = flipped(draw, text.encode())
     return text.encode("utf-8", "surrogatepass") if broken is None else broken
@@ -160,7 +160,7 @@ def traces(draw: random.Random) -> tuple[str, bytes, bool]:
     comma, separator = draw.choice(((False, ","), (False, ";"), (True, ";"), (True, "\t")))
     separator = draw.choice((separator, separator, " "))
     number = draw.choice(("{:.6g}", "{:.12f}", "{:e}", "{:.3f}"))
-    rows = [[number.format(each) for each in row] for row in zip(x, z, strict=True)]
+    rows = [[number.format(value) for value in row] for row in zip(x, z, strict=True)]
     if kind == 0:
         rows = [row[1:] for row in rows]
     head = draw.choice(("", "x_um,height_um\n", "# a comment\n", "x [um]\tz [nm]\n", "Date: 1\n\n"))
@@ -213,8 +213,8 @@ def mutated_profile(draw: random.Random, content: bytes) -> bytes:
         lines = content.split(b"\n")
         numbers = list(NUMBER_IN_TEXT.finditer(content))
         if kind < 3 and numbers:
-            found = draw.choice(numbers)
-            content = content[: found.start()] + draw.choice(CELLS) + content[found.end() :]
+            match = draw.choice(numbers)
+            content = content[: match.start()] + draw.choice(CELLS) + content[match.end() :]
         elif kind == 3 and len(lines) > 2:
             draw.shuffle(lines)
             content = b"\n".join(lines)
@@ -254,10 +254,10 @@ def reading_scene(draw: random.Random, name: str, heights_alone: bool) -> str:
     elif heights_alone:
         often["spacing"] = ('"0.5 um"', '"1 mm"', "1e-30", "1e30")
         del often["x_unit"]
-    fields = {"file": f'"{name}"'} | {key: draw.choice(each) for key, each in often.items()}
-    for key, each in seldom.items():
+    fields = {"file": f'"{name}"'} | {key: draw.choice(choices) for key, choices in often.items()}
+    for key, choices in seldom.items():
         if draw.random() < 0.05:
-            fields[key] = draw.choice(each)
+            fields[key] = draw.choice(choices)
     if draw.random() < 0.05:
         del fields[draw.choice(list(fields))]
     profile = "".join(f"{name} = {text}\n" for name, text in fields.items())

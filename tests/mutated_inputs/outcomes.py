@@ -45,7 +45,7 @@ def resolve(path: Path) -> str:
         figures = surface.info.as_dict()
         roughness = [v for v in figures["roughness"].values() if isinstance(v, float)]
         values = (surface.profile.x, surface.profile.height, [surface.info.length, *roughness])
-        if not all(np.all(np.isfinite(each)) for each in values):
+        if not all(np.all(np.isfinite(array)) for array in values):
             raise Refusal("a resolved profile is not finite")
     return "resolved"
 
@@ -61,14 +61,14 @@ def look(path: Path) -> str:
 def solve(path: Path) -> str:
     """What becomes of a scene that is solved by the half-plane; every tenth writes its files."""
     out = path.with_name("out") if is_tenth(path) else None
-    found = run(Scene.read(path), out, ("half_plane",))
-    warnings_about_result(found)
+    result = run(Scene.read(path), out, ("half_plane",))
+    warnings_about_result(result)
     shown = Console(file=io.StringIO(), width=100)
-    shown.print(summary(found))
+    shown.print(summary(result))
     shutil.rmtree(path.with_name("out"), ignore_errors=True)
     if re.search(r"\b(nan|inf)\b", shown.file.getvalue()):
         raise Refusal("the table shows a number that is none")
-    return "solved" if found.converged else "not converged"
+    return "solved" if result.converged else "not converged"
 
 
 def is_tenth(path: Path) -> bool:

@@ -57,17 +57,17 @@ def read_arrays(
             raise ProfileError(path, f"has no channel {shown(channel)}; allowed is {allowed}")
         arrays = {channel: arrays[channel]}
 
-    def is_vector(found: np.ndarray) -> bool:
-        return found.size > 1 and found.size == max(found.shape)
+    def is_vector(array: np.ndarray) -> bool:
+        return array.size > 1 and array.size == max(array.shape)
 
-    vectors = {name: np.ravel(found) for name, found in arrays.items() if is_vector(found)}
-    longest = max((len(found) for found in vectors.values()), default=0)
-    vectors = {name: found for name, found in vectors.items() if len(found) == longest}
+    vectors = {name: np.ravel(values) for name, values in arrays.items() if is_vector(values)}
+    longest = max((len(vector) for vector in vectors.values()), default=0)
+    vectors = {name: vector for name, vector in vectors.items() if len(vector) == longest}
     if longest > 1:
         order = sorted(vectors, key=lambda name: name.lower() != "x")
         numbers = np.column_stack([vectors[name] for name in order])
         return _table(path, kind, numbers, tuple(order), columns)
-    fields = {name: found for name, found in arrays.items() if found.ndim == 2 and found.size}
+    fields = {name: field for name, field in arrays.items() if field.ndim == 2 and field.size}
     if len(fields) > 1:
         allowed = ", ".join(map(shown, fields))
         raise ProfileError(path, f"holds {len(fields)} maps; allowed is channel, of {allowed}")
@@ -110,5 +110,5 @@ def _mat(path: Path, raw: bytes, max_numbers: int) -> Mapping[str, np.ndarray]:
     known = [(name, shape) for name, shape, kind in whosmat(io.BytesIO(raw)) if kind in numeric]
     check_numbers(path, sum(np.prod(shape, dtype=float) for _, shape in known), max_numbers)
     names = [name for name, _ in known]
-    found = loadmat(io.BytesIO(raw), variable_names=names) if names else {}
-    return {name: found[name] for name in names if not np.iscomplexobj(found[name])}
+    arrays = loadmat(io.BytesIO(raw), variable_names=names) if names else {}
+    return {name: arrays[name] for name in names if not np.iscomplexobj(arrays[name])}

@@ -30,8 +30,8 @@ def profile_in(
     Rows may come in any order of x, but not twice at one x.
     Raises ProfileError (one line with the file, the line number, what is wrong, what is allowed)
     for a file that cannot be read or trusted, ValueError for arguments that make no sense."""
-    given = {} if spacing is None else {"spacing": spacing}
-    check_positive(x_scale=x_scale, height_scale=height_scale, **given)
+    pitch = {} if spacing is None else {"spacing": spacing}
+    check_positive(x_scale=x_scale, height_scale=height_scale, **pitch)
     if dropouts not in ("refuse", "bridge"):
         raise ValueError(f"dropouts is {dropouts!r}; allowed: refuse, bridge")
     _check_shape(table, spacing, max_samples)

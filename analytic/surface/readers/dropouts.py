@@ -97,21 +97,21 @@ def fill_gaps(
     path: Path, x: np.ndarray, height: np.ndarray, dropouts: str, max_samples: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x and height (m,) with samples on the straight line across every gap, and which those are."""
-    found = gaps(x)
-    if not found:
+    missing = gaps(x)
+    if not missing:
         return x, height, np.zeros(len(x), dtype=bool)
-    lost = sum(gap.lost for gap in found)
+    lost = sum(gap.lost for gap in missing)
     if dropouts == "refuse":
-        more = f", and at {len(found) - 1} more places" if len(found) > 1 else ""
+        more = f", and at {len(missing) - 1} more places" if len(missing) > 1 else ""
         raise ProfileError(
             path,
-            f"x has a gap from {found[0].start:.6g} m to {found[0].stop:.6g} m{more} ({lost} "
+            f"x has a gap from {missing[0].start:.6g} m to {missing[0].stop:.6g} m{more} ({lost} "
             f"sample{'s' * (lost > 1)} lost); correct it, or ask for dropouts to be bridged",
         )
     if len(x) + lost > max_samples:
-        message = f"x has a gap of {max(gap.lost for gap in found)} samples"
+        message = f"x has a gap of {max(gap.lost for gap in missing)} samples"
         raise ProfileError(path, f"{message}; at most {max_samples} samples are allowed in all")
-    across = (np.linspace(gap.start, gap.stop, gap.lost + 2)[1:-1] for gap in found)
+    across = (np.linspace(gap.start, gap.stop, gap.lost + 2)[1:-1] for gap in missing)
     every = np.sort(np.concatenate([x, *across]))
     return every, np.interp(every, x, height), ~np.isin(every, x)
 

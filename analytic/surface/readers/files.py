@@ -93,8 +93,8 @@ def open_measured(
 
 
 def _refuse(path: Path, columns: object, channel: object) -> None:
-    for name, given in (("columns", columns), ("channel", channel)):
-        if given is not None:
+    for name, choice in (("columns", columns), ("channel", channel)):
+        if choice is not None:
             raise ProfileError(path, f"is one profile or map; allowed is to leave out {name}")
 
 
@@ -104,11 +104,11 @@ def _by_library(
     if (size := regular_file(path)) > MAX_BYTES:
         message = f"is too large, {size / 1e9:.3g} GB; allowed are {MAX_BYTES / 1e9:.3g} GB"
         raise ProfileError(path, message)
-    found = read_instrument_file(path, channel)
-    if isinstance(found, ProfileTable):
-        return chosen_columns(found, columns)
+    measured = read_instrument_file(path, channel)
+    if isinstance(measured, ProfileTable):
+        return chosen_columns(measured, columns)
     _refuse(path, columns, None)
-    return found
+    return measured
 
 
 def read_measured(
@@ -179,17 +179,17 @@ def _check_given(path: Path, x: float | None, height: float | None, because: str
 
 
 def _from_topography(
-    found: Topography,
+    field: Topography,
     x_scale: float | None,
     height_scale: float | None,
     spacing: float | None,
     dropouts: str,
     chosen: MapLine | None,
 ) -> MeasuredProfile:
-    path = found.path
-    _check_size(found)
-    found = _in_metres(found, x_scale, height_scale, spacing)
-    x, height = trace_of(found, chosen)
+    path = field.path
+    _check_size(field)
+    field = _in_metres(field, x_scale, height_scale, spacing)
+    x, height = trace_of(field, chosen)
     lost = np.isnan(height)
     if dropouts == "refuse" and np.any(lost):
         first, count = int(np.argmax(lost)), int(np.count_nonzero(lost))
@@ -199,35 +199,35 @@ def _from_topography(
         remedy = "choose another line, or ask for dropouts to be bridged"
         raise ProfileError(path, f"{message}; {remedy}")
     x, height, samples = known_part(path, x, height, lost)
-    place = f"{chosen} of {found.size()}" if chosen else None
-    how = {"format": found.format, "place": place, "trimmed": len(lost) - len(samples)}
+    place = f"{chosen} of {field.size()}" if chosen else None
+    how = {"format": field.format, "place": place, "trimmed": len(lost) - len(samples)}
     return without_gaps(path, x, height, lost[samples], dropouts, **how)
 
 
-def _check_size(found: Topography) -> None:
+def _check_size(field: Topography) -> None:
     """Refuse a map without samples, or whose samples are no distance apart."""
-    if found.heights.size == 0:
-        shape = " by ".join(map(str, found.heights.shape))
-        raise ProfileError(found.path, f"is a damaged file: it holds {shape} heights")
-    if found.pitch is not None and not all(isfinite(step) and step > 0.0 for step in found.pitch):
-        steps = " and ".join(f"{step:g}" for step in found.pitch)
-        raise ProfileError(found.path, f"is a damaged file: its samples are {steps} apart")
+    if field.heights.size == 0:
+        shape = " by ".join(map(str, field.heights.shape))
+        raise ProfileError(field.path, f"is a damaged file: it holds {shape} heights")
+    if field.pitch is not None and not all(isfinite(step) and step > 0.0 for step in field.pitch):
+        steps = " and ".join(f"{step:g}" for step in field.pitch)
+        raise ProfileError(field.path, f"is a damaged file: its samples are {steps} apart")
 
 
 def _in_metres(
-    found: Topography, x_scale: float | None, height_scale: float | None, spacing: float | None
+    field: Topography, x_scale: float | None, height_scale: float | None, spacing: float | None
 ) -> Topography:
     """The topography in m, with what its file does not say, and without contradiction to it."""
-    path, pitch, heights, x = found.path, found.pitch, found.heights, found.x
+    path, pitch, heights, x = field.path, field.pitch, field.heights, field.x
     sized = pitch is not None or x is not None
     if spacing is not None and sized:
         raise ProfileError(path, "gives its own size; the sample spacing is for files without one")
     if not sized and spacing is None:
         raise MissingUnitError(path, "spacing", "does not give its size")
-    if found.unit is not None:
+    if field.unit is not None:
         for name, scale in (("x_unit", x_scale), ("z_unit", height_scale)):
-            if scale is not None and abs(scale / found.unit - 1.0) > SAME_UNIT:
-                message = f"counts in units of {found.unit:g} m and not of {scale:g} m, as {name}"
+            if scale is not None and abs(scale / field.unit - 1.0) > SAME_UNIT:
+                message = f"counts in units of {field.unit:g} m and not of {scale:g} m, as {name}"
                 raise ProfileError(path, f"{message} has it; allowed is to leave out {name}")
     else:
         _check_given(path, x_scale if sized else spacing, height_scale, "names no unit")
@@ -237,4 +237,4 @@ def _in_metres(
             x = None if x is None else x * x_scale
     if not sized:
         pitch = (spacing, spacing)
-    return replace(found, heights=heights, pitch=pitch, x=x, unit=1.0)
+    return replace(field, heights=heights, pitch=pitch, x=x, unit=1.0)

@@ -58,15 +58,15 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
     if name in TOO_LENIENT or not reader.channels:  # a reader of mat takes what begins like one
         return unknown
     try:
-        channel, names = reader.default_channel, [str(each.name) for each in reader.channels]
+        channel, names = reader.default_channel, [str(entry.name) for entry in reader.channels]
         if wanted is not None:
             if wanted not in names:
                 return {"problem": f"has no channel {wanted!r}; allowed is {', '.join(names)}"}
             channel = reader.channels[names.index(wanted)]
         sized = channel.physical_sizes is not None or not channel.is_uniform
         # The library wants some size; one that the file does not give is not passed on.
-        given = {} if sized else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}
-        surface = channel.topography(**given)
+        size = {} if sized else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}
+        surface = channel.topography(**size)
         heights = np.ma.filled(np.ma.asarray(surface.heights(), dtype=float), np.nan)
         places = None if surface.is_uniform else np.asarray(surface.positions(), dtype=float)
     except Exception as error:
@@ -153,5 +153,5 @@ def _line(error: Exception) -> str:
 
 
 if __name__ == "__main__":
-    found = main(*sys.argv[1:])
-    print("\n" + json.dumps(found))
+    answer = main(*sys.argv[1:])
+    print("\n" + json.dumps(answer))

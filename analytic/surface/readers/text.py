@@ -264,17 +264,17 @@ def _careful_numbers(table: ProfileTable, columns: Sequence[str | int] | None) -
         picks = [_pick(bare, wanted, width) for wanted in columns]
     elif width > 2:
         picks = ()
-    fit = sum(len(found) == width for found in cells)
+    fit = sum(len(line) == width for line in cells)
     kind = ProfileError if fit >= MOST_ROWS * len(cells) else NotRowsError
-    for row, found in enumerate(cells):
-        values = [_number(cell.strip(), table.decimal) for cell in found]
+    for row, line in enumerate(cells):
+        values = [_number(cell.strip(), table.decimal) for cell in line]
         if any(i in picks and value is None for i, value in enumerate(values)):
-            value = next(cell for i, cell in enumerate(found) if i in picks and values[i] is None)
+            value = next(cell for i, cell in enumerate(line) if i in picks and values[i] is None)
             message = f"{shown(value)} is not a number (decimal {NAMES[table.decimal]}, separator "
             message += f"{NAMES[table.separator]}); comments start with # % ; or //"
             raise kind(table.path, message, int(table.lines[row]))
-        if len(found) != width:
-            message = _wrong_columns(table, len(found), width)
+        if len(line) != width:
+            message = _wrong_columns(table, len(line), width)
             raise kind(table.path, message, int(table.lines[row]))
         numbers[row] = [np.nan if value is None else value for value in values]
     return numbers
@@ -302,7 +302,7 @@ def _number(cell: str, decimal: str) -> float | None:
     return float("nan") if _is_dropout(cell) else None
 
 
-def _wrong_columns(table: ProfileTable, found: int, width: int) -> str:
-    message = f"{found} column{'s' * (found > 1)} where most lines have {width}"
+def _wrong_columns(table: ProfileTable, columns: int, width: int) -> str:
+    message = f"{columns} column{'s' * (columns > 1)} where most lines have {width}"
     message += "; a profile has two (x, height) or one (height) in every line"
     return f"{message}; {DECIMAL_COMMAS}" if table.commas_may_be_decimal() else message

@@ -154,13 +154,13 @@ def _interpolated(heights: np.ndarray, row: np.ndarray, column: np.ndarray) -> n
     """Heights (n,) between samples: a cubic through four samples each way."""
     first_row, row_weights = _cubic(row, heights.shape[0])
     first_column, column_weights = _cubic(column, heights.shape[1])
-    found = np.zeros(len(row))
+    height = np.zeros(len(row))
     for i in range(STENCIL):
         for j in range(STENCIL):
             weight = row_weights[i] * column_weights[j]
             term = weight * heights[first_row + i, first_column + j]
-            found += np.where(weight == 0.0, 0.0, term)  # on a sample its neighbours do not count
-    return found
+            height += np.where(weight == 0.0, 0.0, term)  # on a sample its neighbours do not count
+    return height
 
 
 def _cubic(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:

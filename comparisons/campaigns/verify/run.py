@@ -51,6 +51,9 @@ if TYPE_CHECKING:
 
 DEGREES = (1, 2, 3)
 COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
+ABOUT = """Stated uncertainty against true error, wherever the exact answer is known. Ratio: stated
+uncertainty over true error (overestimation ratio). Figures whose error is rounding are not
+informative."""
 OTHERS = "Orders, manufactured solutions, independent solver"
 OTHER_COLUMNS = ("group", "measured", "value", "bound", "holds")
 PAIR_COLUMNS = ("table", "model", "case", "quantity", "exact", "error")
@@ -117,7 +120,8 @@ class Verification(Campaign):
         tables.append(("Figures", PAIR_COLUMNS, map(_pair_cells, self.pairs)))
         title = f"{'Holds' if self.holds else 'Does not hold'}: {self.coverage_line}"
         template = Path(__file__).parent / "verify.html.j2"
-        return rendered(template, policy=STYLES, title=title, faults=self.faults, tables=tables)
+        shown = {"title": title, "about": ABOUT, "faults": self.faults, "tables": tables}
+        return rendered(template, policy=STYLES, **shown)
 
     def _coverage_cells(self, names: tuple[str, ...]) -> list[tuple[str, ...]]:
         rows = []

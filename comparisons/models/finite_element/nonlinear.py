@@ -59,49 +59,48 @@ def pressed_finitely(
     that along x of the deformed configuration. Raises FemError where there is
     no solution, and where contact reaches the grid's ends only at finite deformation."""
     rough = operator.rough
-    found = finite_contact(problem, operator, linear, constraints, model)
-    _refuse_cut_off(problem, grid, found.pressure, linear, "at finite deformation")
+    finite = finite_contact(problem, operator, linear, constraints, model)
+    _refuse_cut_off(problem, grid, finite.pressure, linear, "at finite deformation")
     counts = {
-        "increments": len(found.solution.residuals),
-        "newton_steps": found.solution.iterations,
-        "corrections": found.solution.corrections,
+        "increments": len(finite.solution.residuals),
+        "newton_steps": finite.solution.iterations,
+        "corrections": finite.solution.corrections,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    nodal = found.cauchy.nodal
-    if constraints.load is not None:  # of which friction on tilted tangents bears a part
-        share = float(grid.weights @ found.pressure) / found.load
-        constraints = replace(constraints, load=constraints.load * share)
-    loaded = _deformed(rough.body, grid, found, constraints, counts, FINITE_TOLERANCE)
+    nodal = finite.cauchy.nodal
+    loaded = _deformed(rough.body, grid, finite, constraints, counts, FINITE_TOLERANCE)
     loaded = replace(
         loaded,
-        solution=replace(loaded.solution, load=found.load),
         stresses=lambda frictions: (nodal,) * len(frictions),
-        across=found.cauchy.across,
+        across=finite.cauchy.across,
     )
     return on_undeformed_grid(
-        problem, grid, found.place, loaded.displacement / grid.weights, loaded
+        problem, grid, finite.place, loaded.displacement / grid.weights, loaded
     )
 
 
 def _deformed(
     body: ElasticBody,
     grid: HatGrid,
-    found: FiniteDeformation,
+    finite: FiniteDeformation,
     constraints: Constraints,
     counts: dict[str, int],
     tolerance: float,
 ) -> LoadedBody:
     """A contact on deformed surfaces, at the displaced nodes of the grid, without its stresses."""
-    weights, x, pressure = grid.weights, grid.x, found.pressure
-    initial = found.initial_gap * weights
+    weights, x, pressure = grid.weights, grid.x, finite.pressure
+    initial = finite.initial_gap * weights
+    if constraints.load is not None:  # of which friction on tilted tangents bears a part
+        share = float(weights @ pressure) / finite.load
+        constraints = replace(constraints, load=constraints.load * share)
     if np.isfinite(constraints.hardness):  # which caps the pressure by deformed area
-        pressure, weights = found.cauchy_pressure, weights * found.stretch
-    moved = (found.gap + found.approach) * weights - initial
-    given = moved, pressure, initial, weights, found.approach, constraints, counts
-    solution = assessed(*given, tolerance)
+        pressure, weights = finite.cauchy_pressure, weights * finite.stretch
+    moved = (finite.gap + finite.approach) * weights - initial
+    contact_state = moved, pressure, initial, weights, finite.approach, constraints, counts
+    solution = assessed(*contact_state, tolerance)
     patches = contact_patches(x, solution.pressure, solution.gap)
-    solution = replace(solution, pressure=found.cauchy_pressure)
-    down = body.at_points(found.displacement)[body.top.point, 1]
+    solution = replace(solution, pressure=finite.cauchy_pressure, load=finite.load)
+    down = body.at_points(finite.displacement)[body.top.point, 1]
     depth = np.interp(x, body.top.x, down)
     return LoadedBody(
         body,
@@ -109,7 +108,7 @@ def _deformed(
         depth * grid.weights,
         lambda frictions: (),
         patches,
-        moved=found.displacement,
+        moved=finite.displacement,
     )
 
 
@@ -149,8 +148,8 @@ def finite_contact(
     solver = solve_coupled if operator.coupled else solve_contact
     try:
         for _ in range(MOST_SETTINGS):
-            given = bodies, model, contact.gap, contact.weights, asked, start
-            solution = solve_with_model(*given, FINITE_TOLERANCE, solver, nearer=True)
+            settings = bodies, model, contact.gap, contact.weights, asked, start
+            solution = solve_with_model(*settings, FINITE_TOLERANCE, solver, nearer=True)
             if not solution.converged:
                 break
             start = solution.pressure
@@ -184,16 +183,16 @@ def pressed_plastically(
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     body, loads = scene.body, (constraints.load, 0.0)
     metal = ElasticPlastic(body.material, body.flow_stress())
-    given = rough, metal, gap, weights
+    pressed = rough, metal, gap, weights
     start = linear.pressure
-    body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, travel)
+    body, (loaded, released) = press_plastically(*pressed, loads, start, friction, roller, travel)
     still = None
     if scene.stress is not None and scene.stress.bulge and scene.profile is not None:
-        _, [twin] = press_plastically(*given, loads[:1], start, 0.0, roller, travel)
+        _, [twin] = press_plastically(*pressed, loads[:1], start, 0.0, roller, travel)
         still = twin.displacement
     _refuse_cut_off(problem, grid, loaded.pressure, linear, "of the flowing body")
-    own = rough.weighted(loaded.displacement)
-    both = own if roller is None else own + roller.apply(loaded.pressure, -friction)
+    moved = rough.weighted(loaded.displacement)
+    both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
     counts = {
         "linear_contacts": loaded.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
@@ -209,7 +208,7 @@ def pressed_plastically(
     return LoadedBody(
         rough.body,
         solution,
-        own,
+        moved,
         lambda frictions: (stress,) * len(frictions),
         patches,
         fields.sy,
@@ -238,13 +237,13 @@ def pressed_plastically_finitely(
     metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
     loads = constraints.load, 0.0
     body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel)
-    found = pressed.deformed
-    _refuse_cut_off(problem, grid, found.pressure, linear, "of the flowing body")
+    finite = pressed.deformed
+    _refuse_cut_off(problem, grid, finite.pressure, linear, "of the flowing body")
     counts = {
         "linear_contacts": pressed.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    loaded = _deformed(rough.body, grid, found, constraints, counts, FLOW_TOLERANCE)
+    loaded = _deformed(rough.body, grid, finite, constraints, counts, FLOW_TOLERANCE)
     if pressed.state.equivalent.any():
         averaged = averaged_pressure(loaded.solution.pressure)
         loaded = replace(loaded, solution=replace(loaded.solution, pressure=averaged))
@@ -257,7 +256,7 @@ def pressed_plastically_finitely(
         others=_of_flow(body, pressed, released),
     )
     return on_undeformed_grid(
-        problem, grid, found.place, loaded.displacement / grid.weights, loaded
+        problem, grid, finite.place, loaded.displacement / grid.weights, loaded
     )
 
 

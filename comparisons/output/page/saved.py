@@ -127,11 +127,11 @@ def _shown(run: Run) -> tuple[Solved, dict[str, object]]:
 
 def _reduced(level: Level, shown: Sequence[Level] = ()) -> Level:
     """A level without its mesh, and without fields where it is not among those that are shown."""
-    stresses, with_fields = [], any(level is each for each in shown)
+    stresses, with_fields = [], any(level is kept for kept in shown)
     for stress in level.stresses:
         field = _shown_field(stress.field) if with_fields else None
         stresses.append(replace(stress, field=field))
-    further = tuple(_reduced(each, shown) for each in level.further)
+    further = tuple(_reduced(deeper, shown) for deeper in level.further)
     return replace(level, stresses=tuple(stresses), mesh=None, mesh_field=None, further=further)
 
 

@@ -1,9 +1,9 @@
 """Which model suffices where no whole is solved: by estimates that bound what a model leaves out.
 
-In: the half-plane alone. Out: rungs up to it, or to what an operator carries. The dearest of
-them is the reference, and the estimates of all that it leaves out are a part of every error's
-uncertainty, added up: so a rung may hold, or be refuted by a better one, and nothing is said of the
-whole that an estimate does not bound."""
+In: the half-plane alone. Out: rungs up to it, to what an operator carries, or to its deformed
+surface. The dearest of them is the reference, and the estimates of all that it leaves out are a
+part of every error's uncertainty, added up: so a rung may hold, or be refuted by a better one, and
+nothing is said of the whole that an estimate does not bound."""
 
 from collections.abc import Mapping
 from math import inf
@@ -16,8 +16,14 @@ from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.contact import uncertainties, values_of
 from comparisons.studies.friction import coupling
-from comparisons.studies.ladder.operators import carried, why_no_stresses, words_of
+from comparisons.studies.ladder.operators import (
+    carried,
+    carried_deformed,
+    why_no_stresses,
+    words_of,
+)
 from comparisons.studies.ladder.rungs import (
+    DEFORMED,
     HALF_PLANE,
     HERTZ,
     KINDS,
@@ -29,7 +35,7 @@ from comparisons.studies.ladder.rungs import (
     verdict_of,
 )
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.estimates import Sizes, estimates
+from comparisons.studies.model_error.estimates import Sizes, beyond_second_order, estimates
 from comparisons.studies.study import LADDER, Solved
 from comparisons.studies.subsurface.yielding import FlowAssessment
 
@@ -48,14 +54,16 @@ def estimated_rungs(
     runs = dict.fromkeys(problem.scene.load.friction, half_plane)
     values, left = _values(solved, runs), list(sizes.values())
     figures = _figures(solved, HALF_PLANE, values, (runs, values), left)
-    rungs, held = [], carried(problem, sizes, flow)
-    if _asks_for_operators(solved, figures, held):
+    rungs, (rung, held) = [], _better(solved, sizes, flow)
+    if held and verdict_of(figures) != "holds":
         better = operator_runs(problem, held, half_plane, solved.window)
         if better is not None:
             runs, left = better, [size for name, size in sizes.items() if name not in held]
+            if rung == DEFORMED:
+                left.append(beyond_second_order(problem, _peak(half_plane)))
             reference = runs, _values(solved, runs)
-            judged = _figures(solved, OPERATORS, reference[1], reference, left)
-            rungs = [Rung(OPERATORS, OPERATORS, words_of(held), judged, *cost_of(runs), held)]
+            judged = _figures(solved, rung, reference[1], reference, left)
+            rungs = [Rung(rung, rung, words_of(held), judged, *cost_of(runs), held)]
             figures = _figures(solved, HALF_PLANE, values, reference, left)
     reference = runs, _values(solved, runs)
     by_hertz = _figures(solved, HERTZ, hertz, reference, left)
@@ -87,10 +95,21 @@ def hertz_alone(problem: Problem) -> tuple[bool, str]:
     return False, f"{line}not known up to {KINDS[HERTZ]} ({said})"
 
 
-def _asks_for_operators(solved: Solved, figures: tuple[Figure, ...], held: frozenset[str]) -> bool:
-    beyond = solved.problem.scene.budget.up_to != "half-plane"
-    possible = why_no_stresses(solved.problem, solved.window) is None
-    return bool(beyond and held and possible and verdict_of(figures) != "holds")
+def _better(
+    solved: Solved, sizes: Mapping[str, Sizes], flow: FlowAssessment
+) -> tuple[str, frozenset[str]]:
+    """The best rung that the budget allows beyond the half-plane, and what it has; nothing where
+    there is none."""
+    problem, up_to = solved.problem, solved.problem.scene.budget.up_to
+    deformed = carried_deformed(problem, sizes)
+    if deformed and up_to not in ("half-plane", "operators") and not flow.beyond_doubt:
+        return DEFORMED, deformed
+    possible = up_to != "half-plane" and why_no_stresses(problem, solved.window) is None
+    return OPERATORS, carried(problem, sizes, flow) if possible else frozenset()
+
+
+def _peak(run: ModelRun) -> float:
+    return float(run.finest.solution.pressure.max())
 
 
 def _sizes(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Sizes]:

@@ -3,7 +3,7 @@
 from comparisons.figures.quantity import MODELS, UP_TO
 from comparisons.scenes.scene import Scene
 
-BY_HALF_PLANE = UP_TO[:2]  # rungs that take no finite elements
+BY_HALF_PLANE = UP_TO[:3]  # rungs that take no finite elements
 # What a scene's finite elements do without on a rung.
 WITHOUT = {
     "linear": {

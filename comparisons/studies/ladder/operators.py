@@ -11,9 +11,11 @@ from functools import partial
 
 import numpy as np
 
+from analytic.contact.deformed_surface import DeformedContact
 from analytic.contact.end_stress import EndStress
 from analytic.contact.patches import contact_patches
-from analytic.grid import HatGrid
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import TangentialLayer
 from analytic.layers.stress import AddedStress
@@ -30,7 +32,7 @@ from comparisons.models.nearest_operator import is_layered, nearest_operator, so
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
 from comparisons.scenes.scene import Scene
-from comparisons.studies.model_error.catalogue import COUPLED
+from comparisons.studies.model_error.catalogue import COUPLED, KINEMATIC, kinematic
 from comparisons.studies.model_error.estimates import TABOR
 from comparisons.studies.subsurface.yielding import FlowAssessment
 
@@ -56,8 +58,25 @@ def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> f
     return frozenset(held)
 
 
+def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]:
+    """The effects of the whole that the half-plane has on its deformed surface: what is quadratic
+    there is known of half-planes alone. Friction moves these surfaces as it does the whole's."""
+    scene, effects = problem.scene, set(effects)
+    strained = effects & kinematic(scene)
+    if not strained or is_layered(scene) or scene.body.width is not None:
+        return frozenset()
+    moves = any(scene.load.friction) and problem.dundurs_beta != 0.0
+    return frozenset(strained | effects & {"exact_circle"} | ({COUPLED} if moves else set()))
+
+
+def is_deformed(held: frozenset[str]) -> bool:
+    return not held.isdisjoint(KINEMATIC)
+
+
 def words_of(held: frozenset[str]) -> str:
-    return f"half-plane with {', '.join(words for name, words in WORDS.items() if name in held)}"
+    where = "half-plane on the deformed surface" if is_deformed(held) else "half-plane"
+    beside = ", ".join(words for name, words in WORDS.items() if name in held)
+    return f"{where} with {beside}" if beside else where
 
 
 def problem_carrying(problem: Problem, held: frozenset[str]) -> Problem:
@@ -88,6 +107,7 @@ class OperatorModel:
     problem: Problem  # of `problem_carrying`
     frictions: tuple[float, ...]
     coupling: float  # coefficient of the traction that moves the surfaces; 0 leaves it out
+    deformed: bool = False  # contact on the deformed surfaces of half-planes
 
     def level(self, pitch: float, window: Window | None, fields: bool = True) -> Level:
         """Solved on pressure elements of a pitch [m]; without `fields` of stresses their maxima."""
@@ -95,7 +115,10 @@ class OperatorModel:
         with stages.stage("contact"):
             operator = operator_of(problem, grid, self.coupling)
             gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
-            solution = solve_on(operator, gap, grid.weights, problem.constraints())
+            solve = partial(self._solved, operator, grid)
+            solution = solve(gap)
+            if self.deformed:
+                solution = _deformed_contact(problem, grid).pressed(solve, solution)
             level = Level(
                 grid=grid,
                 solution=solution,
@@ -109,6 +132,23 @@ class OperatorModel:
                 stresses = tuple(_stresses(problem, level, window, self.frictions, fields))
             level = replace(level, stresses=stresses)
         return replace(level, peak_memory=peak_memory())
+
+    def _solved(
+        self,
+        operator: ModelOperator,
+        grid: HatGrid,
+        gap: np.ndarray,
+        start: np.ndarray | None = None,
+    ) -> ContactSolution:
+        return solve_on(operator, gap, grid.weights, self.problem.constraints(), start)
+
+
+def _deformed_contact(problem: Problem, grid: HatGrid) -> DeformedContact:
+    scene, profile = problem.scene, problem.surface.profile
+    height = np.zeros_like if profile is None else profile.spline()
+    roller = None if scene.roller.rigid else scene.roller.material
+    sagitta = roller_gap(scene.roller.radius, None, scene.finite_element.roller_shape)
+    return DeformedContact(grid, scene.body.material, roller, height, sagitta, problem.knots)
 
 
 def layered_body(scene: Scene) -> LayeredBody | None:
@@ -180,13 +220,13 @@ def _stresses(
     """Fields on the window and extremes on either side of an interface."""
     sides = _sides(problem, level, window)
     for friction in frictions:
-        found = [side.maxima(problem, level, friction) for side in sides]
+        largest = [side.maxima(problem, level, friction) for side in sides]
         maxima = {
-            name: _larger([one.cells[key] for one in found])
+            name: _larger([one.cells[key] for one in largest])
             for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
         }
-        extremes = {name: highest(each) for name, each in maxima.items()}
-        extremes["von_mises"] = max((one.von_mises for one in found), key=lambda e: e.value)
+        extremes = {name: highest(cells) for name, cells in maxima.items()}
+        extremes["von_mises"] = max((one.von_mises for one in largest), key=lambda e: e.value)
         state = _on_window(sides, level, friction) if fields else None
         yield StressResult(friction, extremes, state, maxima)
 
@@ -211,7 +251,7 @@ def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
     )
     inside, below = (
         [replace(points, z=z) for points, z in zip((window, searched), depths, strict=True)]
-        for depths in zip(*(_split(each.z, thickness) for each in (window, searched)), strict=True)
+        for depths in zip(*(_split(part.z, thickness) for part in (window, searched)), strict=True)
     )
     goes_on = not body.rigid and len(below[1].z) > 0
     if goes_on:  # both sides of the interface are searched

@@ -21,6 +21,8 @@ from comparisons.studies.contact import uncertainties
 from comparisons.studies.ladder.operators import (
     OperatorModel,
     carried,
+    carried_deformed,
+    is_deformed,
     problem_carrying,
     why_no_stresses,
     words_of,
@@ -33,7 +35,7 @@ from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfI
 from comparisons.studies.study import LADDER, Solved
 from comparisons.studies.subsurface.yielding import FlowAssessment
 
-HERTZ, HALF_PLANE, OPERATORS = "hertz", "half_plane", "operators"
+HERTZ, HALF_PLANE, OPERATORS, DEFORMED = "hertz", "half_plane", "operators", "deformed"
 LINEAR, FINITE, FLOW = "linear", "finite", "flow"
 OTHER = MODELS[1]  # the finite elements of the scene
 # Kinds of rungs, from the cheapest on; `--up-to` takes these names with hyphens.
@@ -41,6 +43,7 @@ KINDS = {
     HERTZ: "Hertz's closed form",
     HALF_PLANE: "half-plane",
     OPERATORS: "half-plane with what an operator carries",
+    DEFORMED: "half-plane on the deformed surface",
     LINEAR: "linear finite elements",
     FINITE: "finite deformation",
     FLOW: "elastic-plastic finite elements",
@@ -87,9 +90,12 @@ class Ladder:
         """From the cheapest to the whole."""
         made = [self._hertz(), self._half_plane(), *self._effects(), self._own(), self._whole()]
         made = [rung for rung in made if rung is not None]
-        if all(rung.verdict != "holds" for rung in made[:2]):
-            operators = self._operators(made)
-            made += [] if operators is None else [operators]
+        by_half_plane = made[:2]
+        for make in (self._operators, self._deformed):
+            if any(rung.verdict == "holds" for rung in by_half_plane):
+                break
+            by_half_plane += [rung for rung in [make(made)] if rung is not None]
+        made += by_half_plane[2:]
         order = list(KINDS)
         return sorted(made, key=lambda rung: order.index(rung.kind))
 
@@ -107,17 +113,28 @@ class Ladder:
         refuted = self.flows or any(rung.verdict == "fails" for rung in same)
         if not held or refuted or why_no_stresses(problem, window) is not None:
             return None
+        return self._by_half_plane(OPERATORS, held)
+
+    def _deformed(self, made: list[Rung]) -> Rung | None:
+        """Where the whole deforms finitely, and does not flow."""
+        held = carried_deformed(self.solved.problem, self.budget.selection.whole)
+        flows = self.flows or "plastic_flow" in self.budget.selection.whole
+        return self._by_half_plane(DEFORMED, held) if held and not flows else None
+
+    def _by_half_plane(self, name: str, held: frozenset[str]) -> Rung | None:
+        """The half-plane with some of the effects, on the finite elements' pressure elements."""
+        problem, selection = self.solved.problem, self.budget.selection
         finite_elements, errors, compared = self.solved.runs[OTHER], [], []
-        runs = operator_runs(problem, held, finite_elements, window)
+        runs = operator_runs(problem, held, finite_elements, self.solved.window)
         if runs is None:
             return None
         for friction, run in runs.items():
             for row, error in self._beside(run, friction):
                 errors.append(error)
-                compared.append(renamed(row, OPERATORS))
-        figures = self._figures(OPERATORS, errors)
-        beside = tuple(compared) if selection.contained == held else ()
-        return Rung(OPERATORS, OPERATORS, words_of(held), figures, *cost_of(runs), held, beside)
+                compared.append(renamed(row, name))
+        figures = self._figures(name, errors)
+        beside = tuple(compared) if name == OPERATORS and selection.contained == held else ()
+        return Rung(name, name, words_of(held), figures, *cost_of(runs), held, beside)
 
     def _beside(self, run: ModelRun, friction: float) -> list[tuple[Figure, ModelError]]:
         """Differences from the scene's own finite elements, and errors against the whole, of a
@@ -219,7 +236,8 @@ def operator_runs(
     problem, frictions = problem_carrying(problem, held), problem.scene.load.friction
     runs, fields = {}, has_norms(problem)
     for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
-        model = OperatorModel(problem, group, group[0] if COUPLED in held else 0.0)
+        coupling = group[0] if COUPLED in held else 0.0
+        model = OperatorModel(problem, group, coupling, is_deformed(held))
         try:
             levels = [model.level(level.grid.pitch, window, fields) for level in like.levels]
         except ContactError:  # the cap takes a contact that the pressures' extent does not hold

@@ -127,8 +127,8 @@ def error_budget(
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
                 refined = _Refined(0, _unsplit(rows), str(error), None)
-                own = solved.runs["finite_element"].finest
-                wholes = {mu: own.under(mu) for mu in splits}
+                finest = solved.runs["finite_element"].finest
+                wholes = {mu: finest.under(mu) for mu in splits}
                 break
             selection = selection.without(dropped, str(error))
     sampling = {}

@@ -87,8 +87,8 @@ def select_effects(
     its contact, by default the same; `no_flow` says why flow is not computed where it could be,
     None: it is."""
     own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
-    found = estimates(problem, peak, peak if mean is None else mean, own_effects, couplings)
-    sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
+    estimated = estimates(problem, peak, peak if mean is None else mean, own_effects, couplings)
+    sized = {name: sizes for name, sizes in estimated.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
     mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
     flows = FLOW in own_effects

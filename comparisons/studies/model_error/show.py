@@ -117,7 +117,7 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
         errors = run.figures.of(study=MODEL_ERROR, quantity=name)
         if judged and not any(error.bounds for error in errors):
             continue
-        for same in grouped(errors, lambda each: (_shown(each), _values(run, each), each.place)):
+        for same in grouped(errors, lambda row: (_shown(row), _values(run, row), row.place)):
             error, uncertainty, contributions = _shown(same[0])
             half_plane, whole = _values(run, same[0])
             without = moved_text(run, same[0].friction) if name == "pressure_l2" else ()

@@ -54,11 +54,11 @@ def sliding_errors(roller, friction_dundurs: float, elements: int):
         pitch = 3.6 * roller.hertz.half_width / elements
         grid = HatGrid.within(-2.0 * roller.hertz.half_width, 1.6 * roller.hertz.half_width, pitch)
         shift = offset * pitch
-        found = roller.sliding(grid, lambda x, s=shift: roller.smooth()(x - s), friction_dundurs)
+        solution = roller.sliding(grid, lambda x, s=shift: roller.smooth()(x - s), friction_dundurs)
         exact = sliding.pressure(grid.x - shift)
-        square.append(np.sum((found.pressure - exact) ** 2) / np.sum(exact**2))
-        peak.append(abs(found.pressure.max() / sliding.peak_pressure - 1.0))
-        patch = contact_patches(grid.x, found.pressure, found.gap)[0] - shift
+        square.append(np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2))
+        peak.append(abs(solution.pressure.max() / sliding.peak_pressure - 1.0))
+        patch = contact_patches(grid.x, solution.pressure, solution.gap)[0] - shift
         edge.append(np.abs(patch - sliding.edges).max() / pitch)
     return np.sqrt(np.mean(square)), np.mean(peak), max(edge)
 
@@ -69,14 +69,14 @@ class TestSlidingCylinder:
         reference = Reference(row, roller)
         reach = 1.5 * roller.hertz.half_width
         grid = HatGrid.within(-reach, reach, 2.0 * reach / 2000)
-        found = roller.sliding(grid, roller.smooth(), reference.friction_dundurs)
-        patch = contact_patches(grid.x, found.pressure, found.gap)
-        assert found.converged and len(patch) == 1
-        assert found.pressure.max() == pytest.approx(reference.peak, rel=1e-6)
+        solution = roller.sliding(grid, roller.smooth(), reference.friction_dundurs)
+        patch = contact_patches(grid.x, solution.pressure, solution.gap)
+        assert solution.converged and len(patch) == 1
+        assert solution.pressure.max() == pytest.approx(reference.peak, rel=1e-6)
         assert np.abs(patch[0] - reference.edges).max() < 0.1 * grid.pitch
-        at_points = np.interp(reference.x, grid.x, found.pressure)
+        at_points = np.interp(reference.x, grid.x, solution.pressure)
         assert at_points == pytest.approx(reference.pressure, rel=1e-5)
-        centroid = grid.x @ found.pressure / found.pressure.sum()
+        centroid = grid.x @ solution.pressure / solution.pressure.sum()
         assert centroid == pytest.approx(reference.centroid, abs=1e-6 * roller.hertz.half_width)
         # friction drags the body's surface to +x: the contact moves to -x
         assert patch[0].mean() < 0.0 and centroid < 0.0
@@ -101,10 +101,10 @@ class TestSlidingCylinder:
         grid = HatGrid.within(-reach, reach, 2.0 * reach / 1000)
         plain = roller.pressed(grid, roller.smooth())
         for size in (1e-6, 1e-4, 1e-2):
-            found = roller.sliding(grid, roller.smooth(), size)
-            moved = grid.x @ (found.pressure - plain.pressure) / found.pressure.sum()
+            solution = roller.sliding(grid, roller.smooth(), size)
+            moved = grid.x @ (solution.pressure - plain.pressure) / solution.pressure.sum()
             assert moved == pytest.approx(-8.0 / (3.0 * np.pi) * size * half_width, rel=1e-3)
-            assert abs(found.pressure.max() / plain.pressure.max() - 1.0) < 0.2 * size**2 + 1e-7
+            assert abs(solution.pressure.max() / plain.pressure.max() - 1.0) < 0.2 * size**2 + 1e-7
 
 
 @pytest.fixture(params=["smooth", "rough"])
@@ -114,14 +114,14 @@ def gap(request, roller):
 
 class TestSymmetries:
     def test_without_friction_it_is_the_uncoupled_solution_bit_for_bit(self, roller, gap):
-        found, plain = roller.sliding(roller.grid, gap, 0.0), roller.pressed(roller.grid, gap)
-        assert np.array_equal(found.pressure, plain.pressure)
-        assert found.iterations == plain.iterations
+        coupled, plain = roller.sliding(roller.grid, gap, 0.0), roller.pressed(roller.grid, gap)
+        assert np.array_equal(coupled.pressure, plain.pressure)
+        assert coupled.iterations == plain.iterations
 
     def test_hardly_any_friction_changes_hardly_anything(self, roller, gap):
-        found, plain = roller.sliding(roller.grid, gap, 1e-12), roller.pressed(roller.grid, gap)
-        assert found.pressure == pytest.approx(plain.pressure, abs=1e-8 * plain.pressure.max())
-        assert found.approach == pytest.approx(plain.approach, rel=1e-9)
+        coupled, plain = roller.sliding(roller.grid, gap, 1e-12), roller.pressed(roller.grid, gap)
+        assert coupled.pressure == pytest.approx(plain.pressure, abs=1e-8 * plain.pressure.max())
+        assert coupled.approach == pytest.approx(plain.approach, rel=1e-9)
 
     def test_sliding_the_other_way_is_the_mirror(self, roller, gap, friction_dundurs):
         """So is changing the places of the bodies: either turns the sign of mu beta."""
@@ -134,7 +134,7 @@ class TestSymmetries:
     def test_lengths_and_moduli_scale(self, roller, gap):
         """Pressure with the modulus, load with modulus and length: figures to rounding."""
         grid = roller.grid
-        found = roller.sliding(grid, gap, 0.3)
+        solution = roller.sliding(grid, gap, 0.3)
         length, stiffness = 1e-7, 1e4
         small = HatGrid(grid.pitch * length, grid.first, grid.last)
         other = solve_coupled(
@@ -143,8 +143,8 @@ class TestSymmetries:
             small.weights,
             Constraints(load=roller.load * stiffness * length),
         )
-        error = np.abs(other.pressure / stiffness - found.pressure).max()
-        assert error < 1e-8 * found.pressure.max()
+        error = np.abs(other.pressure / stiffness - solution.pressure).max()
+        assert error < 1e-8 * solution.pressure.max()
 
     def test_prescribed_approach_returns_the_load(self, roller, gap, friction_dundurs):
         by_load = roller.sliding(roller.grid, gap, friction_dundurs)
@@ -165,24 +165,24 @@ def test_conditions_hold_on_the_dense_matrix(roller, friction_dundurs, hardness)
     """Signs by the matrix itself; on its own set the solution is that of the linear system."""
     constraints = Constraints(load=roller.load, hardness=hardness)
     gap = roller.rough(2)
-    found = roller.sliding(roller.grid, gap, friction_dundurs, constraints)
+    first = roller.sliding(roller.grid, gap, friction_dundurs, constraints)
     matrix = dense_matrix(roller.modulus, roller.grid, friction_dundurs)
     weights = roller.grid.weights
-    moved, weighted_gap = matrix @ found.pressure, roller.grid.hat_integrals(gap)
-    again = assessed(moved, found.pressure, weighted_gap, weights, found.approach, constraints, {})
+    moved, weighted_gap = matrix @ first.pressure, roller.grid.hat_integrals(gap)
+    again = assessed(moved, first.pressure, weighted_gap, weights, first.approach, constraints, {})
     assert again.residuals.worst < 1e-9
-    capped = found.pressure >= hardness
+    capped = first.pressure >= hardness
     assert capped.any() == np.isfinite(hardness)
-    assert np.all(found.gap[capped] < 1e-12)
-    free = np.flatnonzero((found.pressure > 0.0) & ~capped)
-    assert len(contact_patches(roller.grid.x, found.pressure, found.gap)) > 3
+    assert np.all(first.gap[capped] < 1e-12)
+    free = np.flatnonzero((first.pressure > 0.0) & ~capped)
+    assert len(contact_patches(roller.grid.x, first.pressure, first.gap)) > 3
     system = np.zeros((len(free) + 1, len(free) + 1))
     system[:-1, :-1] = matrix[np.ix_(free, free)]
     system[:-1, -1], system[-1, :-1] = -weights[free], weights[free]
-    held = np.where(capped, found.pressure, 0.0)
+    held = np.where(capped, first.pressure, 0.0)
     known = -(roller.grid.hat_integrals(gap) + matrix @ held)[free]
     solved = np.linalg.solve(system, np.append(known, roller.load - weights @ held))[:-1]
-    assert found.pressure[free] == pytest.approx(solved, abs=1e-7 * solved.max())
+    assert first.pressure[free] == pytest.approx(solved, abs=1e-7 * solved.max())
 
 
 def test_a_layer_on_its_own_material_drags_as_a_half_plane_does(roller):
@@ -192,7 +192,7 @@ def test_a_layer_on_its_own_material_drags_as_a_half_plane_does(roller):
     tangential = TangentialLayer(grid.count, grid.pitch, LayeredBody(layer, 1.0, layer))
     pair = CoupledPair(normal, tangential, 0.6)
     weighted_gap = grid.hat_integrals(roller.rough(1))
-    found = solve_coupled(pair, weighted_gap, grid.weights, Constraints(load=roller.load))
+    solution = solve_coupled(pair, weighted_gap, grid.weights, Constraints(load=roller.load))
     expected = roller.sliding(grid, roller.rough(1), 0.3)
-    assert found.converged
-    assert found.pressure == pytest.approx(expected.pressure, abs=1e-7 * expected.pressure.max())
+    assert solution.converged
+    assert solution.pressure == pytest.approx(expected.pressure, abs=1e-7 * expected.pressure.max())

@@ -27,14 +27,14 @@ class TestContraction:
     @pytest.mark.parametrize("friction_dundurs", [0.05, 0.3, 0.75, 1.5])
     def test_it_finds_the_same_solution(self, roller, friction_dundurs, monkeypatch, unsettled):
         grid = HatGrid.within(-1.1e-3, 1.1e-3, 10e-6)
-        found = roller.sliding(grid, roller.rough(1), friction_dundurs)
+        solution = roller.sliding(grid, roller.rough(1), friction_dundurs)
         monkeypatch.undo()
         expected = roller.sliding(grid, roller.rough(1), friction_dundurs)
-        assert found.converged and found.iterations["contractions"] > 1
+        assert solution.converged and solution.iterations["contractions"] > 1
         assert expected.converged and expected.iterations["contractions"] == 0
-        error = np.abs(found.pressure - expected.pressure).max()
+        error = np.abs(solution.pressure - expected.pressure).max()
         assert error < 1e-7 * expected.pressure.max()
-        assert found.approach == pytest.approx(expected.approach, rel=1e-8)
+        assert solution.approach == pytest.approx(expected.approach, rel=1e-8)
 
     def test_steps_needed_follow_from_friction_and_beta(self, roller, unsettled):
         """Each step leaves mu beta of the error, so that 1e-10 takes log 1e-10 / log mu beta."""
@@ -47,11 +47,11 @@ class TestContraction:
     def test_prescribed_approach_and_hardness(self, roller, hardness, monkeypatch, unsettled):
         grid = HatGrid.within(-1.1e-3, 1.1e-3, 10e-6)
         constraints = Constraints(approach=3e-5, hardness=hardness)
-        found = roller.sliding(grid, roller.rough(1), 0.3, constraints)
+        solution = roller.sliding(grid, roller.rough(1), 0.3, constraints)
         monkeypatch.undo()
         expected = roller.sliding(grid, roller.rough(1), 0.3, constraints)
-        assert found.converged
-        assert found.load == pytest.approx(expected.load, rel=1e-7)
+        assert solution.converged
+        assert solution.load == pytest.approx(expected.load, rel=1e-7)
 
     def test_what_does_not_converge_says_so(self, roller, monkeypatch, unsettled):
         monkeypatch.setattr(coupled_contact, "MAX_CONTRACTIONS", 2)
@@ -60,18 +60,18 @@ class TestContraction:
 
 def test_a_set_that_returns_ends_the_exchanges(roller, monkeypatch):
     """A node that changes active for ever: the contraction finishes what they cannot."""
-    own = CoupledEquilibrium.violations
+    violations = CoupledEquilibrium.violations
 
     def restless(self, rest, active):
-        violated = own(self, rest, active)
+        violated = violations(self, rest, active)
         tensile, joining = violated.tensile.copy(), violated.joining.copy()
         tensile[0], joining[0] = not active.lower[0], active.lower[0]
         return replace(violated, tensile=tensile, joining=joining)
 
     monkeypatch.setattr(CoupledEquilibrium, "violations", restless)
-    found = roller.sliding(roller.grid, roller.rough(1), 0.3)
-    assert found.converged and found.iterations["contractions"] > 1
-    assert found.iterations["exchanges"] < 100
+    solution = roller.sliding(roller.grid, roller.rough(1), 0.3)
+    assert solution.converged and solution.iterations["contractions"] > 1
+    assert solution.iterations["exchanges"] < 100
 
 
 class TestCost:
@@ -81,9 +81,9 @@ class TestCost:
     def test_three_times_the_uncoupled_problem_at_most(self, roller, amplitude, friction_dundurs):
         grid = HatGrid.within(-1.3e-3, 1.3e-3, 2.6e-3 / 4000)
         gap = roller.rough(1, amplitude)
-        plain, found = roller.pressed(grid, gap), roller.sliding(grid, gap, friction_dundurs)
-        assert found.converged and found.iterations["contractions"] == 0
-        assert found.iterations["applications"] < 3.0 * plain.iterations["applications"]
+        plain, coupled = roller.pressed(grid, gap), roller.sliding(grid, gap, friction_dundurs)
+        assert coupled.converged and coupled.iterations["contractions"] == 0
+        assert coupled.iterations["applications"] < 3.0 * plain.iterations["applications"]
 
     def test_hardly_grows_with_the_number_of_elements(self, roller, friction_dundurs):
         """A profile of fixed bandwidth: each doubling adds a level, which takes as many as the
@@ -91,9 +91,9 @@ class TestCost:
         spent = []
         for elements in (2000, 8000, 32000):
             grid = HatGrid.within(-1.1e-3, 1.1e-3, 2.2e-3 / elements)
-            found = roller.sliding(grid, roller.rough(3), friction_dundurs)
-            assert found.converged
-            spent.append(found.iterations["applications"])
+            solution = roller.sliding(grid, roller.rough(3), friction_dundurs)
+            assert solution.converged
+            spent.append(solution.iterations["applications"])
         assert spent[-1] < 150
         assert max(np.diff(spent)) < 2 * 20
 
@@ -101,9 +101,9 @@ class TestCost:
         """All nodes touching, or one: where exchanges do not settle the coarser grids help."""
         expected = roller.sliding(roller.grid, roller.rough(1), 0.75)
         for start in (np.ones(roller.grid.count), np.eye(roller.grid.count)[3]):
-            found = roller.sliding(roller.grid, roller.rough(1), 0.75, start=start)
-            assert found.converged
-            error = np.abs(found.pressure - expected.pressure).max()
+            solution = roller.sliding(roller.grid, roller.rough(1), 0.75, start=start)
+            assert solution.converged
+            error = np.abs(solution.pressure - expected.pressure).max()
             assert error < 1e-7 * expected.pressure.max()
 
 
@@ -118,9 +118,9 @@ class TestCost:
 def test_any_contact_ends_and_holds(roller, seed, friction_dundurs, amplitude, load, hardness):
     grid = HatGrid.within(-1.6e-3, 1.6e-3, 8e-6)
     constraints = Constraints(load=load, hardness=hardness)
-    found = roller.sliding(grid, roller.rough(seed, amplitude), friction_dundurs, constraints)
-    assert found.converged
-    assert found.pressure.min() >= 0.0 and found.pressure.max() <= hardness
+    solution = roller.sliding(grid, roller.rough(seed, amplitude), friction_dundurs, constraints)
+    assert solution.converged
+    assert solution.pressure.min() >= 0.0 and solution.pressure.max() <= hardness
 
 
 def test_more_load_than_the_hardness_carries_is_refused(roller):
@@ -130,9 +130,9 @@ def test_more_load_than_the_hardness_carries_is_refused(roller):
 
 
 def test_a_vanishing_load_rests_on_one_crest(roller):
-    found = roller.sliding(roller.grid, roller.rough(1), 0.5, Constraints(load=1e-9))
-    assert found.converged
-    assert np.count_nonzero(found.pressure) <= 2
+    solution = roller.sliding(roller.grid, roller.rough(1), 0.5, Constraints(load=1e-9))
+    assert solution.converged
+    assert np.count_nonzero(solution.pressure) <= 2
 
 
 @pytest.mark.parametrize("size", [1, 2, 12])
@@ -140,9 +140,9 @@ def test_krylov_step_solves_what_it_spans(size):
     rng = np.random.default_rng(size)
     matrix = np.eye(size) + 0.5 * rng.standard_normal((size, size)) / np.sqrt(size)
     target = rng.standard_normal(size)
-    found, left = krylov_step(lambda v: matrix @ v, target, 0.0)
+    step, left = krylov_step(lambda v: matrix @ v, target, 0.0)
     assert left < 1e-12
-    assert matrix @ found == pytest.approx(target, abs=1e-12)
+    assert matrix @ step == pytest.approx(target, abs=1e-12)
 
 
 def test_krylov_step_stops_at_its_goal():
@@ -154,9 +154,9 @@ def test_krylov_step_stops_at_its_goal():
         applied.append(vector)
         return matrix @ vector
 
-    found, left = krylov_step(apply, target, 1e-3)
+    step, left = krylov_step(apply, target, 1e-3)
     assert 1e-5 < left <= 1e-3
-    assert np.linalg.norm(target - matrix @ found) == pytest.approx(left, rel=1e-6)
+    assert np.linalg.norm(target - matrix @ step) == pytest.approx(left, rel=1e-6)
     assert len(applied) < 10
-    found, left = krylov_step(apply, target, 7.0)
-    assert not found.any() and left == np.sqrt(40.0)
+    step, left = krylov_step(apply, target, 7.0)
+    assert not step.any() and left == np.sqrt(40.0)

@@ -65,57 +65,57 @@ def solved(
     return solve_with_model(operator, model, gap, GRID.weights, constraints, start, **options)
 
 
-def assert_pressures(found: ContactSolution, expected: ContactSolution, tolerance: float) -> None:
+def assert_pressures(result: ContactSolution, expected: ContactSolution, tolerance: float) -> None:
     """Equal to a part of the largest one."""
     largest = expected.pressure.max()
-    assert found.pressure == pytest.approx(expected.pressure, abs=tolerance * largest)
+    assert result.pressure == pytest.approx(expected.pressure, abs=tolerance * largest)
 
 
 @pytest.mark.parametrize("constraints", [LOADED, Constraints(load=LOAD, hardness=3e9), PRESSED])
 def test_result_is_that_of_the_operator(constraints):
     operator = perturbed()
-    found = solved(operator, constraints)
-    assert found.converged
-    assert found.iterations["applications"] <= 8
-    assert misses(operator, found, average_gap(), constraints) < 1e-7
+    result = solved(operator, constraints)
+    assert result.converged
+    assert result.iterations["applications"] <= 8
+    assert misses(operator, result, average_gap(), constraints) < 1e-7
 
 
 @pytest.mark.parametrize("bodies", [1, 2])
 def test_the_model_itself_needs_one_step(bodies):
     """Two bodies add."""
     pair = SumOfBodies(*bodies * [half_plane(bodies * MODULUS)])
-    found = solved(pair)
-    assert found.iterations["applications"] == 1
-    assert_pressures(found, solve_contact(half_plane(), average_gap(), GRID.weights, LOADED), 1e-9)
+    result = solved(pair)
+    assert result.iterations["applications"] == 1
+    assert_pressures(result, solve_contact(half_plane(), average_gap(), GRID.weights, LOADED), 1e-9)
 
 
 @pytest.mark.parametrize("constraints", [LOADED, PRESSED])
 def test_a_start_nearer_than_the_model_takes_no_longer(constraints):
     """The solution of nearly the same operator, and in the end the same answer."""
     operator = perturbed()
-    found = solved(operator, constraints)
+    result = solved(operator, constraints)
     start = solved(Dense(operator.matrix * 1.001), constraints).pressure
     nearer = solved(operator, constraints, start, nearer=True)
     assert nearer.converged
-    assert nearer.iterations["steps"] < found.iterations["steps"]
-    assert nearer.iterations["applications"] <= found.iterations["applications"]
-    assert_pressures(nearer, found, 1e-6)
+    assert nearer.iterations["steps"] < result.iterations["steps"]
+    assert nearer.iterations["applications"] <= result.iterations["applications"]
+    assert_pressures(nearer, result, 1e-6)
 
 
 @pytest.mark.parametrize("factor", [0.3, 0.7, 1.5, 3.0])
 def test_a_model_of_the_wrong_modulus_does_not_change_the_answer(factor):
-    found = solved(half_plane(), model=half_plane(factor * MODULUS))
-    assert found.converged and found.iterations["steps"] > 1
-    assert_pressures(found, solve_contact(half_plane(), average_gap(), GRID.weights, LOADED), 1e-5)
+    result = solved(half_plane(), model=half_plane(factor * MODULUS))
+    assert result.converged and result.iterations["steps"] > 1
+    assert_pressures(result, solve_contact(half_plane(), average_gap(), GRID.weights, LOADED), 1e-5)
 
 
 def test_what_does_not_converge_says_so():
     """An operator that is not symmetric positive definite has no such minimum to find."""
     matrix = toeplitz(half_plane().column)
     noise = np.random.default_rng(2).standard_normal(matrix.shape)
-    found = solved(Dense(matrix + matrix.max() * noise))
-    assert not found.converged
-    assert found.residuals.worst > 1e-6
+    result = solved(Dense(matrix + matrix.max() * noise))
+    assert not result.converged
+    assert result.residuals.worst > 1e-6
 
 
 @pytest.mark.parametrize("modulus", [MODULUS, 2.0 * MODULUS])
@@ -163,10 +163,10 @@ def test_on_a_base_little_is_not_taken_for_rounding(base, change):
 
 def test_a_body_on_a_base_that_gives_nearly_all_the_way_is_solved_all_the_same():
     """Further off than a datum of the model can be."""
-    found = solved(on_base(1e3), Constraints(approach=1e-3), tolerance=1e-11)
-    assert found.converged
-    by_load = solved(on_base(1e3), Constraints(load=found.load), tolerance=1e-9)
-    assert_pressures(found, by_load, 1e-5)
+    result = solved(on_base(1e3), Constraints(approach=1e-3), tolerance=1e-11)
+    assert result.converged
+    by_load = solved(on_base(1e3), Constraints(load=result.load), tolerance=1e-9)
+    assert_pressures(result, by_load, 1e-5)
 
 
 @pytest.mark.parametrize("above", [0.0, 3e-6])
@@ -209,14 +209,14 @@ def dragged(operator, model, gap: np.ndarray, constraints=LIGHT) -> ContactSolut
     return solve_with_model(operator, model, gap, weights, constraints, solver=solve_coupled)
 
 
-def misses(operator, found, gap: np.ndarray, constraints: Constraints) -> float:
+def misses(operator, result, gap: np.ndarray, constraints: Constraints) -> float:
     """How far the contact conditions fail, over the range of displacements; written anew."""
-    moved = operator.apply(found.pressure)
-    gap = gap + moved - found.approach * GRID.weights
-    touching = found.pressure > 0.0
-    free = touching & (found.pressure < 0.999999 * constraints.hardness)
-    wrong = [np.abs(gap[free]), -gap[~touching], gap[touching & ~free], -found.pressure]
-    return max(np.max(each, initial=0.0) for each in wrong) / np.ptp(moved)
+    moved = operator.apply(result.pressure)
+    gap = gap + moved - result.approach * GRID.weights
+    touching = result.pressure > 0.0
+    free = touching & (result.pressure < 0.999999 * constraints.hardness)
+    wrong = [np.abs(gap[free]), -gap[~touching], gap[touching & ~free], -result.pressure]
+    return max(np.max(excess, initial=0.0) for excess in wrong) / np.ptp(moved)
 
 
 class TestSurfacesMovedByFriction:
@@ -227,10 +227,10 @@ class TestSurfacesMovedByFriction:
         symmetric = toeplitz(half_plane().column)
         skew = sliding(friction_dundurs).block(np.arange(GRID.count)) - symmetric
         operator, gap = Dense(perturbed().matrix + 1.05 * skew), rough_gap(4)
-        found = dragged(operator, sliding(friction_dundurs), gap, constraints)
-        assert found.converged
-        assert found.iterations["steps"] == found.iterations["applications"] <= 9
-        assert misses(operator, found, gap, constraints) < 1e-7
+        result = dragged(operator, sliding(friction_dundurs), gap, constraints)
+        assert result.converged
+        assert result.iterations["steps"] == result.iterations["applications"] <= 9
+        assert misses(operator, result, gap, constraints) < 1e-7
 
     def test_without_a_skew_part_it_is_the_frictionless_contact(self):
         one = dragged(perturbed(), sliding(0.0), rough_gap(4))
@@ -245,16 +245,16 @@ class TestSurfacesMovedByFriction:
         self, seed, factor, constraints
     ):
         gap = rough_gap(seed)
-        found = dragged(sliding(0.3), sliding(0.3, factor * MODULUS), gap, constraints)
-        assert found.converged and found.iterations["steps"] > 2
-        assert_pressures(found, solve_coupled(sliding(0.3), gap, GRID.weights, constraints), 1e-5)
+        result = dragged(sliding(0.3), sliding(0.3, factor * MODULUS), gap, constraints)
+        assert result.converged and result.iterations["steps"] > 2
+        assert_pressures(result, solve_coupled(sliding(0.3), gap, GRID.weights, constraints), 1e-5)
 
     def test_where_no_whole_step_comes_nearer_shorter_ones_do(self, monkeypatch):
         """A model five times too stiff."""
         problem = sliding(0.3), sliding(0.3, 5.0 * MODULUS), rough_gap(3)
-        found = dragged(*problem)
-        assert found.converged
-        assert_pressures(found, solve_coupled(sliding(0.3), problem[2], GRID.weights, LIGHT), 1e-5)
+        result = dragged(*problem)
+        assert result.converged
+        assert_pressures(result, solve_coupled(sliding(0.3), problem[2], GRID.weights, LIGHT), 1e-5)
         monkeypatch.setattr(defect, "PATIENCE", defect.MAX_STEPS)
         assert dragged(*problem).residuals.worst > 1e-3
 
@@ -262,10 +262,10 @@ class TestSurfacesMovedByFriction:
         gap, steps = rough_gap(6), []
         right = solve_coupled(sliding(0.3), gap, GRID.weights, LIGHT)
         for known in (0.3, 0.15, 0.0):
-            found = dragged(sliding(0.3), sliding(known), gap)
-            assert found.converged
-            assert_pressures(found, right, 1e-6)
-            steps.append(found.iterations["steps"])
+            result = dragged(sliding(0.3), sliding(known), gap)
+            assert result.converged
+            assert_pressures(result, right, 1e-6)
+            steps.append(result.iterations["steps"])
         assert steps[0] == 1 < steps[1] < steps[2] <= 16
 
     @pytest.mark.parametrize("base", ["bonded", "frictionless"])
@@ -275,9 +275,9 @@ class TestSurfacesMovedByFriction:
         body = LayeredBody(Material(105e9, 0.3), thickness, base)
         parts = (kind(GRID.count, GRID.pitch, body) for kind in (LayeredSurface, TangentialLayer))
         operator, gap = CoupledPair(*parts, 0.5), rough_gap(7)
-        found = dragged(operator, sliding(0.5 * 2 / 7), gap, LOADED)
-        assert found.converged and found.iterations["steps"] <= most
-        assert_pressures(found, solve_coupled(operator, gap, GRID.weights, LOADED), 1e-6)
+        result = dragged(operator, sliding(0.5 * 2 / 7), gap, LOADED)
+        assert result.converged and result.iterations["steps"] <= most
+        assert_pressures(result, solve_coupled(operator, gap, GRID.weights, LOADED), 1e-6)
 
     def test_what_does_not_converge_is_the_best_of_all_steps(self, monkeypatch):
         """So that more of them never make it worse."""
@@ -286,9 +286,9 @@ class TestSurfacesMovedByFriction:
         operator, worst = Dense(matrix + matrix.max() * noise), []
         for steps in (1, 2, 5, 6, 7, 8, 20, 40):
             monkeypatch.setattr(defect, "MAX_STEPS", steps)
-            found = dragged(operator, sliding(0.3), rough_gap(3))
-            assert not found.converged and found.iterations["steps"] == steps
-            worst.append(found.residuals.worst)
+            result = dragged(operator, sliding(0.3), rough_gap(3))
+            assert not result.converged and result.iterations["steps"] == steps
+            worst.append(result.residuals.worst)
         assert sorted(worst, reverse=True) == worst
         assert 1e-6 < worst[-1] < worst[0]
 
@@ -298,5 +298,5 @@ def test_no_pressure_under_an_approach_that_closes_the_gap_is_no_solution():
     for unit in (1.0, 1e-9):
         gap, weights = np.array([0.2, 0.0, 0.2]) * unit**2, np.ones(3) * unit
         limits = Constraints(approach=0.1 * unit)
-        found = assessed(np.zeros(3), np.zeros(3), gap, weights, 0.1 * unit, limits, {})
-        assert found.residuals.penetration == pytest.approx(1.0)
+        result = assessed(np.zeros(3), np.zeros(3), gap, weights, 0.1 * unit, limits, {})
+        assert result.residuals.penetration == pytest.approx(1.0)

@@ -77,5 +77,5 @@ def test_runs_grow_inwards_or_shrink_towards_their_patch(free, tensile, joining,
     none = np.zeros(len(free), dtype=bool)
     shown = [marks(runs) if runs else none for runs in (tensile, joining)]
     violations = Violations(shown[0], none, shown[1], none)
-    found = extrapolated(violations, ActiveSet(~marks(free), none))
-    assert (found.tensile if tensile else found.joining).tolist() == marks(expected).tolist()
+    ends = extrapolated(violations, ActiveSet(~marks(free), none))
+    assert (ends.tensile if tensile else ends.joining).tolist() == marks(expected).tolist()

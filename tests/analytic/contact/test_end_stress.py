@@ -32,7 +32,7 @@ def errors(elements, depth, friction=0.5, offset=0.0):
     hats = stress_at(grid.x, solution.pressure, friction, x, z)
     both = hats.plus(1.0, end_stress(grid.x, solution.pressure, solution.gap).at(friction)(x, z))
     exact = hertz_stress(HERTZ, x, z, friction).tau1
-    return [np.abs(found.tau1 - exact).max() / (friction * P0) for found in (hats, both)]
+    return [np.abs(stress.tau1 - exact).max() / (friction * P0) for stress in (hats, both)]
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.013, 0.029])
@@ -57,11 +57,11 @@ def test_the_ends_are_where_force_and_moment_ask_for_them():
 
 def test_nothing_is_left_out_far_from_the_ends():
     grid, solution = solved(40.0)
-    found = end_stress(grid.x, solution.pressure, solution.gap)
+    change = end_stress(grid.x, solution.pressure, solution.gap)
     reach = REACH * grid.pitch
-    assert not found.parts([0.0, 1.0 + 1.01 * reach, 1.0], [0.0, 0.0, 1.01 * reach]).any()
+    assert not change.parts([0.0, 1.0 + 1.01 * reach, 1.0], [0.0, 0.0, 1.01 * reach]).any()
     # where it is cut off it is next to nothing
-    assert np.abs(found.parts(1.0 - 0.99 * reach, 0.0)).max() < 2e-4 * P0
+    assert np.abs(change.parts(1.0 - 0.99 * reach, 0.0)).max() < 2e-4 * P0
 
 
 def test_a_mirrored_contact_has_the_mirrored_stresses():

@@ -41,10 +41,10 @@ class Contact:
 
     @property
     def operator(self) -> HalfPlane | PeriodicHalfPlane:
-        given = len(self.gap), self.pitch, self.modulus
+        grid = len(self.gap), self.pitch, self.modulus
         if not self.periodic:
-            return HalfPlane(*given, element=self.element)
-        return (PeriodicHalfPlane if self.element == "hat" else PeriodicStrips)(*given)
+            return HalfPlane(*grid, element=self.element)
+        return (PeriodicHalfPlane if self.element == "hat" else PeriodicStrips)(*grid)
 
     def solved(self) -> ContactSolution:
         weights = np.full(len(self.gap), self.pitch)
@@ -99,9 +99,9 @@ def contact(seed: int, periodic: bool, hardness: bool = False) -> Contact:
     return free.capped(max(rng.uniform(0.3, 0.9) * peak, 1.2 * load))
 
 
-def assert_close(found, expected, tolerance=EXACT):
-    found, expected = np.asarray(found), np.asarray(expected)
-    assert np.max(np.abs(found - expected)) <= tolerance * np.max(np.abs(expected))
+def assert_close(values, expected, tolerance=EXACT):
+    values, expected = np.asarray(values), np.asarray(expected)
+    assert np.max(np.abs(values - expected)) <= tolerance * np.max(np.abs(expected))
 
 
 both_ends = pytest.mark.parametrize("periodic", [False, True], ids=["free", "periodic"])
@@ -178,13 +178,13 @@ def test_a_periodic_contact_may_begin_anywhere(seed, turn, cap):
 @examples(20)
 def test_the_profile_may_stand_anywhere(seed, first):
     """Grid and profile moved together by whole pitches; a parabola of 10^6 pitches is rounded."""
-    gap, pitch, found = surface(seed), 2.0**-8, []
+    gap, pitch, solutions = surface(seed), 2.0**-8, []
     for origin in (0, first):
         grid = HatGrid(pitch, origin - 100, origin + 100)
         mean_gap = grid.hat_integrals(lambda x, o=origin: gap(x - o * pitch)) / pitch
         load = 0.05 * np.ptp(mean_gap)
-        found.append(Contact(False, pitch, 1.0, mean_gap, Constraints(load=load)).solved())
-    assert_close(found[1].pressure, found[0].pressure)
+        solutions.append(Contact(False, pitch, 1.0, mean_gap, Constraints(load=load)).solved())
+    assert_close(solutions[1].pressure, solutions[0].pressure)
 
 
 @both_ends
@@ -195,11 +195,11 @@ class TestOrder:
         """Approach, area and every single pressure grow with the load."""
         here = contact(seed, periodic, cap)
         loads = here.constraints.load * np.array([0.1, 0.3, 0.6, 0.9, 1.0])
-        found = [here.at_load(load).solved() for load in loads]
-        assert np.all(np.diff([solution.approach for solution in found]) > 0.0)
-        assert np.all(np.diff([np.count_nonzero(s.pressure) for s in found]) >= 0)
-        steps = np.diff([solution.pressure for solution in found], axis=0)
-        assert steps.min() >= -EXACT * found[-1].pressure.max()
+        solutions = [here.at_load(load).solved() for load in loads]
+        assert np.all(np.diff([solution.approach for solution in solutions]) > 0.0)
+        assert np.all(np.diff([np.count_nonzero(s.pressure) for s in solutions]) >= 0)
+        steps = np.diff([solution.pressure for solution in solutions], axis=0)
+        assert steps.min() >= -EXACT * solutions[-1].pressure.max()
 
     @given(seed=seeds, cap=st.booleans())
     @examples(12)
@@ -208,13 +208,13 @@ class TestOrder:
         by_load = here.solved()
         low = np.min(here.gap)
         depths = (by_load.approach - low) * np.array([0.05, 0.2, 0.5, 1.0])
-        found = [here.at_approach(low + depth).solved() for depth in depths]
-        loads = np.array([solution.load for solution in found])
+        solutions = [here.at_approach(low + depth).solved() for depth in depths]
+        loads = np.array([solution.load for solution in solutions])
         # capped nodes alone carry the same load until the next one is reached
         assert np.all(np.diff(loads) >= -EXACT * loads[-1])
         assert cap or np.all(np.diff(loads) > 0.0)
         assert loads[-1] == pytest.approx(by_load.load, rel=EXACT)
-        assert_close(found[-1].pressure, by_load.pressure)
+        assert_close(solutions[-1].pressure, by_load.pressure)
 
     @given(seed=seeds, where=st.floats(0.0, 1.0))
     @examples(15)

@@ -23,16 +23,16 @@ class TestRestricted:
     def test_an_odd_count_gives_the_coarse_grids_own_averages(self):
         fine, coarse = HatGrid(0.5, -9, 9), HatGrid(1.0, -4, 4)
         assert coarse.x == pytest.approx(fine.x[1::2])
-        found = restricted(fine.hat_integrals(cubic), periodic=False)
-        assert found == pytest.approx(coarse.hat_integrals(cubic), rel=1e-13)
+        coarser = restricted(fine.hat_integrals(cubic), periodic=False)
+        assert coarser == pytest.approx(coarse.hat_integrals(cubic), rel=1e-13)
         assert restricted(fine.weights, periodic=False) == pytest.approx(coarse.weights)
 
     def test_an_even_count_lacks_half_a_hat_at_its_end(self):
         fine, coarse = HatGrid(0.5, -9, 10), HatGrid(1.0, -4, 5)
-        found = restricted(fine.hat_integrals(cubic), periodic=False)
+        coarser = restricted(fine.hat_integrals(cubic), periodic=False)
         expected = coarse.hat_integrals(cubic)
-        assert found[:-1] == pytest.approx(expected[:-1], rel=1e-13)
-        assert found[-1] != pytest.approx(expected[-1], rel=1e-3)
+        assert coarser[:-1] == pytest.approx(expected[:-1], rel=1e-13)
+        assert coarser[-1] != pytest.approx(expected[-1], rel=1e-3)
         assert restricted(fine.weights, periodic=False) == pytest.approx(coarse.weights)
 
     def test_a_periodic_line_wraps_round(self):
@@ -164,9 +164,9 @@ class TestCost:
 
     @pytest.mark.parametrize("problem", [cylinder, sinusoid])
     def test_applications_on_the_finest_grid_do_not_grow(self, problem):
-        found = [self.spent(problem, count)[1] for count in self.COUNTS]
-        assert max(found) <= 22
-        assert found[-1] <= 2 * found[0]
+        spent = [self.spent(problem, count)[1] for count in self.COUNTS]
+        assert max(spent) <= 22
+        assert spent[-1] <= 2 * spent[0]
 
     @pytest.mark.parametrize("periodic", [True, False])
     def test_on_a_rough_surface_they_hardly_grow(self, periodic):

@@ -27,16 +27,16 @@ def test_edges_of_one_patch_are_found_between_the_nodes(edge):
         )
 
     gap = np.array([averaged(max(d - right, left - d)) for d in x]) * ~inside
-    found = contact_patches(x, pressure, gap)
-    assert found.shape == (1, 2)
-    assert found[0] == pytest.approx([left, right], abs=0.05)
+    patches = contact_patches(x, pressure, gap)
+    assert patches.shape == (1, 2)
+    assert patches[0] == pytest.approx([left, right], abs=0.05)
 
 
 def test_patches_are_listed_in_order_and_close_ones_take_half_a_pitch():
     pressure = np.array([0, 0, 1, 2, 1, 0, 0, 3, 0, 0, 1, 1, 0, 0], dtype=float)
     x = 2.0 * np.arange(len(pressure))
-    found = contact_patches(x, pressure, np.zeros_like(x))
-    assert found.tolist() == [[3.0, 9.0], [13.0, 15.0], [19.0, 23.0]]
+    patches = contact_patches(x, pressure, np.zeros_like(x))
+    assert patches.tolist() == [[3.0, 9.0], [13.0, 15.0], [19.0, 23.0]]
 
 
 def test_contact_up_to_the_end_of_the_grid():

@@ -49,11 +49,11 @@ class TestHertz:
         # offsets averaged: the error depends on where the edge falls between two nodes
         errors = []
         for elements in (120, 240, 480, 960):
-            found = [
+            peaks = [
                 smooth(roller, elements, offset)[1].pressure.max()
                 for offset in (0.0, 0.25, 0.5, 0.75)
             ]
-            errors.append(np.mean(np.abs(np.array(found) / HERTZ.peak_pressure - 1.0)))
+            errors.append(np.mean(np.abs(np.array(peaks) / HERTZ.peak_pressure - 1.0)))
         orders = observed_orders(errors)
         assert orders.mean() == pytest.approx(2.0, abs=0.25)
         assert errors[-1] < 1e-5
@@ -250,8 +250,8 @@ def test_residuals_see_each_kind_of_error(roller):
     def residuals(pressure, approach=solution.approach, hardness=np.inf):
         limits = Constraints(load=roller.load, hardness=hardness)
         moved = operator.apply(pressure)
-        found = assessed(moved, pressure, weighted_gap, grid.weights, approach, limits, {})
-        return found.residuals
+        checked = assessed(moved, pressure, weighted_gap, grid.weights, approach, limits, {})
+        return checked.residuals
 
     assert residuals(solution.pressure).worst < 1e-10
     assert residuals(1.01 * solution.pressure).load_balance == pytest.approx(0.01)
@@ -271,9 +271,9 @@ def test_residuals_see_pressure_at_the_hardness_over_an_open_gap(roller):
     inner = pressure == 0.0
     approach = np.min(((weighted_gap + displacement) / grid.weights)[inner])
     constraints = Constraints(load=grid.weights @ pressure, hardness=hardness)
-    found = assessed(displacement, pressure, weighted_gap, grid.weights, approach, constraints, {})
-    assert found.gap[~inner].max() > 1e-8
-    assert found.residuals.complementarity > 0.01
+    state = assessed(displacement, pressure, weighted_gap, grid.weights, approach, constraints, {})
+    assert state.gap[~inner].max() > 1e-8
+    assert state.residuals.complementarity > 0.01
 
 
 def test_a_residual_that_is_no_number_does_not_count_as_met():

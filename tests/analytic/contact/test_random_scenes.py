@@ -244,14 +244,14 @@ def outcome(seed: int) -> Run:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_scene_is_solved_at_a_proportionate_cost(seed):
-    found = outcome(seed)
-    assert found.converged, found.label
-    assert max(found.residuals.values()) <= RESIDUAL, found
-    assert found.iterations["applications"] <= APPLICATIONS, found
+    case = outcome(seed)
+    assert case.converged, case.label
+    assert max(case.residuals.values()) <= RESIDUAL, case
+    assert case.iterations["applications"] <= APPLICATIONS, case
 
 
 def test_few_nodes_agree_with_bounded_least_squares():
-    checked = [found for found in map(outcome, SEEDS) if found.departure is not None]
+    checked = [case for case in map(outcome, SEEDS) if case.departure is not None]
     assert len(checked) > 40
     wrong = [f"{f.label}: {f.departure:.1e}" for f in checked if not f.departure <= 1e-8]
     assert not wrong, "\n".join(wrong)

@@ -103,8 +103,8 @@ def test_nodal_values_undo_the_overshoot_of_hats_on_a_parabola():
     pitch = 0.1
     hats = pitch * np.arange(-5, 6)
     wanted = 3.0 - 2.0 * hats[1:-1] + 1.5 * hats[1:-1] ** 2
-    found = nodal_values(hats, wanted - 3.0 * pitch**2 / 12.0)
-    assert found[1:-1] == pytest.approx(wanted[1:-1], rel=1e-13)
+    values = nodal_values(hats, wanted - 3.0 * pitch**2 / 12.0)
+    assert values[1:-1] == pytest.approx(wanted[1:-1], rel=1e-13)
 
 
 def test_all_ends_at_once_are_those_of_a_search_one_by_one(rng):
@@ -115,7 +115,7 @@ def test_all_ends_at_once_are_those_of_a_search_one_by_one(rng):
         gap[start : start + 20] = depth**1.5 * (1.0 + 0.02 * depth)
     nodes, ends = contact_ends(hats, np.where(gap > 0.0, 0.0, 1.0), gap)
     assert len(nodes) == 10
-    for node, found, side in [
+    for node, place, side in [
         *zip(nodes[:, 0], ends[:, 0], [-1] * 10, strict=True),
         *zip(nodes[:-1, 1], ends[:-1, 1], [1] * 9, strict=True),
     ]:
@@ -134,4 +134,4 @@ def test_all_ends_at_once_are_those_of_a_search_one_by_one(rng):
             ]
             return np.linalg.det(np.array([*rows, gap[near.min() : near.max() + 1]]))
 
-        assert found == pytest.approx(brentq(mismatch, found - 0.05, found + 0.05), abs=1e-4)
+        assert place == pytest.approx(brentq(mismatch, place - 0.05, place + 0.05), abs=1e-4)

@@ -148,9 +148,9 @@ def stress_errors(case: ExactContact, exact, half_width: float) -> np.ndarray:
         largest = []
         for offset in OFFSETS:
             nodes, solution = solved(case, elements, offset)
-            found = stress_at(nodes, solution.pressure, case.friction, x, z)
+            stress = stress_at(nodes, solution.pressure, case.friction, x, z)
             largest.append(
-                max(np.abs(getattr(found, k) - getattr(expected, k)).max() for k in NAMES)
+                max(np.abs(getattr(stress, k) - getattr(expected, k)).max() for k in NAMES)
             )
         errors.append(np.mean(largest) / case.quantities["peak_pressure"])
     return np.array(errors)

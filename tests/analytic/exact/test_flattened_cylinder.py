@@ -26,13 +26,13 @@ def exact(share: float) -> FlattenedCylinder:
 
 @pytest.mark.parametrize("share", SHARES)
 def test_pressure_carries_the_load_and_meets_the_hardness(share):
-    found = exact(share)
-    outer = quad(found.pressure, found.flowed, found.contact, epsabs=0.0, epsrel=1e-10)[0]
-    assert 2.0 * (outer + found.hardness * found.flowed) == pytest.approx(LOAD, rel=1e-9)
-    edge = found.flowed * (1.0 + 1e-14)
-    assert found.pressure(edge) == pytest.approx(found.hardness, rel=1e-6)
-    assert found.pressure([0.0, found.contact, -2.0 * found.contact]).tolist() == [
-        found.hardness,
+    cylinder = exact(share)
+    outer = quad(cylinder.pressure, cylinder.flowed, cylinder.contact, epsabs=0.0, epsrel=1e-10)[0]
+    assert 2.0 * (outer + cylinder.hardness * cylinder.flowed) == pytest.approx(LOAD, rel=1e-9)
+    edge = cylinder.flowed * (1.0 + 1e-14)
+    assert cylinder.pressure(edge) == pytest.approx(cylinder.hardness, rel=1e-6)
+    assert cylinder.pressure([0.0, cylinder.contact, -2.0 * cylinder.contact]).tolist() == [
+        cylinder.hardness,
         0.0,
         0.0,
     ]
@@ -41,8 +41,8 @@ def test_pressure_carries_the_load_and_meets_the_hardness(share):
 @pytest.mark.parametrize("share", SHARES)
 def test_gap_is_closed_where_ground_is_elastic_and_overlaps_where_it_flowed(share):
     """Its slope x/R - 2/(pi E*) int p/(x - s) ds, by Cauchy's weight from the pressure alone."""
-    found = exact(share)
-    b, c = found.contact, found.flowed
+    cylinder = exact(share)
+    b, c = cylinder.contact, cylinder.flowed
 
     ends = [-b, -c, c, b]
 
@@ -50,9 +50,9 @@ def test_gap_is_closed_where_ground_is_elastic_and_overlaps_where_it_flowed(shar
         total = 0.0
         for start, stop in pairwise(ends):
             if start < x < stop:
-                total -= quad(found.pressure, start, stop, weight="cauchy", wvar=x)[0]
+                total -= quad(cylinder.pressure, start, stop, weight="cauchy", wvar=x)[0]
             else:
-                total += quad(lambda s: found.pressure(s) / (x - s), start, stop)[0]
+                total += quad(lambda s: cylinder.pressure(s) / (x - s), start, stop)[0]
         return x / RADIUS - 2.0 * total / (np.pi * MODULUS)
 
     steep = b / RADIUS
@@ -63,22 +63,22 @@ def test_gap_is_closed_where_ground_is_elastic_and_overlaps_where_it_flowed(shar
     x, dx = c * (1.0 - near**2), c * near * weight
     slopes = np.array([slope(place) for place in x])
     assert np.all(slopes > 0.0)
-    assert slopes @ dx == pytest.approx(largest_overlap(found), rel=1e-5)
-    assert 2.0 * (x * slopes) @ dx == pytest.approx(flowed_volume(found), rel=1e-5)
+    assert slopes @ dx == pytest.approx(largest_overlap(cylinder), rel=1e-5)
+    assert 2.0 * (x * slopes) @ dx == pytest.approx(flowed_volume(cylinder), rel=1e-5)
 
 
 def test_a_hardness_just_below_the_peak_leaves_hertz():
-    found = exact(1.0 - 1e-9)
-    assert found.contact == pytest.approx(HERTZ.half_width, rel=1e-8)
-    assert found.flowed < 1e-3 * found.contact
+    cylinder = exact(1.0 - 1e-9)
+    assert cylinder.contact == pytest.approx(HERTZ.half_width, rel=1e-8)
+    assert cylinder.flowed < 1e-3 * cylinder.contact
     x = np.linspace(-1.2, 1.2, 49) * HERTZ.half_width
-    assert found.pressure(x) == pytest.approx(HERTZ.pressure(x), abs=1e-4 * HERTZ.peak_pressure)
+    assert cylinder.pressure(x) == pytest.approx(HERTZ.pressure(x), abs=1e-4 * HERTZ.peak_pressure)
 
 
 def test_a_soft_body_carries_the_hardness_over_the_whole_width():
-    found = exact(0.3)
-    assert found.contact == pytest.approx(LOAD / (2.0 * found.hardness), rel=1e-4)
-    assert found.flowed == pytest.approx(found.contact, rel=1e-6)
+    cylinder = exact(0.3)
+    assert cylinder.contact == pytest.approx(LOAD / (2.0 * cylinder.hardness), rel=1e-4)
+    assert cylinder.flowed == pytest.approx(cylinder.contact, rel=1e-6)
 
 
 @pytest.mark.parametrize("share", [1.0 + 1e-12, 2.0, -0.5])
@@ -87,21 +87,21 @@ def test_nothing_flows_at_a_hardness_above_the_peak(share):
         exact(share)
 
 
-def solver_errors(found: FlattenedCylinder, count: float) -> tuple[float, float]:
+def solver_errors(cylinder: FlattenedCylinder, count: float) -> tuple[float, float]:
     """Relative errors of the volume of the overlap and of the pressure (L2); hats in b."""
-    pitch, reach = found.contact / count, 1.5 * found.contact
+    pitch, reach = cylinder.contact / count, 1.5 * cylinder.contact
     grid = HatGrid.within(-reach, reach, pitch)
     solution = solve_contact(
         HalfPlane(grid.count, pitch, MODULUS),
         grid.hat_integrals(roller_gap(RADIUS)),
         grid.weights,
-        Constraints(load=LOAD, hardness=found.hardness),
+        Constraints(load=LOAD, hardness=cylinder.hardness),
     )
     assert solution.converged
     volume = pitch * np.maximum(-solution.gap, 0.0)[solution.pressure > 0.0].sum()
-    wanted = found.pressure(grid.x)
+    wanted = cylinder.pressure(grid.x)
     return (
-        volume / flowed_volume(found) - 1.0,
+        volume / flowed_volume(cylinder) - 1.0,
         np.linalg.norm(solution.pressure - wanted) / np.linalg.norm(wanted),
     )
 
@@ -110,10 +110,10 @@ def solver_errors(found: FlattenedCylinder, count: float) -> tuple[float, float]
 def test_contact_solver_finds_the_volume_at_second_order_and_the_pressure_at_first(share):
     """Root mean square over places of the edges between nodes; the pressure's slope is infinite
     at c."""
-    found = exact(share)
+    cylinder = exact(share)
     counts = np.array([40, 160, 640])
     errors = [
-        np.sqrt(np.mean([np.square(solver_errors(found, n + o)) for o in OFFSETS], axis=0))
+        np.sqrt(np.mean([np.square(solver_errors(cylinder, n + o)) for o in OFFSETS], axis=0))
         for n in counts
     ]
     volume, pressure = -np.polyfit(np.log(counts), np.log(errors), 1)[0]

@@ -47,11 +47,11 @@ def test_reference_field(name):
 
 @pytest.mark.parametrize("mu", ["0", "0.1", "0.3"])
 def test_reference_extremes(mu):
-    expected, found = REFERENCE["maxima"][mu], hertz_extremes(UNIT, float(mu))
+    expected, extremes = REFERENCE["maxima"][mu], hertz_extremes(UNIT, float(mu))
     for name, extremum, sign in (
-        ("tau1_interior", found.tau1, 1.0),
-        ("txz_most_positive", found.txz_max, 1.0),
-        ("txz_most_negative_minus", found.txz_min, -1.0),
+        ("tau1_interior", extremes.tau1, 1.0),
+        ("txz_most_positive", extremes.txz_max, 1.0),
+        ("txz_most_negative_minus", extremes.txz_min, -1.0),
     ):
         assert sign * extremum.value == pytest.approx(float(expected[name]["value"]), rel=4e-15)
         assert extremum.x == pytest.approx(float(expected[name]["x_over_a"]), abs=1e-10)
@@ -62,17 +62,17 @@ def test_friction_brings_the_largest_shear_to_the_surface():
     """It rises with mu; from about mu = 0.37 on mu p0 at the surface exceeds all below."""
     depths = [hertz_extremes(UNIT, mu).tau1.z for mu in (0.0, 0.1, 0.2, 0.36, 0.38)]
     assert np.all(np.diff(depths) < 0.0) and depths[-2] > 0.1 and depths[-1] == 0.0
-    found = hertz_extremes(UNIT, 0.5)
-    assert (found.tau1.value, found.tau1.z) == (0.5, 0.0)
-    assert (found.txz_min.value, found.txz_min.z) == (-0.5, 0.0)
+    extremes = hertz_extremes(UNIT, 0.5)
+    assert (extremes.tau1.value, extremes.tau1.z) == (0.5, 0.0)
+    assert (extremes.txz_min.value, extremes.txz_min.z) == (-0.5, 0.0)
     below = minimize(
         lambda point: -hertz_stress(UNIT, point[0], point[1], 0.5).txz,
         (-0.86, 1.0),
         method="Nelder-Mead",
         options={"xatol": 1e-9, "fatol": 1e-16},
     )
-    assert found.txz_max.value == pytest.approx(-below.fun, rel=1e-14)
-    assert (found.txz_max.x, found.txz_max.z) == pytest.approx(tuple(below.x), abs=1e-6)
+    assert extremes.txz_max.value == pytest.approx(-below.fun, rel=1e-14)
+    assert (extremes.txz_max.x, extremes.txz_max.z) == pytest.approx(tuple(below.x), abs=1e-6)
 
 
 def test_extremes_mirror_when_the_sliding_reverses():
@@ -85,11 +85,11 @@ def test_extremes_mirror_when_the_sliding_reverses():
 def test_extremes_exceed_the_field_everywhere():
     x, z = np.linspace(-2.0, 2.0, 401), np.linspace(0.0, 2.0, 201)[:, None]
     for friction in (0.0, 0.05, 0.2, 0.36, 0.4, 1.0):
-        stress, found = hertz_stress(UNIT, x, z, friction), hertz_extremes(UNIT, friction)
+        stress, extremes = hertz_stress(UNIT, x, z, friction), hertz_extremes(UNIT, friction)
         for field, value in (
-            (stress.tau1, found.tau1.value),
-            (stress.txz, found.txz_max.value),
-            (-stress.txz, -found.txz_min.value),
+            (stress.tau1, extremes.tau1.value),
+            (stress.txz, extremes.txz_max.value),
+            (-stress.txz, -extremes.txz_min.value),
         ):
             assert value - 2e-4 < field.max() < value + 1e-15
 
@@ -151,10 +151,10 @@ def smith_and_liu(x: np.ndarray, z: np.ndarray, friction: float) -> dict[str, np
 def test_closed_forms_of_smith_and_liu(friction):
     rng = np.random.default_rng(5)
     x, z = rng.uniform(-3.0, 3.0, 500), rng.uniform(0.05, 3.0, 500)
-    found = hertz_stress(UNIT, x, z, friction)
+    stress = hertz_stress(UNIT, x, z, friction)
     for name, expected in smith_and_liu(x, z, friction).items():
         # their sums lose digits: 1e-12 of the peak pressure is theirs
-        np.testing.assert_allclose(getattr(found, name), expected, atol=1e-12)
+        np.testing.assert_allclose(getattr(stress, name), expected, atol=1e-12)
 
 
 def test_largest_tension_stands_at_the_trailing_edge():

@@ -66,8 +66,8 @@ def test_pressure_is_the_sum_of_flat_punches(chord):
     for x in places:
         if x >= 1.0 and chord**2 - (x - 1.0) * (x + 1.0) < 1e-3 * chord**2:
             continue  # next to the edge the rounding of x decides
-        found = float(punch.pressure(x))
-        assert found == pytest.approx(summed_punches(punch, x), rel=1e-12, abs=0.0), x
+        pressure = float(punch.pressure(x))
+        assert pressure == pytest.approx(summed_punches(punch, x), rel=1e-12, abs=0.0), x
 
 
 @pytest.mark.parametrize("b", [0.0, 1e-9, 0.4, 0.9, 1.0 - 1e-5])
@@ -169,7 +169,7 @@ def test_solver_converges_to_the_exact_pressure(flat):
     errors = []
     for refinement in (1, 2, 4):
         elements = refinement * round(150.0 / (1.0 - flat))
-        found = []
+        pairs = []
         for offset in (0.0, 0.25, 0.5, 0.75):
             x, solution = solved(punch, elements, offset)
             exact = punch.pressure(x)
@@ -178,8 +178,8 @@ def test_solver_converges_to_the_exact_pressure(flat):
             shift = patches[0] / punch.half_width - np.array([-1.0, 1.0])
             assert np.abs(shift).max() < 0.05 * 3.0 / elements
             peak = abs(solution.pressure.max() / punch.peak_pressure - 1.0)
-            found.append((peak, np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2)))
-        peak, square = np.mean(found, axis=0)
+            pairs.append((peak, np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2)))
+        peak, square = np.mean(pairs, axis=0)
         errors.append((peak, np.sqrt(square)))
     orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:])).mean(axis=0)
     assert orders[0] == pytest.approx(2.0, abs=0.2)

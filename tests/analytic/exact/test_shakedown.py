@@ -25,8 +25,8 @@ def test_beyond_a_friction_of_0_367_the_surface_decides(friction):
 @pytest.mark.parametrize("friction", [0.05, 0.1, 0.2, 0.36])
 def test_below_the_orthogonal_shear_decides(friction):
     """Residual stresses cancel all but txz, whose largest value is found in another way."""
-    found = hertz_extremes(UNIT, friction)
-    largest = max(abs(found.txz_max.value), abs(found.txz_min.value))
+    extremes = hertz_extremes(UNIT, friction)
+    largest = max(abs(extremes.txz_max.value), abs(extremes.txz_min.value))
     assert shakedown_limit(friction)[0] == pytest.approx(1.0 / largest, rel=2e-6)
 
 

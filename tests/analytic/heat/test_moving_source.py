@@ -23,8 +23,8 @@ def test_moving_band(row):
     peclet = float(row["Pe_Vl_over_2kappa"])
     for name, value in row.items():
         if name.startswith("kT_over_ql_at_x_"):
-            found = band_surface(float(name.rpartition("_")[2]), peclet)
-            assert found == pytest.approx(float(value), rel=1e-13)
+            rise = band_surface(float(name.rpartition("_")[2]), peclet)
+            assert rise == pytest.approx(float(value), rel=1e-13)
     largest, place = band_maximum(peclet)
     assert largest == pytest.approx(float(row["max_kT_over_ql"]), rel=1e-13)
     assert place == pytest.approx(float(row["x_max_over_l"]), abs=1e-12)

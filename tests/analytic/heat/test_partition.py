@@ -25,37 +25,37 @@ def surface(material, velocity):
 
 def test_equal_bodies_share_evenly():
     one = surface(STEEL, -2.0)
-    found = divided(one, surface(STEEL, -2.0), HEAT)
-    assert found.fraction == pytest.approx(0.5, rel=1e-9)
-    assert found.flux == pytest.approx(0.5 * HEAT, abs=1e-8 * HEAT.max())
+    heat = divided(one, surface(STEEL, -2.0), HEAT)
+    assert heat.fraction == pytest.approx(0.5, rel=1e-9)
+    assert heat.flux == pytest.approx(0.5 * HEAT, abs=1e-8 * HEAT.max())
 
 
 @pytest.mark.parametrize("other", [COPPER, POLYMER])
 def test_bodies_of_equal_peclet_number_share_by_conductivity(other):
     speeds = 1.0, other.diffusivity / STEEL.diffusivity
-    found = divided(surface(STEEL, speeds[0]), surface(other, speeds[1]), HEAT)
+    heat = divided(surface(STEEL, speeds[0]), surface(other, speeds[1]), HEAT)
     exact = STEEL.conductivity / (STEEL.conductivity + other.conductivity)
-    assert found.fraction == pytest.approx(exact, rel=1e-8)
-    assert found.flux == pytest.approx(exact * HEAT, abs=1e-6 * HEAT.max())
+    assert heat.fraction == pytest.approx(exact, rel=1e-8)
+    assert heat.flux == pytest.approx(exact * HEAT, abs=1e-6 * HEAT.max())
 
 
 def test_fast_unlike_bodies_share_by_effusivity_and_speed():
     speeds = 2e3, 5e2
-    found = divided(surface(STEEL, speeds[0]), surface(COPPER, speeds[1]), HEAT)
+    heat = divided(surface(STEEL, speeds[0]), surface(COPPER, speeds[1]), HEAT)
     sizes = [m.effusivity * np.sqrt(v) for m, v in zip((STEEL, COPPER), speeds, strict=True)]
-    assert found.fraction == pytest.approx(sizes[0] / sum(sizes), rel=2e-3)
+    assert heat.fraction == pytest.approx(sizes[0] / sum(sizes), rel=2e-3)
 
 
 @pytest.mark.parametrize(("other", "velocity"), [(STEEL, 0.0), (COPPER, 0.0), (POLYMER, 30.0)])
 def test_both_surfaces_have_one_temperature_where_they_touch(other, velocity):
     first, second = surface(STEEL, -1.0), surface(other, velocity)
-    found = divided(first, second, HEAT)
+    heat = divided(first, second, HEAT)
     touch = HEAT > 0.0
-    assert found.first[touch] == pytest.approx(found.second[touch], abs=1e-5)
-    assert np.all(found.flux[~touch] == 0.0)
-    assert found.first == pytest.approx(first.rise(found.flux))
-    assert found.second == pytest.approx(second.rise(HEAT - found.flux))
-    assert np.ptp(found.first[~touch] - found.second[~touch]) > 0.1  # not so in the gaps
+    assert heat.first[touch] == pytest.approx(heat.second[touch], abs=1e-5)
+    assert np.all(heat.flux[~touch] == 0.0)
+    assert heat.first == pytest.approx(first.rise(heat.flux))
+    assert heat.second == pytest.approx(second.rise(HEAT - heat.flux))
+    assert np.ptp(heat.first[~touch] - heat.second[~touch]) > 0.1  # not so in the gaps
 
 
 def test_dense_solution():
@@ -65,19 +65,19 @@ def test_dense_solution():
         nodes
     ]
     flux = np.linalg.solve(columns, second.rise(HEAT)[nodes])
-    found = divided(first, second, HEAT).flux[nodes]
-    assert found == pytest.approx(flux, abs=1e-7 * HEAT.max())
+    share = divided(first, second, HEAT).flux[nodes]
+    assert share == pytest.approx(flux, abs=1e-7 * HEAT.max())
 
 
 def test_rules_of_one_fraction():
     """Exact for like bodies; a moving body takes more than one at rest."""
     first, second = surface(STEEL, -1.0), surface(STEEL, 0.0)
-    found = divided(first, second, HEAT).fraction
+    fraction = divided(first, second, HEAT).fraction
     for rule in (partial(one_fraction, of=np.max), partial(one_fraction, of=np.mean)):
         assert rule(first, surface(STEEL, -1.0), HEAT) == pytest.approx(0.5)
-        assert rule(first, second, HEAT) == pytest.approx(found, abs=0.06)
+        assert rule(first, second, HEAT) == pytest.approx(fraction, abs=0.06)
         assert rule(second, first, HEAT) == pytest.approx(1.0 - rule(first, second, HEAT))
-    assert found > 0.8
+    assert fraction > 0.8
 
 
 def test_layers_have_the_stated_limits():

@@ -24,10 +24,10 @@ def bump(count=801):
     return 1e8 * np.clip(1.0 - x**2, 0.0, None) ** 3
 
 
-def stresses(peclet, depths, **given):
-    one, flux = surface(peclet, **given), bump(given.get("count", 801))
-    found = thermal_stress(one, flux, depths, STEEL, ALPHA)
-    return np.array([found.sx, found.sz, found.txz])
+def stresses(peclet, depths, **options):
+    one, flux = surface(peclet, **options), bump(options.get("count", 801))
+    stress = thermal_stress(one, flux, depths, STEEL, ALPHA)
+    return np.array([stress.sx, stress.sz, stress.txz])
 
 
 @pytest.mark.parametrize("peclet", [0.3, 3.0, 30.0, -3.0])
@@ -64,8 +64,8 @@ def test_equations_of_elasticity(peclet):
 def test_a_source_at_rest_leaves_no_stress_in_the_plane():
     """Its temperature is harmonic; slow sources come near, by a logarithm."""
     one = HeatedSurface(THERMAL, 801, 1e-6, 0.0, reach=1e-2)
-    found = thermal_stress(one, bump(), [0.0, HALF], STEEL, ALPHA)
-    assert not np.any([found.sx, found.sz, found.txz])
+    stress = thermal_stress(one, bump(), [0.0, HALF], STEEL, ALPHA)
+    assert not np.any([stress.sx, stress.sz, stress.txz])
     largest = [
         np.abs(stresses(p, [0.0])).max() / (CONSTANT * surface(p).rise(bump()).max())
         for p in (0.3, 0.1, 0.03, 0.01)
@@ -85,19 +85,19 @@ def test_a_fast_source_holds_what_it_heats():
 
 def test_scaling_and_mirror():
     depths = HALF * np.array([0.0, 0.2, 1.0])
-    found = stresses(3.0, depths)
+    stress = stresses(3.0, depths)
     larger = stresses(3.0, 10.0 * depths, half=10.0 * HALF)
-    assert larger == pytest.approx(10.0 * found, abs=1e-9 * np.abs(larger).max())
+    assert larger == pytest.approx(10.0 * stress, abs=1e-9 * np.abs(larger).max())
     sx, sz, txz = stresses(-3.0, depths)[..., ::-1]
-    assert np.array([sx, sz, -txz]) == pytest.approx(found, abs=1e-9 * np.abs(found).max())
+    assert np.array([sx, sz, -txz]) == pytest.approx(stress, abs=1e-9 * np.abs(stress).max())
     twice = thermal_stress(surface(3.0), 2.0 * bump(), depths, STEEL, 3.0 * ALPHA)
-    assert twice.sx == pytest.approx(6.0 * found[0], rel=1e-12)
+    assert twice.sx == pytest.approx(6.0 * stress[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("peclet", [0.05, 0.5, 5.0, 100.0])
 def test_the_ring_is_long_enough(peclet, monkeypatch):
     depths = HALF * np.array([0.0, 0.1, 1.0])
-    found = stresses(peclet, depths)
+    stress = stresses(peclet, depths)
     monkeypatch.setattr("analytic.heat.thermal_stress.RING", 128)
     monkeypatch.setattr("analytic.heat.thermal_stress.LAYERS", 400.0)
-    assert np.abs(found - stresses(peclet, depths)).max() < 3e-3 * np.abs(found).max()
+    assert np.abs(stress - stresses(peclet, depths)).max() < 3e-3 * np.abs(stress).max()

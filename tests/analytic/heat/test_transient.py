@@ -18,8 +18,8 @@ EXACT = 1e-13
 def test_step_on_a_half_space():
     for row in REFERENCE["step_semi_infinite"]:
         depth = float(row["y_over_sqrt_kappa_t"])
-        found = transient.step_half_space(depth, 1.0, 1.0)
-        assert found == pytest.approx(float(row["exact"]), rel=EXACT)
+        rise = transient.step_half_space(depth, 1.0, 1.0)
+        assert rise == pytest.approx(float(row["exact"]), rel=EXACT)
         short = transient.parabola(depth, 1.0, 1.0)
         assert short == pytest.approx(float(row["seed_parabola"]), rel=EXACT, abs=1e-30)
 
@@ -27,8 +27,8 @@ def test_step_on_a_half_space():
 def test_step_on_a_slab():
     for row in REFERENCE["step_slab"]:
         late, place = float(row["t_over_tL"]), float(row["y_over_L"])
-        found = transient.step_slab(place, late / 12.0, 1.0, 1.0)
-        assert found == pytest.approx(float(row["exact"]), rel=1e-13)
+        rise = transient.step_slab(place, late / 12.0, 1.0, 1.0)
+        assert rise == pytest.approx(float(row["exact"]), rel=1e-13)
         short = transient.parabola(place, late / 12.0, 1.0)
         if late >= 1.0:
             short = transient.late_parabola(place, late / 12.0, 1.0, 1.0)
@@ -50,10 +50,10 @@ def test_constant_flux():
 def test_pulse():
     for row in REFERENCE["pulse"]:
         duration, time = (float(row[f"{t}_over_tL"]) / 12.0 for t in ("t0", "t"))
-        found = transient.pulse(0.0, time, duration, 1.0, UNIT)
-        assert found == pytest.approx(float(row["semi_infinite"]), rel=EXACT)
-        found = transient.pulse(0.0, time, duration, 1.0, UNIT, thickness=1.0)
-        assert found == pytest.approx(float(row["slab_insulated"]), rel=EXACT)
+        rise = transient.pulse(0.0, time, duration, 1.0, UNIT)
+        assert rise == pytest.approx(float(row["semi_infinite"]), rel=EXACT)
+        rise = transient.pulse(0.0, time, duration, 1.0, UNIT, thickness=1.0)
+        assert rise == pytest.approx(float(row["slab_insulated"]), rel=EXACT)
 
 
 @pytest.mark.parametrize("place", [0.0, 0.3, 1.0])

@@ -88,13 +88,13 @@ def test_displacements_and_stresses_solve_the_boundary_value_problem(base, nu, w
     scale = 1.0 / (body.material.shear_modulus * k)
     under_p, under_q = exact(body, k, depths)
     assert normal_compliance(body, k) == pytest.approx(under_p[0], rel=4e-15, abs=0.0)
-    for found, coupled, stress in (
+    for state, coupled, stress in (
         (stresses[0], under_p[1], under_p[2]),
         (stresses[1], under_q[0], under_q[2]),
     ):
         assert sliding == pytest.approx(coupled, rel=4e-15, abs=1e-15 * scale)
         rounding = 2e-12 if base == "far softer" else 4e-15
-        computed = np.array([found.sx, found.sz, found.txz])
+        computed = np.array([state.sx, state.sz, state.txz])
         assert computed == pytest.approx(stress, abs=rounding * max(1.0, np.abs(stress).max()))
 
 

@@ -84,9 +84,9 @@ def test_on_a_half_plane_of_its_own_material_it_is_the_half_plane(pitch):
 def test_under_a_grid_far_narrower_than_the_layer_it_is_a_half_plane_but_for_a_constant(base):
     body, half_plane = LayeredBody(LAYER, 1.0, base), LAYER.plane_strain_modulus
     for pitch, bound in ((1e-6, 2e-7), (1e-5, 2e-5)):
-        found = LayeredSurface(500, pitch, body).column
+        column = LayeredSurface(500, pitch, body).column
         expected = HalfPlane(500, pitch, half_plane).column
-        shift = found - expected
+        shift = column - expected
         assert np.ptp(shift) < bound * np.ptp(expected)
         assert np.ptp(shift) > 1e-3 * bound * np.ptp(expected)
 

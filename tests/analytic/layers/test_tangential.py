@@ -25,10 +25,10 @@ BASES = {
 @pytest.mark.parametrize("pitch", [1e-6, 0.01, 1.0, 10.0])
 def test_on_a_half_plane_of_its_own_material_it_is_the_half_plane(pitch):
     count, nu = 201, LAYER.poissons_ratio
-    found = TangentialLayer(count, pitch, LayeredBody(LAYER, 1.0, LAYER)).column
+    column = TangentialLayer(count, pitch, LayeredBody(LAYER, 1.0, LAYER)).column
     beta = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
     expected = beta * pitch**2 / LAYER.plane_strain_modulus * hat_sign(np.arange(count))
-    assert found == pytest.approx(expected, abs=1e-14 * np.abs(expected).max())
+    assert column == pytest.approx(expected, abs=1e-14 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("pitch", [1e-4, 0.1, 1.0, 10.0, 1e4, 1e6])
@@ -66,10 +66,10 @@ def test_operator_does_no_work_and_coarsens(base):
         refine[[2 * j, 2 * j + 1], j] = 0.5, 1.0
         if j < 15:
             refine[2 * j + 2, j] = 0.5
-    found = np.array([coarse.apply(column) for column in np.eye(16)]).T
+    coarsened = np.array([coarse.apply(column) for column in np.eye(16)]).T
     expected = refine.T @ matrix @ refine
     inner = slice(15)  # the last coarse hat overhangs
-    assert found[inner, inner] == pytest.approx(expected[inner, inner], abs=2e-13 * scale)
+    assert coarsened[inner, inner] == pytest.approx(expected[inner, inner], abs=2e-13 * scale)
     full = toeplitz(fine.column, -fine.column)
     assert matrix == pytest.approx(full, abs=1e-13 * scale)
 

@@ -24,13 +24,13 @@ def law(request):
 
 def test_values():
     strain = np.array([0.0, 0.03, 10.0])
-    found = {name: law.stress(strain) / 1e6 for name, law in LAWS.items()}
-    np.testing.assert_allclose(found["perfect"], [300, 300, 300], rtol=1e-14)
-    np.testing.assert_allclose(found["linear"], [300, 330, 10300], rtol=1e-14)
-    np.testing.assert_allclose(found["voce"], [300, 500 - 200 * np.exp(-0.36), 500], rtol=1e-14)
+    stresses = {name: law.stress(strain) / 1e6 for name, law in LAWS.items()}
+    np.testing.assert_allclose(stresses["perfect"], [300, 300, 300], rtol=1e-14)
+    np.testing.assert_allclose(stresses["linear"], [300, 330, 10300], rtol=1e-14)
+    np.testing.assert_allclose(stresses["voce"], [300, 500 - 200 * np.exp(-0.36), 500], rtol=1e-14)
     ludwik = [300, 300 + 600 * 0.03**0.2, 300 + 600 * 10**0.2]
-    np.testing.assert_allclose(found["ludwik"], ludwik, rtol=1e-14)
-    np.testing.assert_allclose(found["table"], [300, 350, 480], rtol=1e-14)
+    np.testing.assert_allclose(stresses["ludwik"], ludwik, rtol=1e-14)
+    np.testing.assert_allclose(stresses["table"], [300, 350, 480], rtol=1e-14)
 
 
 def test_slope_is_the_derivative(law):
@@ -45,14 +45,14 @@ def test_increment_solves_its_equation(law, before):
     """From excesses of rounding's size to fifty yield stresses, against bisection."""
     stiffness, start = 240e9, float(law.stress(np.array(before)))
     trial = start + Y * np.array([1e-6, 1e-3, 0.1, 1.0, 50.0])
-    found = law.increment(trial, np.full(5, before), stiffness)
+    strain = law.increment(trial, np.full(5, before), stiffness)
 
     def left(rise, q):
         return q - stiffness * rise - float(law.stress(np.array(before + rise)))
 
     exact = [brentq(left, 0.0, q / stiffness, args=(q,), xtol=1e-18, rtol=1e-14) for q in trial]
-    np.testing.assert_allclose(found, exact, rtol=1e-9, atol=1e-15)
-    rest = trial - stiffness * found - law.stress(before + found)
+    np.testing.assert_allclose(strain, exact, rtol=1e-9, atol=1e-15)
+    rest = trial - stiffness * strain - law.stress(before + strain)
     np.testing.assert_allclose(rest, 0.0, atol=1e-13 * trial.max())
 
 
@@ -77,6 +77,6 @@ def test_increment_solves_its_equation(law, before):
     ],
 )
 def test_wrong_laws_are_refused_in_one_line(settings, message):
-    with pytest.raises(ValueError, match=message) as told:
+    with pytest.raises(ValueError, match=message) as refusal:
         Hardening(**{"yield_stress": Y} | settings)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(refusal.value)

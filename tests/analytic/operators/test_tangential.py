@@ -96,13 +96,13 @@ def test_two_bodies_add_what_each_does_under_its_own_traction():
     body, roller = Material(70e9, 0.33), Material(210e9, 0.3)
     traction = np.random.default_rng(5).standard_normal(30)
 
-    def own(material):
+    def by_traction(material):
         beta = dundurs_constants(material, None)[1]
         return tangential(30, material.plane_strain_modulus, beta) @ traction
 
     beta = dundurs_constants(body, roller)[1]
     mutual = tangential(30, combined_modulus(body, roller), beta)
-    expected = own(body) - own(roller)
+    expected = by_traction(body) - by_traction(roller)
     assert mutual @ traction == pytest.approx(expected, rel=1e-12, abs=1e-12 * expected.max())
 
 
@@ -131,8 +131,8 @@ def test_coupled_half_plane_is_normal_and_tangential_together(count):
         fine = spread @ half
         assert coarse.datum == coupled.datum
         if count % 2:
-            found, expected = coarse.apply(half), spread.T @ coupled.apply(fine)
-            assert found == pytest.approx(expected, rel=1e-10)
+            moved, expected = coarse.apply(half), spread.T @ coupled.apply(fine)
+            assert moved == pytest.approx(expected, rel=1e-10)
 
 
 @pytest.mark.parametrize("friction_dundurs", [0.1, -0.5, 0.75])
@@ -168,10 +168,10 @@ def wavy_gap() -> np.ndarray:
 @pytest.mark.parametrize("friction_dundurs", [-0.1, 0.4])
 def test_contact_of_the_whole_matrix_is_that_of_the_body(friction_dundurs, constraints):
     right = solve_coupled(body(friction_dundurs), wavy_gap(), GRID.weights, constraints)
-    found = solve_coupled(whole(body(friction_dundurs)), wavy_gap(), GRID.weights, constraints)
-    assert found.converged
-    assert found.pressure == pytest.approx(right.pressure, abs=1e-8 * right.pressure.max())
-    assert found.iterations["exchanges"] <= 12
+    solution = solve_coupled(whole(body(friction_dundurs)), wavy_gap(), GRID.weights, constraints)
+    assert solution.converged
+    assert solution.pressure == pytest.approx(right.pressure, abs=1e-8 * right.pressure.max())
+    assert solution.iterations["exchanges"] <= 12
 
 
 def test_coarser_hats_of_a_matrix_are_sums_of_finer_ones():
@@ -181,8 +181,8 @@ def test_coarser_hats_of_a_matrix_are_sums_of_finer_ones():
         coarse = whole(fine).coarsened()
         exact = fine.coarsened().block(np.arange(count // 2))
         inner = slice(None) if count % 2 else slice(None, -1)
-        found = coarse.matrix[inner, inner]
-        assert found == pytest.approx(exact[inner, inner], rel=1e-11)
+        block = coarse.matrix[inner, inner]
+        assert block == pytest.approx(exact[inner, inner], rel=1e-11)
         assert coarse.count == count // 2 and coarse.skew
 
 
@@ -199,7 +199,7 @@ def test_hats_that_the_body_cannot_resolve_away_from_the_contact_do_no_harm():
     few = DenseCoupledCompliance(spread @ body().block(places) @ spread.T)
     assert few.solve(np.arange(40), np.ones((40, 1))) is None
     constraints = Constraints(load=LOAD)
-    found = solve_coupled(few, wavy_gap(), GRID.weights, constraints)
+    solution = solve_coupled(few, wavy_gap(), GRID.weights, constraints)
     right = solve_coupled(body(), wavy_gap(), GRID.weights, constraints)
-    assert found.converged
-    assert found.pressure == pytest.approx(right.pressure, abs=1e-6 * right.pressure.max())
+    assert solution.converged
+    assert solution.pressure == pytest.approx(right.pressure, abs=1e-6 * right.pressure.max())

@@ -20,16 +20,16 @@ MODULUS, RADIUS = 115e9, 10e-3
 
 @pytest.mark.parametrize("row", SPHERES, ids=lambda row: f"T={row['T']:g} m={row['mu']:g}")
 def test_sphere_has_the_digits_of_the_reference(row):
-    found = rough_contact("sphere", row["T"], row["mu"])
+    contact = rough_contact("sphere", row["T"], row["mu"])
     figures = {
-        "d_star": found.d,
-        "p0_star": found.pressure[0],
-        "aHertz_star": found.smooth[0],
-        "p0Hertz_star": found.smooth[1],
-        "a_eff_star_A": found.effective_width,
-        "mean_real_pressure_over_Eprime_sqrt_sigma_beta": found.mean_real_pressure,
+        "d_star": contact.d,
+        "p0_star": contact.pressure[0],
+        "aHertz_star": contact.smooth[0],
+        "p0Hertz_star": contact.smooth[1],
+        "a_eff_star_A": contact.effective_width,
+        "mean_real_pressure_over_Eprime_sqrt_sigma_beta": contact.mean_real_pressure,
     }
-    real = np.sum(2.0 * np.pi * found.rho * found.steps * tail_integral(1.0, found.h))
+    real = np.sum(2.0 * np.pi * contact.rho * contact.steps * tail_integral(1.0, contact.h))
     assert real == pytest.approx(float(row["int_2pi_rho_F1"]), rel=1e-8)
     assert figures == {name: pytest.approx(float(row[name]), rel=1e-8) for name in figures}
 
@@ -53,14 +53,14 @@ def by_hats(cylinder, load, pitch):
         slope = -1.5 * nominally_flat(SUMMITS, MODULUS, 0.0)[0] / tail_integral(1.5, 0.0)
         slope = slope * tail_integral(0.5, unknown[:-1])
         total = nominally_flat(SUMMITS, MODULUS, unknown[:-1])[0].sum()
-        own = np.eye(count) - dense * slope / deviation
-        return np.block([[own, -np.ones((count, 1))], [slope[None] / total, np.zeros((1, 1))]])
+        block = np.eye(count) - dense * slope / deviation
+        return np.block([[block, -np.ones((count, 1))], [slope[None] / total, np.zeros((1, 1))]])
 
     near = np.interp(np.abs(x), cylinder.rho, cylinder.h)
     start = np.append(near + 0.05, 0.0)
-    found = root(unbalanced, start, jac=jacobian, tol=1e-13)
-    assert found.success, found.message
-    h = found.x[:-1]
+    result = root(unbalanced, start, jac=jacobian, tol=1e-13)
+    assert result.success, result.message
+    h = result.x[:-1]
     pressure, area = nominally_flat(SUMMITS, MODULUS, h)
     width = 0.75 * np.pi * np.sum(np.abs(x) * pressure) / pressure.sum()
     return np.array([pressure.max(), pitch * area.sum(), width])
@@ -82,20 +82,20 @@ def test_cylinder_against_hats_on_halved_pitches(load):
 
 @pytest.mark.parametrize(("load", "bearing"), [(1e-3, 40.0), (1.0, 0.3), (300.0, 4.0)])
 def test_more_nodes_change_nothing(monkeypatch, load, bearing):
-    found = rough_contact("cylinder", load, bearing)
+    contact = rough_contact("cylinder", load, bearing)
     monkeypatch.setitem(rough_bodies.NODES, "cylinder", 160)
     finer = rough_contact("cylinder", load, bearing)
     for name in ("d", "effective_width", "mean_real_pressure"):
-        assert getattr(found, name) == pytest.approx(getattr(finer, name), rel=1e-9)
+        assert getattr(contact, name) == pytest.approx(getattr(finer, name), rel=1e-9)
 
 
 def test_heavy_load_is_hertz():
     """The rim beyond the smooth contact is as wide as the gap there opens: a^-4/3 of a, T^-2/3."""
     off = []
     for load in (1e2, 1e3, 1e4):
-        found = rough_contact("cylinder", load, 10.0)
-        width, peak = found.smooth
-        off.append([found.effective_width / width - 1.0, 1.0 - found.pressure[0] / peak])
+        contact = rough_contact("cylinder", load, 10.0)
+        width, peak = contact.smooth
+        off.append([contact.effective_width / width - 1.0, 1.0 - contact.pressure[0] / peak])
     assert np.all(np.array(off) > 0.0) and off[-1][0] < 1e-3 and off[-1][1] < 1e-3
     rates = np.log10(np.array(off)[:-1] / off[1:])
     assert 2.0 / 3.0 < rates[1, 0] < rates[0, 0] < 0.85 and rates[1, 1] > 2.0 / 3.0
@@ -103,10 +103,10 @@ def test_heavy_load_is_hertz():
 
 def test_light_load_is_a_rigid_roller_on_a_rough_plane():
     """Nothing sinks: p = m F_3/2(h0 + rho^2), of Greenwood and Williamson's plane."""
-    found = rough_contact("cylinder", 1e-7, 4.0)
-    expected = 4.0 * tail_integral(1.5, found.h[0] + found.rho**2)
-    bearing = found.pressure > 1e-6 * found.pressure[0]
-    assert found.pressure[bearing] == pytest.approx(expected[bearing], rel=1e-5)
+    contact = rough_contact("cylinder", 1e-7, 4.0)
+    expected = 4.0 * tail_integral(1.5, contact.h[0] + contact.rho**2)
+    bearing = contact.pressure > 1e-6 * contact.pressure[0]
+    assert contact.pressure[bearing] == pytest.approx(expected[bearing], rel=1e-5)
 
 
 def test_figures_in_si():
@@ -133,7 +133,7 @@ def test_too_smooth_and_wrong_loads_are_refused():
 
 def test_the_separation_has_the_datum_that_it_says():
     """h - d at the centre is the sink there, -(2/pi) integral p* ln rho drho."""
-    found = rough_contact("cylinder", 3.0, 4.0)
-    logarithm = np.log(np.maximum(found.rho, 1e-300))
-    sink = -2.0 / np.pi * np.sum(found.steps * found.pressure * logarithm)
-    assert found.h[0] - found.d == pytest.approx(sink, abs=1e-3)
+    contact = rough_contact("cylinder", 3.0, 4.0)
+    logarithm = np.log(np.maximum(contact.rho, 1e-300))
+    sink = -2.0 / np.pi * np.sum(contact.steps * contact.pressure * logarithm)
+    assert contact.h[0] - contact.d == pytest.approx(sink, abs=1e-3)

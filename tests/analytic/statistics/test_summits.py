@@ -24,10 +24,10 @@ def gaussian(seed, samples=40001):
 def test_moments_of_one_wave():
     amplitude, wavelength = 1e-6, 50e-6
     profile = sinusoid(wavelength=wavelength, amplitude=amplitude, length=2e-3)
-    found, k = spectral_moments(profile), 2.0 * np.pi / wavelength
+    moments, k = spectral_moments(profile), 2.0 * np.pi / wavelength
     expected = 0.5 * amplitude**2 * np.array([1.0, k**2, k**4])
-    assert [found.m0, found.m2, found.m4] == pytest.approx(expected, rel=2e-3)
-    assert found.bandwidth == pytest.approx(1.0, rel=2e-3)
+    assert [moments.m0, moments.m2, moments.m4] == pytest.approx(expected, rel=2e-3)
+    assert moments.bandwidth == pytest.approx(1.0, rel=2e-3)
     counted = counted_peaks(profile)
     assert counted.radius == pytest.approx(1.0 / (amplitude * k**2), rel=2e-3)
     assert counted.mean == pytest.approx(amplitude, rel=1e-3)
@@ -37,8 +37,8 @@ def test_counted_peaks_of_gaussian_profiles_are_those_of_the_moments():
     """Over many peaks, within a few of their standard errors."""
     ratios = []
     for seed in range(8):
-        found, counted = spectral_moments(gaussian(seed)), counted_peaks(gaussian(seed))
-        expected = found.peaks()
+        moments, counted = spectral_moments(gaussian(seed)), counted_peaks(gaussian(seed))
+        expected = moments.peaks()
         names = ("density", "radius", "deviation", "mean")
         ratios.append([getattr(counted, n) / getattr(expected, n) for n in names])
     mean, error = np.mean(ratios, axis=0), np.std(ratios, axis=0, ddof=1) / np.sqrt(8.0)
@@ -48,18 +48,18 @@ def test_counted_peaks_of_gaussian_profiles_are_those_of_the_moments():
 
 def test_summits_stand_higher_and_sharper_than_a_profiles_peaks():
     """Nayak's ratios: curvature 1.2004, density 1.2092 n^2; 0.326 m0/alpha less variance."""
-    found = SpectralMoments(m0=1e-12, m2=1e-2, m4=4e8)
-    peaks, summits = found.peaks(), found.summits()
+    moments = SpectralMoments(m0=1e-12, m2=1e-2, m4=4e8)
+    peaks, summits = moments.peaks(), moments.summits()
     assert peaks.radius / summits.radius == pytest.approx(1.2004, abs=1e-4)
     assert summits.density / peaks.density**2 == pytest.approx(1.2092, abs=1e-4)
-    less = (peaks.deviation**2 - summits.deviation**2) / (found.m0 / found.bandwidth)
+    less = (peaks.deviation**2 - summits.deviation**2) / (moments.m0 / moments.bandwidth)
     assert less == pytest.approx(0.326, abs=1e-4)
     assert summits.mean > peaks.mean
 
 
 def test_summits_of_the_expected_peaks_are_the_expected_summits():
-    found = SpectralMoments(m0=1e-12, m2=1e-2, m4=4e8)
-    carried, expected = summits_of_peaks(found.peaks(), found), found.summits()
+    moments = SpectralMoments(m0=1e-12, m2=1e-2, m4=4e8)
+    carried, expected = summits_of_peaks(moments.peaks(), moments), moments.summits()
     for name in ("density", "radius", "deviation", "mean"):
         assert getattr(carried, name) == pytest.approx(getattr(expected, name), rel=1e-12)
 

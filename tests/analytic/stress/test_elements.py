@@ -45,11 +45,11 @@ def test_hat_reference_values(component):
     x, z = numbers(HAT, "x_over_pitch"), numbers(HAT, "z_over_pitch")
     columns = [numbers(HAT, name) for name in ("sx", "sz", "txz", "sx_traction")]
     row = ["sx", "sz", "txz", "sx_traction"].index(component)
-    found, expected = parts(hat_stress(x, z, 1.0))[row], columns[row]
+    stress, expected = parts(hat_stress(x, z, 1.0))[row], columns[row]
     assert len(expected) == 64
-    assert np.all(np.abs(found - expected) <= 1e-14 * np.max(np.abs(columns), axis=0))
+    assert np.all(np.abs(stress - expected) <= 1e-14 * np.max(np.abs(columns), axis=0))
     shallow = (z < 1e-2) & (np.hypot(x, z) < 4.0)
-    np.testing.assert_allclose(found[shallow], expected[shallow], rtol=1e-14)
+    np.testing.assert_allclose(stress[shallow], expected[shallow], rtol=1e-14)
 
 
 def test_hat_closed_form_and_moments_meet():

@@ -17,9 +17,9 @@ def worst(field, friction: float, nodes, pressure, element: str) -> float:
     """Largest difference to the direct sum, relative to the largest stress or pressure."""
     x, z = np.meshgrid(field.x, field.z)
     direct = friction_stress_at(nodes, pressure, x, z, element).at(friction)
-    found = field.at(friction).stress
+    stress = field.at(friction).stress
     largest = max(np.abs(getattr(direct, name)).max() for name in NAMES)
-    apart = max(np.abs(getattr(found, n) - getattr(direct, n)).max() for n in NAMES)
+    apart = max(np.abs(getattr(stress, n) - getattr(direct, n)).max() for n in NAMES)
     return apart / max(largest, np.abs(pressure).max())
 
 
@@ -120,9 +120,9 @@ def test_deep_level_far_from_the_load_keeps_its_digits():
     ],
 )
 def test_what_makes_no_field_is_refused(changed, said):
-    given = {"x_range": (-1.0, 1.0), "z": LEVELS, "subdivisions": 1, "element": "hat"} | changed
+    options = {"x_range": (-1.0, 1.0), "z": LEVELS, "subdivisions": 1, "element": "hat"} | changed
     with pytest.raises(ValueError, match=said):
-        friction_field(NODES, PRESSURE, **given).at(0.0)
+        friction_field(NODES, PRESSURE, **options).at(0.0)
 
 
 def test_graded_depths_grow_by_one_ratio():

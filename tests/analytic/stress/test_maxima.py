@@ -53,10 +53,10 @@ def test_maxima_of_the_smooth_contact_with_order_two(element, friction):
         x, pressure = elements(count, element)
         levels = np.linspace(0.0, 1.5, 31)
         field = friction_field(x, pressure, (-1.5, 1.5), levels, 1, element).at(friction)
-        found = stress_maxima(x, pressure, friction, field, 0.3, element)
-        errors["tau1"].append(found.tau1.value - exact.tau1.value)
-        errors["txz"].append(found.txz_abs.value + exact.txz_min.value)
-        errors["place"].append(np.hypot(found.tau1.x - exact.tau1.x, found.tau1.z - exact.tau1.z))
+        maxima = stress_maxima(x, pressure, friction, field, 0.3, element)
+        errors["tau1"].append(maxima.tau1.value - exact.tau1.value)
+        errors["txz"].append(maxima.txz_abs.value + exact.txz_min.value)
+        errors["place"].append(np.hypot(maxima.tau1.x - exact.tau1.x, maxima.tau1.z - exact.tau1.z))
     assert np.all(np.abs(orders(errors["tau1"]) - 2.0) < 0.05)
     assert np.all(np.abs(orders(errors["txz"]) - 2.0) < 0.1)
     assert np.all(np.abs(orders(errors["place"]) - 2.0) < 0.2)
@@ -70,9 +70,9 @@ def test_frictionless_maximum_extrapolates_to_the_exact_value():
     for count in (64, 128):
         x, pressure = elements(count, "hat")
         field = friction_field(x, pressure, (-0.2, 0.2), np.linspace(0.5, 1.0, 21)).at(0.0)
-        found = largest_tau1(x, pressure, 0.0, field)
-        values.append(found.value)
-        depths.append(found.z)
+        maximum = largest_tau1(x, pressure, 0.0, field)
+        values.append(maximum.value)
+        depths.append(maximum.z)
     assert (4.0 * values[1] - values[0]) / 3.0 == pytest.approx(0.300283106, abs=2e-9)
     assert (4.0 * depths[1] - depths[0]) / 3.0 == pytest.approx(0.786151378, abs=1e-6)
 
@@ -116,10 +116,10 @@ def highest_by_brute_force(x, pressure, friction, quantity):
     for _ in range(20):
         grid_x = np.clip(at_x[:, None] + reach[0] * across, x[0], x[-1])
         grid_z = np.clip(at_z[:, None] + reach[1] * down, 0.0, levels[-1])
-        found = quantity(stress_at(x, pressure, friction, grid_x, grid_z))
-        best = np.arange(5), np.argmax(found, axis=1)
+        heights = quantity(stress_at(x, pressure, friction, grid_x, grid_z))
+        best = np.arange(5), np.argmax(heights, axis=1)
         at_x, at_z, reach = grid_x[best], grid_z[best], 0.6 * reach
-    return found.max()
+    return heights.max()
 
 
 def smooth_wavy_rough(name: str) -> tuple[np.ndarray, np.ndarray]:
@@ -142,11 +142,11 @@ def test_flat_ridges_under_little_friction_are_climbed_to_their_top(surface, fri
     """
     x, pressure = smooth_wavy_rough(surface)
     field = friction_field(x, pressure, (x[0], x[-1]), graded_depths(1.5, 24, 0.01)).at(friction)
-    found = stress_maxima(x, pressure, friction, field, 0.3)
+    maxima = stress_maxima(x, pressure, friction, field, 0.3)
     for extremum, quantity in (
-        (found.tau1, lambda stress: stress.tau1),
-        (found.txz_abs, lambda stress: np.abs(stress.txz)),
-        (found.von_mises, lambda stress: stress.von_mises(0.3)),
+        (maxima.tau1, lambda stress: stress.tau1),
+        (maxima.txz_abs, lambda stress: np.abs(stress.txz)),
+        (maxima.von_mises, lambda stress: stress.von_mises(0.3)),
     ):
         exact = highest_by_brute_force(x, pressure, friction, quantity)
         assert extremum.value == pytest.approx(exact, rel=1e-6 if extremum.z == 0.0 else 1e-8)
@@ -160,20 +160,20 @@ def test_the_higher_peak_wins_though_the_grid_shows_the_lower_one():
     field = friction_field(x, pressure, (-1.5, 41.5), np.array([0.2, 0.786, 1.4])).at(0.0)
     shown = np.unravel_index(np.argmax(field.stress.tau1), field.stress.tau1.shape)
     assert abs(field.x[shown[1]]) < 0.1
-    found = largest_tau1(x, pressure, 0.0, field)
-    assert found.value == pytest.approx(second.tau1_max, rel=3e-3)
-    assert found.x == pytest.approx(40.0, abs=0.02)
-    assert found.z == pytest.approx(second.tau1_max_depth, rel=1e-2)
+    maximum = largest_tau1(x, pressure, 0.0, field)
+    assert maximum.value == pytest.approx(second.tau1_max, rel=3e-3)
+    assert maximum.x == pytest.approx(40.0, abs=0.02)
+    assert maximum.z == pytest.approx(second.tau1_max_depth, rel=1e-2)
 
 
 def test_a_maximum_at_the_side_of_the_window_stays_inside_it():
     x, pressure = elements(32, "hat")
     field = friction_field(x, pressure, (0.5, 1.0), np.linspace(0.0, 0.5, 6)).at(0.0)
-    found = largest_tau1(x, pressure, 0.0, field)
-    assert (found.x, found.z) == pytest.approx((0.5, 0.5), abs=1e-12)
+    maximum = largest_tau1(x, pressure, 0.0, field)
+    assert (maximum.x, maximum.z) == pytest.approx((0.5, 0.5), abs=1e-12)
     single = friction_field(x, pressure, (0.0, 0.0), np.array([0.7])).at(0.0)
-    found = largest_tau1(x, pressure, 0.0, single)
-    assert (found.x, found.z) == (0.0, 0.7)
+    maximum = largest_tau1(x, pressure, 0.0, single)
+    assert (maximum.x, maximum.z) == (0.0, 0.7)
 
 
 def test_no_pressure_has_its_maximum_at_zero():
@@ -193,15 +193,15 @@ def test_each_cell_of_x_has_its_own_maxima():
     levels, ends = np.linspace(0.0, 1.5, 31), (-60.0 * pitch, 70.0 * pitch, 390.0 * pitch)
     window = nodes[0] + 60.0 * pitch, 330.0 * pitch
     field = friction_field(nodes, loads, window, levels, 1).at(0.1)
-    found = stress_maxima(nodes, loads, 0.1, field, 0.3, cells=ends)
+    maxima = stress_maxima(nodes, loads, 0.1, field, 0.3, cells=ends)
     for k, part in ((0, (window[0], ends[0])), (2, (ends[1], window[1]))):
         one = friction_field(nodes, loads, part, levels, 1).at(0.1)
         searched = stress_maxima(nodes, loads, 0.1, one, 0.3)
         for name, single in (("tau1", searched.tau1), ("txz_abs", searched.txz_abs)):
-            assert found.cells[name][:, k] == pytest.approx((single.value, single.x, single.z))
-    cells = found.cells["tau1"]
-    assert cells[0].argmax() == 2 and cells[0, 1] < 0.5 * cells[0, 2] == 0.5 * found.tau1.value
+            assert maxima.cells[name][:, k] == pytest.approx((single.value, single.x, single.z))
+    cells = maxima.cells["tau1"]
+    assert cells[0].argmax() == 2 and cells[0, 1] < 0.5 * cells[0, 2] == 0.5 * maxima.tau1.value
     assert cells[0, 3] == 0.0 and np.isnan(cells[1:, 3]).all()  # beyond the window
     alone = stress_maxima(nodes, loads, 0.1, field, 0.3)
-    best, top = ((tau1.value, tau1.x, tau1.z) for tau1 in (alone.tau1, found.tau1))
+    best, top = ((tau1.value, tau1.x, tau1.z) for tau1 in (alone.tau1, maxima.tau1))
     assert best == pytest.approx(top, rel=1e-9) and alone.cells["tau1"].shape == (3, 1)

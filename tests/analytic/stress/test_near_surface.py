@@ -21,10 +21,10 @@ def errors(count: int, friction: float, element: str, x: np.ndarray, depths=DEPT
     """Largest error of sx, sz and txz on each depth [p0], `count` pitches a half-width."""
     nodes = np.arange(-count, count + 1) / count
     x, z = np.meshgrid(x, np.asarray(depths) / count)
-    found = stress_at(nodes, UNIT.pressure(nodes), friction, x, z, element)
+    stress = stress_at(nodes, UNIT.pressure(nodes), friction, x, z, element)
     exact = hertz_stress(UNIT, x, z, friction)
     return np.max(
-        [np.abs(getattr(found, n) - getattr(exact, n)).max(axis=1) for n in ("sx", "sz", "txz")],
+        [np.abs(getattr(stress, n) - getattr(exact, n)).max(axis=1) for n in ("sx", "sz", "txz")],
         axis=0,
     )
 
@@ -44,10 +44,10 @@ HATS_AT_100 = {
 
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 def test_hats_are_accurate_at_any_depth_and_place(friction):
-    found = errors(100, friction, "hat", ANYWHERE)
-    assert np.all(found < HATS_AT_100[friction])
+    error = errors(100, friction, "hat", ANYWHERE)
+    assert np.all(error < HATS_AT_100[friction])
     # no worse next to the surface than three pitches below it
-    assert found[0] < found[-1]
+    assert error[0] < error[-1]
 
 
 # On each depth: the square of the pitch, beside which the pressure's square-root edges radiate

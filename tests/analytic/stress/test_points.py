@@ -22,11 +22,13 @@ X, Z = RNG.uniform(-0.1, 0.15, 60), RNG.uniform(0.0, 0.05, 60)
     ("element", "unit", "size"), [("hat", hat_stress, PITCH), ("strip", strip_stress, 0.5 * PITCH)]
 )
 def test_sum_of_the_elements(element, unit, size):
-    found = stress_at(NODES, PRESSURE, 0.3, X, Z, element)
-    each = [unit(X - node, Z, size).at(0.3) for node in NODES]
+    total = stress_at(NODES, PRESSURE, 0.3, X, Z, element)
+    states = [unit(X - node, Z, size).at(0.3) for node in NODES]
     for name in NAMES:
-        expected = sum(p * getattr(stress, name) for p, stress in zip(PRESSURE, each, strict=True))
-        assert np.abs(getattr(found, name) - expected).max() < 1e-14 * PRESSURE.max()
+        expected = sum(
+            p * getattr(stress, name) for p, stress in zip(PRESSURE, states, strict=True)
+        )
+        assert np.abs(getattr(total, name) - expected).max() < 1e-14 * PRESSURE.max()
 
 
 @pytest.mark.parametrize("count", [20, 2000])  # one by one, and by the tree
@@ -35,8 +37,8 @@ def test_the_surface_has_no_sign(count):
     load = np.tile(PRESSURE, 10)
     nodes = np.arange(len(load)) * PITCH
     x = np.concatenate([nodes[::40], np.linspace(0.0, nodes[-1], count)])
-    found, minus = (stress_at(nodes, load, 0.3, x, zero * np.ones_like(x)) for zero in (0.0, -0.0))
-    assert np.all(found.sx == minus.sx) and np.all(found.txz == minus.txz)
+    plus, minus = (stress_at(nodes, load, 0.3, x, zero * np.ones_like(x)) for zero in (0.0, -0.0))
+    assert np.all(plus.sx == minus.sx) and np.all(plus.txz == minus.txz)
 
 
 def test_many_elements_in_blocks_as_in_one():

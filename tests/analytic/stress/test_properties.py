@@ -41,10 +41,10 @@ def at(pressure, friction, x, z, element="hat") -> StressState:
     return stress_at(NODES, pressure, friction, x, z, element)
 
 
-def assert_equal(found: StressState, expected: StressState, size: float, **signs: float):
+def assert_equal(state: StressState, expected: StressState, size: float, **signs: float):
     """All components to EXACT of `size` [Pa], those named times a factor."""
     for name in NAMES:
-        difference = getattr(found, name) - signs.get(name, 1.0) * getattr(expected, name)
+        difference = getattr(state, name) - signs.get(name, 1.0) * getattr(expected, name)
         assert np.max(np.abs(difference)) <= EXACT * size, name
 
 

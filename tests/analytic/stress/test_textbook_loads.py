@@ -133,9 +133,9 @@ def test_distributed_loads_are_sums_of_line_loads(load):
             part = line(x - a * at, z).at(0.3)
             expected += weight * np.array([part.sx, part.sz, part.txz])
     for field in (printed, recast):
-        found = field(x, z, a).at(0.3)
+        stress = field(x, z, a).at(0.3)
         for name, column in zip(NAMES, expected, strict=True):
-            np.testing.assert_allclose(getattr(found, name), column, rtol=0.0, atol=8e-15)
+            np.testing.assert_allclose(getattr(stress, name), column, rtol=0.0, atol=8e-15)
 
 
 @each_load
@@ -166,8 +166,8 @@ def test_elements_that_stand_for_the_load_meet_it(load, friction, element):
         pressure = shape(nodes)
         if load == "strip":
             pressure[[0, -1]] = 0.5
-        found = stress_at(nodes, pressure, friction, x, z, element)
-        errors.append(max(np.abs(getattr(found, k) - getattr(exact, k)).max() for k in NAMES))
+        stress = stress_at(nodes, pressure, friction, x, z, element)
+        errors.append(max(np.abs(getattr(stress, k) - getattr(exact, k)).max() for k in NAMES))
     if (element, load) == ("hat", "triangle"):
         assert max(errors) < 1e-13
         return

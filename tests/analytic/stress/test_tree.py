@@ -122,8 +122,8 @@ def test_an_idle_stretch_and_idle_ends_change_nothing(rng):
     nodes, load = line(rng, 900, signs=False)
     load[:90], load[400:700], load[850:] = 0.0, 0.0, 0.0
     x, z = rng.uniform(-1.0, 2.0, 500), rng.uniform(0.0, 0.3, 500)
-    found = tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)
-    assert np.abs(found - direct_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)).max() < 1e-13
+    stress = tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)
+    assert np.abs(stress - direct_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)).max() < 1e-13
     alone = friction_stress_at(nodes, np.zeros(900), x, z)
     assert not np.any(alone.normal.sx) and not np.any(alone.traction_sx)
 
@@ -131,11 +131,11 @@ def test_an_idle_stretch_and_idle_ends_change_nothing(rng):
 def test_threads_change_nothing(rng, monkeypatch):
     nodes, load = line(rng, 300, signs=True)
     x, z = rng.uniform(-0.3, 0.6, 9000), 10.0 ** rng.uniform(-6.0, -0.5, 9000)
-    found = []
+    stress = []
     for threads in ("1", "3"):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
-        found.append(tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z))
-    np.testing.assert_array_equal(*found)
+        stress.append(tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z))
+    np.testing.assert_array_equal(*stress)
 
 
 def outer_value(outer: np.ndarray, u: np.ndarray) -> np.ndarray:
@@ -200,8 +200,8 @@ def test_moments_are_integrals_of_the_element():
 def test_potential_of_an_element_from_its_first_moments(start, terms, element):
     x, z = np.array([1.0, 1.3]) * start, np.array([0.0, 0.3, 5.0]) * start
     parts = element_potential(x, z, element, terms)
-    found = stresses(parts[0] + 1j * parts[1], parts[2] + 1j * parts[3])
+    stress = stresses(parts[0] + 1j * parts[1], parts[2] + 1j * parts[3])
     across, down = (a.ravel() for a in np.meshgrid(x, z))
     expected = direct_stress(LoadedLine(np.zeros(1), np.ones(1), 1.0, element), across, down)
-    assert np.abs(found.reshape(4, -1) - expected).max() < 5e-16 / start
+    assert np.abs(stress.reshape(4, -1) - expected).max() < 5e-16 / start
     assert len(element_moments(element, ORDER)) == ORDER

@@ -47,52 +47,52 @@ def test_constant_of_the_standard():
 def test_waves_pass_as_the_standard_says(wavelength):
     share = transmission(wavelength, CUTOFF)
     assert share == pytest.approx(np.exp(-pi * (ALPHA * CUTOFF / wavelength) ** 2), rel=1e-13)
-    found = mean_line(Profile(X, wave(X, wavelength)), CUTOFF)
+    line = mean_line(Profile(X, wave(X, wavelength)), CUTOFF)
     # no part of it out of phase, or the difference would show it
-    assert np.max(np.abs(found - share * wave(X, wavelength))[inside(X)]) < 2e-7
+    assert np.max(np.abs(line - share * wave(X, wavelength))[inside(X)]) < 2e-7
 
 
 def test_half_of_a_wave_of_the_cutoff_passes_either_way():
     profile = Profile(X, wave(X, CUTOFF))
     half = 0.5 * wave(X, CUTOFF)
-    for found in (filtered(profile, CUTOFF), filtered(profile, None, CUTOFF)):
-        assert np.max(np.abs(found.height - half)[inside(X)]) < 1e-7
+    for passed in (filtered(profile, CUTOFF), filtered(profile, None, CUTOFF)):
+        assert np.max(np.abs(passed.height - half)[inside(X)]) < 1e-7
 
 
 def test_both_cutoffs_leave_the_waves_between():
     waves = {0.125: 1.0, 0.5: 0.3, 8.0: 2.0}
     x = np.linspace(0.0, LENGTH, 40 * 256 + 1)
     profile = Profile(x, sum(a * wave(x, w) for w, a in waves.items()))
-    found = filtered(profile, 2.0, 0.1).height
+    height = filtered(profile, 2.0, 0.1).height
     wanted = sum(
         a * transmission(w, 0.1) * (1.0 - transmission(w, 2.0)) * wave(x, w)
         for w, a in waves.items()
     )
-    assert np.max(np.abs(found - wanted)[inside(x, 4.0)]) < 2e-6
+    assert np.max(np.abs(height - wanted)[inside(x, 4.0)]) < 2e-6
 
 
 def test_uneven_samples_change_nothing():
     x = np.concatenate(([0.0], np.cumsum(np.random.default_rng(1).uniform(0.2, 1.8, 4000))))
     x *= LENGTH / x[-1]
-    found = mean_line(Profile(x, wave(x, CUTOFF)), CUTOFF)
-    assert np.max(np.abs(found - 0.5 * wave(x, CUTOFF))[inside(x)]) < 1e-6
+    line = mean_line(Profile(x, wave(x, CUTOFF)), CUTOFF)
+    assert np.max(np.abs(line - 0.5 * wave(x, CUTOFF))[inside(x)]) < 1e-6
 
 
 @pytest.mark.parametrize("sample", [0, 1, 3, 10, 32, 320, 640])
 def test_up_to_the_ends_it_is_the_line_fitted_with_the_same_weights(sample):
     x = X[:641]
     profile = Profile(x, wave(x, 1.5) + 0.3 * wave(x, 0.4))
-    found = mean_line(profile, CUTOFF)[sample]
-    assert found == pytest.approx(least_squares_line(profile, CUTOFF, x[sample]), abs=5e-6)
+    line = mean_line(profile, CUTOFF)[sample]
+    assert line == pytest.approx(least_squares_line(profile, CUTOFF, x[sample]), abs=5e-6)
 
 
 def test_short_cutoff_at_its_bound_is_integrated_too():
     x = np.linspace(0.0, 1.0, 101)
     profile = Profile(x, np.random.default_rng(2).standard_normal(101))
-    found = mean_line(profile, 0.02)
+    line = mean_line(profile, 0.02)
     for sample in (1, 5, 50, 99):
         wanted = least_squares_line(profile, 0.02, x[sample])
-        assert found[sample] == pytest.approx(wanted, abs=5e-5)
+        assert line[sample] == pytest.approx(wanted, abs=5e-5)
 
 
 def test_a_straight_line_is_no_roughness():
@@ -112,13 +112,13 @@ def test_agrees_with_the_filter_of_scipy(cutoff):
 
 
 def test_scales_and_mirrors():
-    found = mean_line(ROUGH, 5e-4)
+    line = mean_line(ROUGH, 5e-4)
     scaled = mean_line(Profile(1e3 * ROUGH.x, 1e-6 * ROUGH.height), 0.5)
-    np.testing.assert_allclose(scaled, 1e-6 * found, rtol=0.0, atol=1e-12 * 1e-12)
+    np.testing.assert_allclose(scaled, 1e-6 * line, rtol=0.0, atol=1e-12 * 1e-12)
     mirrored = mean_line(ROUGH.mirrored(), 5e-4)[::-1]
-    np.testing.assert_allclose(mirrored, found, rtol=0.0, atol=1e-11 * np.max(np.abs(found)))
+    np.testing.assert_allclose(mirrored, line, rtol=0.0, atol=1e-11 * np.max(np.abs(line)))
     lifted = mean_line(Profile(ROUGH.x, ROUGH.height + 1.0), 5e-4)
-    np.testing.assert_allclose(lifted - 1.0, found, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(lifted - 1.0, line, rtol=0.0, atol=1e-14)
 
 
 def test_error_of_the_grid_falls_with_its_step(monkeypatch):
@@ -129,8 +129,8 @@ def test_error_of_the_grid_falls_with_its_step(monkeypatch):
     errors = []
     for steps in (8, 11, 16):
         monkeypatch.setattr(module, "STEPS_PER_CUTOFF", steps)
-        found = mean_line(profile, CUTOFF)
-        errors.append(np.max(np.abs(found - 0.5 * wave(x, CUTOFF))[inside(x)]))
+        line = mean_line(profile, CUTOFF)
+        errors.append(np.max(np.abs(line - 0.5 * wave(x, CUTOFF))[inside(x)]))
     orders = np.log2(np.array(errors[:-1]) / errors[1:]) / np.log2([11 / 8, 16 / 11])
     assert np.all(np.abs(orders - 6.0) < 0.8), (errors, orders)
 

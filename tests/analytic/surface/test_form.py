@@ -133,11 +133,11 @@ def test_removing_twice_changes_nothing(form, change):
     x = uneven()
     rough = 1e-7 * np.random.default_rng(2).normal(size=len(x))
     once, _ = remove_form(Profile(x, arc(x, -0.03, 0.01) + rough), form)
-    twice, found = remove_form(once, form)
+    twice, rest = remove_form(once, form)
     size = np.max(np.abs(once.height))
     np.testing.assert_allclose(twice.height, once.height, rtol=0.0, atol=change * size)
-    assert abs(found.slope) < change * size / LENGTH * 10.0
-    assert abs(found.radius) > 1e3
+    assert abs(rest.slope) < change * size / LENGTH * 10.0
+    assert abs(rest.radius) > 1e3
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])

@@ -41,7 +41,7 @@ def test_spikes_are_counted_and_the_largest_is_named(name):
     height[700:702] += 0.5 * size
     height[2500] -= size
     # a slope under it all is no matter
-    found = spikes(Profile(profile.x, height + 0.01 * profile.x))
-    assert found.count == 2
-    assert found.place == profile.x[2500]
-    assert found.height == pytest.approx(-size, rel=0.1)
+    spiked = spikes(Profile(profile.x, height + 0.01 * profile.x))
+    assert spiked.count == 2
+    assert spiked.place == profile.x[2500]
+    assert spiked.height == pytest.approx(-size, rel=0.1)

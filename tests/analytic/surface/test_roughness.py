@@ -40,8 +40,8 @@ def test_powers_are_exact(power, exact):
 
 def test_extremes_between_the_samples_count():
     # z = x^3 - 0.12 x has its turning points at x = -0.2 and 0.2, away from all samples.
-    found = roughness(Profile(UNEVEN, UNEVEN**3 - 0.48 * UNEVEN**2))
-    assert found.max_slope == pytest.approx(3.96, rel=1e-12)
+    figures = roughness(Profile(UNEVEN, UNEVEN**3 - 0.48 * UNEVEN**2))
+    assert figures.max_slope == pytest.approx(3.96, rel=1e-12)
     inner = roughness(Profile(0.3 * UNEVEN, (0.3 * UNEVEN) ** 3 - 0.12 * 0.3 * UNEVEN))
     assert inner.rt == pytest.approx(2 * 0.016, rel=1e-12)
     assert inner.max_slope == pytest.approx(0.15, rel=1e-12)
@@ -51,14 +51,14 @@ def test_extremes_between_the_samples_count():
 
 def test_sinusoid():
     amplitude, wavelength = 0.2e-6, 10e-6
-    found = roughness(sinusoid(wavelength=wavelength, amplitude=amplitude, length=8 * wavelength))
+    figures = roughness(sinusoid(wavelength=wavelength, amplitude=amplitude, length=8 * wavelength))
     k = 2 * pi / wavelength
-    assert abs(found.mean) < 1e-7 * amplitude
-    assert abs(found.rsk) < 1e-6
+    assert abs(figures.mean) < 1e-7 * amplitude
+    assert abs(figures.rsk) < 1e-6
     exact = [2 / pi * amplitude, amplitude / sqrt(2), 1.5, 2 * amplitude]
-    np.testing.assert_allclose([found.ra, found.rq, found.rku, found.rt], exact, rtol=1e-6)
+    np.testing.assert_allclose([figures.ra, figures.rq, figures.rku, figures.rt], exact, rtol=1e-6)
     slopes = [k * amplitude / sqrt(2), k * amplitude]
-    np.testing.assert_allclose([found.rms_slope, found.max_slope], slopes, rtol=1e-5)
+    np.testing.assert_allclose([figures.rms_slope, figures.max_slope], slopes, rtol=1e-5)
 
 
 def test_the_spline_reaches_the_sinusoid_at_fourth_order():
@@ -67,8 +67,8 @@ def test_the_spline_reaches_the_sinusoid_at_fourth_order():
         wave = sinusoid(wavelength=1.0, amplitude=1.0, length=16.0, samples_per_wavelength=samples)
         # Whole waves off the ends, where the not-a-knot conditions would dominate.
         inside = np.abs(wave.x) < 6.0 + 1e-9
-        found = roughness(Profile(wave.x[inside], wave.height[inside]))
-        errors.append(abs(found.rq - 1 / sqrt(2)))
+        figures = roughness(Profile(wave.x[inside], wave.height[inside]))
+        errors.append(abs(figures.rq - 1 / sqrt(2)))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert np.all(np.abs(orders - 4.0) < 0.5), orders
 
@@ -78,10 +78,10 @@ def test_the_spline_reaches_the_sinusoid_at_fourth_order():
 def test_units_do_not_matter(scale, stretch):
     base = self_affine(hurst=0.8, samples=400, length=1.0, seed=5, rms_height=1.0)
     wanted = as_array(roughness(base))
-    found = as_array(roughness(Profile(stretch * base.x, scale * base.height)))
-    found[[0, 1, 2, 5]] /= scale
-    found[6:] /= scale / stretch
-    np.testing.assert_allclose(found, wanted, rtol=1e-9, atol=1e-12)
+    figures = as_array(roughness(Profile(stretch * base.x, scale * base.height)))
+    figures[[0, 1, 2, 5]] /= scale
+    figures[6:] /= scale / stretch
+    np.testing.assert_allclose(figures, wanted, rtol=1e-9, atol=1e-12)
 
 
 def test_offset_and_mirror_change_only_what_they_should():
@@ -97,18 +97,18 @@ def test_offset_and_mirror_change_only_what_they_should():
 
 
 def test_flat_profile_has_no_roughness():
-    found = roughness(Profile(UNEVEN, np.full(len(UNEVEN), 2.5)))
-    assert found.mean == 2.5
-    assert np.all(as_array(found)[1:] == 0.0)
+    figures = roughness(Profile(UNEVEN, np.full(len(UNEVEN), 2.5)))
+    assert figures.mean == 2.5
+    assert np.all(as_array(figures)[1:] == 0.0)
 
 
 @pytest.mark.parametrize("waves", [4, 30])
 def test_shortest_wavelength_of_a_sinusoid_is_its_own(waves):
     wavelength = 12e-6
     wave = sinusoid(wavelength=wavelength, amplitude=1e-7, length=waves * wavelength)
-    found = shortest_wavelength(wave)
+    length = shortest_wavelength(wave)
     # The window spreads a single wave by one wave number step towards short waves.
-    assert wavelength / (1.0 + 1.0 / waves) <= found <= wavelength * (1.0 + 1e-9)
+    assert wavelength / (1.0 + 1.0 / waves) <= length <= wavelength * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize(("share", "waves"), [(0.02, 100.0), (0.005, 20.0)])
@@ -121,7 +121,7 @@ def test_waves_count_from_a_hundredth_of_the_slopes_variance_on(share, waves):
 
 @pytest.mark.parametrize("cut_off", [5e-6, 20e-6])
 def test_shortest_wavelength_of_a_self_affine_profile_is_its_cut_off(cut_off):
-    found = [
+    lengths = [
         shortest_wavelength(
             self_affine(
                 hurst=0.8,
@@ -135,19 +135,19 @@ def test_shortest_wavelength_of_a_self_affine_profile_is_its_cut_off(cut_off):
         for seed in range(6)
     ]
     # Slope power ~ k^(1 - 2H): 99 % of it lies below 0.975 of the cut-off wave number.
-    assert np.mean(found) == pytest.approx(cut_off / 0.975, rel=0.02)
-    assert np.all(np.abs(np.array(found) / cut_off - 1.0) < 0.1)
+    assert np.mean(lengths) == pytest.approx(cut_off / 0.975, rel=0.02)
+    assert np.all(np.abs(np.array(lengths) / cut_off - 1.0) < 0.1)
 
 
 def test_shortest_wavelength_on_uneven_samples_and_other_units():
     x = np.cumsum(np.random.default_rng(4).uniform(0.5, 1.5, 3000))
     x = x / x[-1]
     profile = Profile(x, np.sin(2 * pi * 40 * x))
-    found = shortest_wavelength(profile)
-    assert 1 / 41 <= found <= 1 / 39.9
+    length = shortest_wavelength(profile)
+    assert 1 / 41 <= length <= 1 / 39.9
     scaled = Profile(1e-3 * x, 1e-9 * profile.height + 1e-4)
-    assert shortest_wavelength(scaled) == pytest.approx(1e-3 * found, rel=1e-6)
-    assert shortest_wavelength(profile.mirrored()) == pytest.approx(found, rel=1e-9)
+    assert shortest_wavelength(scaled) == pytest.approx(1e-3 * length, rel=1e-6)
+    assert shortest_wavelength(profile.mirrored()) == pytest.approx(length, rel=1e-9)
 
 
 def test_tilt_has_no_wavelength():
@@ -170,11 +170,11 @@ STATED = {
 @pytest.mark.parametrize("name", STATED)
 def test_profiles_of_the_project_have_their_stated_figures(name):
     profile = read_profile(PROFILES / f"{name}.csv", x_scale=1e-6, height_scale=1e-6).profile
-    found = roughness(profile)
+    figures = roughness(profile)
     ra, rq, rsk, slope, cut_off = STATED[name]
-    np.testing.assert_allclose([1e6 * found.ra, 1e6 * found.rq], [ra, rq], atol=0.5e-3)
-    assert found.rsk == pytest.approx(rsk, abs=0.005)
-    assert found.rms_slope == pytest.approx(slope, abs=0.5e-3)
+    np.testing.assert_allclose([1e6 * figures.ra, 1e6 * figures.rq], [ra, rq], atol=0.5e-3)
+    assert figures.rsk == pytest.approx(rsk, abs=0.005)
+    assert figures.rms_slope == pytest.approx(slope, abs=0.5e-3)
     if cut_off is not None:
         assert 1e6 * shortest_wavelength(profile) == pytest.approx(cut_off, rel=0.05)
 
@@ -193,12 +193,12 @@ def test_measured_profiles_have_their_certified_figures(name):
     if not path.exists():
         pytest.skip(f"measured profile {name}.csv is not beside the repository")
     profile = read_profile(path, x_scale=1e-6, height_scale=1e-6).profile
-    found = roughness(profile)
+    figures = roughness(profile)
     ra, rq, rt, slope = SAMPLED[name]
-    np.testing.assert_allclose([1e6 * found.ra, 1e6 * found.rq], [ra, rq], rtol=2e-3)
-    assert rt * (1 - 1e-6) <= 1e6 * found.rt <= 1.01 * rt  # the spline may overshoot a little
+    np.testing.assert_allclose([1e6 * figures.ra, 1e6 * figures.rq], [ra, rq], rtol=2e-3)
+    assert rt * (1 - 1e-6) <= 1e6 * figures.rt <= 1.01 * rt  # the spline may overshoot a little
     # Finite differences average the slope over a spacing, and so fall short of the spline's.
-    assert slope <= found.rms_slope <= 1.06 * slope
+    assert slope <= figures.rms_slope <= 1.06 * slope
     spacing = profile.spacing
     assert 2.0 * spacing * 0.9 <= shortest_wavelength(profile) <= 20.0 * spacing
 

@@ -25,70 +25,70 @@ def transmission(wavelength: float, cutoff: float) -> float:
     return 2.0 ** -((cutoff / wavelength) ** 2)
 
 
-def waves(*given: tuple[float, float], length: float = 8e-3, samples: int = 16001) -> Profile:
+def waves(*sizes: tuple[float, float], length: float = 8e-3, samples: int = 16001) -> Profile:
     """Sum of cosines, each an amplitude and a wavelength [m]."""
     x = np.linspace(-0.5 * length, 0.5 * length, samples)
-    return Profile(x, sum(a * np.cos(2.0 * pi * x / w) for a, w in given))
+    return Profile(x, sum(a * np.cos(2.0 * pi * x / w) for a, w in sizes))
 
 
 def test_a_fine_wave_has_its_exact_figures():
-    found = standard_roughness(FINE, CUTOFF)
-    assert (found.sections, found.cutoff, found.short_cutoff) == (5, CUTOFF, None)
-    assert found.start == pytest.approx(-2e-3, rel=1e-9)
-    assert found.ra == pytest.approx(2.0 / pi * AMPLITUDE, rel=1e-6)
-    assert found.rq == pytest.approx(AMPLITUDE / sqrt(2.0), rel=1e-6)
-    assert found.rsk == pytest.approx(0.0, abs=1e-9)
-    assert found.rku == pytest.approx(1.5, rel=1e-9)
-    assert found.rt == pytest.approx(2.0 * AMPLITUDE, rel=1e-6)
-    assert found.rz == pytest.approx(2.0 * AMPLITUDE, rel=1e-6)
-    assert found.rdq == pytest.approx(2.0 * pi / 50e-6 * AMPLITUDE / sqrt(2.0), rel=1e-5)
-    assert found.rsm == pytest.approx(50e-6, rel=1e-9)
+    figures = standard_roughness(FINE, CUTOFF)
+    assert (figures.sections, figures.cutoff, figures.short_cutoff) == (5, CUTOFF, None)
+    assert figures.start == pytest.approx(-2e-3, rel=1e-9)
+    assert figures.ra == pytest.approx(2.0 / pi * AMPLITUDE, rel=1e-6)
+    assert figures.rq == pytest.approx(AMPLITUDE / sqrt(2.0), rel=1e-6)
+    assert figures.rsk == pytest.approx(0.0, abs=1e-9)
+    assert figures.rku == pytest.approx(1.5, rel=1e-9)
+    assert figures.rt == pytest.approx(2.0 * AMPLITUDE, rel=1e-6)
+    assert figures.rz == pytest.approx(2.0 * AMPLITUDE, rel=1e-6)
+    assert figures.rdq == pytest.approx(2.0 * pi / 50e-6 * AMPLITUDE / sqrt(2.0), rel=1e-5)
+    assert figures.rsm == pytest.approx(50e-6, rel=1e-9)
 
 
 @pytest.mark.parametrize("wavelength", [100e-6, 400e-6, 800e-6, 1.6e-3])
 def test_a_wave_is_as_rough_as_its_transmission_lets_it_be(wavelength):
     left = 1.0 - transmission(wavelength, CUTOFF)
-    found = standard_roughness(waves((AMPLITUDE, wavelength)), CUTOFF)
-    assert found.rq == pytest.approx(left * AMPLITUDE / sqrt(2.0), rel=2e-5)
-    assert found.rsm == pytest.approx(wavelength, rel=1e-6)
+    figures = standard_roughness(waves((AMPLITUDE, wavelength)), CUTOFF)
+    assert figures.rq == pytest.approx(left * AMPLITUDE / sqrt(2.0), rel=2e-5)
+    assert figures.rsm == pytest.approx(wavelength, rel=1e-6)
 
 
 def test_the_short_cutoff_halves_a_wave_of_its_length():
-    found = standard_roughness(FINE, CUTOFF, 50e-6)
-    assert found.rt == pytest.approx(AMPLITUDE, rel=1e-5)
-    assert found.rku == pytest.approx(1.5, rel=1e-6)
+    figures = standard_roughness(FINE, CUTOFF, 50e-6)
+    assert figures.rt == pytest.approx(AMPLITUDE, rel=1e-5)
+    assert figures.rku == pytest.approx(1.5, rel=1e-6)
 
 
 def test_two_waves_add_their_squares():
     profile = waves((AMPLITUDE, 40e-6), (3.0 * AMPLITUDE, 2e-3))
-    found = standard_roughness(profile, CUTOFF)
+    figures = standard_roughness(profile, CUTOFF)
     left = 3.0 * (1.0 - transmission(2e-3, CUTOFF))
-    assert found.rq == pytest.approx(AMPLITUDE * sqrt(0.5 * (1.0 + left**2)), rel=1e-5)
+    assert figures.rq == pytest.approx(AMPLITUDE * sqrt(0.5 * (1.0 + left**2)), rel=1e-5)
     # Each section holds another part of the long wave, so that none is as high as the whole.
-    assert 2.0 * AMPLITUDE < found.rz < found.rt
-    assert found.rt == pytest.approx(2.0 * AMPLITUDE * (1.0 + left), rel=1e-3)
+    assert 2.0 * AMPLITUDE < figures.rz < figures.rt
+    assert figures.rt == pytest.approx(2.0 * AMPLITUDE * (1.0 + left), rel=1e-3)
 
 
 def test_rz_is_the_mean_over_the_sections():
     """A wave that grows by its amplitude a section: 1.5 to 5.5 of it where the sections end."""
     x = np.linspace(-3e-3, 3e-3, 12001)
     growing = AMPLITUDE * (3.0 + x / CUTOFF) * np.cos(2.0 * pi * x / 10e-6)
-    found = standard_roughness(Profile(x, growing), CUTOFF)
-    assert found.rz == pytest.approx(2.0 * 3.5 * AMPLITUDE, rel=0.01)
-    assert found.rt == pytest.approx(2.0 * 5.5 * AMPLITUDE, rel=0.01)
+    figures = standard_roughness(Profile(x, growing), CUTOFF)
+    assert figures.rz == pytest.approx(2.0 * 3.5 * AMPLITUDE, rel=0.01)
+    assert figures.rt == pytest.approx(2.0 * 5.5 * AMPLITUDE, rel=0.01)
 
 
 def test_heights_count_from_the_line_of_the_filter():
     """Not from the mean of the stretch: that of an eighth of a wave is not zero."""
     profile = waves((AMPLITUDE, 6.4e-3), length=1.6e-3, samples=3201)
-    found = standard_roughness(profile, CUTOFF)
-    assert found.sections == 1
+    figures = standard_roughness(profile, CUTOFF)
+    assert figures.sections == 1
     left = 1.0 - transmission(6.4e-3, CUTOFF)
     # over an eighth of a wave around its crest: mean square of the cosine
-    assert found.rq == pytest.approx(
+    assert figures.rq == pytest.approx(
         left * AMPLITUDE * sqrt(0.5 * (1.0 + sqrt(8.0) / pi)), rel=0.05
     )
-    assert found.rq > 20.0 * np.std(left * AMPLITUDE * np.cos(np.linspace(-pi / 8, pi / 8, 999)))
+    assert figures.rq > 20.0 * np.std(left * AMPLITUDE * np.cos(np.linspace(-pi / 8, pi / 8, 999)))
 
 
 def test_low_hills_do_not_part_elements():
@@ -110,8 +110,8 @@ def test_crossings_as_close_as_rounding_have_a_width():
 
 
 def test_a_flat_trace_has_figures_of_zero():
-    found = standard_roughness(smooth(length=4e-3, samples=2001), CUTOFF)
-    values = (found.ra, found.rq, found.rsk, found.rku, found.rt, found.rz, found.rdq)
+    figures = standard_roughness(smooth(length=4e-3, samples=2001), CUTOFF)
+    values = (figures.ra, figures.rq, figures.rsk, figures.rku, figures.rt, figures.rz, figures.rdq)
     assert values == (0.0,) * 7
 
 
@@ -119,46 +119,46 @@ def test_a_flat_trace_has_figures_of_zero():
     ("length", "sections"), [(1.6e-3, 1), (2.3e-3, 1), (2.4e-3, 2), (4.8e-3, 5), (16e-3, 5)]
 )
 def test_whole_sections_lie_in_the_middle(length, sections):
-    found = standard_roughness(waves((AMPLITUDE, 50e-6), length=length), CUTOFF)
-    assert found.sections == sections
-    assert found.start == pytest.approx(-0.5 * sections * CUTOFF, rel=1e-9)
+    figures = standard_roughness(waves((AMPLITUDE, 50e-6), length=length), CUTOFF)
+    assert figures.sections == sections
+    assert figures.start == pytest.approx(-0.5 * sections * CUTOFF, rel=1e-9)
 
 
 @pytest.mark.parametrize("short", [None, 20e-6])
 def test_what_lies_beyond_the_filters_reach_does_not_count(short):
     whole = self_affine(hurst=0.8, samples=8001, length=16e-3, seed=4, rms_height=1e-6)
-    found = standard_roughness(whole, CUTOFF, short)
+    figures = standard_roughness(whole, CUTOFF, short)
     curve = filtered(whole, CUTOFF, short).spline()
     wanted = figures_of(stretch_of(curve, -2.5 * CUTOFF, 2.5 * CUTOFF), level=0.0)
-    assert found.ra == pytest.approx(wanted.ra, rel=1e-7)
-    assert found.rt == pytest.approx(wanted.rt, rel=1e-7)
-    assert found.rdq == pytest.approx(wanted.rms_slope, rel=1e-7)
+    assert figures.ra == pytest.approx(wanted.ra, rel=1e-7)
+    assert figures.rt == pytest.approx(wanted.rt, rel=1e-7)
+    assert figures.rdq == pytest.approx(wanted.rms_slope, rel=1e-7)
     far = np.where(np.abs(whole.x) > 3.0e-3 + 5.0 * CUTOFF, 1e-3, 0.0)
-    assert standard_roughness(Profile(whole.x, whole.height + far), CUTOFF, short) == found
+    assert standard_roughness(Profile(whole.x, whole.height + far), CUTOFF, short) == figures
 
 
 def test_scales_and_mirrors():
     base = self_affine(hurst=0.8, samples=4001, length=8e-3, seed=3, rms_height=1e-6)
-    found = standard_roughness(base, CUTOFF, 10e-6)
+    figures = standard_roughness(base, CUTOFF, 10e-6)
     mirrored = standard_roughness(base.mirrored(), CUTOFF, 10e-6)
     scaled = standard_roughness(Profile(50.0 * base.x, 7.0 * base.height), 50.0 * CUTOFF, 5e-4)
     upside_down = standard_roughness(Profile(base.x, -base.height), CUTOFF, 10e-6)
     for name in ("ra", "rq", "rt", "rz"):
-        wanted = getattr(found, name)
+        wanted = getattr(figures, name)
         assert getattr(mirrored, name) == pytest.approx(wanted, rel=1e-8)
         assert getattr(upside_down, name) == pytest.approx(wanted, rel=1e-9)
         assert getattr(scaled, name) == pytest.approx(7.0 * wanted, rel=1e-8)
-    assert scaled.rsm == pytest.approx(50.0 * found.rsm, rel=1e-8)
-    assert scaled.rdq == pytest.approx(7.0 / 50.0 * found.rdq, rel=1e-8)
-    assert upside_down.rsk == pytest.approx(-found.rsk, rel=1e-8)
-    assert mirrored.rsk == pytest.approx(found.rsk, rel=1e-7)
+    assert scaled.rsm == pytest.approx(50.0 * figures.rsm, rel=1e-8)
+    assert scaled.rdq == pytest.approx(7.0 / 50.0 * figures.rdq, rel=1e-8)
+    assert upside_down.rsk == pytest.approx(-figures.rsk, rel=1e-8)
+    assert mirrored.rsk == pytest.approx(figures.rsk, rel=1e-7)
 
 
 def test_waviness_and_tilt_do_not_count():
     base = waves((AMPLITUDE, 50e-6))
     bent = Profile(base.x, base.height + 0.02 * base.x + 3e-5 * np.cos(base.x / 4e-3))
-    found, wanted = standard_roughness(bent, CUTOFF), standard_roughness(base, CUTOFF)
-    assert found.ra == pytest.approx(wanted.ra, rel=1e-2)
+    figures, wanted = standard_roughness(bent, CUTOFF), standard_roughness(base, CUTOFF)
+    assert figures.ra == pytest.approx(wanted.ra, rel=1e-2)
     assert roughness(bent).ra > 30.0 * wanted.ra
 
 
@@ -218,6 +218,6 @@ def test_a_stretch_is_the_same_curve():
 def test_a_level_of_its_own_counts():
     profile = Profile(np.linspace(0.0, 1.0, 9), np.full(9, 2.0))
     assert figures_of(profile.spline()).rq == pytest.approx(0.0, abs=1e-15)
-    found = figures_of(profile.spline(), level=0.0)
-    assert (found.ra, found.rq) == (pytest.approx(2.0), pytest.approx(2.0))
-    assert found.rku == pytest.approx(1.0)
+    figures = figures_of(profile.spline(), level=0.0)
+    assert (figures.ra, figures.rq) == (pytest.approx(2.0), pytest.approx(2.0))
+    assert figures.rku == pytest.approx(1.0)

@@ -61,11 +61,11 @@ def test_sinusoid_covers_the_length_evenly_left_and_right():
 @pytest.mark.parametrize("wanted", [{"rms_slope": 0.05}, {"rms_height": 3e-7}])
 def test_self_affine_curve_has_the_rms_that_was_asked(samples, wanted):
     profile = self_affine(hurst=0.6, samples=samples, length=1e-3, seed=9, **wanted)
-    found = roughness(profile)
+    figures = roughness(profile)
     (name, value) = next(iter(wanted.items()))
-    figure = {"rms_slope": found.rms_slope, "rms_height": found.rq}[name]
+    figure = {"rms_slope": figures.rms_slope, "rms_height": figures.rq}[name]
     assert figure == pytest.approx(value, rel=1e-9)
-    assert abs(found.mean) < 1e-12 * found.rq
+    assert abs(figures.mean) < 1e-12 * figures.rq
     assert len(profile.x) == samples
 
 
@@ -98,12 +98,12 @@ def test_self_affine_spectrum_falls_as_its_hurst_exponent_says(hurst):
 
 def test_self_affine_waves_are_gaussian():
     profiles = [self_affine(**(FRACTAL | {"seed": seed})) for seed in range(40)]
-    found = np.concatenate([waves(p)[16:257] / np.arange(16, 257) ** -1.2 for p in profiles])
-    intensity = np.abs(found) ** 2 / np.mean(np.abs(found) ** 2)
+    wave = np.concatenate([waves(p)[16:257] / np.arange(16, 257) ** -1.2 for p in profiles])
+    intensity = np.abs(wave) ** 2 / np.mean(np.abs(wave) ** 2)
     # Exponentially distributed intensity: Rayleigh amplitude; 9640 waves leave 3 % of scatter.
     assert np.mean(intensity**2) == pytest.approx(2.0, rel=0.15)
     assert np.mean(intensity > np.log(2.0)) == pytest.approx(0.5, abs=0.02)
-    phase = found / np.abs(found)
+    phase = wave / np.abs(wave)
     assert abs(np.mean(phase)) < 0.03 and abs(np.mean(phase**2)) < 0.03
 
 
@@ -232,13 +232,13 @@ def test_random_traces_have_the_spectrum_of_another():
         rms_height=0.4e-6, samples=4001, length=4e-3, seed=5, roll_off_wavelength=60e-6,
         shortest_wavelength=12e-6, longest_wavelength=300e-6, one_sidedness=0.4,
     )  # fmt: skip
-    found, expected = [same_spectrum(trace, seed) for seed in range(20)], roughness(trace)
-    assert np.std(found[0].height) == pytest.approx(np.std(trace.height), rel=1e-3)
-    slopes = [roughness(each).rms_slope for each in found]
+    traces, expected = [same_spectrum(trace, seed) for seed in range(20)], roughness(trace)
+    assert np.std(traces[0].height) == pytest.approx(np.std(trace.height), rel=1e-3)
+    slopes = [roughness(one).rms_slope for one in traces]
     assert np.mean(slopes) == pytest.approx(expected.rms_slope, rel=0.03)
-    bends = [np.std(each.spline()(each.x, 2)) for each in found]
+    bends = [np.std(one.spline()(one.x, 2)) for one in traces]
     assert np.mean(bends) == pytest.approx(np.std(trace.spline()(trace.x, 2)), rel=0.05)
-    skewness = [roughness(each).rsk for each in found]
+    skewness = [roughness(one).rsk for one in traces]
     assert abs(np.mean(skewness)) < 0.1 and expected.rsk < -0.6  # Gaussian, as the other is not
-    assert abs(np.corrcoef(found[0].height, found[1].height)[0, 1]) < 0.2
-    assert np.array_equal(found[3].height, same_spectrum(trace, 3).height)
+    assert abs(np.corrcoef(traces[0].height, traces[1].height)[0, 1]) < 0.2
+    assert np.array_equal(traces[3].height, same_spectrum(trace, 3).height)

@@ -37,8 +37,8 @@ def test_every_sample_lies_on_its_arc(feed, nose, ridge):
 
 
 def test_height_is_the_machinists_estimate_where_feed_and_ridge_are_small():
-    found = turned_height(1e-5, NOSE, 1e-9)
-    assert found == pytest.approx(1e-10 / (8.0 * NOSE), rel=2e-5)
+    height = turned_height(1e-5, NOSE, 1e-9)
+    assert height == pytest.approx(1e-10 / (8.0 * NOSE), rel=2e-5)
     assert turned_height(FEED, NOSE, 1e-12) == pytest.approx(
         NOSE - sqrt(NOSE**2 - FEED**2 / 4.0), rel=1e-6
     )
@@ -100,7 +100,7 @@ def test_blunt_ridges_skew_the_heights_less():
         roughness(turned(feed=FEED, nose_radius=NOSE, length=20.0 * FEED, ridge_radius=ridge))
         for ridge in (0.02 * NOSE, 0.2 * NOSE, NOSE)
     ]
-    skewness = [found.rsk for found in figures]
+    skewness = [figure.rsk for figure in figures]
     # Parabolas between sharp ridges have 0.639 (2 sqrt(5)/7); equal arcs up and down none.
     assert skewness[0] == pytest.approx(2.0 * sqrt(5.0) / 7.0, rel=0.03)
     assert skewness[0] > skewness[1] > skewness[2] == pytest.approx(0.0, abs=1e-3)
@@ -109,9 +109,9 @@ def test_blunt_ridges_skew_the_heights_less():
 
 
 def test_noise_has_its_size_and_its_waves():
-    given = {"feed": FEED, "nose_radius": NOSE, "length": 20.0 * FEED}
-    plain = turned(**given)
-    noisy = turned(**given, noise=0.2e-6, noise_wavelength=8e-6, seed=4)
+    settings = {"feed": FEED, "nose_radius": NOSE, "length": 20.0 * FEED}
+    plain = turned(**settings)
+    noisy = turned(**settings, noise=0.2e-6, noise_wavelength=8e-6, seed=4)
     noise = noisy.height - plain.height
     assert np.std(noise) == pytest.approx(0.2e-6, rel=1e-3)
     power = np.abs(np.fft.rfft(noise[:-1])) ** 2
@@ -121,9 +121,9 @@ def test_noise_has_its_size_and_its_waves():
     assert power[round(noisy.length / 8e-6)] > 0.01 * np.mean(power[waves <= 1.0 / 8e-6])
     low, high = power[(waves > 0) & (waves < 0.5 / 8e-6)], power[(waves > 0.5 / 8e-6)]
     assert np.sum(low) == pytest.approx(np.sum(high), rel=0.35)
-    assert np.array_equal(noisy.height, turned(**given, noise=0.2e-6, noise_wavelength=8e-6,
+    assert np.array_equal(noisy.height, turned(**settings, noise=0.2e-6, noise_wavelength=8e-6,
                                                seed=4).height)  # fmt: skip
-    other = turned(**given, noise=0.2e-6, noise_wavelength=8e-6, seed=5)
+    other = turned(**settings, noise=0.2e-6, noise_wavelength=8e-6, seed=5)
     assert np.std(other.height - noisy.height) > 0.2e-6
 
 

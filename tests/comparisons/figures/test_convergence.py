@@ -25,11 +25,11 @@ def sequence(limit, error, order, levels=3):
 @pytest.mark.parametrize("order", [0.6, 1.0, 1.5, 2.0])
 @pytest.mark.parametrize("levels", [3, 4])
 def test_a_pure_power_gives_its_order_and_limit(order, levels):
-    found = grid_convergence(sequence(7.0, 0.3, order, levels), formal_order=2.0)
-    assert found.behaviour == "monotone" and found.safety_factor == REGULAR
-    assert found.order == pytest.approx(order, abs=1e-5)
-    assert found.limit == pytest.approx(7.0, abs=1e-6)
-    assert found.uncertainty == pytest.approx(REGULAR * abs(found.value - 7.0), rel=1e-4)
+    result = grid_convergence(sequence(7.0, 0.3, order, levels), formal_order=2.0)
+    assert result.behaviour == "monotone" and result.safety_factor == REGULAR
+    assert result.order == pytest.approx(order, abs=1e-5)
+    assert result.limit == pytest.approx(7.0, abs=1e-6)
+    assert result.uncertainty == pytest.approx(REGULAR * abs(result.value - 7.0), rel=1e-4)
 
 
 def test_an_order_above_the_formal_one_counts_as_that():
@@ -68,30 +68,30 @@ def fitted(values, power):
     ],
 )
 def test_what_shows_no_order_is_fitted_with_the_formal_one(values, behaviour, formal_order):
-    found = grid_convergence(values, formal_order)
+    result = grid_convergence(values, formal_order)
     values = values[-LEVELS:]
     limit, slope, deviation = fitted(np.array(values), formal_order)
-    assert found.behaviour == behaviour and found.formal_order == formal_order
-    assert (found.limit, found.deviation) == pytest.approx((limit, deviation))
+    assert result.behaviour == behaviour and result.formal_order == formal_order
+    assert (result.limit, result.deviation) == pytest.approx((limit, deviation))
     data_range = np.ptp(values) / (len(values) - 1)
-    assert found.safety_factor == (REGULAR if deviation < data_range else IRREGULAR)
-    expected = found.safety_factor * abs(slope) + deviation
+    assert result.safety_factor == (REGULAR if deviation < data_range else IRREGULAR)
+    expected = result.safety_factor * abs(slope) + deviation
     if behaviour == "diverging" or values == [1.0, 1.4, 1.7]:
         expected = max(expected, values[-1] - values[-2])
-    assert found.uncertainty == pytest.approx(expected)
-    assert abs(found.value - found.limit) < found.uncertainty
+    assert result.uncertainty == pytest.approx(expected)
+    assert abs(result.value - result.limit) < result.uncertainty
 
 
 def test_a_scatter_as_wide_as_the_data_counts_three_times():
-    found = grid_convergence([1.0, 1.05, 0.9], 2.0)  # it swings ever farther
-    assert found.safety_factor == IRREGULAR and found.order is None
+    result = grid_convergence([1.0, 1.05, 0.9], 2.0)  # it swings ever farther
+    assert result.safety_factor == IRREGULAR and result.order is None
     assert grid_convergence([1.0, 1.4, 1.35], 2.0).safety_factor == REGULAR
 
 
 def test_a_sequence_that_has_settled_has_nothing_left():
     for value in (5.0, 0.0):
-        found = grid_convergence([value] * 3, 2.0)
-        assert (found.behaviour, found.uncertainty, found.limit) == ("settled", 0.0, value)
+        result = grid_convergence([value] * 3, 2.0)
+        assert (result.behaviour, result.uncertainty, result.limit) == ("settled", 0.0, value)
     assert grid_convergence([5.0, 5.0, 5.0 + 1e-12], 2.0).uncertainty < 2e-12
 
 
@@ -142,8 +142,8 @@ def test_stated_uncertainty_covers_the_error_of_hertz():
             lengths.append(np.ptp(contact_patches(grid.x, solution.pressure, solution.gap)))
         answers = hertz.peak_pressure, 2.0 * hertz.half_width
         for values, exact, order in zip((peaks, lengths), answers, (2.0, 1.0), strict=True):
-            found = grid_convergence(values, order)
-            covered.append(abs(found.value - exact) <= found.uncertainty)
-            widths.append(found.uncertainty / exact)
+            result = grid_convergence(values, order)
+            covered.append(abs(result.value - exact) <= result.uncertainty)
+            widths.append(result.uncertainty / exact)
     assert np.mean(covered) >= 0.9
     assert np.median(widths) < 2e-3

@@ -103,8 +103,8 @@ def test_parts_are_bounds_and_add():
 
 
 def test_a_value_is_judged_over_its_scale_and_a_difference_as_it_is():
-    own = replace(judged(2e9, 0.0, 3.0), against=None, scale=1e9)
-    assert (own.relative, own.verdict) == (2.0, "holds")
+    value = replace(judged(2e9, 0.0, 3.0), against=None, scale=1e9)
+    assert (value.relative, value.verdict) == (2.0, "holds")
     assert replace(judged(0.02, 0.0, 0.03), scale=1e9).relative == 0.02
 
 

@@ -25,18 +25,18 @@ NAME = "contact.peak_pressure [half_plane, friction 0.1]"
 def moved(before, after, **other):
     """Between two figures, or series, of one study."""
 
-    def items(each, other):
-        kind = "figures" if isinstance(each, Figure) else "series"
-        return items_of({"contact": Findings(**{kind: (each,)})}, other)
+    def items(part, other):
+        kind = "figures" if isinstance(part, Figure) else "series"
+        return items_of({"contact": Findings(**{kind: (part,)})}, other)
 
     return movement(items(before, OTHER), items(after, OTHER | other))
 
 
 def test_a_run_repeats_itself(smooth_outcome: Run):
     items = items_of(smooth_outcome.findings, OTHER)
-    found = movement(items, items)
-    assert found.moved == () and found.rounding == found.new == 0
-    assert found.same == len(items) > len(smooth_outcome.figures)
+    change = movement(items, items)
+    assert change.moved == () and change.rounding == change.new == 0
+    assert change.same == len(items) > len(smooth_outcome.figures)
 
 
 def test_a_figure_may_move_by_what_it_states_itself():
@@ -60,8 +60,8 @@ def test_of_an_uncertainty_that_is_unknown_the_known_parts_count():
 
 
 def test_rounding_is_counted_apart():
-    found = moved(PEAK, replace(PEAK, value=2e9 * (1.0 + 1e-12)))
-    assert (found.moved, found.rounding) == ((), 1)
+    change = moved(PEAK, replace(PEAK, value=2e9 * (1.0 + 1e-12)))
+    assert (change.moved, change.rounding) == ((), 1)
 
 
 def test_what_states_nothing_may_not_move():
@@ -81,9 +81,9 @@ def test_a_verdict_that_changed_is_a_finding():
 
 
 def test_a_figure_that_went_is_a_finding_and_a_new_one_is_not():
-    found = moved(PEAK, replace(PEAK, quantity="contact_length"))
-    assert [row.name for row in found.beyond] == [NAME, f"{NAME}, uncertainty"]
-    assert found.moved[0].repeated is None and found.new == 2
+    change = moved(PEAK, replace(PEAK, quantity="contact_length"))
+    assert [row.name for row in change.beyond] == [NAME, f"{NAME}, uncertainty"]
+    assert change.moved[0].repeated is None and change.new == 2
 
 
 def test_an_effect_moves_by_its_own_uncertainty():
@@ -102,14 +102,14 @@ def test_what_a_run_took_is_no_figure():
 
 
 def test_words_are_no_figures_but_what_converged_is():
-    found = {"contact": Findings((PEAK,), statements=(Statement("why", "because"),))}
+    findings = {"contact": Findings((PEAK,), statements=(Statement("why", "because"),))}
     other = {"contact": Findings((PEAK,), statements=(Statement("why", "therefore"),))}
-    assert movement(items_of(found, {}), items_of(other, {})).moved == ()
+    assert movement(items_of(findings, {}), items_of(other, {})).moved == ()
 
 
 def test_patches_move_by_the_length_that_they_do_not_share():
     def patches(*ends):
-        start, stop = (Column(each, "m", (1e-7,) * len(each)) for each in zip(*ends, strict=True))
+        start, stop = (Column(side, "m", (1e-7,) * len(side)) for side in zip(*ends, strict=True))
         return Series("patches", {"start": start, "stop": stop}, "half_plane")
 
     (row,) = moved(patches((0.0, 1e-4)), patches((0.0, 4.9e-5), (5e-5, 1e-4))).moved

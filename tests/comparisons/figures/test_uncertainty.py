@@ -24,10 +24,10 @@ def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outco
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
     levels = smooth_outcome.runs["half_plane"].levels
     run = ModelRun("finite_element", levels, far_boundary_check=levels[1])
-    found = uncertainties(run, smooth_outcome.problem, 0.0)["peak_pressure"]
+    stated = uncertainties(run, smooth_outcome.problem, 0.0)["peak_pressure"]
     first, second, last = (level.solution.pressure.max() for level in levels)
-    assert found.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
-    assert found.total == pytest.approx(sum(found.parts.values()))
+    assert stated.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
+    assert stated.total == pytest.approx(sum(stated.parts.values()))
 
 
 def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(
@@ -36,11 +36,11 @@ def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(
     """A twentieth of a pitch for each of the two edges; of many patches they err by chance."""
     level = smooth_outcome.runs["half_plane"].finest
     run = ModelRun("half_plane", (level, level, level))
-    found = uncertainties(run, smooth_outcome.problem, 0.0)
+    stated = uncertainties(run, smooth_outcome.problem, 0.0)
     expected = 0.1 * level.grid.pitch / level.contact_length
-    assert found["contact_length"].parts["discretisation"] == pytest.approx(expected)
-    assert found["contact_ratio"].parts["discretisation"] == pytest.approx(expected)
-    assert found["peak_pressure"].parts["discretisation"] == 0.0
+    assert stated["contact_length"].parts["discretisation"] == pytest.approx(expected)
+    assert stated["contact_ratio"].parts["discretisation"] == pytest.approx(expected)
+    assert stated["peak_pressure"].parts["discretisation"] == 0.0
     assert length_resolution(1.0, 9) == pytest.approx(3.0 * length_resolution(1.0, 1))
 
 
@@ -110,8 +110,8 @@ def test_refinement_ends_by_the_worst_of_difference_and_models(smooth_outcome: R
 
     def off(run, sizes):
         levels = (
-            replace(each, solution=replace(each.solution, pressure=f * each.solution.pressure))
-            for each, f in zip((run.finest,) * 3, sizes, strict=True)
+            replace(level, solution=replace(level.solution, pressure=f * level.solution.pressure))
+            for level, f in zip((run.finest,) * 3, sizes, strict=True)
         )
         return replace(run, levels=tuple(levels))
 
@@ -120,7 +120,7 @@ def test_refinement_ends_by_the_worst_of_difference_and_models(smooth_outcome: R
         runs = {run.name: off(run, f) for run, f in zip(pair, (sizes, others), strict=True)}
         both = discretisations(runs, problem, 0.0, window)
         alone = [discretisations({n: r}, problem, 0.0, window) for n, r in runs.items()]
-        return both["peak_pressure"], [each["peak_pressure"] for each in alone]
+        return both["peak_pressure"], [quantities["peak_pressure"] for quantities in alone]
 
     both, alone = open_ones((1.16, 1.04, 1.0), (1.16, 1.04, 1.0))
     assert min(alone) > 0.01

@@ -155,6 +155,16 @@ def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: 
         assert "plastic = true, with body.yield_stress, computes it" in said.next
 
 
+def test_a_law_that_was_not_asked_for_is_asked_for_next(smooth_outcome: Run):
+    sizes = {"law_of_elasticity": {"peak_pressure": 0.17}}
+    why = {"law_of_elasticity": "not asked for (budget.effects)"}
+    missing = EffectSelection(frozenset(), frozenset(), {}, why, sizes)
+    error = error_of("peak_pressure", 1e-3, 1e-4)
+    assert headline(judged(smooth_outcome, error, selection=missing)).paste == (
+        "[budget]\neffects = true",
+    )
+
+
 def test_nothing_judged_is_no_verdict(smooth_outcome: Run):
     said = headline(judged(smooth_outcome))
     assert said.kind == "inconclusive" and "no figure has a tolerance" in said.sentence

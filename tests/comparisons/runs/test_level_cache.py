@@ -75,7 +75,7 @@ def keys() -> tuple[str, str, str]:
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
     levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key
-    cost, points = (provenance.program_code(*each.CODE) for each in (cost_measure, map_of_groups))
+    cost, points = (provenance.program_code(*kind.CODE) for kind in (cost_measure, map_of_groups))
     return levels, cost, points
 
 

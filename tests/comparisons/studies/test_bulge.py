@@ -37,13 +37,13 @@ def solved(tables, models=("finite_element",)):
 def bulge_of(outcome) -> dict:
     """The bulge at the one friction coefficient above 0: values by name, of the height and the end
     their uncertainties, the curve and the patches."""
-    [own] = bulges_of(outcome.findings["bulge"])
-    found = {name: own.value(name) for name in QUANTITIES}
-    height = own.figures["height"]
-    found["uncertainty"] = height.numerical * height.scale
-    found |= {name: column.values for name, column in own.curve.columns.items()}
-    found["energy_ahead"] = dict(zip(outcome.runs, own.energy_ahead, strict=True))
-    return found | {"patches": own.patches.rows() if own.patches else []}
+    [patch] = bulges_of(outcome.findings["bulge"])
+    values = {name: patch.value(name) for name in QUANTITIES}
+    height = patch.figures["height"]
+    values["uncertainty"] = height.numerical * height.scale
+    values |= {name: column.values for name, column in patch.curve.columns.items()}
+    values["energy_ahead"] = dict(zip(outcome.runs, patch.energy_ahead, strict=True))
+    return values | {"patches": patch.patches.rows() if patch.patches else []}
 
 
 def step(friction, load, poissons_ratio=0.3):
@@ -58,33 +58,33 @@ def smooth():
 
 
 def test_an_unbounded_body_has_a_step_down_ahead_and_no_bulge(smooth):
-    found = bulge_of(smooth)
+    figures = bulge_of(smooth)
     hertz = smooth.problem.hertz
     exact = step(0.3, hertz.load_per_length)
-    assert exact < 0.0 and abs(found["height"]) < found["uncertainty"] < 0.1 * abs(exact)
-    assert found["half_plane"] == pytest.approx(exact, rel=5e-3)
-    assert abs(found["work"]) < 1e-3
+    assert exact < 0.0 and abs(figures["height"]) < figures["uncertainty"] < 0.1 * abs(exact)
+    assert figures["half_plane"] == pytest.approx(exact, rel=5e-3)
+    assert abs(figures["work"]) < 1e-3
     # rigid roller: the same share of the penetration whatever that is
     depth = hertz.half_width**2 / RADIUS
     assert exact / depth == pytest.approx(-0.25 * np.pi * 0.3 * 0.4 / 0.7)
-    beside = np.interp(1.1 * hertz.half_width, found["distance"], found["rise"])
+    beside = np.interp(1.1 * hertz.half_width, figures["distance"], figures["rise"])
     assert beside == pytest.approx(exact, rel=0.02)
-    assert found["relative_penetration"] == pytest.approx((hertz.half_width / RADIUS) ** 2)
+    assert figures["relative_penetration"] == pytest.approx((hertz.half_width / RADIUS) ** 2)
 
 
 def test_inside_the_contact_the_step_grows_with_the_load_up_to_there(smooth):
-    found = bulge_of(smooth)
-    s = np.array(found["distance"]) / smooth.problem.hertz.half_width
+    figures = bulge_of(smooth)
+    s = np.array(figures["distance"]) / smooth.problem.hertz.half_width
     inside = s < 0.8
     share = 2.0 / np.pi * (np.arcsin(s[inside]) + s[inside] * np.sqrt(1.0 - s[inside] ** 2))
     exact = step(0.3, smooth.problem.hertz.load_per_length) * share
-    assert np.array(found["rise"])[inside] == pytest.approx(exact, abs=0.02 * abs(exact[-1]))
+    assert np.array(figures["rise"])[inside] == pytest.approx(exact, abs=0.02 * abs(exact[-1]))
 
 
 def test_both_models_carry_the_same_energy_ahead(smooth):
-    found = bulge_of(smooth)
-    own, other = (found["energy_ahead"][name] for name in MODELS)
-    assert own == pytest.approx(other, abs=3e-3) and own > 0.55
+    figures = bulge_of(smooth)
+    half_plane, other = (figures["energy_ahead"][name] for name in MODELS)
+    assert half_plane == pytest.approx(other, abs=3e-3) and half_plane > 0.55
     level, window = smooth.runs["half_plane"].finest, smooth.window
     back, front = elastic_energy(smooth.problem, level, window, 0.0)
     assert front == pytest.approx(back, rel=1e-6)
@@ -92,19 +92,19 @@ def test_both_models_carry_the_same_energy_ahead(smooth):
 
 def test_roughness_leaves_the_step_as_it_is():
     outcome = solved(SLIDING | WAVY)
-    found = bulge_of(outcome)
+    figures = bulge_of(outcome)
     exact = step(0.3, outcome.problem.hertz.load_per_length)
     assert len(outcome.runs["finite_element"].finest.patches) > 1
-    assert found["half_plane"] == pytest.approx(exact, rel=5e-3)
-    assert abs(found["height"]) < found["uncertainty"] < 0.1 * abs(exact)
+    assert figures["half_plane"] == pytest.approx(exact, rel=5e-3)
+    assert abs(figures["height"]) < figures["uncertainty"] < 0.1 * abs(exact)
 
 
 def test_an_incompressible_layer_rises_ahead_and_not_far():
     outcome = solved(changed(SLIDING, body=THIN, resolution={"pitch": 10e-6}))
-    found = bulge_of(outcome)
-    assert found["height"] > 5.0 * abs(found["half_plane"]) > 0.0
-    assert found["end"] < 3.0 * outcome.problem.hertz.half_width
-    assert found["uncertainty"] < 0.05 * found["height"]
+    figures = bulge_of(outcome)
+    assert figures["height"] > 5.0 * abs(figures["half_plane"]) > 0.0
+    assert figures["end"] < 3.0 * outcome.problem.hertz.half_width
+    assert figures["uncertainty"] < 0.05 * figures["height"]
 
 
 def test_flow_raises_a_bulge_ahead_that_ends():
@@ -119,14 +119,14 @@ def test_flow_raises_a_bulge_ahead_that_ends():
         budget={"time": 1.0},
     )
     outcome = solved(flowing)
-    found = bulge_of(outcome)
-    assert found["work"] is None and found["relative_penetration"] == pytest.approx(
+    figures = bulge_of(outcome)
+    assert figures["work"] is None and figures["relative_penetration"] == pytest.approx(
         3.7e-3, rel=0.01
     )
     a = outcome.problem.hertz.half_width
-    assert 0.15 < found["over_penetration"] < 0.35
-    assert a < found["at"] < 2.0 * a < found["end"] < 5.0 * a
-    assert np.max(found["rise"]) > 0.1 * a**2 / RADIUS  # higher than behind, in spite of the step
+    assert 0.15 < figures["over_penetration"] < 0.35
+    assert a < figures["at"] < 2.0 * a < figures["end"] < 5.0 * a
+    assert np.max(figures["rise"]) > 0.1 * a**2 / RADIUS  # higher than behind, in spite of the step
 
 
 FLOWING = {
@@ -145,7 +145,7 @@ def test_the_bulge_depends_on_penetration_over_yield_strain():
     one = solved(FLOWING)
     tables = changed(FLOWING, roller={"radius": 2.0 * RADIUS}, body={"yield_stress": 0.5e9})
     two = solved(changed(tables, load={"hertz_peak_pressure": 2.5e9}))
-    first, second = (bulge_of(found) for found in (one, two))
+    first, second = (bulge_of(outcome) for outcome in (one, two))
     assert second["contact"] == pytest.approx(first["contact"], rel=1e-6)
     assert second["height"] == pytest.approx(0.5 * first["height"], rel=1e-4)
     assert second["end"] == pytest.approx(first["end"], rel=1e-4)
@@ -158,12 +158,12 @@ def test_the_bulge_depends_on_penetration_over_yield_strain():
 def test_patches_of_a_meshed_profile_have_the_step_and_no_bulge():
     """Elastic asperities of small slopes: about each centre the half-plane's step alone."""
     rough = changed(SLIDING | WAVY, finite_element={"geometry": "rough"}, resolution={"levels": 3})
-    found = bulge_of(solved(changed(rough, resolution={"pitch": 10e-6})))
-    steps = np.array([each["half_plane"] for each in found["patches"]])
-    heights = np.array([each["height"] for each in found["patches"]])
+    figures = bulge_of(solved(changed(rough, resolution={"pitch": 10e-6})))
+    steps = np.array([patch["half_plane"] for patch in figures["patches"]])
+    heights = np.array([patch["height"] for patch in figures["patches"]])
     assert len(steps) > 2 and (steps < 0.0).all()
     assert np.abs(heights).max() < 0.1 * np.abs(steps).max()
-    assert 0.5 < found["energy_ahead"]["finite_element"] < 0.9  # above the waves there is none
+    assert 0.5 < figures["energy_ahead"]["finite_element"] < 0.9  # above the waves there is none
 
 
 def test_patches_that_flow_raise_bulges_of_their_own():
@@ -172,13 +172,13 @@ def test_patches_that_flow_raise_bulges_of_their_own():
         FLOWING, load={"hertz_peak_pressure": 2e9}, resolution={"pitch": 40e-6, "elements": None}
     )
     outcome = solved(tables | {"profile": wavy})
-    found = bulge_of(outcome)
-    patches, level = found["patches"], outcome.runs["finite_element"].finest
+    figures = bulge_of(outcome)
+    patches, level = figures["patches"], outcome.runs["finite_element"].finest
     assert set(level.mesh_field.displacement) == {0.0, 0.3} and len(patches) == len(level.patches)
-    deepest = max(patches, key=lambda each: each["relative_penetration"])
+    deepest = max(patches, key=lambda patch: patch["relative_penetration"])
     assert deepest["kind"] in ("elastic", "plastic") and deepest["over_penetration"] > 0.05
-    shares = sum(each["penetration"] for each in patches)
-    assert shares == pytest.approx(found["penetration"], rel=1e-6)  # 4 P/(pi E*) of all loads
+    shares = sum(patch["penetration"] for patch in patches)
+    assert shares == pytest.approx(figures["penetration"], rel=1e-6)  # 4 P/(pi E*) of all loads
     [block] = bulge.blocks(outcome)
     assert len(block.items[2].rows) == 1 + len(patches)
 

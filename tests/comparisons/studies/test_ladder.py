@@ -50,9 +50,9 @@ def test_hertz_stands_where_the_surface_is_smooth(smooth_outcome):
 
 
 def test_hertz_fails_and_the_half_plane_holds_on_a_wavy_surface(wavy_outcome):
-    known, found = wavy_outcome.figures.of(study=LADDER), wavy_outcome.findings[LADDER]
+    known, findings = wavy_outcome.figures.of(study=LADDER), wavy_outcome.findings[LADDER]
     assert "fails" in {figure.verdict for figure in known.of(source="hertz")}
-    assert found.said(show.SUFFICES) == "half_plane"
+    assert findings.said(show.SUFFICES) == "half_plane"
     [(name, line)] = show.lines(wavy_outcome)
     assert name == "cheapest that holds"
     assert line.startswith("half-plane (")

@@ -34,20 +34,20 @@ def below_a_wave(z, height=1.0, wave=100.0):
 
 
 def test_the_dip_is_where_the_slope_of_the_shear_vanishes():
-    found = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4)
+    dip = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4)
     low = minimize_scalar(
         lambda z: below_a_wave(z, 4.0), bounds=(0.02, 0.3), options={"xatol": 1e-9}
     )
     high = minimize_scalar(lambda z: -below_a_wave(z, 4.0), bounds=(0.3, 0.9))
     top = minimize_scalar(lambda z: -below_a_wave(z, 4.0), bounds=(0.0, 0.02))
-    assert found.status == q.QUIESCENT
-    assert found.depth == pytest.approx(low.x, abs=1e-3)
-    assert (found.hertz, found.hertz_depth) == pytest.approx((-high.fun, high.x), rel=2e-3)
-    assert (found.asperity, found.asperity_depth) == pytest.approx((-top.fun, top.x), rel=5e-3)
-    assert found.level == pytest.approx(low.fun / -high.fun, rel=1e-4)
-    assert found.ratio == pytest.approx(low.fun / min(-high.fun, -top.fun), rel=1e-4)
+    assert dip.status == q.QUIESCENT
+    assert dip.depth == pytest.approx(low.x, abs=1e-3)
+    assert (dip.hertz, dip.hertz_depth) == pytest.approx((-high.fun, high.x), rel=2e-3)
+    assert (dip.asperity, dip.asperity_depth) == pytest.approx((-top.fun, top.x), rel=5e-3)
+    assert dip.level == pytest.approx(low.fun / -high.fun, rel=1e-4)
+    assert dip.ratio == pytest.approx(low.fun / min(-high.fun, -top.fun), rel=1e-4)
     least = q.QUIET * min(-high.fun, -top.fun)
-    for depth, bracket in ((found.start, (top.x, low.x)), (found.stop, (low.x, high.x))):
+    for depth, bracket in ((dip.start, (top.x, low.x)), (dip.stop, (low.x, high.x))):
         end = root_scalar(lambda z: below_a_wave(z, 4.0) - least, bracket=bracket)
         assert depth == pytest.approx(end.root, abs=2e-4)
 
@@ -63,11 +63,11 @@ def test_the_dip_is_where_the_slope_of_the_shear_vanishes():
     ],
 )
 def test_where_there_is_no_zone(shear, status, level):
-    found = q.shear_dip(Z, shear, 0.4)
-    assert found.status == status
-    assert np.isnan(found.start) and np.isnan(found.stop)
+    dip = q.shear_dip(Z, shear, 0.4)
+    assert dip.status == status
+    assert np.isnan(dip.start) and np.isnan(dip.stop)
     if level is not None:
-        assert found.level == pytest.approx(level, abs=0.02)
+        assert dip.level == pytest.approx(level, abs=0.02)
 
 
 def test_the_scale_of_shear_and_of_depth_does_not_matter():
@@ -84,8 +84,8 @@ def test_mean_shear_of_the_sliding_smooth_contact(columns):
     window = SimpleNamespace(x=np.linspace(-1.37e-3, 1.5e-3, columns))
     tau1 = hertz_stress(hertz, window.x, np.zeros((1, 1)), 0.2).tau1
     smooth = SimpleNamespace(hertz=hertz)
-    found = q.mean_shear(smooth, window, tau1)
-    assert found == pytest.approx(0.2e9, rel=0.1 / columns)
+    mean = q.mean_shear(smooth, window, tau1)
+    assert mean == pytest.approx(0.2e9, rel=0.1 / columns)
     cut = np.where(np.abs(window.x) < 0.3e-3, np.nan, tau1)  # above a rough boundary
     assert q.mean_shear(smooth, window, cut) == pytest.approx(0.2e9, rel=0.1 / columns)
 
@@ -115,9 +115,9 @@ def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
     assert sliding.figures["level"].value > q.QUIET > values["ratio"]
     assert still.asperities == len(wavy.problem.asperities) + 1
     assert sliding.bridged > still.bridged
-    for each in wavy.findings[q.NAME].table(q.ASPERITIES, friction=0.0).rows():
-        assert 0.0 < each["length"] < 25e-6
-        assert abs(each["x"]) < wavy.problem.hertz.half_width
+    for row in wavy.findings[q.NAME].table(q.ASPERITIES, friction=0.0).rows():
+        assert 0.0 < row["length"] < 25e-6
+        assert abs(row["x"]) < wavy.problem.hertz.half_width
 
 
 @pytest.mark.parametrize(
@@ -134,13 +134,13 @@ def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
     level = half_plane_level(
         posed, 0.5 * wavy.runs["half_plane"].finest.grid.pitch, window, Stages()
     )
-    found = q.zone_of(posed, level, window, 0.0)
+    zone = q.zone_of(posed, level, window, 0.0)
     a = posed.hertz.half_width
     for name in q.QUANTITIES:
         value, place = stated[name].value, "depth" in name or name in ("start", "stop")
         reading = 2e-3 * (a if place else value)
         assert stated[name].numerical * stated[name].scale < reading
-        assert getattr(found, name) == pytest.approx(value, abs=reading)
+        assert getattr(zone, name) == pytest.approx(value, abs=reading)
 
 
 def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):

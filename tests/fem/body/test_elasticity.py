@@ -138,9 +138,9 @@ def test_displacements_at_the_mesh_s_points(small, degree, height):
         return np.stack([1.0 + (x - 0.3 * z) ** power, (0.5 * x * z + z) ** (power // 2)], axis=-1)
 
     both = np.stack([moved(body.nodes), 2.0 * moved(body.nodes)])
-    found = body.at_points(both)
-    np.testing.assert_allclose(found[1], 2.0 * found[0], rtol=1e-15)
-    np.testing.assert_allclose(found[0], moved(body.points), atol=1e-14)
+    at_points = body.at_points(both)
+    np.testing.assert_allclose(at_points[1], 2.0 * at_points[0], rtol=1e-15)
+    np.testing.assert_allclose(at_points[0], moved(body.points), atol=1e-14)
     vertices = body.mesh.triangles[:, :3]
     np.testing.assert_array_equal(body.at_points(body.nodes)[vertices], body.points[vertices])
     np.testing.assert_array_equal(body.elements[:, :3].shape, vertices.shape)
@@ -167,8 +167,8 @@ def test_points_keep_their_own_numbers(small, degree):
         mesh, points=mesh.points[order], triangles=rank[mesh.triangles], shift=mesh.shift[order]
     )
     again = elastic_body(shuffled, MATERIAL, Support(), degree=degree)
-    found = again.at_points(again.solve(pressed(again)))
-    np.testing.assert_allclose(found, body.at_points(moved)[order], atol=1e-13)
+    at_points = again.at_points(again.solve(pressed(again)))
+    np.testing.assert_allclose(at_points, body.at_points(moved)[order], atol=1e-13)
 
 
 def test_displacement_scales_with_load_and_inversely_with_the_moduli(structured_block, degree):
@@ -297,7 +297,7 @@ def test_a_line_in_a_body_of_one_material_changes_nothing(plain, thickness):
 @pytest.mark.parametrize("modulus", [0.1, 10.0])
 def test_three_elements_across_a_coating_are_enough(plain, modulus):
     spec = replace(BLOCK, interface=0.15)
-    found = surface(spec, modulus)
+    plate = surface(spec, modulus)
     finer = surface(replace(spec, window=(-2.0, 2.0, 0.4, 0.02)), modulus)
-    assert found == pytest.approx(finer, abs=1e-4 * np.ptp(finer))
-    assert np.ptp(found) != pytest.approx(np.ptp(plain), rel=0.1)
+    assert plate == pytest.approx(finer, abs=1e-4 * np.ptp(finer))
+    assert np.ptp(plate) != pytest.approx(np.ptp(plain), rel=0.1)

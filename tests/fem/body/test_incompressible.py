@@ -58,7 +58,7 @@ def mixed(body: ElasticBody, load: np.ndarray) -> np.ndarray:
     return solution[:size].reshape(-1, 2)
 
 
-def found(mesh, material: Material, hats: np.ndarray, pressure: np.ndarray) -> list[np.ndarray]:
+def shifts(mesh, material: Material, hats: np.ndarray, pressure: np.ndarray) -> list[np.ndarray]:
     """Weighted displacements of the hats: by linear, quadratic, cubic and mixed elements."""
     result = []
     for degree in (1, 2, 3):
@@ -95,7 +95,7 @@ def test_a_thin_bonded_layer(structured_block, graded, elements, nu, expected):
     pressure = (1.0 - (hats[1:-1] / 4.0) ** 2) ** 2
     exact = LayeredSurface(count, 0.125, LayeredBody(material, 1.0, "bonded")).apply(pressure)
     mesh = thin_layer(structured_block, graded, elements)
-    work = [pressure @ moved for moved in found(mesh, material, hats, pressure)]
+    work = [pressure @ moved for moved in shifts(mesh, material, hats, pressure)]
     missing = 1.0 - np.array(work) / (pressure @ exact)
     assert np.all(missing < 2.0 * np.array(expected)), missing
     assert np.all(missing > 0.5 * np.array(expected)), missing
@@ -117,7 +117,7 @@ def test_a_large_block(structured_block, graded, nu, expected):
     exact = np.diff(half_plane.apply(pressure))
     off = [
         np.abs(np.diff(moved) - exact).max() / np.abs(exact).max()
-        for moved in found(mesh, material, hats, pressure)
+        for moved in shifts(mesh, material, hats, pressure)
     ]
     assert np.all(off < 2.0 * np.array(expected)), off
     assert np.all(off > 0.5 * np.array(expected)), off

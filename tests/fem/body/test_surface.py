@@ -50,8 +50,8 @@ def test_sides_hold_their_points_and_corners_belong_to_two(structured_block):
     mesh = structured_block(np.linspace(-1, 1, 5), np.linspace(0, 3, 4), lambda x: 0.1 + 0 * x)
     sides = boundary_points(mesh.points, mesh.spec)
     for side, axis, value in (("top", 1, 0), ("bottom", 1, 3), ("left", 0, -1), ("right", 0, 1)):
-        found = np.flatnonzero(mesh.points[:, axis] == value)
-        np.testing.assert_array_equal(getattr(sides, side), found)
+        points = np.flatnonzero(mesh.points[:, axis] == value)
+        np.testing.assert_array_equal(getattr(sides, side), points)
     assert len(np.intersect1d(sides.top, sides.left)) == 1
 
 
@@ -92,10 +92,10 @@ def test_hat_forces_are_exact(surface, degree, hats):
     exact = np.zeros((len(surface.x), count))
     for start, end in pairwise(np.unique(np.clip(np.append(hats, LINE), hats[0], hats[-1]))):
         edge = np.searchsorted(LINE, 0.5 * (start + end)) - 1
-        own = degree * edge + np.arange(degree + 1)
+        nodes = degree * edge + np.arange(degree + 1)
         left = np.searchsorted(hats, 0.5 * (start + end)) - 1
-        for a, values in zip(own, np.eye(degree + 1), strict=True):
-            shape = Polynomial(lagrange(surface.x[own], values).coef[::-1])
+        for a, values in zip(nodes, np.eye(degree + 1), strict=True):
+            shape = Polynomial(lagrange(surface.x[nodes], values).coef[::-1])
             for i, values in ((left, [1.0, 0.0]), (left + 1, [0.0, 1.0])):
                 hat = Polynomial(lagrange(hats[left : left + 2], values).coef[::-1])
                 if 1 <= i <= count:

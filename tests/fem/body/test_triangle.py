@@ -79,9 +79,9 @@ def test_a_block_bent_along_x_too(structured_block):
     element, at = locator(where)
     assert np.all(element[outside] == -1)
     assert np.all(element[inside & (np.abs(angle) < 0.999)] >= 0)
-    found = element >= 0
-    back = np.einsum("kac,ka->kc", points[mesh.triangles[element[found]]], shapes(at[found]))
-    np.testing.assert_allclose(back, where[found], atol=1e-12)
+    within = element >= 0
+    back = np.einsum("kac,ka->kc", points[mesh.triangles[element[within]]], shapes(at[within]))
+    np.testing.assert_allclose(back, where[within], atol=1e-12)
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3])

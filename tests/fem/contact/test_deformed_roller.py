@@ -90,11 +90,11 @@ class TestTerms:
         place = np.vstack([body.nodes for body in bodies]) + at
         terms = PairContact(bodies[0], HATS, bodies[1], friction).at(at, PRESSURE)
         force = (terms.force @ PRESSURE).reshape(-1, 2)
-        own = np.arange(len(force)) < len(bodies[0].nodes)
-        mirror = np.where(own, 1.0, -1.0)[:, None] * [0.0, 1.0] + [1.0, 0.0]
+        of_body = np.arange(len(force)) < len(bodies[0].nodes)
+        mirror = np.where(of_body, 1.0, -1.0)[:, None] * [0.0, 1.0] + [1.0, 0.0]
         force, place = force * mirror, place * mirror
         load = 0.16 * PRESSURE.sum()
-        assert friction or force[own, 1].sum() == pytest.approx(load, rel=1e-12)
+        assert friction or force[of_body, 1].sum() == pytest.approx(load, rel=1e-12)
         np.testing.assert_allclose(force.sum(axis=0), 0.0, atol=1e-12 * load)
         upright = (place[:, 0] * force[:, 1]).sum()
         assert abs(upright) < 1e-12 * np.abs(place[:, 0] * force[:, 1]).sum()
@@ -103,9 +103,9 @@ class TestTerms:
     def test_gap_and_forces_alone_are_the_same(self, structured_block, friction):
         bodies = blocks(structured_block)
         roller = CurrentContact(bodies[0], HATS, parabola(20.0), friction)
-        both, own = some(bodies, 0.05), some(bodies, 0.05)[: len(bodies[0].nodes)]
+        both, alone = some(bodies, 0.05), some(bodies, 0.05)[: len(bodies[0].nodes)]
         pair = PairContact(bodies[0], HATS, bodies[1], friction)
-        for contact, at in ((pair, both), (roller, own)):
+        for contact, at in ((pair, both), (roller, alone)):
             terms, (gap, force) = contact.at(at, PRESSURE), contact.loaded(at, PRESSURE)
             np.testing.assert_allclose(gap, terms.gap, rtol=1e-12)
             size = np.abs(force).max()
@@ -196,13 +196,13 @@ class Pressed:
         self.rough = body(edge, radii[0], moduli[0], 0.0, size)
         self.roller = body(edge, radii[1], moduli[1], aside, size)
         fields = [
-            FarField(each, self.hats[0], self.hats[-1]) if far else None
-            for each in (self.rough, self.roller)
+            FarField(side, self.hats[0], self.hats[-1]) if far else None
+            for side in (self.rough, self.roller)
         ]
         self.start = self.peak * np.sqrt(np.maximum(1.0 - self.x**2, 0.0))
         self.load = 0.5 * np.pi * self.peak
         against = FiniteElementCompliance(self.roller, self.hats, far=fields[1])
-        self.found = press_finitely(
+        self.state = press_finitely(
             self.rough,
             self.hats,
             against,
@@ -211,22 +211,22 @@ class Pressed:
             friction=friction,
             far=fields[0],
         )
-        self.pressure = self.found.cauchy_pressure / self.peak
-        place = np.interp(self._patches(), self.x, self.found.place)
+        self.pressure = self.state.cauchy_pressure / self.peak
+        place = np.interp(self._patches(), self.x, self.state.place)
         self.length = float(np.diff(place).sum()) / 2.0
 
     @property
     def centre(self):
-        pressure = self.found.pressure
-        return self.found.place @ pressure / pressure.sum()
+        pressure = self.state.pressure
+        return self.state.place @ pressure / pressure.sum()
 
     def _patches(self):
-        return contact_patches(self.x, self.found.pressure, self.found.gap)
+        return contact_patches(self.x, self.state.pressure, self.state.gap)
 
     @property
     def tau1(self):
         highest = maximum(
-            self.rough, self.found.cauchy.nodal, lambda stress: stress.tau1, (-1.2, 1.2, 2.0)
+            self.rough, self.state.cauchy.nodal, lambda stress: stress.tau1, (-1.2, 1.2, 2.0)
         )
         return highest.value / self.peak
 
@@ -237,9 +237,9 @@ pressed = cache(Pressed)
 class TestPressed:
     def test_newton_takes_few_steps_with_friction_too(self):
         for friction in (0.0, 0.2):
-            found = pressed(0.1, friction=friction).found
-            assert found.solution.iterations <= 6
-            assert found.solution.cuts == 0
+            state = pressed(0.1, friction=friction).state
+            assert state.solution.iterations <= 6
+            assert state.solution.cuts == 0
 
     def test_small_loads_are_the_linear_theorys(self):
         """Two linear bodies on the same block: the difference vanishes in proportion to p0/E."""
@@ -247,14 +247,14 @@ class TestPressed:
         for curvature in (0.04, 0.02, 0.01):
             case = pressed(curvature)
             compliances = [
-                FiniteElementCompliance(each, case.hats) for each in (case.rough, case.rough)
+                FiniteElementCompliance(part, case.hats) for part in (case.rough, case.rough)
             ]
             weights = np.diff(case.hats)[1:]
             gap = weights * curvature * (case.x**2 / 2.0 + 0.05**2 / 12.0)
             bodies = [(LinearResponse(c.body), LinearContact(c)) for c in compliances]
             rest = state_at_rest(bodies, case.start)
             linear = solve_nonlinear_contact(bodies, gap, weights, rest, case.load).state.pressure
-            left.append(np.abs(case.found.pressure - linear).max() / case.peak)
+            left.append(np.abs(case.state.pressure - linear).max() / case.peak)
         orders = np.log2(np.divide(left[:-1], left[1:]))
         assert np.all(np.abs(orders - 1.0) < 0.25), left
 
@@ -262,9 +262,9 @@ class TestPressed:
         case = pressed(0.1, moduli=(1.0, 1e6), far=False)
         rigid = press_finitely(case.rough, case.hats, parabola(10.0), case.start, load=case.load)
         np.testing.assert_allclose(
-            case.found.pressure, rigid.pressure, atol=1e-5 * rigid.pressure.max()
+            case.state.pressure, rigid.pressure, atol=1e-5 * rigid.pressure.max()
         )
-        assert case.found.approach == pytest.approx(rigid.approach, rel=1e-4)
+        assert case.state.approach == pytest.approx(rigid.approach, rel=1e-4)
 
     def test_body_and_roller_can_be_exchanged(self):
         """The cylinder as the rough body, the flat as the roller."""
@@ -281,7 +281,7 @@ class TestPressed:
         assert case.length == pytest.approx(other.length, rel=2e-3)
         at = np.linspace(-0.8, 0.8, 81)
         here, there = (
-            np.interp(at + each.centre, each.found.place, each.pressure) for each in (case, other)
+            np.interp(at + one.centre, one.state.place, one.pressure) for one in (case, other)
         )
         np.testing.assert_allclose(here, there, atol=5e-3)
         assert np.abs(here - here[::-1]).max() > 8e-3
@@ -296,12 +296,12 @@ class TestPressed:
         """Of both bodies' strain energy, by a quadrature of its own."""
         case = pressed(0.1, on_rough=on_rough, far=False)
         against = FiniteElementCompliance(case.roller, case.hats)
-        energies, h = [], 1e-3 * case.found.approach
-        for approach in case.found.approach + np.array([-h, h]):
-            found = press_finitely(
-                case.rough, case.hats, against, case.found.pressure, approach=approach
+        energies, h = [], 1e-3 * case.state.approach
+        for approach in case.state.approach + np.array([-h, h]):
+            state = press_finitely(
+                case.rough, case.hats, against, case.state.pressure, approach=approach
             )
-            moved = found.displacement, found.roller_displacement
+            moved = state.displacement, state.roller_displacement
             energies.append(sum(map(energy, (case.rough, case.roller), moved)))
         assert np.diff(energies)[0] / (2.0 * h) == pytest.approx(case.load, rel=2e-4)
 

@@ -18,7 +18,7 @@ from fem.contact.variational_inequality import solve_variational_inequality
 
 
 @dataclass(frozen=True)
-class Found:
+class LinearSolution:
     pressure: np.ndarray
     approach: float
     iterations: int
@@ -27,8 +27,8 @@ class Found:
 def by_newton(grid, bodies, gap, load, hardness=np.inf):
     pairs = [(LinearResponse(body), LinearContact(grid.compliance(body))) for body in bodies]
     start = state_at_rest(pairs, np.ones(grid.count))
-    found = solve_nonlinear_contact(pairs, gap, grid.weights, start, load, hardness=hardness)
-    return Found(found.state.pressure, found.state.approach, found.iterations)
+    solution = solve_nonlinear_contact(pairs, gap, grid.weights, start, load, hardness=hardness)
+    return LinearSolution(solution.state.pressure, solution.state.approach, solution.iterations)
 
 
 def by_inequality(grid, bodies, gap, load, hardness=np.inf):
@@ -38,27 +38,27 @@ def by_inequality(grid, bodies, gap, load, hardness=np.inf):
 
 @pytest.fixture(params=[by_newton, by_inequality])
 def solve(request, grid):
-    return lambda *given: request.param(grid, *given)
+    return lambda *problem: request.param(grid, *problem)
 
 
 def test_pressure_and_approach_are_the_dense_ones(
     grid, block, block_matrix, dense, gap_and_load, solve
 ):
     gap, load = gap_and_load
-    found = solve([block], gap, load)
+    contact = solve([block], gap, load)
     pressure, approach = dense(block_matrix, gap, grid.weights, load)
-    np.testing.assert_allclose(found.pressure, pressure, atol=1e-9 * pressure.max())
-    assert found.approach == pytest.approx(approach, rel=1e-9)
-    assert found.iterations <= 15
-    assert grid.weights @ found.pressure == pytest.approx(load, rel=1e-10)
+    np.testing.assert_allclose(contact.pressure, pressure, atol=1e-9 * pressure.max())
+    assert contact.approach == pytest.approx(approach, rel=1e-9)
+    assert contact.iterations <= 15
+    assert grid.weights @ contact.pressure == pytest.approx(load, rel=1e-10)
 
 
 def test_pressure_is_capped_at_the_hardness(grid, block, block_matrix, solve):
     """The conditions themselves, on the dense compliance: open, in contact or at the hardness."""
     hardness, load = 0.4, 0.6
-    found = solve([block], grid.rough, load, hardness)
-    pressure = found.pressure
-    opening = (grid.rough + block_matrix @ pressure) / grid.pitch - found.approach
+    contact = solve([block], grid.rough, load, hardness)
+    pressure = contact.pressure
+    opening = (grid.rough + block_matrix @ pressure) / grid.pitch - contact.approach
     none, full = pressure < 1e-9, pressure > hardness * (1 - 1e-9)
     assert none.sum() > 5
     assert full.sum() > 5
@@ -75,11 +75,11 @@ def test_pressure_is_capped_at_the_hardness(grid, block, block_matrix, solve):
 def test_an_elastic_roller_is_a_second_body(grid, block, block_matrix, dense, ratio, solve):
     roller = grid.body(ratio, 0.2, support=Support("bonded", "fixed"))
     load = 0.6 * min(1.0, ratio)
-    found = solve([block, roller], grid.rough, load)
+    contact = solve([block, roller], grid.rough, load)
     pressure, _ = dense(
         block_matrix + grid.compliance(roller).matrix(), grid.rough, grid.weights, load
     )
-    np.testing.assert_allclose(found.pressure, pressure, atol=1e-8 * pressure.max())
+    np.testing.assert_allclose(contact.pressure, pressure, atol=1e-8 * pressure.max())
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e9])
@@ -93,13 +93,13 @@ def test_units_of_pressure_do_not_matter(grid, block, size, solve):
 def test_both_solvers_agree(grid, block, solve):
     """The project's own operator and solver, on the same mesh."""
     model = HalfPlane(grid.count, grid.pitch, block.material.plane_strain_modulus)
-    own = solve_with_model(
+    ours = solve_with_model(
         grid.compliance(block), model, grid.rough, grid.weights, Constraints(load=0.3)
     )
     other = solve([block], grid.rough, 0.3)
-    assert own.converged
-    np.testing.assert_allclose(other.pressure, own.pressure, atol=1e-6 * own.pressure.max())
-    assert own.approach == pytest.approx(other.approach, rel=1e-6)
+    assert ours.converged
+    np.testing.assert_allclose(other.pressure, ours.pressure, atol=1e-6 * ours.pressure.max())
+    assert ours.approach == pytest.approx(other.approach, rel=1e-6)
 
 
 def test_a_rough_body_with_tilted_pressure(grid, dense):
@@ -112,18 +112,18 @@ def test_a_rough_body_with_tilted_pressure(grid, dense):
     body = grid.body(height=height)
     tilted = FiniteElementCompliance(body, grid.hats, direction)
     b = hat_forces(body.surface, grid.hats, direction)
-    found = solve_variational_inequality([(body, b)], grid.smooth, grid.weights, 0.6)
+    contact = solve_variational_inequality([(body, b)], grid.smooth, grid.weights, 0.6)
     pressure, _ = dense(tilted.matrix(), grid.smooth, grid.weights, 0.6)
-    np.testing.assert_allclose(found.pressure, pressure, atol=1e-8 * pressure.max())
+    np.testing.assert_allclose(contact.pressure, pressure, atol=1e-8 * pressure.max())
 
 
 def test_what_hats_do_to_held_components_is_nothing(grid, dense, solve):
     """The outer hats reach over points that the support holds."""
     body = grid.body(support=Support(within=(1.25, np.inf)))
     assert body.held[body.surface.point[np.abs(body.surface.x) < 1.3]].any()
-    found = solve([body], 0.002 * grid.smooth, 3.0)
+    contact = solve([body], 0.002 * grid.smooth, 3.0)
     pressure, _ = dense(grid.compliance(body).matrix(), 0.002 * grid.smooth, grid.weights, 3.0)
-    np.testing.assert_allclose(found.pressure, pressure, atol=1e-8 * pressure.max())
+    np.testing.assert_allclose(contact.pressure, pressure, atol=1e-8 * pressure.max())
 
 
 def test_loads_that_cannot_be_borne_are_refused(grid, block, solve):

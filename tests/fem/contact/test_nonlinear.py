@@ -30,15 +30,15 @@ def test_gaps_are_the_dense_ones_and_the_approach_leads_to_the_same(
 ):
     gap, load = gap_and_load
     bodies = [(LinearResponse(block), contact(block))]
-    found = solve(bodies, gap, load=load)
+    solution = solve(bodies, gap, load=load)
     pressure, approach = dense(block_matrix, gap, grid.weights, load)
-    assert found.state.load == load
+    assert solution.state.load == load
     opening = (gap + block_matrix @ pressure) / grid.pitch - approach
     np.testing.assert_allclose(
-        found.gap, opening, atol=1e-9 * np.ptp(block_matrix @ pressure) / grid.pitch
+        solution.gap, opening, atol=1e-9 * np.ptp(block_matrix @ pressure) / grid.pitch
     )
-    assert found.cuts == 0
-    again = solve(bodies, gap, approach=found.state.approach)
+    assert solution.cuts == 0
+    again = solve(bodies, gap, approach=solution.state.approach)
     np.testing.assert_allclose(again.state.pressure, pressure, atol=1e-9 * pressure.max())
     assert again.state.load == pytest.approx(load, rel=1e-8)
 
@@ -55,10 +55,10 @@ def test_friction_is_coupled(grid, block, dense, contact, solve):
     """Unsymmetric: the sliding traction moves the surface that the pressure has to follow."""
     forces, friction = grid.compliance(block), 0.3
     columns = [forces.apply(unit, friction) for unit in np.eye(grid.count)]
-    found = solve([(LinearResponse(block), contact(block, friction))], grid.smooth, load=0.6)
-    assert found.iterations <= 10
+    sliding = solve([(LinearResponse(block), contact(block, friction))], grid.smooth, load=0.6)
+    assert sliding.iterations <= 10
     pressure, _ = dense(np.array(columns).T, grid.smooth, grid.weights, 0.6)
-    np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-9 * pressure.max())
+    np.testing.assert_allclose(sliding.state.pressure, pressure, atol=1e-9 * pressure.max())
     without, _ = dense(forces.matrix(), grid.smooth, grid.weights, 0.6)
     assert np.abs(pressure - without).max() > 1e-2 * pressure.max()
 
@@ -91,8 +91,8 @@ def test_newton_converges_quadratically(grid, block, contact, solve):
     """From one load to the next with every hat touching before and after."""
     bodies, gap = [(Stiffening(block, 0.02), contact(block))], 0.002 * grid.smooth
     start = solve(bodies, gap, load=0.6).state
-    found = solve(bodies, gap, start=start, load=1.2)
-    history = np.array(found.residuals[-1])
+    solution = solve(bodies, gap, start=start, load=1.2)
+    history = np.array(solution.residuals[-1])
     assert history[-1] <= RESIDUAL
     late = np.log(history[(history > 1e-11) & (history < 0.1)])  # below is round-off
     orders = np.diff(late[1:]) / np.diff(late[:-1])
@@ -105,10 +105,10 @@ def test_a_body_that_cannot_follow_a_whole_step_is_led_there(grid, block, contac
     free = solve([(Stiffening(block, 0.02), contact(block))], grid.smooth, load=0.6)
     reach = np.abs(free.state.displacements[0]).max()
     limited = Stiffening(block, 0.02, 1.02 * reach)
-    found = solve([(limited, contact(block))], grid.smooth, load=0.6)
-    np.testing.assert_allclose(found.state.pressure, free.state.pressure, atol=1e-7)
-    assert len(limited.accepted) == len(found.residuals) > 1
-    np.testing.assert_array_equal(limited.accepted[-1], found.state.displacements[0])
+    led = solve([(limited, contact(block))], grid.smooth, load=0.6)
+    np.testing.assert_allclose(led.state.pressure, free.state.pressure, atol=1e-7)
+    assert len(limited.accepted) == len(led.residuals) > 1
+    np.testing.assert_array_equal(limited.accepted[-1], led.state.displacements[0])
 
 
 def test_what_does_not_converge_is_an_error(grid, block, contact, solve):

@@ -75,31 +75,31 @@ def solved(body: Material, roller: Material | None, friction: float, **how):
     """Solution on finite elements under the load, and the exact one."""
     modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
     radius = 0.5 * modulus
-    found = solve_with_coupled_model(
+    solution = solve_with_coupled_model(
         sliding_bodies(body, roller, friction, **how),
         CoupledHalfPlane(GRID.count, GRID.pitch, modulus, friction * beta),
         GRID.hat_integrals(lambda x: 0.5 * x**2 / radius),
         GRID.weights,
         Constraints(load=LOAD),
     )
-    return found, sliding_from_load(LOAD, radius, modulus, friction, beta)
+    return solution, sliding_from_load(LOAD, radius, modulus, friction, beta)
 
 
-def load_line(found) -> float:
-    return float(GRID.x @ found.pressure / found.pressure.sum())
+def load_line(solution) -> float:
+    return float(GRID.x @ solution.pressure / solution.pressure.sum())
 
 
-def is_exact(found, exact: SlidingContact, most: float = 2e-3) -> None:
+def is_exact(solution, exact: SlidingContact, most: float = 2e-3) -> None:
     """The load line to `most` half-widths, the edges and the pressure away from them to 1 %."""
-    assert found.converged and found.iterations["steps"] <= 7
-    assert load_line(found) == pytest.approx(exact.load_position, abs=most)
-    (patch,) = contact_patches(GRID.x, found.pressure, found.gap)
+    assert solution.converged and solution.iterations["steps"] <= 7
+    assert load_line(solution) == pytest.approx(exact.load_position, abs=most)
+    (patch,) = contact_patches(GRID.x, solution.pressure, solution.gap)
     assert patch == pytest.approx(exact.edges, abs=0.01)
     peak = exact.peak_pressure
-    assert found.pressure.max() == pytest.approx(peak, rel=1e-3)
+    assert solution.pressure.max() == pytest.approx(peak, rel=1e-3)
     left, right = exact.edges
     inner = (GRID.x > left + 0.3) & (GRID.x < right - 0.3)
-    error = found.pressure - exact.pressure(GRID.x)
+    error = solution.pressure - exact.pressure(GRID.x)
     assert np.abs(error[inner]).max() < 0.01 * peak
     assert np.linalg.norm(error) < 0.08 * np.linalg.norm(exact.pressure(GRID.x))
 
@@ -109,26 +109,26 @@ class TestRigidRoller:
     def test_tabulated_solutions(self, row):
         """nu = 0.3 (beta = 2/7) and nu = 0 (beta = 1/2)."""
         body, friction = (STEEL if row["beta"] == "2/7" else CORK), float(row["mu"])
-        found, exact = solved(body, None, friction)
-        is_exact(found, exact)
+        solution, exact = solved(body, None, friction)
+        is_exact(solution, exact)
         wider = float(row["ahalf_over_aHertz_same_load"])
         shift = float(row["load_line_x_over_ahalf"]) * wider
         assert shift < -0.02
-        assert load_line(found) == pytest.approx(shift, rel=0.01)
+        assert load_line(solution) == pytest.approx(shift, rel=0.01)
 
     @pytest.mark.parametrize("body", [SOFT, STEEL, CORK], ids=["nu 0.49", "nu 0.3", "nu 0"])
     def test_as_much_friction_as_pressure(self, body):
         """mu = 1: mu beta 0.01, 2/7 and 1/2."""
-        found, exact = solved(body, None, 1.0)
-        is_exact(found, exact)
-        assert load_line(found) < -0.01
+        solution, exact = solved(body, None, 1.0)
+        is_exact(solution, exact)
+        assert load_line(solution) < -0.01
 
     def test_what_is_left_is_the_block_s_size(self):
         """It shears and tilts: inversely as its size."""
         errors = []
         for extent in (60.0, 120.0, 240.0):
-            found, exact = solved(STEEL, None, 0.5, extent=extent)
-            errors.append(load_line(found) - exact.load_position)
+            solution, exact = solved(STEEL, None, 0.5, extent=extent)
+            errors.append(load_line(solution) - exact.load_position)
         order = np.log2(np.divide(errors[:-1], errors[1:]))
         assert order == pytest.approx(1.0, abs=0.25)
         assert 1e-4 < errors[-1] < 3e-3
@@ -147,17 +147,17 @@ class TestElasticRoller:
         [(STEEL, Material(5.0, 0.0)), (STEEL, CORK), (Material(0.3, 0.1), Material(1.0, 0.4))],
     )
     def test_unlike_bodies(self, body, roller):
-        found, exact = solved(body, roller, 1.0)
-        is_exact(found, exact)
+        solution, exact = solved(body, roller, 1.0)
+        is_exact(solution, exact)
         assert abs(exact.load_position) > 0.03
         changed, _ = solved(roller, body, 1.0)
-        assert load_line(changed) == pytest.approx(-load_line(found), abs=1e-3)
+        assert load_line(changed) == pytest.approx(-load_line(solution), abs=1e-3)
 
     def test_equal_bodies_stay_where_they_are(self):
-        found, _ = solved(STEEL, STEEL, 1.0)
+        solution, _ = solved(STEEL, STEEL, 1.0)
         still, _ = solved(STEEL, STEEL, 0.0)
-        assert found.converged
-        assert found.pressure == pytest.approx(still.pressure, abs=1e-6)
+        assert solution.converged
+        assert solution.pressure == pytest.approx(still.pressure, abs=1e-6)
 
 
 @cache
@@ -192,28 +192,28 @@ class TestRoughProfiles:
         matrix = whole(compliance, friction)
         gap = rough_gap(grid, seed)
         model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.5 * friction)
-        found = solve_with_coupled_model(
+        solution = solve_with_coupled_model(
             Sliding(compliance, friction), model, gap, grid.weights, Constraints(load=LOAD)
         )
-        assert found.converged and found.iterations["steps"] <= 7
+        assert solution.converged and solution.iterations["steps"] <= 7
         pressure, approach = dense(matrix, gap, grid.weights, LOAD)
-        assert found.pressure == pytest.approx(pressure, abs=1e-5 * pressure.max())
-        assert found.approach == pytest.approx(approach, rel=1e-8)
-        assert len(contact_patches(grid.x, found.pressure, found.gap)) > 1
+        assert solution.pressure == pytest.approx(pressure, abs=1e-5 * pressure.max())
+        assert solution.approach == pytest.approx(approach, rel=1e-8)
+        assert len(contact_patches(grid.x, solution.pressure, solution.gap)) > 1
 
     @pytest.mark.parametrize("hardness", [2.0, np.inf])
     def test_the_whole_matrix_gives_the_same(self, hardness):
         grid, compliance = rough_surface(0.0)
         gap, constraints = rough_gap(grid, 4), Constraints(load=LOAD, hardness=hardness)
         model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.25)
-        found = solve_with_coupled_model(
+        solution = solve_with_coupled_model(
             Sliding(compliance, 0.5), model, gap, grid.weights, constraints
         )
         direct = solve_coupled(
             DenseCoupledCompliance(whole(compliance, 0.5)), gap, grid.weights, constraints
         )
-        assert found.converged and direct.converged
-        assert found.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
+        assert solution.converged and direct.converged
+        assert solution.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
 
 
 @cache
@@ -241,7 +241,7 @@ def test_a_layer_a_third_as_thick_as_the_contact(structured_block, base):
     modulus = body.material.plane_strain_modulus
     gap = GRID.hat_integrals(lambda x: 0.05 * x**2)
     constraints = Constraints(load=0.1)
-    found = solve_with_coupled_model(
+    solution = solve_with_coupled_model(
         Sliding(compliance, 0.5),
         CoupledHalfPlane(GRID.count, GRID.pitch, modulus, 0.5 * beta),
         gap,
@@ -253,5 +253,5 @@ def test_a_layer_a_third_as_thick_as_the_contact(structured_block, base):
     )
     assert direct.converged and direct.residuals.worst < 1e-12
     assert 0.5 < np.ptp(contact_patches(GRID.x, direct.pressure, direct.gap)) < 3.0
-    assert found.converged
-    assert found.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
+    assert solution.converged
+    assert solution.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())

@@ -69,8 +69,8 @@ def l2_error(body, temperature, exact):
     nodes = real_points(body.mesh)[body.mesh.triangles]
     place = np.einsum("mac,qa->mqc", nodes, shapes(at))
     area = np.abs(np.linalg.det(jacobians(nodes, at))) * weight
-    found = temperature[body.numbering.elements] @ shapes(at, body.numbering.degree).T
-    return np.sqrt((area * (found - exact(place[..., 0], place[..., 1])) ** 2).sum())
+    value = temperature[body.numbering.elements] @ shapes(at, body.numbering.degree).T
+    return np.sqrt((area * (value - exact(place[..., 0], place[..., 1])) ** 2).sum())
 
 
 @pytest.mark.parametrize("velocity", [0.0, 5.0, -40.0])
@@ -83,8 +83,8 @@ def test_manufactured_solution_on_a_block(structured_block, exact_forces, degree
         body = thermal_body(mesh, MATERIAL, degree=degree)
         moving = Conduction(body, velocity, Surroundings("held", "held"))
         load = load_of(wave, mesh, exact_forces, velocity, np.inf, degree)
-        found = moving.steady(load, wave.temperature(*body.nodes.T))
-        errors.append(l2_error(body, found, wave.temperature))
+        rise = moving.steady(load, wave.temperature(*body.nodes.T))
+        errors.append(l2_error(body, rise, wave.temperature))
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders[-1] == pytest.approx(order, abs=0.12)
     assert errors[-1] < {1: 1e-3, 2: 2e-5, 3: 2e-7}[degree]
@@ -98,8 +98,8 @@ def test_manufactured_solution_on_a_turning_disc(structured_block, exact_forces)
         body = thermal_body(mesh, MATERIAL, radius=1.6)
         turning = Conduction(body, 10.0, Surroundings("held", "held"))
         load = load_of(wave, mesh, exact_forces, 10.0, 1.6, 2)
-        found = turning.steady(load, wave.temperature(*body.nodes.T))
-        errors.append(l2_error(body, found, wave.temperature))
+        rise = turning.steady(load, wave.temperature(*body.nodes.T))
+        errors.append(l2_error(body, rise, wave.temperature))
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders[-1] == pytest.approx(3.0, abs=0.15)
 
@@ -111,37 +111,37 @@ def under_band(peclet, layers, size=0.05, degree=2):
         [[-1, 1]], size, half_width=10, depth=10, length=1 / velocity, layers=layers
     )
     body = thermal_body(build_block(spec), UNIT, degree=degree)
-    found = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
-    return body.surface.x, found[body.surface.point]
+    rise = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
+    return body.surface.x, rise[body.surface.point]
 
 
 @pytest.mark.parametrize(
-    "exact", JAEGER, ids=lambda each: f"Peclet number {each['Pe_Vl_over_2kappa']}"
+    "exact", JAEGER, ids=lambda row: f"Peclet number {row['Pe_Vl_over_2kappa']}"
 )
 def test_jaeger_s_band(exact):
-    x, found = under_band(float(exact["Pe_Vl_over_2kappa"]), 2)
+    x, rise = under_band(float(exact["Pe_Vl_over_2kappa"]), 2)
     largest = float(exact["max_kT_over_ql"])
-    assert found.max() == pytest.approx(largest, rel=2e-4)
+    assert rise.max() == pytest.approx(largest, rel=2e-4)
     for place in (-2, -1, -0.5, 0, 0.5, 1, 1.5):
         value = float(exact[f"kT_over_ql_at_x_{place}"])
-        assert np.interp(place, x, found) == pytest.approx(value, abs=3e-3 * largest)
+        assert np.interp(place, x, rise) == pytest.approx(value, abs=3e-3 * largest)
 
 
 @pytest.mark.parametrize("peclet", [0.1, 1.0, 10.0, 100.0])
 def test_jaeger_s_largest_temperature(peclet):
-    found = under_band(peclet, 2)[1].max()
-    assert found == pytest.approx(band_maximum(peclet)[0], rel=2e-4)
+    highest = under_band(peclet, 2)[1].max()
+    assert highest == pytest.approx(band_maximum(peclet)[0], rel=2e-4)
 
 
 @pytest.mark.parametrize(("peclet", "bound"), [(100.0, 1e-3), (1000.0, 2e-3)])
 def test_a_fast_band_needs_no_upwinding(peclet, bound):
     """The whole surface, with its wake and what lies ahead of the band."""
-    x, found = under_band(peclet, 2)
+    x, rise = under_band(peclet, 2)
     exact = band_surface(x, peclet)
-    assert np.abs(found - exact).max() < bound * exact.max()
-    assert found.min() > -bound * exact.max()
+    assert np.abs(rise - exact).max() < bound * exact.max()
+    assert rise.min() > -bound * exact.max()
     coarse = np.abs(under_band(peclet, 1)[1].max() / exact.max() - 1.0)
-    assert coarse < 1e-3 and np.abs(found.max() / exact.max() - 1.0) < 5e-5
+    assert coarse < 1e-3 and np.abs(rise.max() / exact.max() - 1.0) < 5e-5
 
 
 def test_an_open_boundary_stands_for_the_half_plane():
@@ -153,7 +153,7 @@ def test_an_open_boundary_stands_for_the_half_plane():
         load[half] = flux_load(body, BAND, np.ones(3))
         moving, resting = Conduction(body, -0.005, OPEN), Conduction(body, 0.0, OPEN, reach=1e3)
         point = body.surface.point[np.abs(body.surface.x) <= 1.0]
-        surface[half] = [each.steady(load[half])[point].max() for each in (moving, resting)]
+        surface[half] = [heat.steady(load[half])[point].max() for heat in (moving, resting)]
     at_rest = (np.log(1e3) + 1.0) * 2.0 / np.pi  # middle of the band: mean of ln(reach / |x|)
     assert surface[10.0] == pytest.approx(
         [band_surface(np.linspace(-1, 1, 401), 0.0025).max(), at_rest], rel=2e-4
@@ -169,8 +169,8 @@ def disc(radius, reach, velocity, layers, size):
     mesh = rounded(build_block(thermal_spec([[-1, 1]], size, **law)), radius)
     body = thermal_body(mesh, UNIT, radius=radius)
     around = Surroundings("held", "flow" if velocity else "held")
-    found = Conduction(body, velocity, around).steady(flux_load(body, BAND, np.ones(3)))
-    return body.surface.x, found[body.surface.point]
+    rise = Conduction(body, velocity, around).steady(flux_load(body, BAND, np.ones(3)))
+    return body.surface.x, rise[body.surface.point]
 
 
 @pytest.mark.parametrize("part", [0.3, 1.0, 1.2])
@@ -184,10 +184,10 @@ def test_a_disc_at_rest(radius, part):
     outer, height = np.pi - np.arccos(0.5 * part), np.sqrt(reach**-2 - 0.25 * radius**-2)
     as_far = 2.0 * outer / (np.pi * height)
     exact = (np.log(as_far) + 1.0) * 2.0 / np.pi  # middle of the band: mean of ln(as_far / |x|)
-    found = disc(radius, reach, 0.0, 2, 0.05)[1].max()
-    assert found == pytest.approx(exact, rel=1e-3)
+    highest = disc(radius, reach, 0.0, 2, 0.05)[1].max()
+    assert highest == pytest.approx(exact, rel=1e-3)
     half_plane = (np.log(reach) + 1.0) * 2.0 / np.pi  # the disc is narrower
-    assert found > (1.0 + 0.05 * part) * half_plane
+    assert highest > (1.0 + 0.05 * part) * half_plane
 
 
 def turning(x, radius, velocity):
@@ -213,9 +213,9 @@ def turning(x, radius, velocity):
 def test_a_disc_that_turns():
     x, errors = np.array([-0.8, -0.3, 0.0, 0.45, 0.8, 0.9]), []
     for radius, velocity in ((10.0, 2.0), (10.0, 20.0), (20.0, 2.0)):
-        place, found = disc(radius, radius, velocity, 2, 0.05)
+        place, rise = disc(radius, radius, velocity, 2, 0.05)
         exact = turning(x, radius, velocity)
-        assert np.interp(x, place, found) == pytest.approx(exact, abs=2e-3 * exact.max())
+        assert np.interp(x, place, rise) == pytest.approx(exact, abs=2e-3 * exact.max())
         errors.append(1.0 - band_surface(-x, 0.5 * velocity).max() / exact.max())
     slow, fast, flatter = errors  # of the half-plane, which is too cool by as much
     assert 0.05 < slow < 0.06 and 0.01 < fast < 0.015
@@ -256,8 +256,8 @@ def two_layers(x, velocity, coat, below, thickness):
     s = (edges[:-1, None] + half * (1.0 + nodes)).ravel()
     weight, xi = (half * weights).ravel() * 2.0 * s, s**2
     first, second = (
-        each.conductivity * np.sqrt(xi**2 + 1j * xi * velocity / each.diffusivity)
-        for each in (coat, below)
+        layer.conductivity * np.sqrt(xi**2 + 1j * xi * velocity / layer.diffusivity)
+        for layer in (coat, below)
     )
     echo = (first - second) / (first + second)
     echo = echo * np.exp(-2.0 * thickness * first / coat.conductivity)
@@ -272,10 +272,10 @@ def test_a_coated_half_plane(velocity, conductivity):
     spec = BlockSpec(20.0, 20.0, np.array([[-3.0, 3.0]]), 0.025, 0.2, interface=thickness)
     body = thermal_body(build_block(spec), UNIT, coating=Coating(coat, thickness))
     x = np.array([-2.0, -0.8, -0.3, 0.0, 0.45, 0.8, 2.5])
-    found = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
+    rise = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
     exact = two_layers(x, velocity, coat, UNIT, thickness)
     places = np.column_stack([x, np.zeros_like(x)])
-    assert body.at(places, found) == pytest.approx(exact, abs=2e-3 * exact.max())
+    assert body.at(places, rise) == pytest.approx(exact, abs=2e-3 * exact.max())
     bare = two_layers(x, velocity, UNIT, UNIT, thickness)
     assert np.abs(bare / exact - 1.0).max() > 0.1
 
@@ -289,10 +289,10 @@ def test_a_thin_coating_is_meshed_where_heat_passes(velocity):
     body = thermal_body(build_block(spec), UNIT, coating=Coating(coat, thickness))
     assert len(body.nodes) < 75_000
     x = np.array([-0.8, -0.3, 0.0, 0.45, 0.8])
-    found = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
+    rise = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
     exact = two_layers(x, velocity, coat, UNIT, thickness)
     places = np.column_stack([x, np.zeros_like(x)])
-    assert body.at(places, found) == pytest.approx(exact, abs=2e-3 * exact.max())
+    assert body.at(places, rise) == pytest.approx(exact, abs=2e-3 * exact.max())
 
 
 def test_what_is_refused(structured_block):

@@ -36,38 +36,38 @@ def test_bodies_at_rest_of_one_shape(conductivity):
     """q_1 = k_1 / (k_1 + k_2) Q everywhere, whatever Q."""
     pair = half_plane(0.0, surroundings=HELD), half_plane(0.0, conductivity, surroundings=HELD)
     heat = 1.0 + 0.5 * np.sin(3.0 * X)
-    found = FrictionalHeat(pair, X).steady(heat)
-    assert found.share == pytest.approx(1.0 / (1.0 + conductivity), rel=1e-9)
-    assert found.flux[0] == pytest.approx(heat / (1.0 + conductivity), rel=1e-7)
-    assert found.flux.sum(axis=0) == pytest.approx(heat, rel=1e-13)
+    heated = FrictionalHeat(pair, X).steady(heat)
+    assert heated.share == pytest.approx(1.0 / (1.0 + conductivity), rel=1e-9)
+    assert heated.flux[0] == pytest.approx(heat / (1.0 + conductivity), rel=1e-7)
+    assert heated.flux.sum(axis=0) == pytest.approx(heat, rel=1e-13)
 
 
 @pytest.mark.parametrize("velocity", [0.2, 20.0, 2000.0])
 def test_equal_bodies_that_move_alike_share_equally(velocity):
-    found = FrictionalHeat((half_plane(velocity), half_plane(velocity)), X).steady(EVEN)
-    assert found.share == pytest.approx(0.5, rel=1e-9)
+    heated = FrictionalHeat((half_plane(velocity), half_plane(velocity)), X).steady(EVEN)
+    assert heated.share == pytest.approx(0.5, rel=1e-9)
 
 
 def test_equal_bodies_that_move_against_each_other_share_equally():
-    found = FrictionalHeat((half_plane(200.0), half_plane(-200.0)), X).steady(EVEN)
-    assert found.share == pytest.approx(0.5, rel=1e-3)
-    assert found.flux[0] == pytest.approx(found.flux[1, ::-1], abs=2e-2 * found.flux.max())
+    heated = FrictionalHeat((half_plane(200.0), half_plane(-200.0)), X).steady(EVEN)
+    assert heated.share == pytest.approx(0.5, rel=1e-3)
+    assert heated.flux[0] == pytest.approx(heated.flux[1, ::-1], abs=2e-2 * heated.flux.max())
 
 
 @pytest.mark.parametrize(("conductivity", "capacity"), [(4.0, 1.0), (1.0, 4.0), (2.0, 2.0)])
 def test_fast_bodies_that_move_alike_share_by_effusivity(conductivity, capacity):
     """Blok's fast limit: heat flows at right angles to the surface only."""
     pair = half_plane(200.0), half_plane(200.0, conductivity, capacity)
-    found = FrictionalHeat(pair, X).steady(EVEN)
-    assert found.share == pytest.approx(1.0 / (1.0 + np.sqrt(conductivity * capacity)), rel=1e-3)
+    heated = FrictionalHeat(pair, X).steady(EVEN)
+    assert heated.share == pytest.approx(1.0 / (1.0 + np.sqrt(conductivity * capacity)), rel=1e-3)
 
 
 def by_kernels(peclet, conductivity, count):
     """Flux into body 1 on `count` strips of the band, temperatures equal in their middles."""
     x = (np.arange(count) + 0.5) * 2.0 / count - 1.0
     first, second = (
-        band_surface(np.sign(each) * (x[:, None] - x) * count, abs(each) / count) / (count * k)
-        for each, k in zip(peclet, (1.0, conductivity), strict=True)
+        band_surface(np.sign(number) * (x[:, None] - x) * count, abs(number) / count) / (count * k)
+        for number, k in zip(peclet, (1.0, conductivity), strict=True)
     )
     return x, np.linalg.solve(first + second, second @ np.ones(count))
 
@@ -79,12 +79,12 @@ def test_unlike_bodies_by_jaeger_s_kernels(peclet, conductivity):
     """A source that moves towards +x with Peclet number Pe has material that moves with -2 Pe."""
     velocity = -2.0 * np.array(peclet) * (1.0, conductivity)
     pair = half_plane(velocity[0]), half_plane(velocity[1], conductivity)
-    found = FrictionalHeat(pair, X).steady(EVEN)
+    heated = FrictionalHeat(pair, X).steady(EVEN)
     x, flux = by_kernels(peclet, conductivity, 400)
-    assert found.share == pytest.approx(flux.mean(), abs=2e-3)
-    inside = np.abs(found.x) < 0.7
-    exact = np.interp(found.x, x, flux)
-    assert found.flux[0][inside] == pytest.approx(exact[inside], abs=1e-2)
+    assert heated.share == pytest.approx(flux.mean(), abs=2e-3)
+    inside = np.abs(heated.x) < 0.7
+    exact = np.interp(heated.x, x, flux)
+    assert heated.flux[0][inside] == pytest.approx(exact[inside], abs=1e-2)
 
 
 @cache
@@ -114,22 +114,22 @@ def test_a_rough_flux_by_transforms(velocity):
     conduction = under_patches(velocity)
     body = conduction.body
     temperature = conduction.steady(flux_load(body, x, flux))
-    found = values_at(body.surface, x) @ temperature[body.surface.point]
-    assert found == pytest.approx(exact, abs=1.5e-3 * exact.max())
+    rise = values_at(body.surface, x) @ temperature[body.surface.point]
+    assert rise == pytest.approx(exact, abs=1.5e-3 * exact.max())
 
 
 def test_a_rough_partition_by_transforms():
     """Fluxes at nodes alone end a node before the patches do: an error of order 1 in the pitch."""
     x, heat, contact = rough(201)
-    found = FrictionalHeat((under_patches(1.0), under_patches(-40.0)), x, contact).steady(heat)
+    heated = FrictionalHeat((under_patches(1.0), under_patches(-40.0)), x, contact).steady(heat)
     shares, flash = [], []
     for count in (401, 801):
         surfaces = (HeatedSurface(UNIT, count, 2.0 / (count - 1), v) for v in (1.0, -40.0))
         by_nodes = divided(*surfaces, rough(count)[1])
         shares.append(by_nodes.fraction)
         flash.append(by_nodes.first.max())
-    assert found.share == pytest.approx(2.0 * shares[1] - shares[0], rel=1e-3)
-    assert found.temperature[0].max() == pytest.approx(flash[1], rel=1.5e-3)
+    assert heated.share == pytest.approx(2.0 * shares[1] - shares[0], rel=1e-3)
+    assert heated.temperature[0].max() == pytest.approx(flash[1], rel=1.5e-3)
 
 
 def test_temperatures_are_equal_in_contact_and_not_beside_it():
@@ -137,11 +137,11 @@ def test_temperatures_are_equal_in_contact_and_not_beside_it():
     pair = half_plane(1.0, size=0.05), half_plane(-20.0, 2.0)
     system = FrictionalHeat(pair, X, contact)
     heat = np.where(np.isin(X, system.x), 1.0, 0.0)
-    found = system.steady(heat, bulk=(10.0, 30.0))
+    heated = system.steady(heat, bulk=(10.0, 30.0))
     places = np.column_stack([0.5 * (X[1:] + X[:-1]), np.zeros(40)])
     first, second = (
-        bulk + each.body.at(places, rise)
-        for each, rise, bulk in zip(pair, found.temperature, (10.0, 30.0), strict=True)
+        bulk + side.body.at(places, rise)
+        for side, rise, bulk in zip(pair, heated.temperature, (10.0, 30.0), strict=True)
     )
     apart = np.abs(first - second)
     inner = np.all([np.roll(contact, k) for k in range(-3, 4)], axis=0)
@@ -153,8 +153,8 @@ def test_bodies_heated_in_time_share_by_effusivity(structured_block):
     """One-dimensional: the surfaces touch all along, nothing has come to the base yet."""
     z, x = np.concatenate([[0.0], np.geomspace(1e-3, 10.0, 50)]), np.linspace(-1.0, 1.0, 3)
     materials = ThermalMaterial(1.0, 1.0, 1.0), ThermalMaterial(4.0, 9.0, 1.0)
-    bodies = [thermal_body(structured_block(x, z), each) for each in materials]
-    pair = tuple(Conduction(each, 0.0, Surroundings("held", "insulated")) for each in bodies)
+    bodies = [thermal_body(structured_block(x, z), material) for material in materials]
+    pair = tuple(Conduction(body, 0.0, Surroundings("held", "insulated")) for body in bodies)
     times = doubling_times(1e-5, 0.1, 16)
     *_, last = FrictionalHeat(pair, x).transient(lambda t: np.full(3, 7.0), times)
     assert last.share == pytest.approx(1.0 / 7.0, rel=1e-4)

@@ -18,9 +18,9 @@ ALPHA = 12e-6
 def test_an_even_temperature_leaves_a_free_body_without_stress(structured_block):
     mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5), seed=3)
     body = elastic_body(mesh, STEEL, Support("frictionless", "free"))
-    found, across = thermal_stress(body, ALPHA, np.full(len(mesh.points), 50.0))
+    stress, across = thermal_stress(body, ALPHA, np.full(len(mesh.points), 50.0))
     scale = STEEL.youngs_modulus * ALPHA * 50.0
-    assert found.values == pytest.approx(0.0, abs=1e-10 * scale)
+    assert stress.values == pytest.approx(0.0, abs=1e-10 * scale)
     assert across == pytest.approx(-scale, rel=1e-10)
 
 
@@ -32,15 +32,15 @@ def test_a_body_held_at_its_sides(structured_block):
     body = elastic_body(mesh, STEEL, Support("frictionless", "rollers"), coating=Coating(coat, 0.2))
     alpha = np.where(body.coated, 3.0 * ALPHA, ALPHA)
     temperature = 30.0 + 20.0 * mesh.points[:, 1] ** 2
-    found, across = thermal_stress(body, alpha, temperature)
-    constant = np.empty(len(found.nodes.point))
+    stress, across = thermal_stress(body, alpha, temperature)
+    constant = np.empty(len(stress.nodes.point))
     of_steel, of_coat = (
         m.youngs_modulus * a / (1.0 - m.poissons_ratio)
         for m, a in ((STEEL, ALPHA), (coat, 3.0 * ALPHA))
     )
-    constant[found.nodes.triangles] = np.where(body.coated, of_coat, of_steel)[:, None]
-    exact = -constant * temperature[found.nodes.point]
-    sx, sz, txz = found.values.T
+    constant[stress.nodes.triangles] = np.where(body.coated, of_coat, of_steel)[:, None]
+    exact = -constant * temperature[stress.nodes.point]
+    sx, sz, txz = stress.values.T
     assert sx == pytest.approx(exact, rel=3e-3) and across == pytest.approx(exact, rel=3e-3)
     assert np.abs([sz, txz]).max() < 3e-3 * np.abs(exact).max()
 
@@ -83,8 +83,8 @@ def test_a_wave_of_temperature_in_a_half_plane(m):
         body = elastic_body(build_block(spec), STEEL, Support("bonded", "rollers"))
         temperature = wave.temperature(*body.points.T)
         nodal, _ = thermal_stress(body, ALPHA, temperature)
-        found = evaluate(body, nodal, x, z)
-        errors.append(np.abs(np.stack([found.sx, found.sz, found.txz]) - exact).max() / scale)
+        stress = evaluate(body, nodal, x, z)
+        errors.append(np.abs(np.stack([stress.sx, stress.sz, stress.txz]) - exact).max() / scale)
     assert errors[1] < 0.02 and np.log2(errors[0] / errors[1]) > 2.0
     if m != 1.0:
         assert np.abs(exact).max() > 0.15 * scale

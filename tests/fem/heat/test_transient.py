@@ -33,14 +33,14 @@ def test_a_step_at_a_face_of_a_slab(slab):
     times = np.unique(np.concatenate([doubling_times(1e-6, 16 * T_L, 32), T_L * CASES]))
     start = np.where(held.held, 1.0, 0.0)
     states = held.transient(lambda t: np.zeros(len(start)), times, start)
-    found = dict(zip(times, states, strict=True))
-    for each in HEAT["step_slab"]:
-        t, y = T_L * float(each["t_over_tL"]), float(each["y_over_L"])
-        (value,) = slab.at(np.array([[0.0, y]]), found[t])
-        assert value == pytest.approx(float(each["exact"]), abs=2e-5)
+    history = dict(zip(times, states, strict=True))
+    for row in HEAT["step_slab"]:
+        t, y = T_L * float(row["t_over_tL"]), float(row["y_over_L"])
+        (value,) = slab.at(np.array([[0.0, y]]), history[t])
+        assert value == pytest.approx(float(row["exact"]), abs=2e-5)
 
 
-CASES = np.array([float(each["t_over_tL"]) for each in HEAT["step_slab"]])
+CASES = np.array([float(row["t_over_tL"]) for row in HEAT["step_slab"]])
 
 
 def face(slab, times, flux):
@@ -52,24 +52,24 @@ def face(slab, times, flux):
 
 
 def test_a_flux_into_a_slab(slab):
-    wanted = np.array([T_L * float(each["t_over_tL"]) for each in HEAT["constant_flux"]])
+    wanted = np.array([T_L * float(row["t_over_tL"]) for row in HEAT["constant_flux"]])
     times = np.unique(np.concatenate([doubling_times(1e-6, wanted[-1], 32), wanted]))
-    found = face(slab, times, lambda t: 1.0)
-    for t, each in zip(wanted, HEAT["constant_flux"], strict=True):
-        assert found[t] == pytest.approx(float(each["slab_insulated_exact"]), rel=1e-4)
+    history = face(slab, times, lambda t: 1.0)
+    for t, row in zip(wanted, HEAT["constant_flux"], strict=True):
+        assert history[t] == pytest.approx(float(row["slab_insulated_exact"]), rel=1e-4)
 
 
 @pytest.mark.parametrize("duration", [0.25, 1.0])
 def test_a_pulse_into_a_slab(slab, duration):
-    pulses = [each for each in HEAT["pulse"] if float(each["t0_over_tL"]) == duration]
-    wanted = np.array([T_L * float(each["t_over_tL"]) for each in pulses])
+    pulses = [row for row in HEAT["pulse"] if float(row["t0_over_tL"]) == duration]
+    wanted = np.array([T_L * float(row["t_over_tL"]) for row in pulses])
     end = T_L * duration
     off = end + doubling_times(1e-6, wanted[-1] - end, 32)
     on = doubling_times(1e-6, end, 32)
     times = np.unique(np.concatenate([on[on < end], off, wanted]))
-    found = face(slab, times, lambda t: float(t <= end))
-    for t, each in zip(wanted, pulses, strict=True):
-        assert found[t] == pytest.approx(float(each["slab_insulated"]), rel=2e-4)
+    history = face(slab, times, lambda t: float(t <= end))
+    for t, row in zip(wanted, pulses, strict=True):
+        assert history[t] == pytest.approx(float(row["slab_insulated"]), rel=2e-4)
     assert len(pulses) > 1
 
 
@@ -125,9 +125,9 @@ def test_a_coating_heated_in_time(structured_block, conductivity):
     mesh = structured_block(np.linspace(-1.0, 1.0, 3), z)
     body = thermal_body(mesh, UNIT, degree=3, coating=Coating(coat, thickness))
     times = doubling_times(1e-6, 1.0, 16)
-    found = face(body, times, lambda t: 1.0)
+    history = face(body, times, lambda t: 1.0)
     for t in times[times > 1e-4][::20]:
-        assert found[t] == pytest.approx(two_layer_face(t, coat, UNIT, thickness), rel=3e-4)
+        assert history[t] == pytest.approx(two_layer_face(t, coat, UNIT, thickness), rel=3e-4)
 
 
 def test_times_must_ascend(slab):

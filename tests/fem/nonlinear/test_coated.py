@@ -60,8 +60,8 @@ def test_a_coating_of_the_bodys_own_kind_is_none(law):
     assert coated.cauchy.estimate.shape == (len(point), 3)
     inside = np.abs(mesh().points[point]).max(axis=1) < 2.0
     inside &= np.abs(mesh().points[point, 1] - THICKNESS) > 0.3  # patches are of one material
-    other, own = plain.cauchy.nodal.values[point], coated.cauchy.nodal.values
-    assert own[inside] == pytest.approx(other[inside], abs=2e-3 * np.abs(other).max())
+    other, layered = plain.cauchy.nodal.values[point], coated.cauchy.nodal.values
+    assert layered[inside] == pytest.approx(other[inside], abs=2e-3 * np.abs(other).max())
 
 
 def test_small_loads_are_the_linear_theorys():
@@ -70,9 +70,11 @@ def test_small_loads_are_the_linear_theorys():
     for curvature in (0.04, 0.02, 0.01):
         solid = body(HARD)
         linear, finite = pressed(solid, curvature)
-        own = nodal_stress(solid, linear.displacements[0], HATS, linear.pressure).values
+        small = nodal_stress(solid, linear.displacements[0], HATS, linear.pressure).values
         inside = np.abs(mesh().points[stress_nodes(solid).point]).max(axis=1) < 1.5
-        change = np.abs(finite.cauchy.nodal.values - own)[inside].max() / np.abs(own[inside]).max()
+        change = (
+            np.abs(finite.cauchy.nodal.values - small)[inside].max() / np.abs(small[inside]).max()
+        )
         pressure = np.abs(finite.pressure - linear.pressure).max() / linear.pressure.max()
         left.append((pressure, change))
     for column in np.array(left).T:

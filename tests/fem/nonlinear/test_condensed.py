@@ -53,10 +53,10 @@ def test_a_compliance_closes_the_gap_as_the_whole_body_does(compliance, friction
     body = LinearResponse(compliance.body), LinearContact(compliance, friction)
     roller = LinearResponse(compliance.body), LinearContact(compliance, -friction)
     whole = solve([body, roller])
-    found = solve([body], compliance.matrix(-friction))
-    np.testing.assert_allclose(found.pressure, whole.pressure, atol=1e-9 * whole.pressure.max())
-    assert found.approach == pytest.approx(whole.approach, rel=1e-9)
-    assert 0 < np.count_nonzero(found.pressure) < len(X)
+    solution = solve([body], compliance.matrix(-friction))
+    np.testing.assert_allclose(solution.pressure, whole.pressure, atol=1e-9 * whole.pressure.max())
+    assert solution.approach == pytest.approx(whole.approach, rel=1e-9)
+    assert 0 < np.count_nonzero(solution.pressure) < len(X)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.2])
@@ -70,11 +70,11 @@ def test_hats_between_nodes_of_a_coarse_roller_do_no_harm(compliance, structured
     body = PlasticBody(compliance.body, ElasticPlastic(Material(200.0, 0.3), Hardening(1.0)))
     bodies = [(body, LinearContact(compliance, friction))]
     rest = state_at_rest(bodies, np.ones(len(X)))
-    given = bodies, GAP, WEIGHTS, rest, 1.5
-    found, history = newton_by_contacts(*given, flexible=flexible)
-    assert body.step(found.displacements[0]).yields.any()
+    problem = bodies, GAP, WEIGHTS, rest, 1.5
+    end, history = newton_by_contacts(*problem, flexible=flexible)
+    assert body.step(end.displacements[0]).yields.any()
     assert len(history) <= 6 and history[-1] <= 1e-9
-    own = compliance.weighted(found.displacements[0])
-    gap = (GAP + own + flexible @ found.pressure) / WEIGHTS - found.approach
-    on = found.pressure > 0.0
-    assert np.abs(gap[on]).max() < 1e-9 * found.approach and gap[~on].min() > 0.0
+    moved = compliance.weighted(end.displacements[0])
+    gap = (GAP + moved + flexible @ end.pressure) / WEIGHTS - end.approach
+    on = end.pressure > 0.0
+    assert np.abs(gap[on]).max() < 1e-9 * end.approach and gap[~on].min() > 0.0

@@ -70,27 +70,27 @@ def pressed(body, curvature, roller=None, **wanted):
 
 def test_newton_converges_quadratically(body):
     """Once the hats' states stay: each residual is about the square of the one before."""
-    _, found = pressed(body, 0.2)
-    history = np.array(found.solution.residuals[-1])
+    _, state = pressed(body, 0.2)
+    history = np.array(state.solution.residuals[-1])
     late = np.log10(history[(history < 0.5) & (history > 1e-11)])  # below is round-off
     orders = np.diff(late[1:]) / np.diff(late[:-1])
     assert len(orders) >= 1
     assert np.all((orders > 1.7) & (orders < 2.4)), history
     assert history[-1] < RESIDUAL
-    assert found.solution.cuts == 0
-    assert found.solution.iterations <= 8
+    assert state.solution.cuts == 0
+    assert state.solution.iterations <= 8
 
 
 def test_small_loads_are_the_linear_theorys(body):
     """Pressure and stresses: the difference vanishes in proportion to p0/E."""
     left = []
     for curvature in (0.04, 0.02, 0.01):
-        start, found = pressed(body, curvature)
+        start, state = pressed(body, curvature)
         stress = nodal_stress(body, start.displacements[0], HATS, start.pressure).stress
         deep = (body.points[:, 1] > 0.3) & (body.points[:, 1] < 2.0)
-        off = np.abs(found.cauchy.nodal.stress.tau1 - stress.tau1)[deep].max()
-        peaks = found.pressure.max() - start.pressure.max()
-        cauchy = found.cauchy_pressure.max() - start.pressure.max()
+        off = np.abs(state.cauchy.nodal.stress.tau1 - stress.tau1)[deep].max()
+        peaks = state.pressure.max() - start.pressure.max()
+        cauchy = state.cauchy_pressure.max() - start.pressure.max()
         left.append(np.abs([peaks, cauchy, off]) / peak(curvature))
     orders = np.log2(np.divide(left[:-1], left[1:]))
     assert np.all(np.abs(orders - 1.0) < 0.15), orders
@@ -122,43 +122,43 @@ def test_a_sinusoid_under_a_flat_differs_by_less_than_half_a_per_cent():
     bodies = [(LinearResponse(body), contact)]
     rest = press(bodies, body, hats, start, load, gap=gap).state.pressure
     assert rest.max() == pytest.approx(0.015, rel=5e-3)
-    found = press_finitely(body, hats, flat, rest, load=load)
-    assert found.cauchy_pressure.max() / rest.max() - 1.0 == pytest.approx(0.0042, abs=1e-4)
-    assert found.pressure.max() / rest.max() - 1.0 == pytest.approx(-0.0016, abs=1e-4)
+    state = press_finitely(body, hats, flat, rest, load=load)
+    assert state.cauchy_pressure.max() / rest.max() - 1.0 == pytest.approx(0.0042, abs=1e-4)
+    assert state.pressure.max() / rest.max() - 1.0 == pytest.approx(-0.0016, abs=1e-4)
 
 
 def test_the_surface_lies_on_the_circle_where_it_is_pressed(body):
     """And what presses on the deformed surface bears the load."""
     curvature = 0.2
-    _, found = pressed(body, curvature)
-    place = (body.points + body.at_points(found.displacement))[body.top.point]
+    _, state = pressed(body, curvature)
+    place = (body.points + body.at_points(state.displacement))[body.top.point]
     inner = np.abs(body.top.x) < 0.7
     x, z = place[inner].T
-    depth = found.approach - (1.0 / curvature - np.sqrt(1.0 / curvature**2 - x**2))
-    assert np.abs(z - depth).max() < 1e-4 * found.approach
-    assert found.gap.min() > -1e-9 * found.approach
-    assert np.all(found.gap[found.pressure > 0.0] < 1e-9 * found.approach)
-    width = np.diff(found.place, prepend=np.nan, append=np.nan)
+    depth = state.approach - (1.0 / curvature - np.sqrt(1.0 / curvature**2 - x**2))
+    assert np.abs(z - depth).max() < 1e-4 * state.approach
+    assert state.gap.min() > -1e-9 * state.approach
+    assert np.all(state.gap[state.pressure > 0.0] < 1e-9 * state.approach)
+    width = np.diff(state.place, prepend=np.nan, append=np.nan)
     width = 0.5 * (width[:-1] + width[1:])[1:-1]
-    total = (found.cauchy_pressure[1:-1] * width).sum()
-    assert total == pytest.approx(found.solution.state.load, rel=1e-3)
-    assert found.solution.state.load == pytest.approx(EDGE * found.pressure.sum(), rel=1e-12)
+    total = (state.cauchy_pressure[1:-1] * width).sum()
+    assert total == pytest.approx(state.solution.state.load, rel=1e-3)
+    assert state.solution.state.load == pytest.approx(EDGE * state.pressure.sum(), rel=1e-12)
 
 
 def test_stress_at_the_surface_is_the_pressures(body):
     """Across the deformed surface -p, along it friction p, at every point that is pressed."""
-    _, found = pressed(body, 0.2, friction=0.2)
+    _, state = pressed(body, 0.2, friction=0.2)
     top = body.top.point
-    place = (body.points + body.at_points(found.displacement))[top]
+    place = (body.points + body.at_points(state.displacement))[top]
     chord = place[2::2] - place[:-2:2]
     t = chord / np.linalg.norm(chord, axis=1)[:, None]
     n = np.column_stack([t[:, 1], -t[:, 0]])
-    stress = found.cauchy.nodal.stress
+    stress = state.cauchy.nodal.stress
     sx, sz, txz = (value[top][1::2] for value in (stress.sx, stress.sz, stress.txz))
     across = sx * n[:, 0] ** 2 + sz * n[:, 1] ** 2 + 2.0 * txz * n[:, 0] * n[:, 1]
     shear = sx * n[:, 0] * t[:, 0] + sz * n[:, 1] * t[:, 1]
     shear += txz * (n[:, 0] * t[:, 1] + n[:, 1] * t[:, 0])
-    pressure = np.interp(body.top.x[1::2], X, found.cauchy_pressure)
+    pressure = np.interp(body.top.x[1::2], X, state.cauchy_pressure)
     scale = pressure.max()
     np.testing.assert_allclose(across, -pressure, atol=5e-3 * scale)
     np.testing.assert_allclose(shear, 0.2 * pressure, atol=2e-3 * scale)
@@ -166,12 +166,12 @@ def test_stress_at_the_surface_is_the_pressures(body):
 
 def test_stresses_at_some_points_are_those_of_all(body):
     """On the surface and below it; the largest von Mises stress is looked for where it is high."""
-    _, found = pressed(body, 0.2, friction=0.2)
-    whole, across = found.cauchy.nodal.stress, found.cauchy.across
+    _, state = pressed(body, 0.2, friction=0.2)
+    whole, across = state.cauchy.nodal.stress, state.cauchy.across
     _, again = pressed(body, 0.2, friction=0.2)
     some = np.concatenate([body.top.point[::7], np.arange(0, len(body.points), 11)])
     np.testing.assert_allclose(
-        again.cauchy.nodal.at(some), found.cauchy.nodal.values[some], rtol=1e-9
+        again.cauchy.nodal.at(some), state.cauchy.nodal.values[some], rtol=1e-9
     )
     window = (-1.0, 1.0, 1.0)
     top = highest_node(body, again.cauchy.nodal, again.cauchy.across, window)
@@ -192,7 +192,7 @@ def test_friction_moves_the_contact_as_in_the_linear_theory(body):
     bodies = [(LinearResponse(body), contact)]
     start = peak(curvature) * HERTZ
     rest = press(bodies, body, HATS, start, load, friction=friction, gap=gap).state
-    found, other = (
+    one, other = (
         press_finitely(
             body, HATS, circle(1.0 / curvature), rest.pressure, load=load, friction=sense * friction
         )
@@ -204,14 +204,14 @@ def test_friction_moves_the_contact_as_in_the_linear_theory(body):
 
     expected = centre(X, rest.pressure)
     assert expected < -0.05  # against the sliding
-    assert centre(found.place, found.pressure) == pytest.approx(expected, rel=0.01)
+    assert centre(one.place, one.pressure) == pytest.approx(expected, rel=0.01)
     assert centre(other.place, other.pressure) == pytest.approx(-expected, rel=0.01)
     # dragged along, the body stands back by as much under the roller
-    for each in (found, other):
-        along = np.interp(X, body.top.x, body.at_points(each.displacement)[body.top.point, 0])
-        assert abs(centre(along, each.pressure)) < 1e-3 * EDGE
+    for state in (one, other):
+        along = np.interp(X, body.top.x, body.at_points(state.displacement)[body.top.point, 0])
+        assert abs(centre(along, state.pressure)) < 1e-3 * EDGE
     held = body.held[:, 0]
-    assert found.displacement[held, 0].max() < -1e-3 and other.displacement[held, 0].min() > 1e-3
+    assert one.displacement[held, 0].max() < -1e-3 and other.displacement[held, 0].min() > 1e-3
 
 
 def test_a_reversed_profile_gives_the_mirrored_pressure():
@@ -219,7 +219,7 @@ def test_a_reversed_profile_gives_the_mirrored_pressure():
         return 0.004 * np.sin(7.0 * x + 0.6) * np.exp(-((x / 1.6) ** 6))
 
     curvature = 0.05
-    found = [
+    states = [
         press_finitely(
             make(height=way),
             HATS,
@@ -229,7 +229,7 @@ def test_a_reversed_profile_gives_the_mirrored_pressure():
         )
         for way in (height, lambda x: height(-x))
     ]
-    left, right = (each.cauchy_pressure for each in found)
+    left, right = (state.cauchy_pressure for state in states)
     assert np.abs(left - left[::-1]).max() > 0.2 * left.max()
     # the triangles below are not mirrored
     np.testing.assert_allclose(left, right[::-1], atol=5e-3 * left.max())
@@ -237,33 +237,33 @@ def test_a_reversed_profile_gives_the_mirrored_pressure():
 
 def test_the_approach_and_units_lead_to_the_same(body):
     curvature = 0.1
-    _, found = pressed(body, curvature)
-    _, again = pressed(body, curvature, load=None, approach=found.approach)
-    np.testing.assert_allclose(again.pressure, found.pressure, atol=1e-7 * found.pressure.max())
+    _, state = pressed(body, curvature)
+    _, again = pressed(body, curvature, load=None, approach=state.approach)
+    np.testing.assert_allclose(again.pressure, state.pressure, atol=1e-7 * state.pressure.max())
     size, modulus = 1e-6, 1e11
     small = make(size, modulus=modulus)
     other = press_finitely(
         small,
         size * HATS,
         circle(size / curvature),
-        modulus * found.pressure,
-        load=size * modulus * found.solution.state.load,
+        modulus * state.pressure,
+        load=size * modulus * state.solution.state.load,
     )
     np.testing.assert_allclose(
-        other.pressure / modulus, found.pressure, atol=3e-6 * found.pressure.max()
+        other.pressure / modulus, state.pressure, atol=3e-6 * state.pressure.max()
     )
-    assert other.approach == pytest.approx(size * found.approach, rel=1e-6)
+    assert other.approach == pytest.approx(size * state.approach, rel=1e-6)
 
 
 def test_pressure_is_capped_at_the_hardness(body):
     hardness = 0.7 * peak(0.1)
-    _, found = pressed(body, 0.1, hardness=hardness)
-    full = found.cauchy_pressure > hardness * (1.0 - 1e-5)
-    assert np.all(found.cauchy_pressure < hardness * (1.0 + 1e-5))
+    _, state = pressed(body, 0.1, hardness=hardness)
+    full = state.cauchy_pressure > hardness * (1.0 - 1e-5)
+    assert np.all(state.cauchy_pressure < hardness * (1.0 + 1e-5))
     assert 15 < full.sum() < 25
-    assert np.ptp(found.pressure[full]) > 1e-4 * hardness  # by undeformed area it is no constant
-    assert np.all(found.gap[full] < 1e-9)
-    assert found.solution.state.load == pytest.approx(EDGE * found.pressure.sum(), rel=1e-9)
+    assert np.ptp(state.pressure[full]) > 1e-4 * hardness  # by undeformed area it is no constant
+    assert np.all(state.gap[full] < 1e-9)
+    assert state.solution.state.load == pytest.approx(EDGE * state.pressure.sum(), rel=1e-9)
 
 
 def test_a_load_that_inverts_elements_is_an_error(body, monkeypatch):
@@ -278,12 +278,12 @@ def test_pressure_and_friction_bear_the_load_together(body, hardness):
     friction shifts, pressures alone press with another."""
     curvature, friction = 0.2, 0.5
     top, load = peak(curvature), 0.5 * np.pi * peak(curvature)
-    given = {"friction": friction, "hardness": hardness * top}
-    found = press_finitely(body, HATS, circle(1.0 / curvature), top * HERTZ, load, **given)
+    options = {"friction": friction, "hardness": hardness * top}
+    state = press_finitely(body, HATS, circle(1.0 / curvature), top * HERTZ, load, **options)
     _, force = CurrentContact(body, HATS, circle(1.0 / curvature), friction).loaded(
-        found.displacement, found.pressure
+        state.displacement, state.pressure
     )
     assert force[1::2].sum() == pytest.approx(load, rel=2e-7)
-    assert found.load == pytest.approx(load, rel=2e-7)
-    pressing = found.pressure.sum() * EDGE / load
+    assert state.load == pytest.approx(load, rel=2e-7)
+    pressing = state.pressure.sum() * EDGE / load
     assert 0.98 < pressing < 0.999

@@ -23,8 +23,8 @@ GRADIENTS = SIZES[:, None, None] * RANDOM.uniform(-1.0, 1.0, (8, 2, 2))
 
 
 def test_strain_is_half_the_logarithm_of_c():
-    found = LogStrain(GRADIENTS).strain
-    for gradient, (xx, zz, shear) in zip(GRADIENTS, found, strict=True):
+    strains = LogStrain(GRADIENTS).strain
+    for gradient, (xx, zz, shear) in zip(GRADIENTS, strains, strict=True):
         f = np.eye(2) + gradient
         np.testing.assert_allclose(
             [[xx, shear / 2], [shear / 2, zz]], 0.5 * logm(f.T @ f), atol=2e-16, rtol=1e-13

@@ -48,12 +48,12 @@ def energy(law, gradient, across=1.0):
 
 def first_piola(law, gradient):
     """dW/dF by differences."""
-    found, h = np.empty((2, 2)), 1e-6
+    stress, h = np.empty((2, 2)), 1e-6
     for i, j in np.ndindex(2, 2):
         step = np.zeros((2, 2))
         step[i, j] = h
-        found[i, j] = (energy(law, gradient + step) - energy(law, gradient - step)) / (2 * h)
-    return found
+        stress[i, j] = (energy(law, gradient + step) - energy(law, gradient - step)) / (2 * h)
+    return stress
 
 
 @every_law
@@ -65,8 +65,8 @@ def test_stress_is_the_energys_derivative(law, gradient):
     h = 1e-6  # the stretch across the plane is one
     across = (energy(law, gradient, 1 + h) - energy(law, gradient, 1 - h)) / (2 * h) / volume
     wanted = [sigma[0, 0], sigma[1, 1], sigma[0, 1], across]
-    found = cauchy_stress(np.array(gradient), MU, LAME, law)
-    np.testing.assert_allclose(found, wanted, atol=1e-8 * MU)
+    stress = cauchy_stress(np.array(gradient), MU, LAME, law)
+    np.testing.assert_allclose(stress, wanted, atol=1e-8 * MU)
 
 
 @every_law
@@ -82,8 +82,8 @@ def test_the_bodys_forces_are_those_of_the_stress(structured_block, law, gradien
     assert abs(tangent - tangent.T).max() < 1e-13 * abs(tangent).max()
     sx, sz, txz, _ = cauchy_stress(np.array(gradient), MU, LAME, law)
     sigma = np.array([[sx, txz], [txz, sz]])
-    own = np.linalg.det(f) * sigma @ np.linalg.inv(f).T
-    np.testing.assert_allclose(own, piola, atol=1e-8 * MU)
+    ours = np.linalg.det(f) * sigma @ np.linalg.inv(f).T
+    np.testing.assert_allclose(ours, piola, atol=1e-8 * MU)
 
 
 @every_law
@@ -107,8 +107,8 @@ def test_small_strains_are_hookes(law):
     strain = 0.5 * (gradient + gradient.T)
     hooke = 2 * MU * strain + LAME * np.trace(strain) * np.eye(2)
     wanted = [hooke[0, 0], hooke[1, 1], hooke[0, 1], LAME * np.trace(strain)]
-    found = cauchy_stress(gradient, MU, LAME, law)
-    np.testing.assert_allclose(found, wanted, rtol=2e-6)
+    stress = cauchy_stress(gradient, MU, LAME, law)
+    np.testing.assert_allclose(stress, wanted, rtol=2e-6)
 
 
 @every_law
@@ -147,8 +147,8 @@ def test_henckys_series_meets_the_closed_form():
     """Both sides of SERIES_TO: y = tanh(2 d)^2 of a pure shear by stretches exp(d), exp(-d)."""
     limit = np.arctanh(np.sqrt(SERIES_TO)) / 2
     for d in limit * np.array([1 - 1e-9, 1 + 1e-9]):
-        found = cauchy_stress(np.diag(np.expm1([d, -d])), MU, LAME, Law("hencky"))
-        np.testing.assert_allclose(found[:2], [2 * MU * d, -2 * MU * d], rtol=1e-12)
+        stress = cauchy_stress(np.diag(np.expm1([d, -d])), MU, LAME, Law("hencky"))
+        np.testing.assert_allclose(stress[:2], [2 * MU * d, -2 * MU * d], rtol=1e-12)
 
 
 @every_law
@@ -224,10 +224,10 @@ def test_rigid_motions_give_no_stress(body, response):
     force, _ = response.linearised(moved)
     assert np.abs(force).max() < 1e-13 * MU
     nothing = SurfaceLoad(body, body.top.x[[0, 2, -1]], np.zeros(1), 0.0, straight_down)
-    found = CauchyRecovery(body, moved, nothing, np.zeros(len(body.top.x))).nodal
+    nodal = CauchyRecovery(body, moved, nothing, np.zeros(len(body.top.x))).nodal
     linear = recovered_stress(body, moved)
     assert np.abs(linear).max() > 0.1 * MU  # the linear stress takes it for a strain
-    assert np.abs(found.values).max() < 1e-12 * MU
+    assert np.abs(nodal.values).max() < 1e-12 * MU
 
 
 def some_displacement(body, size):

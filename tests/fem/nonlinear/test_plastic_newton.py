@@ -57,16 +57,16 @@ def test_convergence_is_quadratic(pressed, hardening):
 
 def test_one_answer_from_any_start(pressed):
     """Far beyond first yield in one step, from hats that are all pressed and from a single one."""
-    found = []
+    states = []
     for guess in (np.ones(len(X)), 1.0 * (np.abs(X) < 0.5 * PITCH)):
         body, bodies = problem(pressed, 0.0)
         start = state_at_rest(bodies, guess)
         state, _ = newton_by_contacts(bodies, GAP, WEIGHTS, start, LOAD)
         assert np.mean(body.step(state.displacements[0]).yields) > 0.1
         assert not body.state.equivalent.any()
-        found.append(state)
-    np.testing.assert_allclose(found[0].pressure, found[1].pressure, atol=1e-6)
-    assert found[0].approach == pytest.approx(found[1].approach, rel=1e-8)
+        states.append(state)
+    np.testing.assert_allclose(states[0].pressure, states[1].pressure, atol=1e-6)
+    assert states[0].approach == pytest.approx(states[1].approach, rel=1e-8)
 
 
 def test_load_and_approach_lead_to_the_same(pressed):

@@ -90,12 +90,12 @@ def first_yield(friction):
 
     x, z = np.meshgrid(np.linspace(-1.2, 1.2, 97), np.linspace(0.0, 1.2, 49))
     best = np.argmax(equivalent(x, z))
-    found = minimize(
+    optimum = minimize(
         lambda at: -equivalent(at[0], abs(at[1])),
         [x.flat[best], z.flat[best]],
         method="Nelder-Mead",
     )
-    return -1.0 / found.fun, found.x[0], abs(found.x[1])
+    return -1.0 / optimum.fun, optimum.x[0], abs(optimum.x[1])
 
 
 @pytest.fixture(scope="module")
@@ -144,8 +144,8 @@ def test_what_is_condensed_changes_nothing(small, monkeypatch, elastic, friction
     scene = Scene(small, 2.4, 6, hardening=10.0, elastic=elastic)
     loads = [0.5, 1.0, 0.0, 0.8]
 
-    def same(found, wholly, accuracy, of_strain):
-        for one, other in zip(found, wholly, strict=True):
+    def same(states, wholly, accuracy, of_strain):
+        for one, other in zip(states, wholly, strict=True):
             peak, flow = other.pressure.max(), other.state.equivalent.max()
             strains = one.state.equivalent, other.state.equivalent
             np.testing.assert_allclose(one.pressure, other.pressure, atol=accuracy * peak)
@@ -155,7 +155,7 @@ def test_what_is_condensed_changes_nothing(small, monkeypatch, elastic, friction
 
     _, quick = scene.press(loads, friction, np.inf)
     monkeypatch.setattr("fem.nonlinear.press_plastic.ON_THE_WAY", 1e-9)
-    _, found = scene.press(loads, friction, np.inf)
+    _, states = scene.press(loads, friction, np.inf)
     roller, start = scene.pressed if elastic else None, scene.hertz.pressure(scene.x)
     way = LoadHistory(
         *(scene.pressed, scene.metal, scene.gap, scene.weights, start, friction, roller, np.inf)
@@ -165,7 +165,7 @@ def test_what_is_condensed_changes_nothing(small, monkeypatch, elastic, friction
         way._bodies.append((LinearResponse(roller.body), LinearContact(roller, -friction)))
         way.state = state_at_rest(way._bodies, start)
     wholly = way.through([load * scene.hertz.load_per_length for load in loads])
-    same(found, wholly, 1e-7, 1e-7)
+    same(states, wholly, 1e-7, 1e-7)
     same(quick, wholly, 1e-5, 1e-4)
 
 
@@ -223,8 +223,8 @@ def test_flow_on_release_is_remembered(small):
     """Released with more plastic strain than it can hold, a body flows until stresses balance."""
     scene = Scene(small, 1.0, 6)
     body = PlasticBody(scene.pressed.body, scene.metal)
-    given = np.where(np.hypot(*body.points.T) < 1.5, 2.0 / STEEL.youngs_modulus, 0.0)
-    body.state = PlasticState(np.outer(given, [1.0, -1.0, 0.0]), 0.0 * given)
+    strain = np.where(np.hypot(*body.points.T) < 1.5, 2.0 / STEEL.youngs_modulus, 0.0)
+    body.state = PlasticState(np.outer(strain, [1.0, -1.0, 0.0]), 0.0 * strain)
     eigenstress = 2.0 * STEEL.shear_modulus * body.state.strain
     displacement = _released(body, body.body.solve(body.force_of(eigenstress)))
     assert np.mean(body.state.equivalent > 0.0) > 0.05
@@ -277,9 +277,9 @@ def test_fields_of_a_linear_stress_are_exact(structured_block):
     contact = PlasticContact(1.0, np.zeros(1), 0.0, displacement, plastic.state, 1)
     fields = plastic_fields(plastic, contact)
     exx, ezz, gxz = z + 2 * x, 2 * z - x, x - z
-    found = [fields.stress.sx, fields.stress.sz, fields.stress.txz]
+    stress = [fields.stress.sx, fields.stress.sz, fields.stress.txz]
     exact = hooke(STEEL, exx, ezz, gxz)
-    np.testing.assert_allclose(found, exact, atol=1e-9)
+    np.testing.assert_allclose(stress, exact, atol=1e-9)
     np.testing.assert_allclose(fields.sy, NU * (exact[0] + exact[1]), atol=1e-9)
     np.testing.assert_allclose(fields.von_mises, fields.stress.von_mises(NU), atol=1e-9)
     assert not fields.equivalent_strain.any()
@@ -326,9 +326,9 @@ def test_no_peak_stays_where_an_edge_stood(small):
         [contact] = scene.press([1.0], travel=travel)[1]
         return averaged_pressure(contact.pressure)
 
-    found = pressed(1.0)
-    peak, middle = found.max(), len(found) // 2
-    assert np.diff(found[middle:]).max() < 0.01 * peak and found[middle + 9] > 0.0
+    pressure = pressed(1.0)
+    peak, middle = pressure.max(), len(pressure) // 2
+    assert np.diff(pressure[middle:]).max() < 0.01 * peak and pressure[middle + 9] > 0.0
     assert pressed(0.25).max() == pytest.approx(peak, rel=0.025)
     assert pressed(8.0).max() > 1.07 * peak
 
@@ -382,13 +382,13 @@ def test_work_is_elastic_energy_and_what_flow_takes(slid):
     yield criterion alone, whatever the path, once the steps are small."""
     scene, body, contacts = slid
     pressed, area = contacts[:-1], body.areas.ravel()
-    force = [scene.pressed.load(each.pressure, 0.3) for each in pressed]
-    moved = [each.displacement for each in pressed]
+    force = [scene.pressed.load(state.pressure, 0.3) for state in pressed]
+    moved = [state.displacement for state in pressed]
     work = 0.5 * np.sum(force[0] * moved[0])  # elastic so far
     for k in range(1, len(pressed)):
         work += 0.5 * np.sum((force[k] + force[k - 1]) * (moved[k] - moved[k - 1]))
     last = pressed[-1]
-    (sx, sz, txz), sy = (each.T for each in body.stress(last.displacement, last.state))
+    (sx, sz, txz), sy = (part.T for part in body.stress(last.displacement, last.state))
     square = sx**2 + sz**2 + sy**2 + 2.0 * txz**2
     elastic = (1.0 + NU) * square - NU * (sx + sz + sy) ** 2
     strain = last.state.equivalent
@@ -412,12 +412,12 @@ def test_the_bulge_on_another_mesh(small):
     """Triangles of gmsh in place of divided rectangles; without friction both sides are alike."""
     window = (-2.0, 2.0, 1.2, 0.14)
     other = build_block(BlockSpec(12.0, 6.0, np.array([[-2.0, 2.0]]), 1.0 / 12.0, 0.3, window))
-    found = []
+    rises = []
     for mesh in (small, other):
         scene = Scene(mesh, 2.4, 6, hardening=10.0)
         rise, even = (bulge(scene, scene.press([1.0], mu)[1][0]) for mu in (0.3, 0.0))
         elastic = Scene(mesh, 2.4, 6, hardening=1e6)
         elastic.metal = ElasticPlastic(elastic.metal.elastic, Hardening(1e3))
-        found.append(rise - bulge(elastic, elastic.press([1.0], 0.3)[1][0]))
-        assert np.abs(even).max() < 0.05 * found[-1].max()
-    assert found[0].max() == pytest.approx(found[1].max(), rel=0.05)
+        rises.append(rise - bulge(elastic, elastic.press([1.0], 0.3)[1][0]))
+        assert np.abs(even).max() < 0.05 * rises[-1].max()
+    assert rises[0].max() == pytest.approx(rises[1].max(), rel=0.05)

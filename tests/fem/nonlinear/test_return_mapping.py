@@ -215,9 +215,9 @@ def test_a_bar_sheared_to_and_fro():
         (_, _, reached), _, state = led(law, -last)
         assert reached == pytest.approx(there, rel=1e-12)
         state = return_mapping(law, last, state).state
-        ((_, _, found),), _ = stress(law, last, state)
+        ((_, _, last_shear),), _ = stress(law, last, state)
         onset = twist - (there + back) / shear
-        assert found == pytest.approx(-back - slope * (onset + twist), rel=1e-12)
+        assert last_shear == pytest.approx(-back - slope * (onset + twist), rel=1e-12)
 
 
 def test_units_do_not_matter():

@@ -184,10 +184,10 @@ assert pkg_resources.parse_version("1.10") > pkg_resources.parse_version("1.9")
 import pkg_resources
 print(hasattr(pkg_resources, "WorkingSet"))
 """
-    told = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", script], cwd=PROJECT, capture_output=True, text=True
     )
-    assert told.stdout == "True\n", told.stderr
+    assert process.stdout == "True\n", process.stderr
 
 
 @pytest.fixture
@@ -201,16 +201,16 @@ def cache(monkeypatch, tmp_path):
 
 
 def test_c_is_compiled_once_and_again_where_it_changes(cache, tmp_path, capfd):
-    source, found = tmp_path / "scale.c", []
+    source, scaled = tmp_path / "scale.c", []
     code = "void scale(long n, double by, double *x) {{ for (long i = 0; i < n; i++) x[i] *= {}; }}"
     for text, ready in (("by", 1), ("by", 1), ("by * by", 2)):
         source.write_text(code.format(text))
         c_function.cache_clear()
         x = np.array([1.0, 2.0])
         c_function(source, "scale")(2, 3.0, x)
-        found.append(list(x))
+        scaled.append(list(x))
         assert len(list(cache.iterdir())) == ready  # nothing else is left there
-    assert found == [[3.0, 6.0], [3.0, 6.0], [9.0, 18.0]]
+    assert scaled == [[3.0, 6.0], [3.0, 6.0], [9.0, 18.0]]
     assert capfd.readouterr() == ("", "")
 
 

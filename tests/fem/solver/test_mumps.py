@@ -40,24 +40,24 @@ def test_a_singular_matrix_is_refused_in_one_line(positive):
 
 
 def test_too_little_room_is_answered_by_more(positive, monkeypatch):
-    given, attempt = [], mumps._attempt
+    rooms, attempt = [], mumps._attempt
 
     def short_of_room(matrix, symmetric, spare):
-        given.append(spare)
+        rooms.append(spare)
         solver, factor, info = attempt(matrix, symmetric, spare)
         return solver, factor, -9 if spare < 4 * mumps.SPARE_ROOM else info
 
     monkeypatch.setattr(mumps, "_attempt", short_of_room)
     factor = SymmetricFactor(petsc(positive))
-    assert given == [mumps.SPARE_ROOM, 2 * mumps.SPARE_ROOM, 4 * mumps.SPARE_ROOM]
+    assert rooms == [mumps.SPARE_ROOM, 2 * mumps.SPARE_ROOM, 4 * mumps.SPARE_ROOM]
     np.testing.assert_allclose(positive @ factor.solve(np.ones(30)), 1.0, atol=1e-10)
 
 
 def test_never_enough_room_ends_in_an_error(positive, monkeypatch):
     attempt, made = mumps._attempt, []
 
-    def in_vain(*given):
-        solver, factor, _ = attempt(*given)
+    def in_vain(*arguments):
+        solver, factor, _ = attempt(*arguments)
         made.extend([solver, factor])
         return solver, factor, -9
 

@@ -50,26 +50,26 @@ CASES = {
 @pytest.fixture(scope="module")
 def displacements(structured_block, launch, tmp_path_factory):
     """By case, of one process and of each of two, and their shares of the matrix."""
-    line, given = np.linspace(-1, 1, 21), []
+    line, cases = np.linspace(-1, 1, 21), []
     for rough, degree, thickness, far in CASES.values():
         height = (lambda x: 0.02 * np.cos(4 * x)) if rough else None
         mesh = structured_block(line, line[10:], height, seed=None if thickness else 9)
         file = tmp_path_factory.mktemp("mesh") / "mesh.npz"
         np.savez(file, points=mesh.points, triangles=mesh.triangles, shift=mesh.shift)
-        given.append((str(file), degree, thickness, far))
+        cases.append((str(file), degree, thickness, far))
 
-    def found(processes):
-        done = launch(processes, "-c", SCRIPT, json.dumps(given))
+    def solved(processes):
+        done = launch(processes, "-c", SCRIPT, json.dumps(cases))
         assert done.returncode == 0, done.stderr
-        return [dict(zip(CASES, each, strict=True)) for each in json.loads(done.stdout)]
+        return [dict(zip(CASES, moved, strict=True)) for moved in json.loads(done.stdout)]
 
-    return *found(1), *found(2)
+    return *solved(1), *solved(2)
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_two_processes_find_what_one_finds(displacements, case):
     """Displacements under pressure, by the matrix, and under traction too; half the matrix each."""
-    (alone, _), (first, share), (second, rest) = (found[case] for found in displacements)
+    (alone, _), (first, share), (second, rest) = (process[case] for process in displacements)
     np.testing.assert_array_equal(first, second)
     np.testing.assert_allclose(first, alone, rtol=1e-11)
     assert share + rest == 1.0 and 0.4 < share < 0.6

@@ -18,14 +18,14 @@ MATERIAL = Material(3.0, 0.3)
 
 def all_of(kinks, count):
     """Weights 1 of every kink for `count` patches."""
-    each = len(kinks.place)
-    first, start = np.zeros(count, dtype=int), each * np.arange(count + 1)
+    number = len(kinks.place)
+    first, start = np.zeros(count, dtype=int), number * np.arange(count + 1)
     return Weights(first, start, np.ones(start[-1]))
 
 
-def as_table(weights, each):
+def as_table(weights, number):
     """Weights (n, each) of all kinks, 0 where a patch does not see them."""
-    table = np.zeros((len(weights.first), each))
+    table = np.zeros((len(weights.first), number))
     for row, first, count, start in zip(
         table, weights.first, weights.count, weights.start, strict=False
     ):
@@ -76,8 +76,8 @@ def test_the_displacement_has_the_kinks_stress():
         )
 
     (exx, uz_x), (ux_z, ezz) = slope(0).T, slope(1).T
-    found = np.column_stack(hooke(MATERIAL, exx, ezz, ux_z + uz_x))
-    np.testing.assert_allclose(found, stress(kinks, place), atol=1e-8)
+    stresses = np.column_stack(hooke(MATERIAL, exx, ezz, ux_z + uz_x))
+    np.testing.assert_allclose(stresses, stress(kinks, place), atol=1e-8)
 
 
 def test_a_turned_surface_turns_stresses_and_displacements():
@@ -123,7 +123,7 @@ def test_sums_over_the_kinks_are_those_of_a_table():
     assert 0 < np.count_nonzero(weights.count) < 40
     place = np.column_stack([rng.uniform(-20.0, 20.0, 50), rng.uniform(0.1, 5.0, 50)])
     patch, point = rng.integers(0, 40, 60), rng.integers(0, 50, (60, 6))
-    found = kinks.stress(weights, patch, place, point)
+    sums = kinks.stress(weights, patch, place, point)
 
     single = [
         Kinks(k[:1], k[1:2], k[2:])
@@ -131,7 +131,7 @@ def test_sums_over_the_kinks_are_those_of_a_table():
     ]
     by_kink = np.array([stress(one, place) for one in single])
     expected = np.einsum("rk,krqc->rqc", as_table(weights, 30)[patch], by_kink[:, point])
-    np.testing.assert_allclose(found, expected, atol=1e-13 * np.abs(expected).max())
+    np.testing.assert_allclose(sums, expected, atol=1e-13 * np.abs(expected).max())
 
 
 def inclined(structured_block, rise, hats, pressure):

@@ -22,29 +22,29 @@ def tau1(stress):
 @pytest.mark.parametrize(("edges", "depth"), [(10, 1e-2), (20, 5e-3), (40, 3e-3)])
 def test_hertzs_largest_shear_and_its_depth(pressed, edges, depth):
     case = pressed(edges)
-    found = maximum(case.body, case.stress(0.0), tau1)
-    assert found.value == pytest.approx(case.hertz.tau1_max, rel=3e-3)
-    assert found.z == pytest.approx(case.hertz.tau1_max_depth, rel=depth)
-    assert abs(found.x) < 0.05
+    highest = maximum(case.body, case.stress(0.0), tau1)
+    assert highest.value == pytest.approx(case.hertz.tau1_max, rel=3e-3)
+    assert highest.z == pytest.approx(case.hertz.tau1_max_depth, rel=depth)
+    assert abs(highest.x) < 0.05
 
 
 @pytest.mark.parametrize("friction", [0.1, 0.2])
 def test_largest_shear_under_friction(pressed, friction):
     case = pressed(20)
     exact = hertz_extremes(case.hertz, friction).tau1
-    found = maximum(case.body, case.stress(friction), tau1)
-    assert found.value == pytest.approx(exact.value, rel=3e-3)
-    assert found.z == pytest.approx(exact.z, rel=2e-2)
-    assert found.x == pytest.approx(exact.x, abs=3e-2)
+    highest = maximum(case.body, case.stress(friction), tau1)
+    assert highest.value == pytest.approx(exact.value, rel=3e-3)
+    assert highest.z == pytest.approx(exact.z, rel=2e-2)
+    assert highest.x == pytest.approx(exact.x, abs=3e-2)
 
 
 def test_largest_orthogonal_shear(pressed):
     case = pressed(20)
     exact = hertz_extremes(case.hertz, 0.0).txz_max
-    found = maximum(case.body, case.stress(0.0), lambda stress: np.abs(stress.txz))
-    assert found.value == pytest.approx(exact.value, rel=3e-3)
-    assert found.z == pytest.approx(exact.z, rel=1.5e-2)
-    assert abs(found.x) == pytest.approx(abs(exact.x), rel=1e-2)
+    highest = maximum(case.body, case.stress(0.0), lambda stress: np.abs(stress.txz))
+    assert highest.value == pytest.approx(exact.value, rel=3e-3)
+    assert highest.z == pytest.approx(exact.z, rel=1.5e-2)
+    assert abs(highest.x) == pytest.approx(abs(exact.x), rel=1e-2)
 
 
 @pytest.fixture(scope="module")
@@ -60,8 +60,8 @@ def field(body, value):
 def test_the_top_of_a_smooth_hill_lies_between_the_nodes(body):
     x, z = body.points.T
     hill = field(body, 2.0 - (x - 0.123) ** 2 - 2.0 * (z - 0.456) ** 2)
-    found = maximum(body, hill, lambda stress: stress.sx)
-    assert (found.value, found.x, found.z) == pytest.approx((2.0, 0.123, 0.456), abs=1e-6)
+    highest = maximum(body, hill, lambda stress: stress.sx)
+    assert (highest.value, highest.x, highest.z) == pytest.approx((2.0, 0.123, 0.456), abs=1e-6)
 
 
 @pytest.fixture(scope="module")
@@ -75,25 +75,25 @@ def ridge(structured_block):
 
 def test_rounding_does_not_choose_among_elements_that_share_the_top(ridge, rng):
     body, hill = ridge
-    found = []
+    tops = []
     for _ in range(10):
         rounded = hill * (1.0 + 1e-14 * rng.standard_normal(len(hill)))
         top = maximum(body, field(body, rounded), lambda stress: stress.sx)
-        found.append((top.value, top.x, top.z))
-    assert found[0] == pytest.approx((1.0, 0.0, 0.46), abs=1e-2)
-    assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-8)
+        tops.append((top.value, top.x, top.z))
+    assert tops[0] == pytest.approx((1.0, 0.0, 0.46), abs=1e-2)
+    assert np.ptp(tops, axis=0) == pytest.approx(np.zeros(3), abs=1e-8)
 
 
 def test_rounding_does_not_choose_the_polynomial(body, rng):
     x, z = body.points.T
     for _ in range(20):
         hill = np.exp(-((x - rng.uniform(-0.3, 0.3)) ** 2) - 2.0 * (z - rng.uniform(0.3, 0.7)) ** 2)
-        stress, found = np.array([hill, -0.5 * hill, 0.3 * hill * (1.0 + x)]), []
+        stress, tops = np.array([hill, -0.5 * hill, 0.3 * hill * (1.0 + x)]), []
         for _ in range(6):
             rounded = StressState(*(stress * (1.0 + 1e-14 * rng.standard_normal(stress.shape))))
             top = maximum(body, at_mesh_points(body, rounded), tau1)
-            found.append((top.value, top.x, top.z))
-        assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-9)
+            tops.append((top.value, top.x, top.z))
+        assert np.ptp(tops, axis=0) == pytest.approx(np.zeros(3), abs=1e-9)
 
 
 def test_a_sharp_ridge_is_not_smoothed(body):
@@ -101,22 +101,22 @@ def test_a_sharp_ridge_is_not_smoothed(body):
     x, z = body.points.T
     tip = np.argmin(np.hypot(x - 0.2, z - 0.5))
     cone = field(body, 1.0 - np.hypot(x - x[tip], z - z[tip]))
-    found = maximum(body, cone, lambda stress: stress.sx)
-    assert (found.value, found.x, found.z) == pytest.approx((1.0, x[tip], z[tip]), abs=2e-2)
+    highest = maximum(body, cone, lambda stress: stress.sx)
+    assert (highest.value, highest.x, highest.z) == pytest.approx((1.0, x[tip], z[tip]), abs=2e-2)
 
 
 def test_largest_at_the_surface_stays_there(body):
     x, z = body.points.T
-    found = maximum(body, field(body, np.exp(-z) - x**2), lambda stress: stress.sx)
-    assert (found.x, found.z) == pytest.approx((0.0, 0.0), abs=1e-2)
+    highest = maximum(body, field(body, np.exp(-z) - x**2), lambda stress: stress.sx)
+    assert (highest.x, highest.z) == pytest.approx((0.0, 0.0), abs=1e-2)
 
 
 def test_the_window_limits_the_search(body):
     x, z = body.points.T
     slope = field(body, x + z)
-    found = maximum(body, slope, lambda stress: stress.sx, (-0.5, 0.25, 0.5))
-    assert found.value == pytest.approx(0.75, abs=0.03)
-    assert found.x <= 0.25 and found.z <= 0.5
+    highest = maximum(body, slope, lambda stress: stress.sx, (-0.5, 0.25, 0.5))
+    assert highest.value == pytest.approx(0.75, abs=0.03)
+    assert highest.x <= 0.25 and highest.z <= 0.5
     with pytest.raises(ValueError, match="no part of the body"):
         maximum(body, slope, lambda stress: stress.sx, (2.0, 3.0, 1.0))
 
@@ -130,14 +130,14 @@ def test_each_cell_of_x_has_its_own_maximum(body):
     )
     nodal, ends, window = field(body, hills), (-0.25, 0.25), (-0.8, 0.8, 0.9)
     cells = [*zip((-0.8, *ends), (*ends, 0.8), strict=True)]
-    found = maxima(body, nodal, lambda stress: stress.sx, window, (*ends, 0.9))
+    highest = maxima(body, nodal, lambda stress: stress.sx, window, (*ends, 0.9))
     for k, (start, stop) in enumerate(cells[:2]):
         one = maximum(body, nodal, lambda stress: stress.sx, (start, stop, 0.9))
-        assert found[:, k] == pytest.approx((one.value, one.x, one.z))
-    assert found[0, 2] < NEAR * found[0, 1] and found[1, 2] == pytest.approx(0.52, abs=0.06)
-    assert found[0, 3] == 0.0 and np.isnan(found[1:, 3]).all()  # beyond the window
+        assert highest[:, k] == pytest.approx((one.value, one.x, one.z))
+    assert highest[0, 2] < NEAR * highest[0, 1] and highest[1, 2] == pytest.approx(0.52, abs=0.06)
+    assert highest[0, 3] == 0.0 and np.isnan(highest[1:, 3]).all()  # beyond the window
     whole = maximum(body, nodal, lambda stress: stress.sx, window)
-    assert found[0].max() == pytest.approx(whole.value)
+    assert highest[0].max() == pytest.approx(whole.value)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -156,14 +156,14 @@ def test_looking_where_an_estimate_is_high_finds_what_looking_everywhere_does(pr
             asked[node] = True
             return of(node)
 
-        found = maxima(case.body, replace(there, at=at), quantity, window, cells)
+        largest = maxima(case.body, replace(there, at=at), quantity, window, cells)
         assert 0.0 < asked.mean() < 0.5
         expected = maxima(case.body, everywhere, quantity, window, cells)
         samples = Samples(case.body, there)
         for of in (tau1, quantity):  # what was looked for before makes no difference
             shared = maxima(case.body, there, of, window, cells, samples)
-        np.testing.assert_array_equal(shared, found)
-        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
+        np.testing.assert_array_equal(shared, largest)
+        np.testing.assert_allclose(largest, expected, rtol=1e-9, atol=1e-9)
 
 
 def test_each_material_has_its_own_poissons_ratio(structured_block):
@@ -174,11 +174,11 @@ def test_each_material_has_its_own_poissons_ratio(structured_block):
     x, z = body.nodes.T
     hats, none = np.array([-9.0, 0.0, 9.0]), np.zeros(1)
     nodal = nodal_stress(body, np.column_stack([x, z]), hats, none)
-    found = maximum(body, nodal, lambda stress: -stress.poissons_ratio)
-    assert found.value == -0.1 and found.z < 0.25
-    found = maximum(body, nodal, lambda stress: stress.sy(stress.poissons_ratio))
+    highest = maximum(body, nodal, lambda stress: -stress.poissons_ratio)
+    assert highest.value == -0.1 and highest.z < 0.25
+    highest = maximum(body, nodal, lambda stress: stress.sy(stress.poissons_ratio))
     lame = 0.4 / (1.4 * 0.2)
-    assert found.value == pytest.approx(2.0 * lame) and found.z >= 0.25
+    assert highest.value == pytest.approx(2.0 * lame) and highest.z >= 0.25
 
 
 def test_an_unstressed_body_has_a_largest_value_of_zero(body):
@@ -192,6 +192,6 @@ def test_an_unstressed_body_has_a_largest_value_of_zero(body):
 def test_a_block_of_100_half_widths_stands_for_a_half_plane(pressed, sides, extra):
     """Square, bonded below: what the held or free sides add to the largest shear stress."""
     case = pressed(40, 0.15, 50.0, 100.0, sides=sides)
-    found = maximum(case.body, case.stress(0.0), tau1)
-    assert found.value / case.hertz.tau1_max - 1.0 == pytest.approx(extra, abs=1.5e-3)
+    highest = maximum(case.body, case.stress(0.0), tau1)
+    assert highest.value / case.hertz.tau1_max - 1.0 == pytest.approx(extra, abs=1.5e-3)
     assert case.pressure.max() == pytest.approx(1.0, abs=5e-4)

@@ -55,8 +55,8 @@ def test_stresses_of_the_degree_below_the_displacements_are_recovered_exactly(
     x, z = body.points.T
     first, second = (x - 0.4 * z + 2.0) ** power, -((0.3 * x + z + 1.0) ** power)
     exact = stress_of(MATERIAL, first, second, -0.4 * first + 0.3 * second)
-    found = recovered_stress(body, np.column_stack(field(*body.nodes.T)))
-    np.testing.assert_allclose(found, exact, atol=1e-6 if degree > 1 else 1e-12)
+    stress = recovered_stress(body, np.column_stack(field(*body.nodes.T)))
+    np.testing.assert_allclose(stress, exact, atol=1e-6 if degree > 1 else 1e-12)
 
 
 @pytest.mark.parametrize("thickness", [0.25, 0.5])
@@ -69,7 +69,7 @@ def test_a_jump_at_an_interface_is_kept(structured_block, thickness):
     x, z = body.points.T
     below = np.maximum(z - thickness, 0.0)
     moved = np.column_stack([x**2 + below * (x - z), x * z + below * (1.0 + 2.0 * z)])
-    found = recovered_stress(body, moved)
+    stress = recovered_stress(body, moved)
 
     material = np.zeros(len(nodes.point), dtype=bool)
     material[nodes.triangles] = body.coated[:, None]
@@ -78,7 +78,7 @@ def test_a_jump_at_an_interface_is_kept(structured_block, thickness):
     depth = z - thickness
     core = stress_of(MATERIAL, 2 * x + depth, x + 1 + 2 * z + 2 * depth, x - z - depth + z + 0 * x)
     exact = np.where(material[:, None], coat, core)
-    np.testing.assert_allclose(found, exact, atol=1e-6)
+    np.testing.assert_allclose(stress, exact, atol=1e-6)
     twice = np.bincount(nodes.point)[nodes.point] == 2
     assert twice.sum() == 2 * 17 and np.all(z[twice] == thickness)
 
@@ -161,15 +161,15 @@ def test_the_smallest_block_still_has_stresses(structured_block):
     body = elastic_body(mesh, MATERIAL, Support())
     x, z = body.points.T
     exact = stress_of(MATERIAL, 0 * x + 1, 0 * x - 2, 0 * x)
-    found = recovered_stress(body, np.column_stack([x, -2 * z]))
-    np.testing.assert_allclose(found, exact, atol=1e-7)
+    stress = recovered_stress(body, np.column_stack([x, -2 * z]))
+    np.testing.assert_allclose(stress, exact, atol=1e-7)
 
 
 def test_a_smooth_solution_is_recovered_with_order(structured_block, exact_forces, manufactured):
     """Solved, not interpolated. The elements' own stresses at the nodes have order 2 as well, and
     twenty times the error; the boundary's half patches catch up with the inner ones."""
     exact = manufactured(MATERIAL)
-    errors, own = [], []
+    errors, unrecovered = [], []
     for cells in (8, 16, 32):
         body = body_of(structured_block, cells)
         moved = body.solve(exact_forces(body.mesh, exact.stress, exact.body_force))
@@ -178,9 +178,9 @@ def test_a_smooth_solution_is_recovered_with_order(structured_block, exact_force
         inner = np.all(np.abs(body.points - [0.0, 0.5]) < [0.7, 0.3], axis=1)
         errors.append([np.sqrt(np.mean(error[where] ** 2)) for where in (inner, ~inner)])
         error = element_stress(body, moved, reference_nodes(2)) - truth[body.mesh.triangles]
-        own.append(np.sqrt(np.mean(error[inner[body.mesh.triangles]] ** 2)))
+        unrecovered.append(np.sqrt(np.mean(error[inner[body.mesh.triangles]] ** 2)))
     inner, outer = np.log2(np.divide(errors[:-1], errors[1:])).T
     assert np.all((inner > 1.8) & (inner < 2.5)), inner
     assert np.all((outer > 2.5) & (outer < 3.5)), outer
-    assert errors[-1][0] < 0.1 * own[-1]
-    assert errors[-1][1] < 0.1 * own[-1]
+    assert errors[-1][0] < 0.1 * unrecovered[-1]
+    assert errors[-1][1] < 0.1 * unrecovered[-1]

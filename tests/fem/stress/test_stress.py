@@ -49,14 +49,14 @@ def layer_errors(edges, friction, pressure_of, pitch=1.0, shift=0.0):
     operator = FiniteElementCompliance(body, hat_nodes(x[0], x[1] - x[0], len(x)))
     moved = operator.displacement(pressure, friction)
     nodal = nodal_stress(body, moved, operator.hats, pressure, friction)
-    found = []
+    errors = []
     for layer in (0.0, 1.0, 2.0, 6.0):
         depths = (layer + np.linspace(0.05, 0.95, 6)) / edges
         at = np.meshgrid(np.linspace(-1.05, 1.05, 401) + 1e-4, depths)
         exact = np.stack(parts(stress_at(x, pressure, friction, *at)))
         off = np.stack(parts(evaluate(body, nodal, *at))) - exact
-        found.append(np.sqrt(np.mean(off**2) / np.mean(exact**2)))
-    return np.array(found)
+        errors.append(np.sqrt(np.mean(off**2) / np.mean(exact**2)))
+    return np.array(errors)
 
 
 def asperities(x):
@@ -112,12 +112,12 @@ def on_waves(pressure, degree, edges_per_hat):
     operator = FiniteElementCompliance(body, hat_nodes(x[0], x[1] - x[0], len(x)), direction)
     moved = operator.displacement(pressure(x), 0.3)
     nodal = nodal_stress(body, moved, operator.hats, pressure(x), 0.3, direction)
-    found = []
+    stresses = []
     for layer in (0.0, 2.0):
         depths = (layer + np.linspace(0.1, 0.9, 5)) / number
         at_x, depth = np.meshgrid(np.linspace(-1.05, 1.05, 1001) + 1e-4, depths)
-        found.append(np.stack(parts(evaluate(body, nodal, at_x, depth - height(at_x)))))
-    return np.array(found)
+        stresses.append(np.stack(parts(evaluate(body, nodal, at_x, depth - height(at_x)))))
+    return np.array(stresses)
 
 
 def test_stresses_next_to_a_wavy_surface():
@@ -163,8 +163,8 @@ def test_stresses_in_a_coating_are_the_exact_ones_up_to_its_interface(coated):
     z = np.array([0.2, 0.5, 0.8, 4.2, 4.5, 4.8, 4.999]) * edge
     layered = LayeredBody(coating.material, coating.thickness, MATERIAL)
     exact = layer_field(layered, x, ellipse(x), (-1.1, 1.1), z, 4).at(0.3)
-    found = evaluate(body, nodal, *np.meshgrid(exact.x, z))
-    off = np.stack(parts(found)) - np.stack(parts(exact.stress))
+    state = evaluate(body, nodal, *np.meshgrid(exact.x, z))
+    off = np.stack(parts(state)) - np.stack(parts(exact.stress))
     size = np.sqrt(np.mean(np.stack(parts(exact.stress)) ** 2))
     first, last = (np.sqrt(np.mean(off[:, rows] ** 2)) / size for rows in (slice(3), slice(3, 7)))
     assert 1e-3 < first < 2.5e-3

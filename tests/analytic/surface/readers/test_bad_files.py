@@ -92,8 +92,8 @@ def refusal(path, **options):
 def check(path, case, **options):
     content, line, words = case
     path.write_bytes(content)
-    message, found = refusal(path, **options)
-    assert found == line
+    message, place = refusal(path, **options)
+    assert place == line
     assert words in message
 
 

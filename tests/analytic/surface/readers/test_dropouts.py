@@ -106,21 +106,21 @@ def test_a_gap_is_refused_where_it_is(tmp_path):
 
 
 def test_a_gap_is_bridged_by_a_straight_line(tmp_path):
-    found = read(written(tmp_path, X[KEPT], Z[KEPT]), "bridge")
-    np.testing.assert_allclose(found.profile.x, 1e-6 * X, atol=1e-15)
-    np.testing.assert_allclose(found.profile.height[KEPT], 1e-6 * Z[KEPT], atol=1e-11)
+    trace = read(written(tmp_path, X[KEPT], Z[KEPT]), "bridge")
+    np.testing.assert_allclose(trace.profile.x, 1e-6 * X, atol=1e-15)
+    np.testing.assert_allclose(trace.profile.height[KEPT], 1e-6 * Z[KEPT], atol=1e-11)
     between = 1e-6 * np.interp(X[~KEPT], X[KEPT], Z[KEPT])
-    np.testing.assert_allclose(found.profile.height[~KEPT], between, atol=1e-11)
-    assert (found.bridged, found.trimmed) == (61, 0)
-    assert found.stretch == pytest.approx((59.5e-6, 90.5e-6))
+    np.testing.assert_allclose(trace.profile.height[~KEPT], between, atol=1e-11)
+    assert (trace.bridged, trace.trimmed) == (61, 0)
+    assert trace.stretch == pytest.approx((59.5e-6, 90.5e-6))
 
 
 def test_lost_heights_and_a_gap_count_together(tmp_path):
     z = Z.copy()
     z[[3, 5]] = np.nan
-    found = read(written(tmp_path, X[KEPT], z[KEPT]), "bridge")
-    assert (found.bridged, found.trimmed) == (63, 0)
-    assert found.stretch == pytest.approx((59.5e-6, 90.5e-6))
+    trace = read(written(tmp_path, X[KEPT], z[KEPT]), "bridge")
+    assert (trace.bridged, trace.trimmed) == (63, 0)
+    assert trace.stretch == pytest.approx((59.5e-6, 90.5e-6))
 
 
 def test_a_gap_beyond_all_bounds_is_not_filled(tmp_path):

@@ -40,20 +40,20 @@ def refusal(path, kind=ProfileError, **options) -> str:
 
 def knows(monkeypatch, **answer):
     """Make every instrument's file one of these."""
-    given = {"format": "made", "version": "1", "pitch": None, "unit": None, "unit_name": None}
+    answers = {"format": "made", "version": "1", "pitch": None, "unit": None, "unit_name": None}
     program = (
         "import json, sys\nimport numpy as np\n"
         "np.savez(sys.argv[2], heights=np.array([1.0, 4.0, 9.0, 2.0, 3.0]))\n"
-        f"print({str(given | answer)!r}.replace(chr(39), chr(34)).replace('None', 'null'))"
+        f"print({str(answers | answer)!r}.replace(chr(39), chr(34)).replace('None', 'null'))"
     )
     monkeypatch.setattr(instruments, "WORKER", ("-c", program))
 
 
 def test_text_is_a_line_scan(tmp_path):
-    found = read_measured(text(tmp_path), **SCALES)
-    np.testing.assert_allclose(found.profile.x, 1e-6 * np.arange(5))
-    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array([1, 2, 4, 3, 0]))
-    assert (found.format, found.place, found.bridged, found.trimmed) == ("text", None, 0, 0)
+    trace = read_measured(text(tmp_path), **SCALES)
+    np.testing.assert_allclose(trace.profile.x, 1e-6 * np.arange(5))
+    np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array([1, 2, 4, 3, 0]))
+    assert (trace.format, trace.place, trace.bridged, trace.trimmed) == ("text", None, 0, 0)
 
 
 def test_text_needs_its_units(tmp_path):
@@ -71,17 +71,17 @@ def test_text_is_no_map(tmp_path):
 
 
 def test_a_row_of_a_surface_data_file(tmp_path):
-    found = read_measured(sdf(tmp_path, MAP), chosen=MapLine(row=3))
-    np.testing.assert_allclose(found.profile.x, 1e-6 * np.arange(5), rtol=1e-12)
-    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array(MAP[3]), rtol=1e-12)
-    assert found.format == "SDF (ISO 25178-71)"
-    assert found.place == "row 3 of 4 rows and 5 columns, 4e-06 m by 6e-06 m"
+    trace = read_measured(sdf(tmp_path, MAP), chosen=MapLine(row=3))
+    np.testing.assert_allclose(trace.profile.x, 1e-6 * np.arange(5), rtol=1e-12)
+    np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array(MAP[3]), rtol=1e-12)
+    assert trace.format == "SDF (ISO 25178-71)"
+    assert trace.place == "row 3 of 4 rows and 5 columns, 4e-06 m by 6e-06 m"
 
 
 def test_a_single_profile_of_a_surface_data_file(tmp_path):
-    found = read_measured(sdf(tmp_path, MAP[:1]))
-    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array(MAP[0]), rtol=1e-12)
-    assert found.place is None
+    trace = read_measured(sdf(tmp_path, MAP[:1]))
+    np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array(MAP[0]), rtol=1e-12)
+    assert trace.place is None
 
 
 def test_units_that_the_file_gives_may_be_repeated_but_not_contradicted(tmp_path):
@@ -106,10 +106,10 @@ def test_lost_heights_are_refused_with_their_place(tmp_path):
 
 def test_lost_heights_are_bridged_and_ends_left_out(tmp_path):
     rows = [[None, 1.0, None, 5.0, 6.0, 2.0, None]]
-    found = read_measured(sdf(tmp_path, rows), dropouts="bridge")
-    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array([1, 3, 5, 6, 2]))
-    np.testing.assert_allclose(found.profile.x, 1e-6 * np.arange(1, 6))
-    assert (found.bridged, found.trimmed) == (1, 2)
+    trace = read_measured(sdf(tmp_path, rows), dropouts="bridge")
+    np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array([1, 3, 5, 6, 2]))
+    np.testing.assert_allclose(trace.profile.x, 1e-6 * np.arange(1, 6))
+    assert (trace.bridged, trace.trimmed) == (1, 2)
 
 
 def test_too_little_left_is_refused(tmp_path):
@@ -123,26 +123,26 @@ def test_too_little_left_is_refused(tmp_path):
 
 def test_an_instruments_file_in_its_own_units(tmp_path, monkeypatch):
     knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
-    found = read_measured(text(tmp_path, b"\x00\x01\x02"))
-    np.testing.assert_allclose(found.profile.x, 2e-6 * np.arange(5))
-    np.testing.assert_allclose(found.profile.height, 1e-6 * np.array([1, 4, 9, 2, 3]))
-    assert found.format == "made, by SurfaceTopography 1"
+    trace = read_measured(text(tmp_path, b"\x00\x01\x02"))
+    np.testing.assert_allclose(trace.profile.x, 2e-6 * np.arange(5))
+    np.testing.assert_allclose(trace.profile.height, 1e-6 * np.array([1, 4, 9, 2, 3]))
+    assert trace.format == "made, by SurfaceTopography 1"
 
 
 def test_an_instruments_file_that_names_no_unit_takes_the_callers(tmp_path, monkeypatch):
     knows(monkeypatch, pitch=[2.0, 2.0])
     path = text(tmp_path, b"\x00\x01\x02")
-    found = read_measured(path, **SCALES)
-    np.testing.assert_allclose(found.profile.x, 2e-6 * np.arange(5))
-    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array([1, 4, 9, 2, 3]))
+    trace = read_measured(path, **SCALES)
+    np.testing.assert_allclose(trace.profile.x, 2e-6 * np.arange(5))
+    np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array([1, 4, 9, 2, 3]))
     assert refusal(path, MissingUnitError, x_scale=1.0).endswith("names no unit")
 
 
 def test_an_instruments_file_without_a_size_takes_the_callers_spacing(tmp_path, monkeypatch):
     knows(monkeypatch)
     path = text(tmp_path, b"\x00\x01\x02")
-    found = read_measured(path, spacing=5e-6, height_scale=1e-9)
-    np.testing.assert_allclose(found.profile.x, 5e-6 * np.arange(5))
+    trace = read_measured(path, spacing=5e-6, height_scale=1e-9)
+    np.testing.assert_allclose(trace.profile.x, 5e-6 * np.arange(5))
     assert refusal(path, MissingUnitError, **SCALES).endswith("does not give its size")
 
 

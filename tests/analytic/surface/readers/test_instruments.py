@@ -58,12 +58,12 @@ def test_x3p(tmp_path):
     heights = HEIGHTS.copy()
     heights[3, 2] = np.nan
     write_x3p(tmp_path / "map.x3p", heights)
-    found = read_instrument_file(tmp_path / "map.x3p")
-    assert found.is_map
-    np.testing.assert_allclose(found.heights, heights, rtol=1e-14)
-    np.testing.assert_allclose(found.pitch, (1.5e-6, 2.5e-6), rtol=1e-14)
-    assert found.unit == 1.0
-    assert found.format.startswith("x3p, by SurfaceTopography ")
+    field = read_instrument_file(tmp_path / "map.x3p")
+    assert field.is_map
+    np.testing.assert_allclose(field.heights, heights, rtol=1e-14)
+    np.testing.assert_allclose(field.pitch, (1.5e-6, 2.5e-6), rtol=1e-14)
+    assert field.unit == 1.0
+    assert field.format.startswith("x3p, by SurfaceTopography ")
 
 
 @needs_reader
@@ -71,10 +71,10 @@ def test_x3p(tmp_path):
 def test_text_of_a_map_with_its_size_and_unit(tmp_path):
     rows = "\n".join("\t".join(map(repr, row)) for row in (1e9 * HEIGHTS).tolist())
     (tmp_path / "map.asc").write_text(f"# Width: 14 um\n# Height: 10 um\n# Value units: nm\n{rows}")
-    found = read_instrument_file(tmp_path / "map.asc")
-    np.testing.assert_allclose(found.heights, HEIGHTS, rtol=1e-12)
-    np.testing.assert_allclose(found.pitch, (2e-6, 2e-6), rtol=1e-12)
-    assert found.unit == pytest.approx(1e-9)
+    field = read_instrument_file(tmp_path / "map.asc")
+    np.testing.assert_allclose(field.heights, HEIGHTS, rtol=1e-12)
+    np.testing.assert_allclose(field.pitch, (2e-6, 2e-6), rtol=1e-12)
+    assert field.unit == pytest.approx(1e-9)
 
 
 @needs_reader
@@ -86,10 +86,10 @@ def test_the_sizes_of_an_mi_file_are_in_metres(tmp_path):
     lines = "".join(f"{name:14}{value}\n" for name, value in head.items())
     counts = np.arange(64, dtype="<i2").reshape(8, 8)
     (tmp_path / "a.mi").write_bytes(f"{lines}data          BINARY\n".encode() + counts.tobytes())
-    found = read_instrument_file(tmp_path / "a.mi")
-    assert found.format == f"mi, by SurfaceTopography {metadata.version('SurfaceTopography')}"
-    assert found.pitch == pytest.approx((2.5e-6, 5e-6), rel=1e-12)
-    assert np.ptp(found.heights) == pytest.approx(63 / 32768 * 2e-6, rel=1e-12)
+    field = read_instrument_file(tmp_path / "a.mi")
+    assert field.format == f"mi, by SurfaceTopography {metadata.version('SurfaceTopography')}"
+    assert field.pitch == pytest.approx((2.5e-6, 5e-6), rel=1e-12)
+    assert np.ptp(field.heights) == pytest.approx(63 / 32768 * 2e-6, rel=1e-12)
 
 
 @needs_reader
@@ -104,9 +104,9 @@ def test_what_begins_like_mat_and_holds_nothing_is_of_no_format_that_is_known(tm
 @pytest.mark.usefixtures("one_reader")
 def test_files_without_size_and_unit_say_so(tmp_path):
     np.savetxt(tmp_path / "map.asc", HEIGHTS)
-    found = read_instrument_file(tmp_path / "map.asc")
-    assert (found.pitch, found.unit) == (None, None)
-    np.testing.assert_allclose(found.heights, HEIGHTS, rtol=1e-12)
+    field = read_instrument_file(tmp_path / "map.asc")
+    assert (field.pitch, field.unit) == (None, None)
+    np.testing.assert_allclose(field.heights, HEIGHTS, rtol=1e-12)
 
 
 @needs_reader
@@ -204,10 +204,10 @@ print(json.dumps({"format": "made", "version": "1", "pitch": None, "unit": %s, "
 def test_an_uneven_scan_comes_in_metres(tmp_path, monkeypatch):
     worker(monkeypatch, ANSWER % (1e-6, "um"))
     (tmp_path / "scan").write_bytes(b"\x00")
-    found = read_instrument_file(tmp_path / "scan")
-    np.testing.assert_allclose(found.heights, [1e-6, 4e-6, 9e-6])
-    np.testing.assert_allclose(found.x, [0.0, 2e-6, 3e-6])
-    assert (found.pitch, found.unit, found.format) == (None, 1e-6, "made, by SurfaceTopography 1")
+    trace = read_instrument_file(tmp_path / "scan")
+    np.testing.assert_allclose(trace.heights, [1e-6, 4e-6, 9e-6])
+    np.testing.assert_allclose(trace.x, [0.0, 2e-6, 3e-6])
+    assert (trace.pitch, trace.unit, trace.format) == (None, 1e-6, "made, by SurfaceTopography 1")
 
 
 def test_a_channel_that_is_no_height_is_refused(tmp_path, monkeypatch):
@@ -228,10 +228,10 @@ def test_an_archive_that_unpacks_to_too_much_is_not_unpacked(tmp_path, monkeypat
 
 def test_another_interpreter_may_have_a_newer_library(tmp_path, monkeypatch):
     python = tmp_path / "python"
-    found = {"format": "new", "version": "9", "pitch": [1, 1], "unit": 1e-6, "unit_name": "um"}
+    answer = {"format": "new", "version": "9", "pitch": [1, 1], "unit": 1e-6, "unit_name": "um"}
     (tmp_path / "worker.py").write_text(
         "import sys\nimport numpy\nnumpy.savez(sys.argv[2], heights=[1.0, 2.0])\n"
-        f"print({json.dumps(json.dumps(found))})\n"
+        f"print({json.dumps(json.dumps(answer))})\n"
     )
     lines = ["#!/bin/sh", "shift 2", f'exec {sys.executable} {tmp_path / "worker.py"} "$@"']
     python.write_text("\n".join(lines) + "\n")

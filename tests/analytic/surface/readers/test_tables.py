@@ -26,10 +26,10 @@ needs_spreadsheets = pytest.mark.skipif(
 
 def holds(path, height, **options):
     """The file's profile is that of X and these heights [um]."""
-    found = read_measured(path, **({} if "spacing" in options else UM) | options)
-    np.testing.assert_allclose(found.profile.x, 1e-6 * X, atol=1e-15)
-    np.testing.assert_allclose(found.profile.height, 1e-6 * height, atol=1e-12)
-    return found
+    trace = read_measured(path, **({} if "spacing" in options else UM) | options)
+    np.testing.assert_allclose(trace.profile.x, 1e-6 * X, atol=1e-15)
+    np.testing.assert_allclose(trace.profile.height, 1e-6 * height, atol=1e-12)
+    return trace
 
 
 def text(folder, head, *columns, end="\n"):
@@ -98,8 +98,8 @@ def test_an_instruments_file_may_be_packed(tmp_path):
     body = (tmp_path / "map.txt").read_text()
     head = "# Width: 20 µm\n# Height: 3 µm\n# Value units: µm\n"
     (tmp_path / "map.txt.gz").write_bytes(gzip.compress((head + body).encode()))
-    found = read_measured(tmp_path / "map.txt.gz", chosen=MapLine(row=0))
-    np.testing.assert_allclose(found.profile.height, 1e-6 * RAW, atol=1e-12)
+    trace = read_measured(tmp_path / "map.txt.gz", chosen=MapLine(row=0))
+    np.testing.assert_allclose(trace.profile.height, 1e-6 * RAW, atol=1e-12)
 
 
 def test_arrays_of_numpy(tmp_path):
@@ -113,9 +113,9 @@ def test_arrays_of_numpy(tmp_path):
     holds(tmp_path / "more.npz", LEVEL, columns=("x", "level"))
     assert "by names, of 'x', 'z', 'level'" in refusal(tmp_path / "more.npz", ColumnsError)
     np.save(tmp_path / "map.npy", np.outer(np.ones(40), RAW))
-    found = holds(tmp_path / "map.npy", RAW, spacing=0.5e-6, height_scale=1e-6,
+    trace = holds(tmp_path / "map.npy", RAW, spacing=0.5e-6, height_scale=1e-6,
                   chosen=MapLine(row=3))  # fmt: skip
-    assert found.format == "npy"
+    assert trace.format == "npy"
     assert "is npy, from whose header" in refusal(
         tmp_path / "both.npy", MissingUnitError, x_scale=None
     )
@@ -219,10 +219,10 @@ def test_prf(tmp_path):
     path = tmp_path / "trace.prf"
     rows = "\n".join(f"{1e6 * value:.0f}" for value in RAW)  # pm
     path.write_text(PRF.format(count="4.000000e+001", rows=rows))
-    found = read_measured(path)
-    np.testing.assert_allclose(found.profile.x, 1e-6 * X, atol=1e-15)
-    np.testing.assert_allclose(found.profile.height, 1e-6 * RAW, atol=1e-12)
-    assert found.format == "PRF"
+    trace = read_measured(path)
+    np.testing.assert_allclose(trace.profile.x, 1e-6 * X, atol=1e-15)
+    np.testing.assert_allclose(trace.profile.height, 1e-6 * RAW, atol=1e-12)
+    assert trace.format == "PRF"
     path.write_text(PRF.format(count="41", rows=rows))
     assert "is a damaged PRF file: it holds 40 heights of 41" in refusal(path)
     path.write_text(PRF.format(count="40", rows=rows).replace("UM", "YARD"))

@@ -16,7 +16,7 @@ Y, X = np.meshgrid(ACROSS * np.arange(ROWS), ALONG * np.arange(COLUMNS), indexin
 
 
 def of(heights: np.ndarray, **changes) -> Topography:
-    given = {
+    options = {
         "path": Path("map.sdf"),
         "heights": heights,
         "pitch": (ALONG, ACROSS),
@@ -24,7 +24,7 @@ def of(heights: np.ndarray, **changes) -> Topography:
         "unit": 1.0,
         "format": "made",
     }
-    return Topography(**(given | changes))
+    return Topography(**(options | changes))
 
 
 def line(x0, y0, x1, y1) -> MapLine:
@@ -171,11 +171,11 @@ TEXT = f"{HEADER}{HEIGHT_ROWS}*\n<xml>a trailer</xml>\n*"
 def binary(numbers: np.ndarray, kind: int, code: str, **changes) -> bytes:
     """A binary file: numbers (profiles, points) of a struct code."""
     profiles, points = numbers.shape
-    given = {"points": points, "profiles": profiles, "x": 1.5e-6, "y": 2.5e-6, "z": 1e-9} | changes
+    head = {"points": points, "profiles": profiles, "x": 1.5e-6, "y": 2.5e-6, "z": 1e-9} | changes
     header = b"bISO-1.0" + b"MAKER".ljust(10) + b"010120200000" * 2
-    header += struct.pack("<HH", given["points"], given["profiles"])
-    header += struct.pack("<dddd", given["x"], given["y"], given["z"], -1.0)
-    header += struct.pack("<BBB", given.get("compression", 0), kind, 0)
+    header += struct.pack("<HH", head["points"], head["profiles"])
+    header += struct.pack("<dddd", head["x"], head["y"], head["z"], -1.0)
+    header += struct.pack("<BBB", head.get("compression", 0), kind, 0)
     return header + struct.pack(f"<{numbers.size}{code}", *numbers.ravel().tolist())
 
 
@@ -185,10 +185,10 @@ def sdf(folder, content):
     return read_sdf(path)
 
 
-def check(found, wanted):
-    np.testing.assert_allclose(found.heights, 1e-9 * wanted, rtol=1e-7)
-    assert found.pitch == (1.5e-6, 2.5e-6)
-    assert (found.unit, found.x, found.format) == (1.0, None, "SDF (ISO 25178-71)")
+def check(field, wanted):
+    np.testing.assert_allclose(field.heights, 1e-9 * wanted, rtol=1e-7)
+    assert field.pitch == (1.5e-6, 2.5e-6)
+    assert (field.unit, field.x, field.format) == (1.0, None, "SDF (ISO 25178-71)")
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
@@ -223,9 +223,9 @@ def test_binary_whole_numbers(tmp_path, kind, code, lost):
 
 
 def test_a_single_profile_is_a_line_scan(tmp_path):
-    found = sdf(tmp_path, binary(HEIGHTS[:1], 7, "d"))
-    assert not found.is_map
-    check(found, HEIGHTS[0])
+    field = sdf(tmp_path, binary(HEIGHTS[:1], 7, "d"))
+    assert not field.is_map
+    check(field, HEIGHTS[0])
 
 
 def test_what_follows_a_binary_files_heights_does_not_matter(tmp_path):

@@ -37,19 +37,19 @@ def small(tmp_path_factory):
 
 class TestWholeStudy:
     def test_every_setting_is_a_row_measured_by_hertz(self, small):
-        found, _ = small
-        assert [r.method.name for r in found.rows] == ["hats, FFT"] * 3 + ["P2"] * 2
-        for each in found.rows:
-            assert each.status == OK and each.measured.repeats == 2
-            peak = each.measured.values[0]["peak_pressure"]
+        study, _ = small
+        assert [r.method.name for r in study.rows] == ["hats, FFT"] * 3 + ["P2"] * 2
+        for row in study.rows:
+            assert row.status == OK and row.measured.repeats == 2
+            peak = row.measured.values[0]["peak_pressure"]
             exact = abs(peak / HERTZ.peak_pressure - 1.0)
-            assert each.errors["peak_pressure"].value == pytest.approx(exact, rel=1e-6)
+            assert row.errors["peak_pressure"].value == pytest.approx(exact, rel=1e-6)
             assert 0.0 < exact < 2e-3
-        assert found.references["peak_pressure"].source == "exact (Hertz)"
+        assert study.references["peak_pressure"].source == "exact (Hertz)"
 
     def test_time_stages_and_memory(self, small):
-        found, _ = small
-        half_plane, finite = found.rows[:3], found.rows[3:]
+        study, _ = small
+        half_plane, finite = study.rows[:3], study.rows[3:]
         assert set(finite[0].measured.seconds) >= {"mesh", "assembly", "factorisation", "contact"}
         assert 0.0 < half_plane[-1].seconds(True) < finite[-1].seconds(True) < 5.0
         assert 2e7 < half_plane[-1].measured.memory < finite[-1].measured.memory
@@ -57,12 +57,12 @@ class TestWholeStudy:
     def test_the_recommendation_followed_meets_the_tolerance(self, small, tmp_path, monkeypatch):
         """By what `run` makes of it: at that level, and where it ends."""
         monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
-        found, _ = small
-        choice = found.recommendations[-1]
+        study, _ = small
+        choice = study.recommendations[-1]
         assert choice.quantity == "all" and choice.finite_element is not None
         for picked in (choice.half_plane, choice.finite_element):
             wanted = picked.method.model
-            sections = scene_sections(picked, found.problem)
+            sections = scene_sections(picked, study.problem)
             outcome = run(resolved(changed(SMOOTH, **sections)), tmp_path / wanted, (wanted,))
             level = outcome.runs[wanted].levels[sections["resolution"]["levels"] - 1]
             assert level.grid.pitch == pytest.approx(picked.setting, rel=1e-12)
@@ -72,37 +72,37 @@ class TestWholeStudy:
                 ("contact_length", 2.0 * HERTZ.half_width),
             ):
                 figure = outcome.figures.one(study="contact", quantity=name)
-                assert abs(figure.value / exact - 1.0) <= found.problem.scene.tolerances[name]
+                assert abs(figure.value / exact - 1.0) <= study.problem.scene.tolerances[name]
                 error = abs(reached[name] / exact - 1.0)
                 assert error == pytest.approx(picked.errors[name].value, rel=0.02, abs=1e-9)
-                assert error <= found.problem.scene.tolerances[name]
+                assert error <= study.problem.scene.tolerances[name]
 
     def test_files(self, small):
-        found, folder = small
+        study, folder = small
         assert {p.name for p in folder.iterdir()} == {"cost.json", "cost.html", FOLDER}
         content = json.loads((folder / "cost.json").read_text())
-        assert content == json.loads(json.dumps(content_of(found)))
+        assert content == json.loads(json.dumps(content_of(study)))
         assert len(content["rows"]) == 5 and content["machine"]["threads"] == 1
         last = content["recommendations"][-1]
         assert content["rows"][last["finite_element"]["row"]]["method"] == "P2"
         assert "peak_pressure" in content["rows"][0]["best_for"] + content["rows"][2]["best_for"]
 
     def test_page_needs_no_network_and_has_all_rows_and_sentences(self, small):
-        found, folder = small
+        study, folder = small
         page = unescape((folder / "cost.html").read_text())
         assert "http://" not in page and "https://" not in page and "<script" not in page
         assert page.count('<tr class="ok">') == 5
         assert page.count("data:image/svg+xml") == 3
-        for choice in found.recommendations:
+        for choice in study.recommendations:
             assert choice.sentence in page
         assert """finite_element = {element = "P2", growth = 0.""" in page
 
     def test_table(self, small):
         from rich.console import Console
 
-        found, _ = small
+        study, _ = small
         console = Console(width=140, record=True, file=io.StringIO())
-        console.print(cost_table(found))
+        console.print(cost_table(study))
         text = console.export_text()
         assert "For all tolerances of the scene take the half-plane (hats, FFT" in text
         assert "threads 1" in text and "exact (Hertz)" in text
@@ -110,21 +110,21 @@ class TestWholeStudy:
     def test_a_narrow_terminal_breaks_no_number(self, small):
         from rich.console import Console
 
-        found, _ = small
+        study, _ = small
         console = Console(width=80, record=True, file=io.StringIO())
-        console.print(cost_table(found))
+        console.print(cost_table(study))
         lines = console.export_text().splitlines()
         assert max(map(len, lines)) <= 80
         text = " ".join(" ".join(lines).split())
-        for each in found.rows:
-            for cell in cells(found, each, shown(found)):
+        for row in study.rows:
+            for cell in cells(study, row, shown(study)):
                 assert " ".join(cell.translate(PLAIN).split()) in text
 
     def test_what_to_write_into_a_scene_is_short(self, small):
         _, folder = small
         page = unescape((folder / "cost.html").read_text())
         pitches = re.findall(r"pitch = (\S+ \S+)", page)
-        assert pitches and all(re.fullmatch(r'"[0-9.]+ [um]?m",', each) for each in pitches)
+        assert pitches and all(re.fullmatch(r'"[0-9.]+ [um]?m",', text) for text in pitches)
 
 
 class TestCommand:
@@ -161,6 +161,6 @@ class TestCommand:
             "comparisons.campaigns.cost.cost.measured_study",
             lambda *a: small[0].rows,
         )
-        monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda found: "")
+        monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda study: "")
         cost(resolved(SMOOTH), tmp_path, 1)
         assert {p.name for p in tmp_path.iterdir()} == {"result.json", "cost.json", "cost.html"}

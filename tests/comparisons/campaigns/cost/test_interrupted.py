@@ -56,13 +56,13 @@ class Here:
 
 @pytest.fixture
 def here(monkeypatch) -> Here:
-    found = Here()
+    state = Here()
     monkeypatch.setattr(cost_methods, "HALF_PLANE_PITCHES", (2.0, 1.0, 0.5))
     monkeypatch.setattr(cost_methods, "FINITE_ELEMENT_PITCHES", (2.0,))
     monkeypatch.setattr(cost_measure, "ProcessWorker", None)
-    monkeypatch.setattr(cost_measure, "measure", found.measure)
-    monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda found: "")
-    return found
+    monkeypatch.setattr(cost_measure, "measure", state.measure)
+    monkeypatch.setattr("comparisons.campaigns.cost.cost.cost_page", lambda study: "")
+    return state
 
 
 @pytest.fixture(scope="module")
@@ -75,9 +75,9 @@ def measured() -> tuple[CostTask, MeasuredRun]:
 
 class TestStore:
     def test_settings_are_told_apart(self, measured, tmp_path):
-        task, found = measured
+        task, row = measured
         cache = cost_cache(tmp_path, task.problem.scene, 2)
-        cache.save(task.name, found)
+        cache.save(task.name, row)
         for other in ({"setting": 2e-5}, {"half_block": True}, {"method": METHODS[-1]}):
             assert cache.load(replace(task, **other).name) is None
         assert cache.load(replace(task, limit=7.0).name) is not None
@@ -90,14 +90,14 @@ class TestStore:
     def test_another_machine_or_version_measures_anew(
         self, measured, name, other, tmp_path, monkeypatch
     ):
-        task, found = measured
-        cost_cache(tmp_path, task.problem.scene, 2).save(task.name, found)
+        task, row = measured
+        cost_cache(tmp_path, task.problem.scene, 2).save(task.name, row)
         monkeypatch.setattr(cost_measure, name, lambda *places: other)
         assert cost_cache(tmp_path, task.problem.scene, 2).load(task.name) is None
 
     def test_so_does_another_scene_or_number_of_repeats(self, measured, tmp_path):
-        task, found = measured
-        cost_cache(tmp_path, task.problem.scene, 2).save(task.name, found)
+        task, row = measured
+        cost_cache(tmp_path, task.problem.scene, 2).save(task.name, row)
         other = resolved(changed(SMOOTH, load={"per_length": 3.5e6}))
         assert cost_cache(tmp_path, other, 2).load(task.name) is None
         assert cost_cache(tmp_path, task.problem.scene, 3).load(task.name) is None
@@ -112,10 +112,10 @@ class TestGoesOn:
         before = saved(out)
         assert len(before) == 2 and [path.name for path in out.iterdir()] == [FOLDER]
         here.stop_at = 0
-        found = cost(resolved(SMOOTH), out, 1, methods=SMALL)
+        study = cost(resolved(SMOOTH), out, 1, methods=SMALL)
         assert here.asked[2] == here.asked[3]  # what was stopped is asked again, nothing else
         assert len(set(here.asked)) == 4 == len(here.asked) - 1
-        assert before.items() <= saved(out).items() and len(found.rows) == 4
+        assert before.items() <= saved(out).items() and len(study.rows) == 4
 
     def test_a_finished_study_is_there_at_once(self, here, tmp_path):
         cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
@@ -138,8 +138,8 @@ class TestGoesOn:
             path.unlink()
         monkeypatch.setattr(cost_measure, "measure", failing)
         for _ in range(2):
-            found = cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
-            assert found.rows[-1].because == "MeshError: no mesh"
+            study = cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
+            assert study.rows[-1].because == "MeshError: no mesh"
         assert tried == ["P2", "P2"]
 
     def test_the_load_of_an_approach_is_sought_once(self, tmp_path, monkeypatch):
@@ -149,14 +149,14 @@ class TestGoesOn:
             "load": {"approach": 2e-6},
             "resolution": {"pitch": 2e-5},
         }
-        given = resolved(tables)
-        first = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
+        scene = resolved(tables)
+        first = _problem(scene, cost_cache(tmp_path, scene, 1), no_progress)
         monkeypatch.setattr("comparisons.campaigns.cost.cost._load_of_approach", None)
-        again = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
+        again = _problem(scene, cost_cache(tmp_path, scene, 1), no_progress)
         assert again.hertz.load_per_length == first.hertz.load_per_length
         assert (
             first.hertz.load_per_length
-            == problem_of_approach(given, no_progress).constraints().load
+            == problem_of_approach(scene, no_progress).constraints().load
         )
 
 

@@ -75,8 +75,8 @@ class TestMethods:
         errors = []
         for part in (1.0, 0.125):
             task = CostTask(made, BY_NAME[f"{element}, FFT"], part * made.pitches[0])
-            found = measure(task).values[0]
-            errors.append([abs(found[name] / value - 1.0) for name, value in exact.items()])
+            values = measure(task).values[0]
+            errors.append([abs(values[name] / value - 1.0) for name, value in exact.items()])
         assert np.all(np.array(errors[0]) < [1e-3, 1.5e-2, 1e-3])
         assert np.all(np.array(errors[1]) < np.array(errors[0]) / 4.0)
 
@@ -102,24 +102,24 @@ def study():
 class TestReference:
     def test_of_a_rough_half_plane_is_its_finest_with_its_uncertainty(self, study):
         made, rows = study
-        found = references(made, rows, None)
+        known = references(made, rows, None)
         last = rows[-1]
-        for name, reference in found.items():
+        for name, reference in known.items():
             assert reference.row is last and reference.source.startswith("hats, FFT at ")
             assert 0.0 < reference.floors[name] < 0.05, name
         finer = measure(CostTask(made, FINEST, 0.25 * last.setting))
         for name in ("peak_pressure", "contact_length"):
-            true = error_of(finer, name, found[name])
-            assert true <= found[name].floors[name]
+            true = error_of(finer, name, known[name])
+            assert true <= known[name].floors[name]
 
     def test_errors_fall_towards_it(self, study):
         made, rows = study
-        found = assess(made, rows)
+        costs = assess(made, rows)
         for name in ("peak_pressure", "pressure_l2"):
-            *errors, last = (each.errors.get(name) for each in found.rows)
+            *errors, last = (row.errors.get(name) for row in costs.rows)
             assert last is None
             assert errors[0].value > 3.0 * errors[2].value > 0.0
-        texts = cells(found, found.rows[-1], shown(found))
+        texts = cells(costs, costs.rows[-1], shown(costs))
         assert texts[-1] == "reference"
 
     def test_two_rows_have_no_uncertainty(self, study):
@@ -144,12 +144,12 @@ class TestMeasure:
 
     def test_the_first_solution_does_not_count(self, calls):
         for pitch, solutions in ((1e-5, 4), (5e-6, 7)):
-            found = measure(CostTask(problem(SMOOTH), FINEST, pitch, repeats=3, limit=60.0))
-            assert (len(calls), found.repeats) == (solutions, 3)
+            cost = measure(CostTask(problem(SMOOTH), FINEST, pitch, repeats=3, limit=60.0))
+            assert (len(calls), cost.repeats) == (solutions, 3)
 
     def test_no_more_than_fit_and_at_least_one(self, calls):
-        found = measure(CostTask(problem(SMOOTH), FINEST, 1e-5, repeats=3, limit=0.0))
-        assert (len(calls), found.repeats) == (2, 1)
+        cost = measure(CostTask(problem(SMOOTH), FINEST, 1e-5, repeats=3, limit=0.0))
+        assert (len(calls), cost.repeats) == (2, 1)
 
     def test_what_goes_wrong_is_stated(self, monkeypatch):
         def solved(*arguments, **more):

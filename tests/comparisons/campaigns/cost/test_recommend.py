@@ -66,8 +66,8 @@ def assessed(*rows, tolerance=0.01, floor=0.0):
 
 
 def chosen(rows, tolerance=0.01, floor=0.0):
-    [found] = recommendations(rows, {"peak_pressure": floor}, {"peak_pressure": tolerance})
-    return found
+    [choice] = recommendations(rows, {"peak_pressure": floor}, {"peak_pressure": tolerance})
+    return choice
 
 
 class TestRows:
@@ -88,8 +88,8 @@ class TestRows:
 
     def rows(self, *answers, name="P2", left=1e9):
         process = self.Process(*answers)
-        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, process, no_progress)
-        return found, process
+        series = _series(BY_NAME[name], problem(SMOOTH), 3, left, process, no_progress)
+        return series, process
 
     def test_refused_and_failed(self):
         good = row("P2", 1.0, 1.0, 0.0).measured
@@ -97,40 +97,40 @@ class TestRows:
         wild = replace(good, level=unsolved)
         refused = RefusedError(SKIPPED, "budget.memory")
         failed = RefusedError(FAILED, "MeshError: no mesh")
-        found, _ = self.rows(good, failed, wild, refused)
-        assert [r.status for r in found] == [OK, FAILED, FAILED, SKIPPED]
-        assert found[1].because == "MeshError: no mesh" and found[2].because == "did not converge"
-        assert found[2].measured is wild
+        series, _ = self.rows(good, failed, wild, refused)
+        assert [r.status for r in series] == [OK, FAILED, FAILED, SKIPPED]
+        assert series[1].because == "MeshError: no mesh" and series[2].because == "did not converge"
+        assert series[2].measured is wild
 
     def test_a_lost_process_is_a_failure_and_the_finer_settings_are_skipped(self):
         good = row("P2", 1.0, 1.0, 0.0).measured
-        found, process = self.rows(good, ProcessEnded())
-        assert [r.status for r in found] == [OK, FAILED, SKIPPED, SKIPPED]
+        series, process = self.rows(good, ProcessEnded())
+        assert [r.status for r in series] == [OK, FAILED, SKIPPED, SKIPPED]
         assert len(process.tasks) == 2
 
     def test_what_would_not_end_in_time_is_skipped(self):
         """After a second the next one takes 3.5, and there are 3 left."""
-        found, process = self.rows(row("P2", 1.0, 1.0, 0.0).measured, left=4.0)
-        assert [r.status for r in found] == [OK, SKIPPED, SKIPPED, SKIPPED]
-        assert "budget.time" in found[1].because and process.tasks[0].limit <= 1.0
+        series, process = self.rows(row("P2", 1.0, 1.0, 0.0).measured, left=4.0)
+        assert [r.status for r in series] == [OK, SKIPPED, SKIPPED, SKIPPED]
+        assert "budget.time" in series[1].because and process.tasks[0].limit <= 1.0
 
     def test_files_and_table_have_them(self, monkeypatch):
         rows = [row("P2", 1e-5, 1.0, 1e-4), row("P2", 5e-6, 1.0, 1e-4, status=FAILED)]
         rows += [CostRow(BY_NAME["P1"], None, SKIPPED, "does not apply")]
-        found = assess(problem(SMOOTH), rows)
-        names = shown(found)
-        texts = [cells(found, each, names) for each in found.rows]
+        study = assess(problem(SMOOTH), rows)
+        names = shown(study)
+        texts = [cells(study, entry, names) for entry in study.rows]
         assert texts[1][-1].endswith("failed") and "skipped" in texts[2]
-        assert refusals(found) == ["P2 5.00 µm failed: why", "P1 skipped: does not apply"]
+        assert refusals(study) == ["P2 5.00 µm failed: why", "P1 skipped: does not apply"]
         monkeypatch.setattr(
             "comparisons.campaigns.cost.show.cost_picture", lambda *a: Picture("data:,", "", "")
         )
-        page = cost_page(found)
+        page = cost_page(study)
         assert all(f'<tr class="{status}">' in page for status in (OK, FAILED, SKIPPED))
-        content = content_of(found)
+        content = content_of(study)
         assert [r["status"] for r in content["rows"]] == [OK, FAILED, SKIPPED]
-        assert all(each not in front for front in found.fronts.values() for each in found.rows[1:])
-        assert notes_of(found)
+        assert all(one not in front for front in study.fronts.values() for one in study.rows[1:])
+        assert notes_of(study)
 
     def test_no_reference_is_an_error_of_the_scene(self):
         wave = {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6}
@@ -150,8 +150,8 @@ class TestRecommendation:
             row("P3", 2.0, 0.1, 0.0, status=FAILED),
         )
         front = pareto(rows, "peak_pressure", floor=1e-3)
-        assert [each.setting for each in front] == [4.0, 4.0, 2.0, 4.0]
-        assert [each.method.name for each in front] == ["P1", "P2", "P1", "P3"]
+        assert [entry.setting for entry in front] == [4.0, 4.0, 2.0, 4.0]
+        assert [entry.method.name for entry in front] == ["P1", "P2", "P1", "P3"]
 
     def test_below_the_floor_nothing_is_closer(self):
         rows = assessed(row("P2", 2.0, 1.0, 5e-4), row("P3", 2.0, 2.0, 1e-6))

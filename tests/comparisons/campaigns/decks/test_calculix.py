@@ -114,8 +114,8 @@ def test_calculix_agrees_with_the_finite_elements(name, tmp_path):
         row = rows[quantity]
         assert abs(row.value) <= row.numerical
         assert row.verdict != "differ"
-    found = rows["peak_pressure"].verdict
-    assert found == ("agree" if name in RESOLVED else "inconclusive")
+    verdict = rows["peak_pressure"].verdict
+    assert verdict == ("agree" if name in RESOLVED else "inconclusive")
 
 
 def test_a_deck_of_another_modulus_differs(tmp_path):
@@ -137,12 +137,12 @@ def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
     read = tomllib.loads((tmp_path / "1/answer.toml").read_text())
     files = [str(tmp_path / str(level) / read["file"]) for level in (1, 2)]
     answers = {"calculix": read | {"file": files}}
-    found = crosscheck.run(tables | {"answers": answers}, "half-plane")
-    rows = differences(found.figures)
+    run = crosscheck.run(tables | {"answers": answers}, "half-plane")
+    rows = differences(run.figures)
     for quantity in ("peak_pressure", "contact_length", "tau1_max"):
         assert abs(rows[quantity].value) <= rows[quantity].numerical < 0.1
     assert rows["peak_pressure"].verdict == "agree"
-    assert abs(found.figure("load_balance", "calculix", "answers").value) < 2e-3
+    assert abs(run.figure("load_balance", "calculix", "answers").value) < 2e-3
 
 
 def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):

@@ -32,17 +32,17 @@ def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
     text = (folder / "job.inp").read_text()
     for name in re.findall(r"\*INCLUDE, INPUT=(\S+)", text):
         text = text.replace(f"*INCLUDE, INPUT={name}\n", (folder / name).read_text())
-    found = []
+    cards = []
     for line in text.splitlines():
         if line.startswith("**"):
             continue
         if line.startswith("*"):
-            keyword, *given = [part.strip() for part in line[1:].split(",")]
-            parameters = dict((*part.split("="), "")[:2] for part in given)
-            found.append((keyword, parameters, []))
+            keyword, *settings = [part.strip() for part in line[1:].split(",")]
+            parameters = dict((*part.split("="), "")[:2] for part in settings)
+            cards.append((keyword, parameters, []))
         elif line.strip():
-            found[-1][2].append([part.strip() for part in line.split(",")])
-    return found
+            cards[-1][2].append([part.strip() for part in line.split(",")])
+    return cards
 
 
 @pytest.mark.parametrize("code", ["calculix", "abaqus"])
@@ -50,25 +50,25 @@ def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
 def test_a_deck_is_complete(tmp_path, scene, code):
     resolved = scene_of(scene)
     deck = write_deck(resolved, code, tmp_path)
-    found = blocks(tmp_path)
-    assert {keyword for keyword, *_ in found} <= KNOWN | (CALCULIX if code == "calculix" else set())
+    cards = blocks(tmp_path)
+    assert {keyword for keyword, *_ in cards} <= KNOWN | (CALCULIX if code == "calculix" else set())
     nodes, elements, sets, surfaces, materials = {}, {}, {}, {}, set()
-    for keyword, given, data in found:
+    for keyword, options, data in cards:
         if keyword == "NODE":
             nodes |= {int(n): (float(x), float(y)) for n, x, y in data}
-            sets[given["NSET"]] = [int(row[0]) for row in data]
+            sets[options["NSET"]] = [int(row[0]) for row in data]
         elif keyword == "ELEMENT":
-            assert given["TYPE"] == "CPE6"
+            assert options["TYPE"] == "CPE6"
             elements |= {int(e): list(map(int, row)) for e, *row in data}
-            sets[given["ELSET"]] = [int(row[0]) for row in data]
+            sets[options["ELSET"]] = [int(row[0]) for row in data]
         elif keyword == "NSET":
-            sets[given["NSET"]] = [int(n) for row in data for n in row]
+            sets[options["NSET"]] = [int(n) for row in data for n in row]
         elif keyword == "SURFACE":
-            surfaces[given["NAME"]] = [(int(e), int(face[1])) for e, face in data]
+            surfaces[options["NAME"]] = [(int(e), int(face[1])) for e, face in data]
         elif keyword == "MATERIAL":
-            materials.add(given["NAME"])
+            materials.add(options["NAME"])
         elif keyword == "SOLID SECTION":
-            assert given["ELSET"] in sets and given["MATERIAL"] in materials
+            assert options["ELSET"] in sets and options["MATERIAL"] in materials
         elif keyword == "BOUNDARY":
             assert all(row[0] in sets for row in data)
         elif keyword == "CONTACT PAIR":
@@ -86,12 +86,12 @@ def test_a_deck_is_complete(tmp_path, scene, code):
     for name, faces in surfaces.items():
         on = {elements[e][k] for e, face in faces for k in (face - 1, face % 3, face + 2)}
         assert on == set(sets[f"{name}_NODES"])
-    (load,) = {row[2] for keyword, _, data in found if keyword == "CLOAD" for row in data}
+    (load,) = {row[2] for keyword, _, data in cards if keyword == "CLOAD" for row in data}
     assert float(load) == pytest.approx(-1e-3 * scenes_load(resolved))
-    steps = [keyword for keyword, *_ in found].count("STEP")
+    steps = [keyword for keyword, *_ in cards].count("STEP")
     slides = [mu for mu in resolved.load.friction if mu]
     assert steps == 1 + len(slides) + (code == "abaqus" or deck.finite)
-    finite = {bool(given.get("NLGEOM")) for keyword, given, _ in found if keyword == "STEP"}
+    finite = {bool(options.get("NLGEOM")) for keyword, options, _ in cards if keyword == "STEP"}
     assert finite == {deck.finite}
     answer = tomllib.loads((tmp_path / "answer.toml").read_text())
     assert answer["units"] == {"length": "mm", "stress": "MPa"}
@@ -103,16 +103,16 @@ def test_a_roller_that_friction_holds_is_let_go_along_x(tmp_path, code):
     slip = {"loads": [0.5, -0.25]}
     tables = scenes.changed(scenes.SMOOTH, load={"friction": [0.1, 0.3]}) | {"partial_slip": slip}
     write_deck(scenes.resolved(tables), code, tmp_path)
-    found = blocks(tmp_path)
-    tied = [data[1][1] for keyword, _, data in found if keyword == "EQUATION"]
+    cards = blocks(tmp_path)
+    tied = [data[1][1] for keyword, _, data in cards if keyword == "EQUATION"]
     assert tied.count("1") == tied.count("2") > 0
-    loads = [float(r[2]) for word, _, data in found if word == "CLOAD" for r in data if r[1] == "1"]
+    loads = [float(r[2]) for word, _, data in cards if word == "CLOAD" for r in data if r[1] == "1"]
     limit = 0.3e-3 * scenes_load(scenes.resolved(tables))
     assert loads == pytest.approx([0.5 * limit, -0.25 * limit])
-    *_, pressed, first, last = (data for word, _, data in found if word == "BOUNDARY")
+    *_, pressed, first, last = (data for word, _, data in cards if word == "BOUNDARY")
     assert ["REFERENCE", "1", "1"] in pressed
     assert first == last == [["ROUGH_HELD_X", "1", "1"], ["ROUGH_HELD_Y", "2", "2"]]
-    [friction] = [data for keyword, _, data in found if keyword == "FRICTION"]
+    [friction] = [data for keyword, _, data in cards if keyword == "FRICTION"]
     assert float(friction[0][0]) == 0.3
 
 

@@ -97,8 +97,8 @@ def test_a_shipped_profile_makes_a_scene_that_loads_as_it_was_read(path, tmp_pat
     assert surface.info.path.samefile(path)
     assert made.profile.fields == {"x_unit": "um", "z_unit": "um", "form": "line"}
     assert all("x_um,height_um" in made.profile.reasons[name] for name in ("x_unit", "z_unit"))
-    given = np.loadtxt(path, delimiter=",", skiprows=3)
-    np.testing.assert_allclose(surface.info.trace.height, 1e-6 * given[:, 1], rtol=1e-12)
+    columns = np.loadtxt(path, delimiter=",", skiprows=3)
+    np.testing.assert_allclose(surface.info.trace.height, 1e-6 * columns[:, 1], rtol=1e-12)
 
 
 @pytest.mark.parametrize("content", FILES.values(), ids=FILES)
@@ -291,11 +291,11 @@ def test_what_is_asked_for_is_not_guessed(folder):
 def test_json(folder, capsys):
     (folder / "trace.csv").write_bytes(FILES["commas under named columns"])
     assert main(["init", "trace.csv", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["scene"] == "trace.toml"
-    assert found["profile"]["samples"] == 801
-    assert found["fields"] == {"x_unit": "um", "z_unit": "um", "form": "line"}
-    assert found["surface"]["pressed"]["rq"] == pytest.approx(RMS, rel=0.02)
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["scene"] == "trace.toml"
+    assert answer["profile"]["samples"] == 801
+    assert answer["fields"] == {"x_unit": "um", "z_unit": "um", "form": "line"}
+    assert answer["surface"]["pressed"]["rq"] == pytest.approx(RMS, rel=0.02)
 
 
 @pytest.mark.parametrize(

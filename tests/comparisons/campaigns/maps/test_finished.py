@@ -26,9 +26,9 @@ def asked_for(name: str):
     content = finished_map(name)
     program, command, scene, *options = shlex.split(content["command"])
     assert (program, command) == ("crosscheck", "map")
-    given = dict(zip(options[::2], options[1::2], strict=True))
-    assert given.keys() == {"--points", "--x", "--y", "--quantity"}
-    return request_of(scene, **{name.removeprefix("--"): value for name, value in given.items()})
+    values = dict(zip(options[::2], options[1::2], strict=True))
+    assert values.keys() == {"--points", "--x", "--y", "--quantity"}
+    return request_of(scene, **{name.removeprefix("--"): value for name, value in values.items()})
 
 
 @pytest.fixture(params=NAMES)
@@ -37,9 +37,9 @@ def finished(request) -> tuple[str, dict]:
 
 
 def test_each_map_has_its_scene_and_picture():
-    found = {path.name for path in FINISHED.iterdir()}
-    assert {name for name in found if name.endswith(".json")} == {f"{n}.json" for n in NAMES}
-    assert found >= {f"{name}.{end}" for name in NAMES for end in ("toml", "svg")}
+    files = {path.name for path in FINISHED.iterdir()}
+    assert {name for name in files if name.endswith(".json")} == {f"{n}.json" for n in NAMES}
+    assert files >= {f"{name}.{end}" for name in NAMES for end in ("toml", "svg")}
 
 
 def test_the_command_asks_for_the_same_points(finished):

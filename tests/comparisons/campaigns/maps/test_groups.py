@@ -80,14 +80,14 @@ class TestGroups:
         for slope in (None, 0.03):
             asked = values | ({} if slope is None else {"rms_slope": slope})
             problem = set_to(tables, **asked)
-            given = problem.tables["profile"]
+            section = problem.tables["profile"]
             name = "wavelength" if kind == "sinusoid" else "shortest_wavelength"
-            length = given.get(name, 4.0 * given["length"] / (given.get("samples", 2) - 1))
+            length = section.get(name, 4.0 * section["length"] / (section.get("samples", 2) - 1))
             assert length / problem.hertz.half_width == pytest.approx(0.5)
             if slope is None:  # a likeness
                 slope = surface_of(Scene.of(tables)).info.roughness.rms_slope
-            found = problem.surface.info.roughness.rms_slope
-            assert found == pytest.approx(slope, rel=0.02 if kind == "sinusoid" else 1e-9)
+            measured = problem.surface.info.roughness.rms_slope
+            assert measured == pytest.approx(slope, rel=0.02 if kind == "sinusoid" else 1e-9)
             assert problem.scene.finite_element.geometry == "rough"
             assert problem.scene.finite_element.gap == "displaced"
 
@@ -141,7 +141,7 @@ class TestAxes:
         assert counts_of("3x12") == (3, 12)
 
     @pytest.mark.parametrize(
-        ("given", "what"),
+        ("text", "what"),
         [
             ("a_over_thicknes", "--x: there is no group a_over_thicknes; the nearest is a_over_th"),
             ("rms_slope=0.2:0.1", "--x: the range is 0.2:0.1"),
@@ -150,11 +150,11 @@ class TestAxes:
             ("rms_slope=1", "--x: is 'rms_slope=1'"),
         ],
     )
-    def test_wrong_axes(self, given, what):
+    def test_wrong_axes(self, text, what):
         with pytest.raises(InputError, match=f"^{what}"):
-            axis_of(given, 3, "--x")
+            axis_of(text, 3, "--x")
 
-    @pytest.mark.parametrize("given", ["3", "1x3", "3x201", "x", "3x-2"])
-    def test_wrong_points(self, given):
+    @pytest.mark.parametrize("text", ["3", "1x3", "3x201", "x", "3x-2"])
+    def test_wrong_points(self, text):
         with pytest.raises(InputError, match=r"^--points: is"):
-            counts_of(given)
+            counts_of(text)

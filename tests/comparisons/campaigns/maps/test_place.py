@@ -72,8 +72,8 @@ def test_between_two_points_it_is_straight_on_the_scale():
     content = finished_map("curvature-thickness")
     error = differences(content, "peak_pressure")
     x = [10.0 ** np.mean(places(content["x"])[2:4]), content["y"]["values"][5]]
-    found = interpolated(content, "peak_pressure", *x)
-    assert found == pytest.approx(unscaled(np.mean(scaled(error[5, 2:4]))))
+    error_there = interpolated(content, "peak_pressure", *x)
+    assert error_there == pytest.approx(unscaled(np.mean(scaled(error[5, 2:4]))))
 
 
 def test_smooth_scenes_take_the_map_of_what_they_have():
@@ -92,13 +92,13 @@ def test_scenes_with_heat_take_its_maps_beside():
     heat = Scene.read("frictional-heat").tables["heat"]
     slab = Scene.read("smooth").tables["body"] | {"thickness": 4e-4}
     for base, name in (("held", "peclet-thickness"), ("insulated", "peclet-insulated")):
-        given = {"body": slab, "heat": heat | {"base": base, "speed": 0.02}}
+        tables = {"body": slab, "heat": heat | {"base": base, "speed": 0.02}}
         load = Scene.read("smooth").tables["load"] | {"friction": [0.1]}
-        found = {p.name: p for p in places_of(problem("smooth", **given, load=load))}
-        assert found.keys() == {"curvature-thickness", "peclet-radius", name}
-        error = found[name].errors["flash_temperature"]
-        assert (error > 0.0) == (base == "held") and "flash temperature" in found[name].text
-    rolling = given | {"heat": given["heat"] | {"slide_to_roll": 0.1}}
+        beside = {p.name: p for p in places_of(problem("smooth", **tables, load=load))}
+        assert beside.keys() == {"curvature-thickness", "peclet-radius", name}
+        error = beside[name].errors["flash_temperature"]
+        assert (error > 0.0) == (base == "held") and "flash temperature" in beside[name].text
+    rolling = tables | {"heat": tables["heat"] | {"slide_to_roll": 0.1}}
     names = {place.name for place in places_of(problem("smooth", **rolling, load=load))}
     assert names == {"curvature-thickness"}
 

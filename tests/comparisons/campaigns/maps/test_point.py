@@ -32,9 +32,9 @@ def found_at(scene: Scene, quantity: str = "peak_pressure") -> dict:
 
 
 def solved(scene: Scene) -> dict:
-    found = found_at(scene)
-    assert found["status"] == SOLVED, found
-    return found["quantities"]
+    point = found_at(scene)
+    assert point["status"] == SOLVED, point
+    return point["quantities"]
 
 
 class TestModelError:
@@ -56,13 +56,13 @@ class TestModelError:
         smooth = 2.0 * np.sqrt(case.load / np.pi)  # a/t
         nu = 0.3 if case.poissons_ratio is None else case.poissons_ratio
         body = RIGID["body"] | {"poissons_ratio": nu, "thickness": 1.0, "base": case.base}
-        found = solved(scene_with(Scene.of(RIGID | {"body": body}), {"a_over_thickness": smooth}))
+        errors = solved(scene_with(Scene.of(RIGID | {"body": body}), {"a_over_thickness": smooth}))
         exact = {
             "peak_pressure": 0.5 * smooth / case.peak_pressure - 1.0,
             "contact_length": smooth / case.half_width - 1.0,
         }
         for name, most in (("peak_pressure", 2e-4), ("contact_length", 4e-3)):
-            error = found[name]
+            error = errors[name]
             assert abs(error["difference"] - exact[name]) <= error["uncertainty"] <= most
             assert abs(exact[name]) > error["uncertainty"]
 
@@ -95,9 +95,9 @@ class TestModelError:
         tables = RIGID | {"heat": HEAT, "load": RIGID["load"] | {"friction": [0.1]}}
         tables |= {"coating": coating} if "coating_over_a" in groups else {}
         tables["heat"] = HEAT | (COATED_HEAT if "coating_over_a" in groups else {})
-        found = found_at(scene_with(Scene.of(tables), groups), "flash_temperature")
-        assert found["status"] == SOLVED, found
-        error = found["quantities"]["flash_temperature"]
+        point = found_at(scene_with(Scene.of(tables), groups), "flash_temperature")
+        assert point["status"] == SOLVED, point
+        error = point["quantities"]["flash_temperature"]
         step, ring = 1.0 / 256, 2**18
         x = step * (np.arange(ring) - ring // 4)  # half-widths
         wave = 2.0 * np.pi * np.fft.rfftfreq(ring, step)
@@ -124,7 +124,7 @@ class TestModelError:
         exact = largest(half_space) / largest(whole) - 1.0
         assert abs(error["difference"] - exact) <= error["uncertainty"] + 1e-3
         assert error["uncertainty"] < 0.05 * abs(exact)
-        assert set(found["quantities"]) == set(HEAT_QUANTITIES)
+        assert set(point["quantities"]) == set(HEAT_QUANTITIES)
 
     @pytest.mark.parametrize(
         ("difference", "uncertainty", "expected"),
@@ -139,6 +139,6 @@ class TestModelError:
         assert is_open(error) is expected
 
     def test_what_cannot_be_solved_is_an_answer(self):
-        found = found_at(scene_with(Scene.of(RIGID), {"a_over_width": 1.0}))
-        assert found["status"] == FAILED
-        assert "reaches the end of the body" in found["why"]
+        point = found_at(scene_with(Scene.of(RIGID), {"a_over_width": 1.0}))
+        assert point["status"] == FAILED
+        assert "reaches the end of the body" in point["why"]

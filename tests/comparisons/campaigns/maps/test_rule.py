@@ -166,10 +166,10 @@ class TestPicture:
     @pytest.mark.parametrize("sign", [1.0, -1.0])
     def test_lines_are_where_the_error_is_the_tolerance(self, smooth_map, sign):
         axes = self.drawn(smooth_map(lambda x, y: sign * 0.01 * x / 0.2))
-        found = [
+        places = [
             path.vertices[:, 0].mean() for line in axes.collections for path in line.get_paths()
         ]
-        assert np.allclose(10.0 ** np.array(sorted(found)), [0.2, 0.4, 1.0, 2.0], rtol=0.02)
+        assert np.allclose(10.0 ** np.array(sorted(places)), [0.2, 0.4, 1.0, 2.0], rtol=0.02)
 
     @pytest.mark.parametrize(("largest", "count"), [(0.009, None), (0.03, 2), (0.2, 4)])
     def test_the_legend_names_the_lines_that_are_drawn(self, smooth_map, largest, count):
@@ -194,5 +194,5 @@ class TestPicture:
 )
 def test_an_error_is_held_against_its_uncertainty(difference, uncertainty, kind):
     error = {"difference": difference, "uncertainty": uncertainty}
-    found = {"status": SOLVED, "quantities": {"peak_pressure": error}}
-    assert significance(found, "peak_pressure") == {"error": kind}
+    point = {"status": SOLVED, "quantities": {"peak_pressure": error}}
+    assert significance(point, "peak_pressure") == {"error": kind}

@@ -29,11 +29,11 @@ def judged() -> dict[str, JudgedClaim]:
 
 
 def test_outcomes_are_those_of_the_numbers():
-    denied = {key for key, each in judged().items() if each.outcome == DENIED}
+    denied = {key for key, claim in judged().items() if claim.outcome == DENIED}
     assert denied == {"rough-constant", "penetration-coefficient"} | {
         f"seireg-{name}" for name in ("bottom", "fifteen", "partition")
     }
-    assert {each.outcome for each in judged().values()} == {CONFIRMED, DENIED}
+    assert {claim.outcome for claim in judged().values()} == {CONFIRMED, DENIED}
     assert len(judged()) == 13
 
 
@@ -43,7 +43,7 @@ def test_heat_against_reference_values():
     fifteen = judged()["seireg-fifteen"]
     exact = float(reference["bottom_deviation_at_15_tL_exact"])
     assert fifteen.numbers[THEORY].value == pytest.approx(exact, rel=1e-12)
-    mean, short, _ = (each[THEORY] for each in fifteen.besides.values())
+    mean, short, _ = (row[THEORY] for row in fifteen.besides.values())
     assert mean == pytest.approx(float(reference["mean_deviation_at_15_tL_exact"]), rel=1e-10)
     exact = float(reference["bottom_deviation_at_15_tL_seed_formula"])
     assert short == pytest.approx(exact, rel=1e-12)
@@ -71,10 +71,10 @@ def test_sets_b_and_c_have_the_same_bearing():
 def test_every_direction_of_the_third_conclusion_is_the_other_one():
     """More pressure, and so less area, by roughness, by fewer and by sharper asperities."""
     base = {"density": 500e6, "radius": 0.2e-3, "deviation": 0.5e-6}
-    own = book.real_pressure(Summits(**base), 10.0)
+    pressure = book.real_pressure(Summits(**base), 10.0)
     for name, factor in (("deviation", 1.5), ("density", 0.7), ("radius", 0.7)):
         rougher = Summits(**base | {name: factor * base[name]})
-        assert book.real_pressure(rougher, 10.0) > 1.02 * own
+        assert book.real_pressure(rougher, 10.0) > 1.02 * pressure
 
 
 def test_light_and_heavy_loads_bracket_the_reference():

@@ -44,25 +44,25 @@ def test_placements_keep_the_contact_on_the_trace():
 
 
 def test_each_point_is_the_scene_with_its_values():
-    found = crosscheck.sweep(WAVES, ["position=2", "load=0.5 GPa,1 GPa"], workers=1)
-    assert len(found.content["points"]) == 4
-    place, load = found.content["points"][1]["values"]
+    swept = crosscheck.sweep(WAVES, ["position=2", "load=0.5 GPa,1 GPa"], workers=1)
+    assert len(swept.content["points"]) == 4
+    place, load = swept.content["points"][1]["values"]
     alone = WAVES | {"load": {"hertz_peak_pressure": load, "position": place, "friction": [0.0]}}
     there = crosscheck.run(alone, "half-plane").rows
     expected = {row["quantity"]: row["half_plane"] for row in there}
-    rows = [r for r in found.rows if (r["load.position"], r["load.hertz_peak_pressure"])
+    rows = [r for r in swept.rows if (r["load.position"], r["load.hertz_peak_pressure"])
             == (place, load)]  # fmt: skip
     assert {row["quantity"]: row["half_plane"] for row in rows} == expected
-    assert "4 scenes (2 of load.position x 2 of load.hertz_peak_pressure), 0 failed" in repr(found)
+    assert "4 scenes (2 of load.position x 2 of load.hertz_peak_pressure), 0 failed" in repr(swept)
 
 
 def test_the_scatter_is_that_of_the_values():
-    found = crosscheck.sweep(WAVES, "friction=0:0.2:2", workers=1)
-    assert [each["friction"] for each in found.content["scatter"]] == [None] * 3
+    swept = crosscheck.sweep(WAVES, "friction=0:0.2:2", workers=1)
+    assert [row["friction"] for row in swept.content["scatter"]] == [None] * 3
     values = np.array([1.0, 2.0, 6.0])
     rows = [[{"quantity": "peak_pressure", "friction": 0.0, "half_plane": v,
               "finite_element": None, "model_error": None}] for v in values]  # fmt: skip
-    [one] = scatter([{"rows": each} for each in rows], over_friction=False)
+    [one] = scatter([{"rows": part} for part in rows], over_friction=False)
     assert (one["count"], one["mean"], one["smallest"], one["largest"]) == (3, 3.0, 1.0, 6.0)
     assert one["standard_deviation"] == pytest.approx(np.sqrt((4.0 + 1.0 + 9.0) / 2.0))
 
@@ -70,8 +70,8 @@ def test_the_scatter_is_that_of_the_values():
 def test_pressure_follows_the_root_of_the_load():
     """Hertz's law along a sweep of the load, both ends with their units."""
     smooth = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6}}
-    found = crosscheck.sweep(smooth, "load=0.5 kN/mm:2 kN/mm:4", workers=1)
-    peaks = [r["half_plane"] for r in found.rows if r["quantity"] == "peak_pressure"]
+    swept = crosscheck.sweep(smooth, "load=0.5 kN/mm:2 kN/mm:4", workers=1)
+    peaks = [r["half_plane"] for r in swept.rows if r["quantity"] == "peak_pressure"]
     assert np.diff(np.log(peaks)) == pytest.approx(
         0.5 * np.diff(np.log([0.5, 1, 1.5, 2])), abs=1e-4
     )
@@ -103,9 +103,9 @@ def made(tmp_path_factory):
     ],
 )
 def test_pictures_have_a_unit_an_axis_all_words_inside_and_a_band_for_samples(over, label, band):
-    found = crosscheck.sweep(WAVES | {"title": "Waves"}, over, workers=1)
+    swept = crosscheck.sweep(WAVES | {"title": "Waves"}, over, workers=1)
     with style.drawing():
-        figure = sweep_figure(found.content)
+        figure = sweep_figure(swept.content)
         figure.draw_without_rendering()
     assert figure.axes[-1].get_xlabel() == label
     assert band or figure.axes[0].lines[0].get_xdata()[-1] == (1.0 if len(over) == 1 else 0.0)
@@ -115,7 +115,7 @@ def test_pictures_have_a_unit_an_axis_all_words_inside_and_a_band_for_samples(ov
         box = word.get_window_extent()
         assert box.width == 0.0 or (box.x0 >= 0.0 and box.x1 <= figure.bbox.x1 and box.y0 >= 0.0)
     assert all(bool(axes.patches) == band for axes in figure.axes)
-    assert ("mean" in repr(found)) == (len(over) == 1 and band)
+    assert ("mean" in repr(swept)) == (len(over) == 1 and band)
     assert len(figure.legends) == (len(over) == 2)
 
 
@@ -184,16 +184,16 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
         assert main([*asked, "--over", "profile.wavelength=20 um,45 um"]) == 0
         assert "quiescent_zone.svg" in capsys.readouterr().out
     points = json.loads((out / "sweep.json").read_text())["points"]
-    found = [p["quiescent_zone"]["half_plane"] for p in points]
-    statuses = [[entry["status"] for entry in entries] for entries in found]
+    zones = [p["quiescent_zone"]["half_plane"] for p in points]
+    statuses = [[entry["status"] for entry in entries] for entries in zones]
     assert statuses == [["quiescent", "bridged"], ["bridged", "bridged"]]
-    assert all(0 <= entry["bridged"] <= entry["asperities"] for e in found for entry in e)
+    assert all(0 <= entry["bridged"] <= entry["asperities"] for e in zones for entry in e)
     content = json.loads((out / "sweep.json").read_text())
     with style.drawing():
         axes = zone_map_figure(content).axes
-    shown = [[text.get_text() for text in each.texts] for each in axes]
-    assert shown == [[f"{e[k]['level']['value']:.2f}" for e in found] for k in (0, 1)]
-    assert [each.get_title(loc="left") for each in axes] == [
+    shown = [[text.get_text() for text in panel.texts] for panel in axes]
+    assert shown == [[f"{e[k]['level']['value']:.2f}" for e in zones] for k in (0, 1)]
+    assert [panel.get_title(loc="left") for panel in axes] == [
         "friction 0, half-plane",
         "friction 0.3, half-plane",
     ]
@@ -240,27 +240,27 @@ def test_a_named_scene_is_changed_anywhere(tmp_path, monkeypatch):
 def test_stresses_as_arrays():
     tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6},
               "stress": {"points": [21, 8], "depth": 1.0}}  # fmt: skip
-    found = crosscheck.run(tables, "half-plane")
-    arrays = found.stress()
+    run = crosscheck.run(tables, "half-plane")
+    arrays = run.stress()
     shape = (*arrays["z"].shape, *arrays["x"].shape)
     assert len(shape) == 2 and arrays["z"][0] == 0.0 and np.all(np.diff(arrays["z"]) > 0.0)
     assert all(arrays[name].shape == shape for name in ("sx", "sz", "txz", "tau1"))
     middle = shape[1] // 2  # the pressure, in compression, under the roller's middle
-    assert arrays["sz"][0, middle] == pytest.approx(-found.contact()["pressure"].max(), rel=0.01)
+    assert arrays["sz"][0, middle] == pytest.approx(-run.contact()["pressure"].max(), rel=0.01)
     radius = np.hypot(0.5 * (arrays["sx"] - arrays["sz"]), arrays["txz"])
     assert arrays["tau1"] == pytest.approx(radius)
     with pytest.raises(InputError, match="at friction 0"):
-        found.stress(friction=0.3)
+        run.stress(friction=0.3)
     with pytest.raises(InputError, match="model: is whole"):
-        found.stress("whole")
+        run.stress("whole")
 
 
 def test_figures_of_further_studies_are_swept():
     """What sticks of a smooth contact falls with the load as Cattaneo and Mindlin have it."""
     tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "partial_slip": {"load": 0.5}}
     tables["load"] = {"per_length": 1e6, "friction": [0.3]}
-    found = crosscheck.sweep(tables, "partial_slip.load=0.19,0.51,0.84", workers=1)
-    lengths = [row["half_plane"] for row in found.rows if row["quantity"] == "stick_length"]
+    swept = crosscheck.sweep(tables, "partial_slip.load=0.19,0.51,0.84", workers=1)
+    lengths = [row["half_plane"] for row in swept.rows if row["quantity"] == "stick_length"]
     half_width = problem_of(scene_of(tables)).hertz.half_width
     assert lengths == pytest.approx(np.array([1.8, 1.4, 0.8]) * half_width, rel=2e-3)
-    assert "length that sticks" in repr(found)
+    assert "length that sticks" in repr(swept)

@@ -45,8 +45,8 @@ def scene(**sections):
     return resolved(changed(SMOOTH, **sections))
 
 
-def checked(given) -> ComplianceCheck:
-    problem = problem_of(given)
+def checked(case) -> ComplianceCheck:
+    problem = problem_of(case)
     plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[0])
     asked = LevelOptions(check=True)
     level = finite_element_level(problem, plan, refinement, None, Stages(), options=asked)
@@ -93,10 +93,10 @@ class Softer:
     """A half-plane softer by a tenth, with a datum of its own, in place of finite elements."""
 
     def __init__(self, grid: HatGrid, modulus: float) -> None:
-        self.own = HalfPlane(grid.count, grid.pitch, modulus / 1.1, datum=1.0)
+        self.half_plane = HalfPlane(grid.count, grid.pitch, modulus / 1.1, datum=1.0)
 
     def apply_all(self, pressures: np.ndarray) -> np.ndarray:
-        return np.stack([self.own.apply(pressure) for pressure in pressures.T], axis=1)
+        return np.stack([self.half_plane.apply(pressure) for pressure in pressures.T], axis=1)
 
 
 def test_a_known_difference_is_told_exactly_whatever_the_datum():
@@ -104,23 +104,23 @@ def test_a_known_difference_is_told_exactly_whatever_the_datum():
     grid = problem.grid(problem.pitches[0])
     model = HalfPlane(grid.count, grid.pitch, problem.modulus)
     ranges = HALF_WIDTH * np.array([[-0.9, -0.2], [0.0, 0.8]])
-    found = operator_check(problem, Softer(grid, problem.modulus), model, grid, ranges)
-    for column in found.nearest.columns:
+    check = operator_check(problem, Softer(grid, problem.modulus), model, grid, ranges)
+    for column in check.nearest.columns:
         assert column.difference == pytest.approx(0.1, rel=1e-9)
         assert 0.01 < column.beyond < column.difference
         assert np.any((ranges[:, 0] < column.x) & (column.x < ranges[:, 1]))
-    waves = found.nearest.waves
+    waves = check.nearest.waves
     assert [wave.elements for wave in waves][:2] == [4.0, 8.0] and len(waves) == 5
     assert [wave.difference for wave in waves] == pytest.approx([0.1] * 5, rel=1e-9)
     assert waves[-1].length == pytest.approx(1.7 * HALF_WIDTH, rel=0.1)
-    assert found.verdict == "modulus" and not found.datum and found.half_plane is None
+    assert check.verdict == "modulus" and not check.datum and check.half_plane is None
 
 
 class TestScenes:
     """Figures of right meshes and bodies, on the coarsest level."""
 
     @pytest.mark.parametrize(
-        ("given", "shortest", "beyond"),
+        ("case", "shortest", "beyond"),
         [
             (scene(), 0.05, 1e-3),
             (scene(profile=SINUSOID), 0.05, 1e-3),
@@ -131,45 +131,45 @@ class TestScenes:
             (Scene.read("yielding"), 0.05, 1e-3),
         ],
     )
-    def test_mesh_and_body_are_right(self, given, shortest, beyond):
-        found = checked(given.unchecked({"finite_element.plastic": False}))
-        assert found.verdict == "neither"
-        waves = [wave.difference for wave in found.nearest.waves]
+    def test_mesh_and_body_are_right(self, case, shortest, beyond):
+        check = checked(case.unchecked({"finite_element.plastic": False}))
+        assert check.verdict == "neither"
+        waves = [wave.difference for wave in check.nearest.waves]
         assert -shortest < waves[0] < waves[1] < waves[2] < 0.0 and abs(waves[-1]) < 5e-3
-        assert max(column.beyond for column in found.nearest.columns) < beyond
-        assert found.half_plane is None and found.finite == ()
+        assert max(column.beyond for column in check.nearest.columns) < beyond
+        assert check.half_plane is None and check.finite == ()
 
     @pytest.mark.parametrize(
-        ("given", "finite", "datum", "column", "wave"),
+        ("case", "finite", "datum", "column", "wave"),
         [
             (scene(body={"thickness": HALF_WIDTH}), "thickness", True, 0.42, -0.22),
             (scene(body={"thickness": 1e-3}, roller=ELASTIC), "thickness", False, 0.047, -0.039),
             (Scene.read("coated"), "coating", False, 0.05, -0.22),
         ],
     )
-    def test_what_a_finite_body_does_is_told_apart(self, given, finite, datum, column, wave):
-        found = checked(given)
-        assert (found.verdict, found.finite, found.datum) == ("neither", (finite,), datum)
-        assert max(each.difference for each in found.nearest.columns) < 0.02
-        assert max(abs(each.difference) for each in found.nearest.waves) < 0.05
-        half_plane = found.half_plane
+    def test_what_a_finite_body_does_is_told_apart(self, case, finite, datum, column, wave):
+        check = checked(case)
+        assert (check.verdict, check.finite, check.datum) == ("neither", (finite,), datum)
+        assert max(row.difference for row in check.nearest.columns) < 0.02
+        assert max(abs(row.difference) for row in check.nearest.waves) < 0.05
+        half_plane = check.half_plane
         assert max(c.difference for c in half_plane.columns) == pytest.approx(column, rel=0.3)
-        worst = max((each.difference for each in half_plane.waves), key=abs)
+        worst = max((row.difference for row in half_plane.waves), key=abs)
         assert worst == pytest.approx(wave, rel=0.3)
 
     @pytest.mark.parametrize(
-        ("given", "count"),
+        ("case", "count"),
         [
             (scene(profile=SINUSOID, finite_element={"geometry": "rough"}), 2),
             (scene(finite_element={"gap": "displaced"}), 1),
             (scene(body={"width": 20 * HALF_WIDTH, "thickness": 10 * HALF_WIDTH}), 1),
         ],
     )
-    def test_geometry_of_its_own(self, given, count):
-        found = checked(given)
-        assert found.verdict == "geometry" and len(found.not_modelled) == count
+    def test_geometry_of_its_own(self, case, count):
+        check = checked(case)
+        assert check.verdict == "geometry" and len(check.not_modelled) == count
         # a roller's normal leans by up to a/R; the sides are ten half-widths away
-        assert 5e-3 < max(column.beyond for column in found.nearest.columns) < 0.03
+        assert 5e-3 < max(column.beyond for column in check.nearest.columns) < 0.03
 
     def test_a_body_that_slides_bears_no_pressure_that_leans(self):
         body = {"thickness": 1e-3, "width": 4e-3, "base": "frictionless"}
@@ -192,10 +192,10 @@ class TestSpoilt:
             return elastic_body(mesh, stiffer, support, **options)
 
         monkeypatch.setattr(finite_element_bodies, "elastic_body", wrong)
-        given = scene(body={"poissons_ratio": poissons_ratio}, finite_element={"element": "P2"})
-        found = checked(given)
-        assert found.verdict == "modulus"
-        assert found.nearest.waves[-1].difference == pytest.approx(1.0 / part - 1.0, abs=6e-3)
+        case = scene(body={"poissons_ratio": poissons_ratio}, finite_element={"element": "P2"})
+        check = checked(case)
+        assert check.verdict == "modulus"
+        assert check.nearest.waves[-1].difference == pytest.approx(1.0 / part - 1.0, abs=6e-3)
 
     def test_a_wrong_modulus_of_a_layer(self, monkeypatch):
         def wrong(mesh, material, support, **options):
@@ -206,11 +206,11 @@ class TestSpoilt:
         assert checked(scene(body={"thickness": HALF_WIDTH})).verdict == "modulus"
 
     @pytest.mark.parametrize(
-        "given", [scene(), scene(body={"thickness": HALF_WIDTH}), scene(profile=SINUSOID)]
+        "case", [scene(), scene(body={"thickness": HALF_WIDTH}), scene(profile=SINUSOID)]
     )
-    def test_edges_of_four_pressure_elements(self, given, monkeypatch):
+    def test_edges_of_four_pressure_elements(self, case, monkeypatch):
         monkeypatch.setattr(finite_element_mesh, "EDGES_PER_HAT", 0.25)
-        assert checked(given).verdict == "mesh"
+        assert checked(case).verdict == "mesh"
 
     @pytest.mark.parametrize("poissons_ratio", [0.3, 0.4999])
     def test_linear_elements(self, poissons_ratio):
@@ -220,9 +220,9 @@ class TestSpoilt:
     @pytest.mark.parametrize("profile", [None, SINUSOID])
     def test_a_small_block(self, profile):
         sections = {} if profile is None else {"profile": profile}
-        found = checked(scene(finite_element={"block": 10.0}, **sections))
-        assert found.verdict == "block"
-        assert abs(found.nearest.waves[-1].difference) < 5e-3
+        check = checked(scene(finite_element={"block": 10.0}, **sections))
+        assert check.verdict == "block"
+        assert abs(check.nearest.waves[-1].difference) < 5e-3
 
 
 def test_columns_at_once_are_columns_one_by_one():

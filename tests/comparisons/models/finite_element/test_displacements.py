@@ -77,8 +77,8 @@ def test_a_rigid_motion_reaches_every_node_and_strains_nothing(degree, coating):
     hats = np.linspace(-1e-3, 1e-3, 11)
     pressure, frictions = np.zeros(9), (0.0, 0.1)
     ends = EndStress(hats[1:-1], pressure, ())
-    given = mesh, Material(2e11, 0.3), coating, degree, moved, hats, pressure, frictions, ends
-    field = RecoverableField(*given).recovered
+    field_of = mesh, Material(2e11, 0.3), coating, degree, moved, hats, pressure, frictions, ends
+    field = RecoverableField(*field_of).recovered
     assert len(field.points) == len(mesh.points) + (0 if coating is None else 17)
     x, z = field.points.T
     turned = np.column_stack([1e-6 + 1e-3 * z, 2e-6 - 1e-3 * x])

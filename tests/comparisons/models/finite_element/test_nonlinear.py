@@ -34,13 +34,13 @@ def pressed(problem, shift: float):
     grid = problem.grid(problem.pitches[0])
     alone = np.where(np.arange(len(grid.x)) == len(grid.x) // 2, 1.0, 0.0)
     linear = SimpleNamespace(pressure=alone)
-    found = SimpleNamespace(pressure=np.ones(len(grid.x)))
+    finite = SimpleNamespace(pressure=np.ones(len(grid.x)))
     profile = problem.surface.profile
     if profile is not None:
         end = profile.x[-1] - grid.x[-1] - shift
         surface = replace(problem.surface, profile=profile.shifted(end))
         problem = replace(problem, surface=surface)
-    with patch.object(finite_element_nonlinear, "finite_contact", return_value=found):
+    with patch.object(finite_element_nonlinear, "finite_contact", return_value=finite):
         return pressed_finitely(problem, WHOLE, grid, linear, problem.constraints(), None)
 
 
@@ -76,7 +76,7 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller):
     def level():
         return finite_element_level(posed, plan, refinement, None, Stages()).solution
 
-    found = level()
+    led = level()
     with patch.object(finite_element_nonlinear, "solve_with_model", side_effect=FemError):
         other = level()
     with (
@@ -85,16 +85,16 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller):
         patch.object(finite_element_level_module, "START_TOLERANCE", 1e-9),
     ):
         settled = level()
-    assert found.iterations["linear_steps"] < settled.iterations["linear_steps"]
-    assert found.iterations["corrections"] < 0.8 * settled.iterations["corrections"]
+    assert led.iterations["linear_steps"] < settled.iterations["linear_steps"]
+    assert led.iterations["corrections"] < 0.8 * settled.iterations["corrections"]
     peak = settled.pressure.max()
-    np.testing.assert_allclose(found.pressure, settled.pressure, atol=1e-5 * peak)
-    assert found.iterations["newton_steps"] == 0 < found.iterations["corrections"]
+    np.testing.assert_allclose(led.pressure, settled.pressure, atol=1e-5 * peak)
+    assert led.iterations["newton_steps"] == 0 < led.iterations["corrections"]
     assert other.iterations["corrections"] == 0 < other.iterations["newton_steps"]
-    assert found.converged and other.converged
+    assert led.converged and other.converged
     scale = other.pressure.max()
-    np.testing.assert_allclose(found.pressure, other.pressure, atol=1e-5 * scale)
-    assert found.approach == pytest.approx(other.approach, rel=1e-6)
+    np.testing.assert_allclose(led.pressure, other.pressure, atol=1e-5 * scale)
+    assert led.approach == pytest.approx(other.approach, rel=1e-6)
 
 
 def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():

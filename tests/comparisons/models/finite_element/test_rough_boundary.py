@@ -117,9 +117,9 @@ def test_friction_coefficients_and_rollers_share_rough_bodies_and_profiles_do_no
     higher = replace(one.surface.profile, height=1.5 * one.surface.profile.height)
     third = replace(one, surface=replace(one.surface, profile=higher))
     held, patches, rough = BodyCache(), np.array([one.extent]), []
-    for each in (one, other, third):
-        plan, refinement = make_plan(each, ("finite_element",)), Refinement(each.pitches[0])
-        rough.append(bodies_of(each, plan, refinement, patches, Stages(), held).rough)
+    for posed in (one, other, third):
+        plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
+        rough.append(bodies_of(posed, plan, refinement, patches, Stages(), held).rough)
     assert rough[1] is rough[0] and rough[2] is not rough[0]
     assert rough[2].points[:, 1].min() < 1.4 * rough[0].points[:, 1].min() < 0.0
 

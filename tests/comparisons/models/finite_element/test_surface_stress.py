@@ -38,9 +38,9 @@ def runs():
 def test_the_largest_shear_is_friction_times_the_peak_pressure(runs, model, most):
     """Exact (Johnson 1985, section 7.1); hats alone are 1 to 5 % too high."""
     for level in runs[model].levels:
-        found = level.stress(FRICTION).extremes["tau1"]
-        assert found.value == pytest.approx(FRICTION * 1e9, rel=most)
-        assert found.z == pytest.approx(0.0, abs=1e-3 * level.grid.pitch)
+        largest = level.stress(FRICTION).extremes["tau1"]
+        assert largest.value == pytest.approx(FRICTION * 1e9, rel=most)
+        assert largest.z == pytest.approx(0.0, abs=1e-3 * level.grid.pitch)
 
 
 def test_both_fields_have_the_curve_next_to_the_ends(runs):
@@ -57,24 +57,24 @@ def test_both_fields_have_the_curve_next_to_the_ends(runs):
 
 def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
     """Without stresses at all points of the mesh, too; what is found goes to other processes."""
-    posed, found = problem(TABLES), []
+    posed, pairs = problem(TABLES), []
     plan = make_plan(posed, ("finite_element",))
 
     def both(pressed, frictions, window, asperities, _):
         known = replace(pressed, on_mesh=None)
         ways = (pressed, False), (pressed, True), (known, True)
-        given = frictions, window, asperities
-        results = (stresses_of(body, *given, fields) for body, fields in ways)
-        found.append([pickle.loads(pickle.dumps(each)) for each in results])
+        asked = frictions, window, asperities
+        results = (stresses_of(body, *asked, fields) for body, fields in ways)
+        pairs.append([pickle.loads(pickle.dumps(result)) for result in results])
         return (), None
 
     with patch("comparisons.models.finite_element.level.stresses_of", both):
         refined(unsolved(posed, plan), Tasks())
-    for ((without,), nothing), (_, later), ((all_known,), at_once) in found:
+    for ((without,), nothing), (_, later), ((all_known,), at_once) in pairs:
         assert nothing is None
         for part in ("sx", "sz", "txz"):
             there, expected = (
-                getattr(each.stresses[FRICTION], part) for each in (later.recovered, at_once)
+                getattr(result.stresses[FRICTION], part) for result in (later.recovered, at_once)
             )
             np.testing.assert_allclose(there, expected, rtol=1e-9, atol=1e-3)
         for name, most in all_known.extremes.items():

@@ -81,8 +81,8 @@ def test_pair(pair):
     assert solution.converged
     assert solution.load == pytest.approx(posed.hertz.load_per_length, rel=1e-6)
     assert 0.5 < solution.pressure.max() / posed.hertz.peak_pressure < 2.5
-    found = [solution.pressure, solution.gap, level.displacement, level.patches]
+    arrays = [solution.pressure, solution.gap, level.displacement, level.patches]
     for stress in level.field_on_mesh.stresses.values():
-        found += [stress.sx, stress.sz, stress.txz]
-    found += [*level.field_on_mesh.others.values(), level.field_on_mesh.poissons_ratio]
-    assert all(np.isfinite(values).all() for values in found)
+        arrays += [stress.sx, stress.sz, stress.txz]
+    arrays += [*level.field_on_mesh.others.values(), level.field_on_mesh.poissons_ratio]
+    assert all(np.isfinite(values).all() for values in arrays)

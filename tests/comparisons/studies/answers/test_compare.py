@@ -83,19 +83,19 @@ def test_several_resolutions_state_an_uncertainty(answered, curve):
     outcome = answered({"file": [stretched(by) for by in (0.02, 0.08, 0.04)]})
     spacing = [answer.spacing for answer in outcome.data("answers").answers["other"]]
     assert spacing == sorted(spacing, reverse=True)
-    found = row(outcome, "contact_length")
-    assert found.value == pytest.approx(0.02, abs=2e-3)
-    assert found.uncertainty.parts["own"] == pytest.approx(1.25 * 0.02, rel=0.1)
-    assert found.verdict == "inconclusive"
+    length = row(outcome, "contact_length")
+    assert length.value == pytest.approx(0.02, abs=2e-3)
+    assert length.uncertainty.parts["own"] == pytest.approx(1.25 * 0.02, rel=0.1)
+    assert length.verdict == "inconclusive"
 
 
 def test_measured_data_have_their_validation_comparison(answered, curve):
     outcome = answered(curve(p=lambda p: 0.95 * p, scatter=0.04))
     rows = table(outcome, VALIDATION)
-    [found] = [row for row in rows if row["quantity"] == "peak_pressure"]
-    assert found["E"] == pytest.approx(1.0 / 0.95 - 1.0, abs=1e-3)
-    assert found["u_D"] == 0.04 and found["u_input"] is None
-    assert found["u_val"] == pytest.approx(np.hypot(found["u_num"], 0.04))
+    [peak] = [row for row in rows if row["quantity"] == "peak_pressure"]
+    assert peak["E"] == pytest.approx(1.0 / 0.95 - 1.0, abs=1e-3)
+    assert peak["u_D"] == 0.04 and peak["u_input"] is None
+    assert peak["u_val"] == pytest.approx(np.hypot(peak["u_num"], 0.04))
     assert own_uncertainty(outcome, "peak_pressure") == pytest.approx(0.038, abs=1e-3)
     assert row(outcome, "peak_pressure").verdict == "inconclusive"  # 5 +- 3.8 against 2 %
 
@@ -105,8 +105,8 @@ def test_files_table_and_repetition_follow(answered, curve, tmp_path, undrawn):
     outcome = answered(section, out=tmp_path / "out")
     figures = read_result(tmp_path / "out/result.json").figures
     wanted = {"source": "other", "quantity": "peak_pressure", "against": "half_plane"}
-    given = figures.one(study="answers", **wanted)
-    assert given.verdict == "differ" and given.friction == 0.0
+    figure = figures.one(study="answers", **wanted)
+    assert figure.verdict == "differ" and figure.friction == 0.0
     record = json.loads((tmp_path / "out/record.json").read_text())
     [answer] = outcome.data("answers").answers["other"]
     assert record["hashes"]["answer_other"] == [answer.sha256]
@@ -129,6 +129,6 @@ def test_edges_are_found_between_points():
     """Of a smooth edge, to a small part of the spacing."""
     for offset in np.linspace(0.0, 0.9, 4):
         x = 0.05 * (np.arange(-30, 31) + offset)
-        found = Answer("f", "0", x, np.sqrt(np.maximum(1.0 - x**2, 0.0)))
-        assert found.patches == pytest.approx(np.array([[-1.0, 1.0]]), abs=0.05 * 0.05)
-        assert found.load == pytest.approx(np.pi / 2.0, rel=5e-3)
+        answer = Answer("f", "0", x, np.sqrt(np.maximum(1.0 - x**2, 0.0)))
+        assert answer.patches == pytest.approx(np.array([[-1.0, 1.0]]), abs=0.05 * 0.05)
+        assert answer.load == pytest.approx(np.pi / 2.0, rel=5e-3)

@@ -13,10 +13,10 @@ def hints(outcome):
 
 
 def test_a_tenth_of_a_half_width_aside(answered, curve, hertz):
-    found = hints(answered(curve(x=lambda x: x + 0.1 * hertz.half_width)))
-    assert set(found) == {"shift"}
-    assert found["shift"]["text"] == "shifted by 0.1 a explains it"
-    assert found["shift"]["value"] == pytest.approx(0.1 * hertz.half_width, rel=2e-3)
+    hint = hints(answered(curve(x=lambda x: x + 0.1 * hertz.half_width)))
+    assert set(hint) == {"shift"}
+    assert hint["shift"]["text"] == "shifted by 0.1 a explains it"
+    assert hint["shift"]["value"] == pytest.approx(0.1 * hertz.half_width, rel=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -35,8 +35,8 @@ def test_units_signs_and_factors(answered, curve, change, kinds):
 
 @pytest.mark.parametrize(("load", "radius"), [(0.5, 1.0), (1.0, 2.0)])
 def test_another_load_and_the_diameter_for_the_radius(answered, curve, hertz, load, radius):
-    given = load * hertz.load_per_length, radius * QUICK["roller"]["radius"]
-    contact = hertz_from_load(*given, hertz.combined_modulus)
+    changed = load * hertz.load_per_length, radius * QUICK["roller"]["radius"]
+    contact = hertz_from_load(*changed, hertz.combined_modulus)
     [(kind, hint)] = hints(answered(curve(contact=contact))).items()
     assert hint["value"] == load * radius
     assert kind == ("load" if load < 1.0 else "radius")
@@ -55,19 +55,19 @@ def test_a_mirrored_answer(answered, curve, hertz):
     """On a contact that is not its own mirror image: a wave off the middle."""
     wave = {"kind": "sinusoid", "wavelength": "300 um", "amplitude": "0.1 um"}
     changed = {"profile": wave, "load": QUICK["load"] | {"position": "70 um"}}
-    own = answered(curve(), **changed).runs["half_plane"].finest
+    ours = answered(curve(), **changed).runs["half_plane"].finest
 
     def mirrored(pressure):
         x = 1.2 * hertz.half_width * np.linspace(-1.0, 1.0, len(pressure))
-        return np.interp(-x, own.grid.x, own.solution.pressure)
+        return np.interp(-x, ours.grid.x, ours.solution.pressure)
 
     assert set(hints(answered(curve(p=mirrored, points=4001), **changed))) == {"mirrored"}
 
 
 def test_another_contact_is_said_to_be_one(answered, curve):
     """Many narrow contacts in place of one."""
-    found = hints(answered(curve(p=lambda p: p * (np.arange(len(p)) % 100 < 20))))
-    assert set(found) == {"unexplained"}
+    hint = hints(answered(curve(p=lambda p: p * (np.arange(len(p)) % 100 < 20))))
+    assert set(hint) == {"unexplained"}
 
 
 def test_three_per_cent_more_have_no_explanation(answered, curve):

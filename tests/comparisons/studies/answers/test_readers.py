@@ -92,12 +92,12 @@ def tensor(stress, vertical="y", sign=1.0):
     return np.column_stack([stress.sx, zero, stress.sz, zero, zero, -sign * stress.txz])
 
 
-def holds(found, hertz, near=0.02):
-    peak = found.on(np.zeros(1))[0]
+def holds(answer, hertz, near=0.02):
+    peak = answer.on(np.zeros(1))[0]
     assert peak == pytest.approx(hertz.peak_pressure, rel=near)
-    assert found.load == pytest.approx(hertz.load_per_length, rel=max(near, 0.01))
-    assert found.stress.extremes["tau1"].value == pytest.approx(hertz.tau1_max, rel=near)
-    assert found.stress.depth == pytest.approx(hertz.tau1_max_depth, rel=0.1)
+    assert answer.load == pytest.approx(hertz.load_per_length, rel=max(near, 0.01))
+    assert answer.stress.extremes["tau1"].value == pytest.approx(hertz.tau1_max, rel=near)
+    assert answer.stress.depth == pytest.approx(hertz.tau1_max_depth, rel=0.1)
 
 
 @pytest.mark.parametrize("up", ["y", "-y", "z", "-z"])
@@ -108,10 +108,10 @@ def test_any_axis_may_point_out_of_the_body(hertz, tmp_path, up):
     columns = [x, -sign * z, zero] if up[-1] == "y" else [x, zero, -sign * z]
     stress = tensor(exact(mesh, hertz), up[-1], sign)
     section = vtu(tmp_path / "a.vtu", np.column_stack(columns), mesh.triangles, stress)
-    for given in (section, section | {"up": up}):
-        found = read(given)
-        holds(found, hertz, near=2e-3)
-        shown = found.stress.field
+    for variant in (section, section | {"up": up}):
+        answer = read(variant)
+        holds(answer, hertz, near=2e-3)
+        shown = answer.stress.field
         right = shown.txz[:, shown.txz.shape[1] * 3 // 4]
         known = exact(mesh, hertz).txz[(x > 0.0) & (z > 0.1 * hertz.half_width)]
         assert np.sign(np.nansum(right)) == np.sign(known.sum())
@@ -122,10 +122,10 @@ def test_friction_keeps_its_direction(hertz, tmp_path):
     mesh = block(hertz)
     stress = tensor(exact(mesh, hertz, 0.2))
     section = vtu(tmp_path / "a.vtu", upright(mesh), mesh.triangles, stress)
-    found = read(section, load=QUICK["load"] | {"friction": 0.2})
-    middle = found.stress.field.txz.shape[1] // 2
+    answer = read(section, load=QUICK["load"] | {"friction": 0.2})
+    middle = answer.stress.field.txz.shape[1] // 2
     expected = hertz_stress(hertz, np.zeros(1), np.full(1, 1e-9), 0.2).txz
-    assert found.stress.field.txz[0, middle] == pytest.approx(expected[0], rel=0.02)
+    assert answer.stress.field.txz[0, middle] == pytest.approx(expected[0], rel=0.02)
 
 
 def test_the_roller_in_the_same_file_is_left_out(hertz, tmp_path):
@@ -168,7 +168,7 @@ def solved_by_calculix(hertz, tmp_path_factory):
 
     def solved(flag):
         folder = tmp_path_factory.mktemp("ccx")
-        steps = (STEP.format(flag=flag, loads="\n".join(each)) for each in (halves, loads))
+        steps = (STEP.format(flag=flag, loads="\n".join(lines)) for lines in (halves, loads))
         (folder / "job.inp").write_text(DECK.format(**content) + "".join(steps))
         subprocess.run(["ccx", "job"], cwd=folder, check=True, capture_output=True, timeout=120)
         return folder / "job.frd"
@@ -180,9 +180,9 @@ def solved_by_calculix(hertz, tmp_path_factory):
 def test_a_result_of_calculix(solved_by_calculix, hertz, flag):
     """In its plane, or as the layer of wedges that it solves on; the last of two steps."""
     path = solved_by_calculix(flag)
-    given = {"file": str(path), "units": {"length": "mm", "stress": "MPa"}}
-    holds(read(given), hertz, near=0.05)  # the body is 18 half-widths deep
-    half = read(given | {"step": 0})
+    section = {"file": str(path), "units": {"length": "mm", "stress": "MPa"}}
+    holds(read(section), hertz, near=0.05)  # the body is 18 half-widths deep
+    half = read(section | {"step": 0})
     assert half.load == pytest.approx(0.5 * hertz.load_per_length, rel=0.03)
 
 

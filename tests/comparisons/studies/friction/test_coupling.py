@@ -60,9 +60,9 @@ def half_plane_of(problem) -> ModelRun:
     return ModelRun("half_plane", tuple(levels))
 
 
-def estimate(problem, found) -> dict | None:
+def estimate(problem, couplings_of) -> dict | None:
     """How much friction may change by moving the surfaces, by quantity."""
-    every = estimates(problem, *2 * [problem.hertz.peak_pressure], couplings=found)
+    every = estimates(problem, *2 * [problem.hertz.peak_pressure], couplings=couplings_of)
     return every.get("normal_tangential_coupling")
 
 
@@ -75,12 +75,12 @@ def plain(outcome: Run, friction: float) -> dict[str, float]:
 def change(outcome: Run, friction: float) -> dict[str, tuple[float | None, float | None]]:
     """By quantity, the figure with coupling and its change."""
     known = outcome.figures.of(study=coupling.NAME, friction=friction)
-    found = {figure.quantity: (None, None) for figure in known}
+    pairs = {figure.quantity: (None, None) for figure in known}
     for figure in known:
-        value, difference = found[figure.quantity]
+        value, difference = pairs[figure.quantity]
         pair = (value, figure.value) if figure.against else (figure.value, difference)
-        found[figure.quantity] = pair
-    return found
+        pairs[figure.quantity] = pair
+    return pairs
 
 
 @pytest.fixture(scope="module")
@@ -106,17 +106,17 @@ class TestFigures:
     def test_changes_are_those_of_the_exact_sliding_cylinder(self, rigid, number):
         """Rigid on nu = 0.3: beta = 2/7, mu = 0.1 and 0.3."""
         reference, hertz = REFERENCES[number - 1], rigid.problem.hertz
-        found = change(rigid, reference["mu"])
+        moved = change(rigid, reference["mu"])
         assert DATA_F["sliding_cylinder"][number - 1]["beta"] == "2/7"
         wider = reference["ahalf_over_aHertz_same_load"]
         peak = reference["peak_over_p0Hertz_same_load"]
         shift = reference["load_line_x_over_ahalf"] * wider
-        pressure, length = found["peak_pressure"], found["contact_length"]
+        pressure, length = moved["peak_pressure"], moved["contact_length"]
         assert pressure[1] == pytest.approx(peak - 1.0, abs=2e-5)
         assert pressure[0] / hertz.peak_pressure == pytest.approx(peak, rel=2e-5)
         assert length[0] / hertz.half_width == pytest.approx(2.0 * wider, rel=1e-3)
-        assert found[SHIFT][1] == pytest.approx(shift, rel=1e-3)
-        assert found[SHIFT][0] == pytest.approx(shift * hertz.half_width, rel=1e-3)
+        assert moved[SHIFT][1] == pytest.approx(shift, rel=1e-3)
+        assert moved[SHIFT][0] == pytest.approx(shift * hertz.half_width, rel=1e-3)
         said = rigid.findings[coupling.NAME].said("converged", friction=reference["mu"])
         assert said == "yes"
 
@@ -133,12 +133,12 @@ class TestFigures:
         assert "coupling" not in {item.step for item in rigid.plan.skipped}
 
     def test_stresses_are_compared_too(self, rigid):
-        found = change(rigid, 0.3)
+        moved = change(rigid, 0.3)
         # on the surface tau1 = mu p where sx + p is what the coupling changes most
-        assert -0.05 < found["tau1_max"][1] < -0.005
-        assert found["tau1_field_near"][0] is None
-        near, deep = (found[f"tau1_field_{part}"][1] for part in ("near", "deep"))
-        assert 0.01 < deep < near < found["pressure_l2"][1]
+        assert -0.05 < moved["tau1_max"][1] < -0.005
+        assert moved["tau1_field_near"][0] is None
+        near, deep = (moved[f"tau1_field_{part}"][1] for part in ("near", "deep"))
+        assert 0.01 < deep < near < moved["pressure_l2"][1]
 
     def test_a_figure_that_is_zero_without_has_a_value_and_no_relative_change(self, rigid):
         """At friction 0.3 the largest shear stands on the surface, by a touch of the pressure."""
@@ -151,14 +151,14 @@ class TestFigures:
         assert changes["tau1_max_depth"] == Change(3e-5, None)
         assert changes["contact_ratio"] == Change(0.0, 0.0)
         assert changes["peak_pressure"].difference == pytest.approx(0.5)
-        found = replace(rigid.data("coupling").changes[2], changes=changes)
-        figures = coupling.figures_of_changes(found, problem, rigid.findings["contact"].figures)
+        added = replace(rigid.data("coupling").changes[2], changes=changes)
+        figures = coupling.figures_of_changes(added, problem, rigid.findings["contact"].figures)
         figures = [figure for figure in figures if figure.quantity == "tau1_max_depth"]
         assert [(figure.value, figure.against) for figure in figures] == [(3e-5, None)]
         table = coupling.coupling_table(refound(rigid, coupling.NAME, figures=tuple(figures)))
         [row] = [row for row in table.rows if "depth" in row[0]]
         assert row[1:] == ("30.00 µm", UNKNOWN)
-        effect = estimate(problem, (found,))
+        effect = estimate(problem, (added,))
         assert effect["peak_pressure"] == pytest.approx(0.5)
         scale = QUANTITIES["tau1_max_depth"].scale(problem.hertz)
         assert effect["tau1_max_depth"] == pytest.approx(3e-5 / scale)
@@ -175,7 +175,7 @@ class TestFigures:
         soft = {"radius": 8e-3, "youngs_modulus": 3e9, "poissons_ratio": 0.3}
         swapped = RIGID | {"roller": soft, "load": {"hertz_peak_pressure": 5e7}}
         other = solved(swapped, friction=0.3)
-        first, second = (change(each, 0.3)[SHIFT][0] for each in (one, other))
+        first, second = (change(outcome, 0.3)[SHIFT][0] for outcome in (one, other))
         assert first < 0.0 < second and other.problem.dundurs_beta < 0.0
 
 
@@ -225,10 +225,10 @@ class TestRoughBody:
         return replace(problem, surface=replace(problem.surface, profile=short))
 
     def test_change_under_a_hardness(self, wavy):
-        [found] = couplings(*wavy[::-1], None, no_progress).changes
-        assert found.converged
-        assert found.changes["peak_pressure"].value <= 4e9
-        assert found.changes[SHIFT].value < 0.0
+        [result] = couplings(*wavy[::-1], None, no_progress).changes
+        assert result.converged
+        assert result.changes["peak_pressure"].value <= 4e9
+        assert result.changes[SHIFT].value < 0.0
 
     def test_a_trace_that_ends_on_one_side_changes_nothing(self, wavy):
         """The grid is extended where there is a trace, here behind the contact only."""
@@ -248,9 +248,9 @@ class TestRoughBody:
         monkeypatch.setattr(
             coupling, "_stretched", lambda p, g, more: stretched(p, g, 1 + more // 64)
         )
-        [found] = couplings(levels, problem, None, no_progress).changes
+        [result] = couplings(levels, problem, None, no_progress).changes
         for name, change in expected.changes.items():
-            assert found.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
+            assert result.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
     def test_there_is_no_change_where_the_trace_ends(self, wavy):
         """Just beyond the contact at rest."""
@@ -264,8 +264,8 @@ class TestRoughBody:
         inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
         solution = replace(level.solution, pressure=level.solution.pressure[inside])
         ending = replace(levels, levels=(replace(level, grid=grid, solution=solution),))
-        [found] = couplings(ending, ended, None, no_progress).changes
-        assert found.changes == {} and found.why == BEYOND_THE_END
+        [result] = couplings(ending, ended, None, no_progress).changes
+        assert result.changes == {} and result.why == BEYOND_THE_END
 
 
 class TestEstimate:
@@ -280,7 +280,7 @@ class TestEstimate:
         size = 0.3 * rigid.problem.dundurs_beta
         assert effect["pressure_l2"] == pytest.approx(1.6 * size)
         known = rigid.data("coupling").changes
-        without = tuple(replace(each, changes={}, why=BEYOND_THE_END) for each in known)
+        without = tuple(replace(coupled, changes={}, why=BEYOND_THE_END) for coupled in known)
         assert estimate(rigid.problem, without) == effect
 
     def test_what_both_models_contain_is_not_missing(self, rigid_coupled):

@@ -38,14 +38,14 @@ def made(body=None, coating=None, **heat):
     return problem(tables | ({"coating": coating} if coating else {}))
 
 
-def level_of(given):
-    return half_plane_level(given, given.pitches[0], None, Stages(no_progress), fields=False)
+def level_of(posed):
+    return half_plane_level(posed, posed.pitches[0], None, Stages(no_progress), fields=False)
 
 
-def through_layers(given, level, held=True):
+def through_layers(posed, level, held=True):
     """Rise (n,) [K] of the body's surface under all heat, by transforms on a long line: the surface
     resistance of a layer (thickness, or coating on a half-space) at each wave number."""
-    heat, grid = given.scene.heat, level.grid
+    heat, grid = posed.scene.heat, level.grid
     flux = 0.1 * heat.speed * level.solution.pressure
     ring, start = 2**18, 2**17
     line = np.zeros(ring)
@@ -59,12 +59,12 @@ def through_layers(given, level, held=True):
 
     below, decay = conduction(heat.body)
     resistance = 1.0 / below
-    if given.scene.body.thickness is not None:
-        across = np.tanh(decay * given.scene.body.thickness)
+    if posed.scene.body.thickness is not None:
+        across = np.tanh(decay * posed.scene.body.thickness)
         resistance = across / below if held else 1.0 / (below * across)
-    if given.scene.coating is not None:
+    if posed.scene.coating is not None:
         above, decay = conduction(heat.coating)
-        across = np.tanh(decay * given.scene.coating.thickness)
+        across = np.tanh(decay * posed.scene.coating.thickness)
         ratio = above * resistance
         resistance = (ratio + across) / (1.0 + ratio * across) / above
     resistance[0] = 0.0
@@ -74,17 +74,17 @@ def through_layers(given, level, held=True):
 
 
 def test_equal_bodies_that_roll_and_slide_share_nearly_evenly():
-    given = made(slide_to_roll=0.01)
-    found = half_space_heat(given, level_of(given))
-    numbers = peclet_numbers(given)
-    exact = np.sqrt(numbers["body"]) / sum(np.sqrt(each) for each in numbers.values())
-    assert found.fraction == pytest.approx(exact, rel=1e-3)
-    assert found.figures["flash_temperature"] == found.body.max()
+    posed = made(slide_to_roll=0.01)
+    heat = half_space_heat(posed, level_of(posed))
+    numbers = peclet_numbers(posed)
+    exact = np.sqrt(numbers["body"]) / sum(np.sqrt(number) for number in numbers.values())
+    assert heat.fraction == pytest.approx(exact, rel=1e-3)
+    assert heat.figures["flash_temperature"] == heat.body.max()
 
 
 def test_reversed_roles_mirror():
     one, other = made(slide_to_roll=2.0), made(slide_to_roll=-2.0)
-    first, second = (half_space_heat(each, level_of(each)) for each in (one, other))
+    first, second = (half_space_heat(posed, level_of(posed)) for posed in (one, other))
     assert first.body == pytest.approx(second.roller[::-1], rel=1e-6)
     assert first.fraction == pytest.approx(1.0 - second.fraction)
 
@@ -101,38 +101,38 @@ def test_reversed_roles_mirror():
 )
 def test_finite_bodies_against_transforms(body, coating, base):
     """With a roller that takes no heat, the body's surface has all of it."""
-    own = dict(INSULATOR)
+    heat_section = dict(INSULATOR)
     if coating:
-        own |= {f"coating_{name}": value for name, value in LAYER.items()}
+        heat_section |= {f"coating_{name}": value for name, value in LAYER.items()}
     if base == "insulated":
-        own["base"] = base
-    given = made(body, coating, **own, slide_to_roll=2.0)
-    level = level_of(given)
-    found = finite_element_heat(given, level)
-    assert found.fraction == pytest.approx(1.0, abs=1e-4)
-    exact = through_layers(given, level, base == "held")
+        heat_section["base"] = base
+    posed = made(body, coating, **heat_section, slide_to_roll=2.0)
+    level = level_of(posed)
+    heat = finite_element_heat(posed, level)
+    assert heat.fraction == pytest.approx(1.0, abs=1e-4)
+    exact = through_layers(posed, level, base == "held")
     # next to the ends of contact the flux is not that of the hats
-    inside = np.flatnonzero(found.heat)[2:-2]
-    assert found.body[inside] == pytest.approx(exact[inside], abs=2e-3 * exact.max())
+    inside = np.flatnonzero(heat.heat)[2:-2]
+    assert heat.body[inside] == pytest.approx(exact[inside], abs=2e-3 * exact.max())
     contained = {"thickness": "thickness" in (body or {}), "coating": bool(coating), "roller": True}
-    assert list(what_it_contains(given)) == [name for name, has in contained.items() if has]
+    assert list(what_it_contains(posed)) == [name for name, has in contained.items() if has]
 
 
 def test_elements_follow_the_slower_of_body_and_coating():
     """A thick coating that conducts slowly, Peclet number 330 of its own: 0.4 % at worst within
     the contact; elements as the body's own diffusivity wants them err by 1.5 %."""
-    own = {f"coating_{name}": value for name, value in LAYER.items()}
-    given = made({}, SOFT | {"thickness": 100e-6}, **own, **INSULATOR, slide_to_roll=2.0, speed=4.0)
-    level = level_of(given)
-    found, exact = finite_element_heat(given, level), through_layers(given, level)
-    inside = np.flatnonzero(found.heat)[2:-2]
-    assert found.body[inside] == pytest.approx(exact[inside], abs=6e-3 * exact.max())
+    coat = {f"coating_{name}": value for name, value in LAYER.items()} | INSULATOR
+    posed = made({}, SOFT | {"thickness": 100e-6}, **coat, slide_to_roll=2.0, speed=4.0)
+    level = level_of(posed)
+    heat, exact = finite_element_heat(posed, level), through_layers(posed, level)
+    inside = np.flatnonzero(heat.heat)[2:-2]
+    assert heat.body[inside] == pytest.approx(exact[inside], abs=6e-3 * exact.max())
 
 
 def test_a_square_at_rest_is_a_half_space_with_its_reach():
-    given = made(slide_to_roll=-2.0, reach=1e-3, **INSULATOR)
-    level = level_of(given)
-    finite, half_space = finite_element_heat(given, level), half_space_heat(given, level)
+    posed = made(slide_to_roll=-2.0, reach=1e-3, **INSULATOR)
+    level = level_of(posed)
+    finite, half_space = finite_element_heat(posed, level), half_space_heat(posed, level)
     largest = half_space.figures["flash_temperature"]
     assert finite.figures["flash_temperature"] == pytest.approx(largest, rel=1e-3)
     assert finite.body[[0, -1]] == pytest.approx(half_space.body[[0, -1]], rel=3e-3)
@@ -144,20 +144,20 @@ def test_a_square_at_rest_is_a_half_space_with_its_reach():
 def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
     """All heat enters the roller. A disc's contact sees a half-space that reaches farther, as far
     as tests/fem/heat/test_conduction.py has it."""
-    own = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
-    given = made(slide_to_roll=2.0, **own, **({"reach": reach} if reach else {}))
-    level, heat, radius = level_of(given), given.scene.heat, given.scene.roller.radius
+    section = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
+    posed = made(slide_to_roll=2.0, **section, **({"reach": reach} if reach else {}))
+    level, heat, radius = level_of(posed), posed.scene.heat, posed.scene.roller.radius
     far = heat.reach or radius
     half = 0.5 * far / radius
     height = np.sqrt(1.0 - half**2) / far
     farther = 2.0 * (np.pi - np.arccos(half)) / (np.pi * height) / far
-    disc, flat = (finite_element_heat(given, level, without=w) for w in (set(), {"roller"}))
+    disc, flat = (finite_element_heat(posed, level, without=w) for w in (set(), {"roller"}))
     assert disc.fraction == pytest.approx(0.0, abs=1e-4)
     step = np.log(farther) * disc.heat.sum() * level.grid.pitch
     inside = disc.heat > 0.0
     rise = (disc.roller - flat.roller)[inside]
     assert rise == pytest.approx(step / (np.pi * heat.roller.conductivity), rel=2e-2)
-    half_space = half_space_heat(given, level)
+    half_space = half_space_heat(posed, level)
     assert flat.figures["mean_temperature"] == pytest.approx(
         half_space.figures["mean_temperature"], rel=2e-3
     )
@@ -165,29 +165,29 @@ def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
 
 def test_a_fast_roller_is_a_half_space():
     """Of it, what is heated alone is meshed; a slow one is warmer than a half-space."""
-    own = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
+    section = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
     for speed, least, most in ((20.0, 2e-4, 2e-3), (2.0, 1e-3, 1e-2), (0.05, 0.01, 0.1)):
-        given = made(slide_to_roll=-2.0, speed=speed, **own)
-        level = level_of(given)
-        disc, flat = (finite_element_heat(given, level, without=w) for w in (set(), {"roller"}))
+        posed = made(slide_to_roll=-2.0, speed=speed, **section)
+        level = level_of(posed)
+        disc, flat = (finite_element_heat(posed, level, without=w) for w in (set(), {"roller"}))
         assert disc.fraction == pytest.approx(0.0, abs=1e-4)
-        one, other = (each.figures["mean_temperature"] for each in (disc, flat))
+        one, other = (heat.figures["mean_temperature"] for heat in (disc, flat))
         assert least < one / other - 1.0 < most
 
 
 def test_largest_temperature_of_a_band():
     """A band of uniform pressure: Jaeger's, 0.5 % by finite elements."""
-    given = made(slide_to_roll=2.0, **INSULATOR)
-    level = level_of(given)
+    posed = made(slide_to_roll=2.0, **INSULATOR)
+    level = level_of(posed)
     half = 100e-6
     grid = HatGrid.within(-1.3 * half, 1.3 * half, half / 80)
     pressure = np.where(np.abs(grid.x) < half * (1 + 1e-9), 1e9, 0.0)
     solution = replace(level.solution, pressure=pressure)
     assert isinstance(solution, ContactSolution)
     level = replace(level, grid=grid, solution=solution)
-    material, speed = given.scene.heat.body, given.scene.heat.speed
+    material, speed = posed.scene.heat.body, posed.scene.heat.speed
     heat = 0.1 * speed * 1e9
-    for contact in (half_space_heat(given, level), finite_element_heat(given, level)):
+    for contact in (half_space_heat(posed, level), finite_element_heat(posed, level)):
         peclet = speed * half / (2.0 * material.diffusivity)
         exact = band_maximum(peclet)[0] * heat * half / material.conductivity
         # the flux falls to zero over one more pitch on either side
@@ -200,8 +200,8 @@ def of_band(peclet, number):
     spec = thermal_spec([[-1.0, 1.0]], 0.2 / 2**number, half_width=10.0, depth=10.0, **law)
     body = thermal_body(build_block(spec), ThermalMaterial(1.0, 1.0, 1.0))
     load = flux_load(body, np.linspace(-1.0, 1.0, 3), np.ones(3))
-    found = Conduction(body, -2.0 * peclet, Surroundings("open", "open")).steady(load)
-    return found.max(), 0.5 * load @ found
+    rise = Conduction(body, -2.0 * peclet, Surroundings("open", "open")).steady(load)
+    return rise.max(), 0.5 * load @ rise
 
 
 @pytest.mark.parametrize("peclet", [0.1, 1.0, 2.0, 10.0, 100.0])
@@ -210,5 +210,5 @@ def test_three_levels_of_finite_elements_cover_the_error(peclet):
     levels = np.array([of_band(peclet, number) for number in range(3)])
     exact = band_maximum(peclet)[0], band_mean(peclet)
     for values, true in zip(levels.T, exact, strict=True):
-        found = grid_convergence(values, 2.0, FAR * true)
-        assert abs(found.value - true) <= found.uncertainty < 2e-3 * true
+        result = grid_convergence(values, 2.0, FAR * true)
+        assert abs(result.value - true) <= result.uncertainty < 2e-3 * true

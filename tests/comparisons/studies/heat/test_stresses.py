@@ -28,25 +28,25 @@ COATED = changed(PLAIN, heat={**OF_COAT, "coating_expansion": 12e-6}) | {
 
 def solved(tables):
     """What `finite_element_stress` takes, on the coarsest level."""
-    given = problem(tables)
-    plan, window = make_plan(given, ("finite_element",)), window_of(given)
-    coarsest = Refinement(given.pitches[0])
-    level = finite_element_level(given, plan, coarsest, window, Stages())
-    return given, level, window
+    posed = problem(tables)
+    plan, window = make_plan(posed, ("finite_element",)), window_of(posed)
+    coarsest = Refinement(posed.pitches[0])
+    level = finite_element_level(posed, plan, coarsest, window, Stages())
+    return posed, level, window
 
 
 def test_a_coating_counts_by_what_it_differs_in():
     """One of the body's own material changes nothing; one that expands twice as much adds what a
     layer that cannot expand along the surface bears, E alpha T / (1 - nu)."""
     plain = finite_element_stress(*solved(PLAIN))
-    given, *rest = solved(COATED)
-    same = finite_element_stress(given, *rest)
+    posed, *rest = solved(COATED)
+    same = finite_element_stress(posed, *rest)
     for one, other in ((same.figures, plain.figures), (same.elastic, plain.elastic)):
         for name in ("tau1_heated", "sx_heated"):
             assert one[name] == pytest.approx(other[name], abs=5e6)  # of 1 GPa
-    other = replace(given, scene=given.scene.unchecked({"heat.coating_expansion": 24e-6}))
+    other = replace(posed, scene=posed.scene.unchecked({"heat.coating_expansion": 24e-6}))
     more = finite_element_stress(other, *rest)
     added = (more.sx[0] - more.sx[1]) - (same.sx[0] - same.sx[1])
-    temperature = solved_heat(given, rest[0])[1](np.column_stack([same.x, np.zeros_like(same.x)]))
+    temperature = solved_heat(posed, rest[0])[1](np.column_stack([same.x, np.zeros_like(same.x)]))
     held = -STEEL["youngs_modulus"] * 12e-6 * temperature / (1.0 - STEEL["poissons_ratio"])
     assert np.linalg.norm(added - held) < 0.08 * np.linalg.norm(held)

@@ -90,9 +90,9 @@ def test_temperatures_as_csv(rough):
     for model in MODELS:
         path = Path(rough.directory) / model / "temperature.csv"
         x, heat, into_body, body, _ = np.loadtxt(path, delimiter=",", skiprows=1).T
-        found = rough.data("heat").contacts[model]
-        assert x == pytest.approx(found.x, abs=1e-12)
-        assert body == pytest.approx(found.body, rel=1e-9)
+        heated = rough.data("heat").contacts[model]
+        assert x == pytest.approx(heated.x, abs=1e-12)
+        assert body == pytest.approx(heated.body, rel=1e-9)
         assert heat.max() == pytest.approx(0.1 * rough.runs[model].finest.solution.pressure.max())
         assert 0.5 * heat.sum() < into_body.sum() < heat.sum()
 
@@ -146,9 +146,9 @@ def test_thermal_stresses_by_both_models(stressed):
         assert abs(figure.value) < figure.numerical + 3e-3  # held 400 a away
         assert figure.numerical < 0.05
     assert tau1.verdict == depth.verdict == "agree"
-    own = stressed.runs["half_plane"].finest.stress(0.1).extremes["tau1"]
-    assert value(stressed, "tau1_heated_without_heat") == own.value
-    assert value(stressed, "tau1_depth_heated_without_heat") == own.z
+    shear = stressed.runs["half_plane"].finest.stress(0.1).extremes["tau1"]
+    assert value(stressed, "tau1_heated_without_heat") == shear.value
+    assert value(stressed, "tau1_depth_heated_without_heat") == shear.z
     # 2 mu p0 at the trailing edge (Johnson 1985, section 7.1), which heat takes back
     cold, other = (value(stressed, "sx_heated_without_heat", model) for model in MODELS)
     assert cold == pytest.approx(0.2e9, rel=2e-3) and other == pytest.approx(0.2e9, rel=1e-2)
@@ -165,8 +165,8 @@ def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
 
 def test_thermal_stresses_in_every_output(stressed):
     result = read_result(stressed.directory / "result.json")
-    own = result.figures.of(study="heat", source="half_plane", against=None)
-    warm, cold = (own.one(quantity=f"sx_heated{name}") for name in ("", "_without_heat"))
+    stresses = result.figures.of(study="heat", source="half_plane", against=None)
+    warm, cold = (stresses.one(quantity=f"sx_heated{name}") for name in ("", "_without_heat"))
     assert warm.value < 0.0 < cold.value
     stress = stressed.data("heat").stresses["finite_element"]
     place = stress.x[stress.sx[1].argmax()]
@@ -176,7 +176,7 @@ def test_thermal_stresses_in_every_output(stressed):
     assert "Last, σx of the body's surface, thin without heat." in page.replace("&#39;", "'")
     said = "; ".join(text for _, text in lines(stressed))
     assert "199." in said and "without)" in said and "agree" in said
-    rows = {each["quantity"]: each for each in rows_of(result, "made")}
+    rows = {row["quantity"]: row for row in rows_of(result, "made")}
     assert rows["tau1_heated"]["unit"] == "Pa" and rows["tau1_depth_heated"]["unit"] == "m"
     assert heat_table(read_run(stressed.directory)) == heat_table(stressed)
 

@@ -66,8 +66,8 @@ def test_one_effect_does_not_interact(problem_with, made_solutions, name):
 
 def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solutions):
     problem = problem_with(finite_element={"gap": "displaced"})
-    own = ModelVariant(frozenset({"deformed_gap"}))
-    _, parts = split_by(problem, made_solutions(own), contained={"deformed_gap"})
+    contained = ModelVariant(frozenset({"deformed_gap"}))
+    _, parts = split_by(problem, made_solutions(contained), contained={"deformed_gap"})
     assert set(parts.pairs) == {"deformed_gap"}
     assert np.any(parts.effect("deformed_gap").pressure)
     assert not np.any(parts.not_contained.pressure)
@@ -76,7 +76,7 @@ def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solution
 def test_frictions_share_bodies_that_it_does_not_press_otherwise(problem_with):
     problem = problem_with(roller={"rigid": True}, load={"friction": [0.1, 0.3]})
     selection = selection_of(added={"exact_circle", COUPLED})
-    asked = {each for mu in (0.1, 0.3) for each in split_variants(problem, selection, mu).all}
+    asked = {pressed for mu in (0.1, 0.3) for pressed in split_variants(problem, selection, mu).all}
     coupled = {variant.friction for variant in asked if COUPLED in variant.effects}
     assert coupled == {0.1, 0.3}
     assert {v.friction for v in asked if COUPLED not in v.effects} == {None}
@@ -87,15 +87,15 @@ class TestFiniteDeformation:
 
     def test_its_parts_are_neither_solved_nor_listed(self, problem_with, made_solutions):
         problem = problem_with(roller={"rigid": True}, profile=WAVY, load={"friction": 0.2})
-        own = ModelVariant(frozenset({"deformed_gap"}))
-        solutions = made_solutions(own)
+        gap_alone = ModelVariant(frozenset({"deformed_gap"}))
+        solutions = made_solutions(gap_alone)
         split, parts = split_by(
             problem, solutions, 0.2, {"deformed_gap"}, {"finite_strain", "rough_boundary"}
         )
         together = {"deformed_gap", "rough_boundary", "finite_strain", COUPLED}
         assert set(parts.pairs) == {"finite_strain"}
         assert split.whole == ModelVariant(frozenset(together), 0.2)
-        assert set(solutions.asked) == {split.whole, PLAIN, own}
+        assert set(solutions.asked) == {split.whole, PLAIN, gap_alone}
         scene = body_problem(problem, split.whole).scene
         assert scene.finite_element.coupled and scene.load.friction == (0.2,)
         assert scene.finite_element.geometry == "rough"
@@ -131,9 +131,9 @@ class TestWithoutSolution:
         assert close(total, parts.not_contained)
 
     def test_of_none_the_whole_stays(self, problem_with, made_solutions):
-        own = ModelVariant(frozenset({"exact_circle"}))
+        circle = ModelVariant(frozenset({"exact_circle"}))
         _, parts = split_by(
-            problem_with(), made_solutions(own, frozenset({PLAIN})), added=self.ADDED
+            problem_with(), made_solutions(circle, frozenset({PLAIN})), added=self.ADDED
         )
         assert parts.pairs == {} and parts.unsplit == "no mesh"
         assert np.any(parts.not_contained.pressure)
@@ -175,11 +175,11 @@ def test_what_vanishes_is_measured_by_hertz(problem_with):
     figures = {"tau1_max": np.array([2.0]), "tau1_max_depth": np.zeros(1)}
     whole = QuantitiesOfInterest(figures, np.ones(4), None)
     moved = {"tau1_max": np.zeros(1), "tau1_max_depth": np.array([1e-6])}
-    found = relative_sizes(
+    sizes = relative_sizes(
         QuantitiesOfInterest(moved, 0.5 * np.ones(4), None), whole, problem, None
     )
-    assert found["tau1_max_depth"] == pytest.approx(1e-6 / problem.hertz.half_width)
-    assert found["pressure_l2"] == pytest.approx(0.5)
+    assert sizes["tau1_max_depth"] == pytest.approx(1e-6 / problem.hertz.half_width)
+    assert sizes["pressure_l2"] == pytest.approx(0.5)
 
 
 def test_bodies_have_names_of_their_own():

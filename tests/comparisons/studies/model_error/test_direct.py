@@ -104,8 +104,8 @@ def direct_errors(tables: dict) -> dict[str, float]:
     one = half_plane_level(posed, pitch, window, Stages())
     other = finite_element_level(posed, plan, Refinement(pitch), window, Stages())
     flat, real = (values_of(level, posed, friction) for level in (one, other))
-    found = {name: flat[name] / real[name] - 1.0 for name in flat}
-    return found | norms(one, other, posed, friction, window)
+    errors = {name: flat[name] / real[name] - 1.0 for name in flat}
+    return errors | norms(one, other, posed, friction, window)
 
 
 def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, float]]:
@@ -121,21 +121,21 @@ def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, floa
     assert split.whole.effects == contained(resolved(switched))
     errors = direct_errors(switched)
     return [
-        (added.data("model_error").of(quantity, friction), each)
-        for quantity, each in errors.items()
+        (added.data("model_error").of(quantity, friction), error)
+        for quantity, error in errors.items()
     ]
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_effects_on_two_levels_contain_what_all_at_once_make_on_three(name):
     # between waves the pressures of a coarse grid do not reach far enough
-    for own, direct in both(name, levels=2, elements=64.0 if "waves" in name else 24.0):
-        assert abs(own.value - direct) <= own.uncertainty < np.inf, own.quantity
-        if own.quantity == "peak_pressure":
-            assert own.uncertainty < 0.05
+    for stated, direct in both(name, levels=2, elements=64.0 if "waves" in name else 24.0):
+        assert abs(stated.value - direct) <= stated.uncertainty < np.inf, stated.quantity
+        if stated.quantity == "peak_pressure":
+            assert stated.uncertainty < 0.05
 
 
 def test_on_the_same_levels_they_are_the_same():
     """Relative to the whole, wherever it comes from."""
-    for own, direct in both("rubber layer", levels=3, elements=16.0):
-        assert own.value == pytest.approx(direct, abs=1e-6), own.quantity
+    for stated, direct in both("rubber layer", levels=3, elements=16.0):
+        assert stated.value == pytest.approx(direct, abs=1e-6), stated.quantity

@@ -40,14 +40,14 @@ def test_they_bound_every_point_of_a_finished_map(name):
             continue
         groups = {content[axis]["group"]: point[axis] for axis in ("x", "y")}
         posed = problem_of(scene_with(base, groups))
-        found = point["quantities"]
-        peak = found["peak_pressure"]["half_plane"]
+        errors = point["quantities"]
+        peak = errors["peak_pressure"]["half_plane"]
         linear = {"rough_boundary"} if base.profile else set()  # which the maps have
         sums = [estimates(posed, peak, peak, had) for had in (set(), linear)]
         for sizes in sums:
             for name in UNKNOWN:  # the maps take one law and one support
                 sizes.pop(name, None)
-        for quantity, error in found.items():
+        for quantity, error in errors.items():
             if error["uncertainty"] is None:
                 continue
             bound = max(sum(e.get(quantity, 0.0) for e in sizes.values()) for sizes in sums)
@@ -88,5 +88,5 @@ def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
         peaks.append(float(level.solution.pressure.max()))
         assert "law_of_elasticity" not in estimates(posed, peaks[-1], peaks[-1])
     bound = estimates(plain, peaks[0], peaks[0])["law_of_elasticity"]["peak_pressure"]
-    spread = [each / peaks[0] - 1.0 for each in peaks[1:]]
+    spread = [peak / peaks[0] - 1.0 for peak in peaks[1:]]
     assert 0.3 * bound < max(map(abs, spread)) < bound

@@ -32,7 +32,7 @@ def errors(
     model's error of the solutions and a quantity."""
     level = SimpleNamespace
     runs = {
-        name: SimpleNamespace(levels=[level(found=of)] * 3, finest=level(found=of))
+        name: SimpleNamespace(levels=[level(values=of)] * 3, finest=level(values=of))
         for name, of in (("half_plane", half_plane), ("finite_element", plain))
     }
     pairs = {name: (with_it, plain) for name, with_it in effects.items()}
@@ -47,9 +47,9 @@ def errors(
     stated = {name: SimpleNamespace(total=settled) for name in ("tau1_max", "tau1_max_depth")}
     with patch.multiple(
         MODULE,
-        quantities_of=lambda level, problem, friction: level.found,
-        values_of=lambda level, *of: {n: v[0] for n, v in level.found.largest().figures.items()},
-        uncertainties=lambda *given: stated,
+        quantities_of=lambda level, problem, friction: level.values,
+        values_of=lambda level, *of: {n: v[0] for n, v in level.values.largest().figures.items()},
+        uncertainties=lambda *arguments: stated,
         iteration=lambda *levels: 0.0,
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
@@ -65,32 +65,32 @@ def test_other_models_are_judged_by_their_own_largest_values(problem_with):
     is not known of the whole is what is not known of the scene's own finite elements."""
     plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
 
-    def found(read) -> list[tuple[float, float]]:
+    def errors_by(read) -> list[tuple[float, float]]:
         known = errors(problem_with(), plain, plain, strained, {}, 1e-3, read)
         return [(known[n].value, known[n].uncertainty) for n in ("tau1_max", "tau1_max_depth")]
 
-    without = found(lambda solutions, name: solutions.of_variants(name, [plain] * 3))
+    without = errors_by(lambda solutions, name: solutions.of_variants(name, [plain] * 3))
     assert [value for value, _ in without] == pytest.approx([3.0 / 3.19 - 1.0, 2.0 / 3.0 - 1.0])
-    assert found(lambda of, name: of.of_variants(name, [strained] * 3)) == [(0.0, 0.0)] * 2
-    exact = found(lambda of, name: of.of_exact(name, [plain] * 3, 1e-3))
+    assert errors_by(lambda of, name: of.of_variants(name, [strained] * 3)) == [(0.0, 0.0)] * 2
+    exact = errors_by(lambda of, name: of.of_exact(name, [plain] * 3, 1e-3))
     assert [value for value, _ in exact] == pytest.approx([value for value, _ in without])
     assert exact[0][1] == pytest.approx(1e-3 * 3.0 / 3.19)
-    assert found(lambda of, name: of.of_whole(name, 1e-3)) == [(0.0, 1e-3)] * 2
+    assert errors_by(lambda of, name: of.of_whole(name, 1e-3)) == [(0.0, 1e-3)] * 2
 
 
 def test_an_effect_that_moves_the_maximum_is_measured_where_the_whole_has_it(problem_with):
     """It raises the third asperity by 10 % and lowers the second by 10 %: no difference of the
     largest values, which stand at two places, is either."""
     plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
-    found = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})
-    shear = found["tau1_max"]
+    result = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})
+    shear = result["tau1_max"]
     effect = shear.effects["finite_strain"]
     assert effect.value == pytest.approx(0.29 / 3.19) and effect.moves_maximum
     assert shear.value == pytest.approx(3.0 / 3.19 - 1.0)
     assert shear.jump == pytest.approx(0.1 / 3.19)
     assert shear.moved == (0.0, 40e-6)
     assert shear.value == pytest.approx(-effect.value - shear.interaction + shear.jump)
-    depth = found["tau1_max_depth"]
+    depth = result["tau1_max_depth"]
     assert depth.value == pytest.approx(-1.0 / 3.0) and depth.jump == pytest.approx(-1.0 / 3.0)
 
 
@@ -122,9 +122,9 @@ def test_twin_peaks_are_not_said_to_move(problem_with):
 
 def test_an_asperity_that_may_have_it_counts_in_the_uncertainty(problem_with):
     near, far = solution(1.0, 3.0, 2.99), solution(1.0, 3.0, 2.5)
-    of = [errors(problem_with(), each, each, each, {}, settled=0.01) for each in (near, far)]
-    wide, narrow = (each["tau1_max"].uncertainty for each in of)
+    of = [errors(problem_with(), shear, shear, shear, {}, settled=0.01) for shear in (near, far)]
+    wide, narrow = (result["tau1_max"].uncertainty for result in of)
     assert narrow == pytest.approx(0.01) and wide == pytest.approx(narrow, abs=2e-4)
     # the depth may be the other one's
-    wide, narrow = (each["tau1_max_depth"].uncertainty for each in of)
+    wide, narrow = (result["tau1_max_depth"].uncertainty for result in of)
     assert narrow == pytest.approx(0.01) and wide == pytest.approx(0.01 + 1.0 / 2.0)

@@ -55,19 +55,19 @@ def test_the_plane_through_three_laws_holds_the_others(solved_with):
     within a fifth in lengths, which are read between nodes."""
     [law] = open_laws(resolved(scene(STEEL)))
     assert law.bodies == ("body", "roller")
-    own, probes = solved_with(Law()), {name: solved_with(each) for name, each in law.probes.items()}
-    others = [each for each in law.laws if each not in law.probes.values()]
+    linear, probes = solved_with(Law()), {n: solved_with(kind) for n, kind in law.probes.items()}
+    others = [kind for kind in law.laws if kind not in law.probes.values()]
     for name, close in zip(QUANTITIES, (0.05, 0.2), strict=True):
-        changes = {probe: figures[name] / own[name] - 1.0 for probe, figures in probes.items()}
+        changes = {probe: figures[name] / linear[name] - 1.0 for probe, figures in probes.items()}
         low, high = law.range(changes)
         assert low <= min(changes.values()) and max(changes.values()) <= high
         for other in (others[0], others[-1]):
             one = replace(law, laws=(other,), named_probes=law.named_probes)
             ends = one.range(changes)  # the probes and this one
-            found = solved_with(other)[name] / own[name] - 1.0
+            change = solved_with(other)[name] / linear[name] - 1.0
             slack = close * (high - low)
-            assert low - slack <= found <= high + slack
-            assert ends[0] - slack <= found <= ends[1] + slack
+            assert low - slack <= change <= high + slack
+            assert ends[0] - slack <= change <= ends[1] + slack
 
 
 def test_a_range_is_that_of_all_solids_where_figures_are_linear():
@@ -93,8 +93,8 @@ def test_a_body_is_like_solids_of_its_moduli_or_like_any():
 
 
 def test_bodies_of_two_solids_vary_by_themselves():
-    found = open_laws(resolved(scene(STEEL, {"youngs_modulus": 70e9, "poissons_ratio": 0.33})))
-    assert [law.bodies for law in found] == [("body",), ("roller",)]
+    laws = open_laws(resolved(scene(STEEL, {"youngs_modulus": 70e9, "poissons_ratio": 0.33})))
+    assert [law.bodies for law in laws] == [("body",), ("roller",)]
 
 
 def test_a_known_law_is_not_open_and_measured_constants_scatter():
@@ -113,8 +113,8 @@ def test_a_known_law_is_not_open_and_measured_constants_scatter():
 
 def test_a_soft_body_lies_between_the_laws_of_rubbers():
     [law] = open_laws(resolved(scene({"youngs_modulus": 3e6, "poissons_ratio": 0.49})))
-    assert [each.name for each in law.laws] == ["neo-hookean", "hencky"]
-    assert [each.name for each in law.probes.values()] == ["hencky"]  # the whole is the other
+    assert [kind.name for kind in law.laws] == ["neo-hookean", "hencky"]
+    assert [kind.name for kind in law.probes.values()] == ["hencky"]  # the whole is the other
 
 
 def outcome(body: dict) -> Run:
@@ -128,7 +128,7 @@ def test_a_named_solid_decides_what_moduli_leave_open():
     steel = solids()["rail steel"]
     moduli = {name: steel.values[name].value for name in STEEL}
     named, bare = outcome({"material": "rail steel"}), outcome(moduli)
-    sure, open_ = (each.figures.one(study="model_error", **PEAK) for each in (named, bare))
+    sure, open_ = (done.figures.one(study="model_error", **PEAK) for done in (named, bare))
     low, high = (open_.value + sign * open_.unknown[EFFECT] for sign in (-1.0, 1.0))
     assert low < sure.value < high and high - low > 4.0 * sure.total
     assert sure.part(EFFECT) is None and open_.part(EFFECT) is not None

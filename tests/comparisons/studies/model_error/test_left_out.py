@@ -51,12 +51,12 @@ def budgets(problem_with, tmp_path_factory):
         plan = make_plan(problem, MODELS)
         cache = Cache(tmp_path_factory.mktemp("levels"), name, kinds_of(Level))
         solved = refined(Solved(problem, plan, None, {}), Tasks(kept=cache))
-        rows, found = compared(problem, solved.runs, None), []
+        rows, results = compared(problem, solved.runs, None), []
         for effects in (True, "all"):
             scene = problem.scene.unchecked({"budget.effects": effects})
             posed = replace(solved, problem=replace(problem, scene=scene))
-            found.append(error_budget(posed, rows, (), Tasks(kept=cache)))
-        return *found, problem.scene.tolerances
+            results.append(error_budget(posed, rows, (), Tasks(kept=cache)))
+        return *results, problem.scene.tolerances
 
     return made
 
@@ -65,15 +65,16 @@ def budgets(problem_with, tmp_path_factory):
 def test_verdicts_are_those_with_all_effects(budgets, name):
     frugal, whole, tolerance = budgets(name)
     assert whole.left_out is None
-    found, wanted = (
-        [figure for figure in each.figures(tolerance) if figure.bounds] for each in (frugal, whole)
+    frugally, wanted = (
+        [figure for figure in result.figures(tolerance) if figure.bounds]
+        for result in (frugal, whole)
     )
-    assert [figure.verdict for figure in found] == [figure.verdict for figure in wanted]
-    assert validity(found)[0] == validity(wanted)[0]
-    selections = [each.selection.added for each in (frugal, whole)]
+    assert [figure.verdict for figure in frugally] == [figure.verdict for figure in wanted]
+    assert validity(frugally)[0] == validity(wanted)[0]
+    selections = [result.selection.added for result in (frugal, whole)]
     assert (selections[0] < selections[1]) == (name in DECIDED)
     assert (frugal.left_out is not None) == (frugal.levels < whole.levels) == (name in FIXED)
-    for one, other in zip(found, wanted, strict=True):  # what was left out is stated as unknown
+    for one, other in zip(frugally, wanted, strict=True):  # what was left out is stated as unknown
         assert abs(one.value - other.value) <= one.total
 
 

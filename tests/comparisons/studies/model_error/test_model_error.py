@@ -75,13 +75,13 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
     hertz, budget = outcome.problem.hertz, outcome.data("model_error")
     half_plane = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
     for quantity, true in exact.items():
-        own, error = budget.of(quantity, 0.0), half_plane[quantity] / true - 1.0
-        assert own.value == pytest.approx(error, abs=own.uncertainty)
-        assert own.uncertainty < 0.006
+        stated, error = budget.of(quantity, 0.0), half_plane[quantity] / true - 1.0
+        assert stated.value == pytest.approx(error, abs=stated.uncertainty)
+        assert stated.uncertainty < 0.006
         # and it is the body's doing, measured against the same block without an end
-        body = own.effects["finite_size"]
-        assert -body.value == pytest.approx(error, abs=own.uncertainty + body.uncertainty)
-        assert own.interaction == 0.0
+        body = stated.effects["finite_size"]
+        assert -body.value == pytest.approx(error, abs=stated.uncertainty + body.uncertainty)
+        assert stated.interaction == 0.0
 
 
 @pytest.fixture(scope="module")
@@ -109,20 +109,20 @@ class TestSmooth:
         """All relative to the whole: half-plane - whole = (half-plane - own) - parts."""
         for name in ("peak_pressure", "contact_length", "contact_ratio"):
             known = outcomes[1].figures.of(quantity=name)
-            own = outcomes[1].data("model_error").of(name, 0.0)
+            stated = outcomes[1].data("model_error").of(name, 0.0)
             values = [known.one(study="contact", source=model).value for model in MODELS]
-            whole = values[0] / (1.0 + own.value)
-            parts = sum(share.value for share in own.effects.values()) + own.interaction
+            whole = values[0] / (1.0 + stated.value)
+            parts = sum(share.value for share in stated.effects.values()) + stated.interaction
             models = (values[0] - values[1]) / whole
-            assert models - parts == pytest.approx(own.value, abs=2e-5)
+            assert models - parts == pytest.approx(stated.value, abs=2e-5)
 
     def test_the_verdict_is_taken_from_it(self, outcomes):
         """Both models agree to 3e-4, and the half-plane is off by eight times as much."""
         last = outcomes[1]
         row = last.figures.one(study="comparison", quantity="peak_pressure")
-        own = last.data("model_error").of("peak_pressure", 0.0)
+        stated = last.data("model_error").of("peak_pressure", 0.0)
         assert row.verdict == "agree" and abs(row.value) < 3e-4
-        assert own.value == pytest.approx(-0.0024, abs=0.0006) and own.uncertainty < 6e-4
+        assert stated.value == pytest.approx(-0.0024, abs=0.0006) and stated.uncertainty < 6e-4
         errors = last.data("model_error").figures({"peak_pressure": 1e-3})
         assert validity([error for error in errors if error.bounds])[0] == "fails"
 
@@ -145,8 +145,8 @@ class TestSmooth:
         bound = outcomes[1].model_errors[0].tolerance
         assert status(1e-3) == ExitStatus.DONE
         assert status(bound) == status(1e-3, bound) == ExitStatus.INCONCLUSIVE
-        for found in (status(-3.0 * bound), status(1e-3, 3.0 * bound), status(-3.0 * bound, bound)):
-            assert found == ExitStatus.OUTSIDE_TOLERANCE
+        for shown in (status(-3.0 * bound), status(1e-3, 3.0 * bound), status(-3.0 * bound, bound)):
+            assert shown == ExitStatus.OUTSIDE_TOLERANCE
 
     def test_models_and_comparison_are_those_without_effects(self, outcomes):
         plain = outcome_of(smooth(2.0e9, budget={"effects": False}))
@@ -173,9 +173,9 @@ def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
         }
     )
     for quantity in ("peak_pressure", "contact_length", "pressure_l2"):
-        own = outcome.data("model_error").of(quantity, 0.0)
-        computed = sum(abs(effect.value) for effect in own.effects.values())  # p/E is not zero
-        assert abs(own.value) <= own.uncertainty + computed < 0.02
+        stated = outcome.data("model_error").of(quantity, 0.0)
+        computed = sum(abs(effect.value) for effect in stated.effects.values())  # p/E is not zero
+        assert abs(stated.value) <= stated.uncertainty + computed < 0.02
     assert verdict_of(outcome)[0] == "holds"
 
 
@@ -212,19 +212,19 @@ def test_without_a_solution_free_of_effects_nothing_is_split():
         outcome.data("model_error").unsplit == "no mesh" and outcome.data("model_error").levels >= 2
     )
     row = outcome.figures.one(study="comparison", quantity="peak_pressure")
-    own = outcome.data("model_error").of("peak_pressure", 0.0)
-    assert own.effects == {} and own.interaction == 0.0
+    stated = outcome.data("model_error").of("peak_pressure", 0.0)
+    assert stated.effects == {} and stated.interaction == 0.0
     whole = outcome.data("model_error").wholes[0.0]
     assert "finite_strain" in outcome.data("model_error").selection.added
     peaks = [float(level.solution.pressure.max()) for level in _peers(outcome, whole)]
-    assert own.value == pytest.approx(peaks[0] / peaks[1] - 1.0, abs=own.uncertainty)
-    assert abs(own.value - row.value) > 1e-4
+    assert stated.value == pytest.approx(peaks[0] / peaks[1] - 1.0, abs=stated.uncertainty)
+    assert abs(stated.value - row.value) > 1e-4
 
 
 def _peers(outcome: Run, level: Level) -> tuple[Level, Level]:
     """The half-plane's level on the same pressure elements, and the level."""
     levels = outcome.runs["half_plane"].levels
-    return next(each for each in levels if each.grid == level.grid), level
+    return next(other for other in levels if other.grid == level.grid), level
 
 
 def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(tmp_path):
@@ -252,5 +252,5 @@ def _levels(outcome: Run) -> int:
     """Finite-element levels of a run: the scene's own, the far-boundary check, and the budget's."""
     budget: ErrorBudget = outcome.data("model_error")
     per_level = 1 + 1  # finite deformation, and without
-    own = len(outcome.runs["finite_element"].levels) + 1
-    return own + budget.levels * (per_level - 1)
+    count = len(outcome.runs["finite_element"].levels) + 1
+    return count + budget.levels * (per_level - 1)

@@ -22,24 +22,24 @@ def asperities(places: np.ndarray, width: float = WIDTH) -> np.ndarray:
 @pytest.mark.parametrize("stretch", [0.0, 0.004, -0.021])
 def test_a_known_movement_is_found(shift: float, stretch: float):
     pressure, moved = asperities(PLACES), asperities(PLACES + shift + stretch * PLACES)
-    found = sideways_shift(GRID, pressure, moved)
-    assert found.shift == pytest.approx(shift, abs=0.02e-6)
-    assert found.stretch == pytest.approx(stretch, abs=2e-4)
+    fit = sideways_shift(GRID, pressure, moved)
+    assert fit.shift == pytest.approx(shift, abs=0.02e-6)
+    assert fit.stretch == pytest.approx(stretch, abs=2e-4)
     # by the loads of the asperities, as their pressures are made
     mean = np.average(np.abs(shift + stretch * PLACES), weights=1e9 - 3e12 * np.abs(PLACES))
-    assert found.mean == pytest.approx(mean, abs=0.02e-6)
-    assert found.left < 0.05
+    assert fit.mean == pytest.approx(mean, abs=0.02e-6)
+    assert fit.left < 0.05
     if abs(shift) > WIDTH:
         assert relative_l2(pressure, moved) > 1.0
 
 
 def test_what_differs_in_height_is_left():
     pressure, higher = asperities(PLACES), 1.25 * asperities(PLACES)
-    found = sideways_shift(GRID, pressure, higher)
-    assert found.left == pytest.approx(0.2, abs=1e-3)
-    assert abs(found.shift) < 1e-9 and abs(found.stretch) < 1e-4
+    fit = sideways_shift(GRID, pressure, higher)
+    assert fit.left == pytest.approx(0.2, abs=1e-3)
+    assert abs(fit.shift) < 1e-9 and abs(fit.stretch) < 1e-4
 
 
 def test_equal_pressures_are_not_moved():
-    found = sideways_shift(GRID, asperities(PLACES), asperities(PLACES))
-    assert found.left == 0.0 and found.mean < 1e-12
+    fit = sideways_shift(GRID, asperities(PLACES), asperities(PLACES))
+    assert fit.left == 0.0 and fit.mean < 1e-12

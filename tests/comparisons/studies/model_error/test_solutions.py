@@ -33,10 +33,10 @@ def made(problem_with):
     problem = problem_with(roller=RIGID)
     plan = make_plan(problem, MODELS)
     runs = refined(Solved(problem, plan, None, {}), Tasks()).runs
-    own, patches = runs["finite_element"], runs["half_plane"].finest.patches
+    finite, patches = runs["finite_element"], runs["half_plane"].finest.patches
 
     def variants(tasks) -> SolvedVariants:
-        return SolvedVariants(problem, None, own, tasks, patches)
+        return SolvedVariants(problem, None, finite, tasks, patches)
 
     return variants
 

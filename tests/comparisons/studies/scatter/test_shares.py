@@ -6,16 +6,16 @@ import pytest
 from comparisons.studies.scatter.shares import designs, shares
 
 
-def found(function, inputs: int, samples: int, seed: int = 0):
+def shares_of(function, inputs: int, samples: int, seed: int = 0):
     cube = designs(samples, inputs, seed)
     return shares(function(cube), cube)
 
 
 def test_a_design_mixes_two_and_changes_one_input_each():
     one, other, *mixed = designs(16, 3, 5)
-    for i, each in enumerate(mixed):
+    for i, sample in enumerate(mixed):
         changed = np.array([j == i for j in range(3)])
-        assert np.array_equal(each, np.where(changed, other, one))
+        assert np.array_equal(sample, np.where(changed, other, one))
     assert not np.any(one == other)
     assert np.array_equal(designs(16, 3, 5), designs(16, 3, 5))
     assert not np.array_equal(designs(16, 3, 5), designs(16, 3, 6))
@@ -29,11 +29,11 @@ def test_ishigami():
         return np.sin(x) + 7.0 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x)
 
     exact = shares_of_ishigami(7.0, 0.1)
-    result = found(ishigami, 3, 4096)
+    result = shares_of(ishigami, 3, 4096)
     assert result.first == pytest.approx(exact[0], abs=0.02)
     assert result.total == pytest.approx(exact[1], abs=0.02)
     assert np.all(np.abs(result.first - exact[0]) < 2.0 * result.first_uncertainty)
-    coarse = found(ishigami, 3, 256)
+    coarse = shares_of(ishigami, 3, 256)
     assert np.all(coarse.first_uncertainty > 2.0 * result.first_uncertainty)
 
 
@@ -46,7 +46,7 @@ def shares_of_ishigami(a: float, b: float) -> np.ndarray:
 @pytest.mark.parametrize("samples", [16, 64])
 def test_few_samples_suffice_for_a_line(samples):
     slopes = np.array([3.0, -1.0, 0.5])
-    result = found(lambda cube: 10.0 + cube @ slopes, 3, samples)
+    result = shares_of(lambda cube: 10.0 + cube @ slopes, 3, samples)
     exact = slopes**2 / np.sum(slopes**2)
     assert result.first == pytest.approx(exact, abs=0.02)
     assert result.total == pytest.approx(result.first, abs=1e-12)

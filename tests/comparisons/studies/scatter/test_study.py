@@ -42,13 +42,13 @@ def exact():
     """Hertz's peak pressure and contact length of many random samples of the same inputs."""
     scene, rng = resolved(SCENE), np.random.default_rng(0)
     surface = surface_of(scene)
-    found = []
+    pairs = []
     for point in rng.random((20_000, 3)):
         one, _ = sampled(scene, surface, point)
         modulus = combined_modulus(one.roller.material, one.body.material)
         hertz = hertz_from_load(one.load.value, one.roller.radius, modulus)
-        found.append((hertz.peak_pressure, 2.0 * hertz.half_width))
-    return dict(zip(("peak_pressure", "contact_length"), np.array(found).T, strict=True))
+        pairs.append((hertz.peak_pressure, 2.0 * hertz.half_width))
+    return dict(zip(("peak_pressure", "contact_length"), np.array(pairs).T, strict=True))
 
 
 @pytest.mark.parametrize("quantity", ["peak_pressure", "contact_length"])
@@ -65,11 +65,11 @@ def test_shares_are_those_of_the_powers_in_hertz(outcome):
     """p0 goes with the roots of P, E* and 1/R, and E* with half a power of one of two equal
     moduli."""
     parts = np.array([0.5 * 4.0, 0.25 * 6.0, 0.5 * 3.0]) ** 2
-    found = outcome.figures.one(study="scatter", quantity="peak_pressure").spread.shares
+    shares = outcome.figures.one(study="scatter", quantity="peak_pressure").spread.shares
     expected = dict(zip(("load", "body_youngs_modulus", "roller_radius"), parts, strict=True))
     for name, part in expected.items():
-        assert found[name]["first"] == pytest.approx(part / parts.sum(), abs=0.06)
-        assert found[name]["total"] == pytest.approx(part / parts.sum(), abs=0.06)
+        assert shares[name]["first"] == pytest.approx(part / parts.sum(), abs=0.06)
+        assert shares[name]["total"] == pytest.approx(part / parts.sum(), abs=0.06)
 
 
 def test_the_result_has_it_by_quantity(outcome):
@@ -131,14 +131,14 @@ def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
     )
     scene = unsolved(posed, make_plan(posed, ("half_plane",)))
 
-    def found():
+    def solve_all():
         tasks = Tasks(kept=kept)
         begin(scene, tasks)
         return solve(replace(scene, runs={"half_plane": half_plane}), {}, tasks)
 
-    first = found()
+    first = solve_all()
     monkeypatch.setattr("comparisons.studies.scatter.study._solve_batch", None)
-    again = found()
+    again = solve_all()
     assert again.figures == first.figures
     np.testing.assert_array_equal(again.data.band, first.data.band)
 

@@ -53,7 +53,7 @@ def pressure(source):
 def patches_of(outcome) -> dict[str, list[dict]]:
     """Rows by model."""
     series = outcome.findings["statistics"].series
-    return {each.source: each.rows() for each in series if each.name == "patches"}
+    return {table.source: table.rows() for table in series if table.name == "patches"}
 
 
 def test_loads_go_down_three_decades_from_the_scenes(loads):
@@ -111,7 +111,7 @@ def test_filters_take_the_sharpest_summits_first(outcome):
     profile = outcome.problem.surface.profile
     for row in summit_rows(profile, None):
         rows[row.treatment].append(row)
-    assert [len(each) for each in rows.values()] == [1, 4, 2]
+    assert [len(column) for column in rows.values()] == [1, 4, 2]
     for finer, coarser in zip(rows["cut-off"], rows["cut-off"][1:], strict=False):
         assert coarser.summits[0].radius > 1.3 * finer.summits[0].radius
         assert coarser.summits[0].density < finer.summits[0].density
@@ -132,27 +132,27 @@ def test_cutoffs_can_be_asked_for():
 
 class TestPatches:
     def test_each_is_what_its_pressure_makes_it(self, outcome):
-        [found] = patches_of(outcome).values()
+        [patches] = patches_of(outcome).values()
         level = outcome.runs["half_plane"].finest
-        assert len(found) == len(level.patches)
-        assert sum(patch["load"] for patch in found) == pytest.approx(2e6, rel=1e-6)
-        assert max(patch["peak"] for patch in found) == level.solution.pressure.max()
-        for patch in found:
+        assert len(patches) == len(level.patches)
+        assert sum(patch["load"] for patch in patches) == pytest.approx(2e6, rel=1e-6)
+        assert max(patch["peak"] for patch in patches) == level.solution.pressure.max()
+        for patch in patches:
             assert patch["depth.sphere"] < patch["depth.ridge"]
             flows, cuts = patch["depth.sphere"] > 0.01, patch["depth.ridge"] > 0.1
             kind = "cutting" if cuts else "plastic" if flows else "elastic"
             assert patch["kinds.exact"] == kind
             assert "plastic_strain" not in patch
-        assert len({patch["kinds.exact"] for patch in found}) > 1
+        assert len({patch["kinds.exact"] for patch in patches}) > 1
 
     def test_one_smooth_patch_has_the_rollers_radius(self):
         """Hertz: h/R of a ridge is (a/R)^2, its radius the roller's."""
-        found = run(resolved(SMOOTH), None, ("half_plane",))
+        done = run(resolved(SMOOTH), None, ("half_plane",))
         wanted = SimpleNamespace(metal="ferrous", lubricated=False)
-        scene = found.problem.scene.unchecked({"statistics": wanted})
-        level = found.runs["half_plane"].finest
-        [patch] = patch_rows(replace(found.problem, scene=scene), level)
-        hertz = found.problem.hertz
+        scene = done.problem.scene.unchecked({"statistics": wanted})
+        level = done.runs["half_plane"].finest
+        [patch] = patch_rows(replace(done.problem, scene=scene), level)
+        hertz = done.problem.hertz
         assert patch["radius"] == pytest.approx(hertz.radius, rel=1e-3)
         depth = (hertz.half_width / hertz.radius) ** 2
         assert patch["depth.ridge"] == pytest.approx(depth, rel=1e-3)
@@ -202,9 +202,9 @@ def test_a_run_says_it(tmp_path, capsys):
     page = (out / "report.html").read_text()
     words = " ".join(page.split())
     assert 'id="statistics"' in page and "below 0.0001, cutting above 0.3" in words
-    found = read_result(out / "result.json").findings["statistics"]
-    loads, (patches,) = found.table("loads"), [s for s in found.series if s.name == "patches"]
-    assert found.table("traces").columns["traces"].values == (4,)
+    findings = read_result(out / "result.json").findings["statistics"]
+    loads, (patches,) = findings.table("loads"), [s for s in findings.series if s.name == "patches"]
+    assert findings.table("traces").columns["traces"].values == (4,)
     assert len(loads.rows()) == 7
     causes = {name.partition(".")[2] for name in loads.columns if name.startswith("causes")}
     assert causes == {"summits alone", "ridges", "few contacts"}
@@ -218,10 +218,10 @@ def test_without_the_section_nothing_of_it_runs(monkeypatch):
     """Nor do the theories load, and the plan says so."""
     monkeypatch.setitem(sys.modules, "analytic.statistics.rough_bodies", None)
     scene = resolved({name: part for name, part in SCENE.items() if name != "statistics"})
-    found = run(scene, None, ("half_plane",))
-    assert "statistics" not in found.findings
-    said = found.findings["problem"].statements
-    skipped = {each.source: each.text for each in said if each.name == "skipped"}
+    done = run(scene, None, ("half_plane",))
+    assert "statistics" not in done.findings
+    said = done.findings["problem"].statements
+    skipped = {line.source: line.text for line in said if line.name == "skipped"}
     assert skipped["statistics of rough contact"] == "the scene has no [statistics]"
     plan = make_plan(problem_of(resolved(SCENE)), ("finite_element",))
     because = [item.because for item in plan.skipped if item.step == "statistics of rough contact"]

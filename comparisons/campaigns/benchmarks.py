@@ -1,0 +1,101 @@
+"""Published contact benchmarks: the scenes of the library's `benchmarks`, solved as `run` does.
+
+In: their scenes, each with what is published of it ([published.NAME]). Out: one table of published
+figures, both models' and the verdicts; benchmarks.json, a page, JUnit. A figure that is marked
+doubtful is shown with its difference and decides nothing."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.campaigns.cases import Campaign, Case, carry_out
+from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.quantity import MODELS
+from comparisons.output.page.html import STYLES, rendered
+from comparisons.output.terminal import plain_table
+from comparisons.scenes.files import benchmark_names
+from comparisons.scenes.scene import Scene
+from comparisons.studies.published import HEAD, NAME, NOTE, table
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+COMMAND = "benchmarks"
+
+
+def cases(names: tuple[str, ...] | None = None) -> list[Case]:
+    """Of benchmarks by name, None: all."""
+    return [
+        Case("benchmark", name, "both", partial(figures_of_benchmark, name))
+        for name in names or benchmark_names()
+    ]
+
+
+def figures_of_benchmark(name: str) -> Iterator[Figure]:
+    """What is published of a benchmark, against both models."""
+    from comparisons.runs.run import solve_scene
+
+    yield from solve_scene(Scene.read(name), None, MODELS).figures.of(study=NAME)
+
+
+@dataclass(frozen=True)
+class Benchmarks(Campaign):
+    """All benchmarks, solved."""
+
+    @cached_property
+    def tables(self) -> Mapping[str, list[tuple[str, ...]]]:
+        """Rows of HEAD by benchmark."""
+        return {
+            row.case.name: table(Scene.read(row.case.name).published, Figures(row.figures))
+            for row in self.rows
+        }
+
+    def as_dict(self) -> dict:
+        """With a table of texts, a row for each published figure."""
+        columns = ("published_figure", *HEAD[1:-1], "note")
+        rows = [
+            {"benchmark": name} | dict(zip(columns, row, strict=True))
+            for name, rows in self.tables.items()
+            for row in rows
+        ]
+        return super().as_dict() | {"table": rows}
+
+    def summary(self) -> "RenderableType":
+        from rich.console import Group
+
+        shown, notes = plain_table(HEAD[0], numbers=HEAD[1:-1]), []
+        for name, rows in self.tables.items():
+            shown.add_row(f"[bold]{name}")
+            for row in rows:
+                shown.add_row(f"  {row[0]}", *row[1:-1])
+            notes += [f"{name}, {row[0]}: {row[-1]}" for row in rows if row[-1]]
+        return Group(shown, *notes, *self.verdict_lines())
+
+    def page(self) -> str:
+        columns = ("published figure", *HEAD[1:-1], "why")
+        tables = []
+        for name, rows in self.tables.items():
+            scene = Scene.read(name)
+            sections = scene.published.values()
+            sources = [s.source + ("" if s.read else " (not read itself)") for s in sections]
+            cells = [(*row, source) for row, source in zip(rows, sources, strict=True)]
+            tables.append((f"{name}: {scene.title}", (*columns, "source"), cells))
+        title = f"Published benchmarks: {'all agree' if self.holds else 'not all agree'}"
+        template = Path(__file__).with_name("verify") / "verify.html.j2"
+        return rendered(
+            template, policy=STYLES, title=title, about=NOTE, faults=self.faults, tables=tables
+        )
+
+
+def run_benchmarks(
+    out: Path,
+    junit: Path | None = None,
+    callback: ProgressCallback = no_progress,
+    names: tuple[str, ...] | None = None,
+) -> Benchmarks:
+    """Solve benchmarks by name, None: all; leave benchmarks.json and .html in `out`, JUnit XML in
+    the file `junit`. Raises InputError where those cannot be written."""
+    return carry_out(COMMAND, cases(names), out, junit, callback, Benchmarks)

@@ -1,0 +1,139 @@
+"""What others publish of the same contact, beside both models.
+
+In: a solved scene with sections [published.NAME]. Out: the difference of each model's figure over
+the published one; that of the model that has what the publication has is judged. What is published
+has a scatter s, ours an uncertainty U: they agree within s + U and differ beyond s + 3 U."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from comparisons.common.numbers import percent
+from comparisons.common.tasks import Tasks
+from comparisons.drawing.blocks import Block, Note, TextTable, judged_cells
+from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Figure, Figures, Findings
+from comparisons.figures.quantity import LABELS, MODELS, Quantity
+from comparisons.figures.quantity import QUANTITIES as COMPARED
+from comparisons.figures.uncertainty import iteration, numerical
+from comparisons.models.level import Level
+from comparisons.scenes.studies.published import DIMENSIONS, LOWERING, PublishedSection
+from comparisons.studies import contact
+from comparisons.studies.friction import partial_slip
+from comparisons.studies.study import Run, Solved, Study
+
+NAME = "published"
+LOWERED = Quantity("lowering of the surface under the roller", "m", formal_order=2.0)
+KNOWN = COMPARED | partial_slip.QUANTITIES | {LOWERING: LOWERED}
+QUANTITIES = {name: KNOWN[name] for name in DIMENSIONS}
+HEAD = ("", "published", *map(LABELS.get, MODELS), "difference", "uncertainty", "verdict", "")
+NOTE = """Difference: (ours − published) / published, of the model that has what the publication
+has. Its uncertainty is ours; they agree within it and the scatter of what is published, and differ
+beyond the scatter by three times it."""
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    known = Figures(
+        figure
+        for study in (contact.NAME, partial_slip.NAME)
+        if study in before
+        for figure in before[study].figures
+    )
+    known = Figures((*known, *_lowering(solved)))
+    figures = []
+    for name, section in solved.problem.scene.published.items():
+        ours = known.of(quantity=section.quantity, against=None)
+        ours = [ours.one(source=model) for model in solved.runs]
+        last = section.judged_by or [figure.source for figure in ours if figure][-1:]
+        figures += [_difference(name, section, f, f.source in last) for f in ours if f]
+    return Findings(tuple(figures))
+
+
+def _difference(name: str, section: PublishedSection, ours: Figure, judged: bool) -> Figure:
+    size, stated = section.size, ours.uncertainty
+    parts = {cause: part * ours.scale / size for cause, part in stated.parts.items()}
+    stated = replace(stated, parts=parts)
+    bound = section.spread + 2.0 * stated.total
+    return replace(
+        ours,
+        study=NAME,
+        value=(ours.value - size) / size,
+        against=name,
+        scale=size,
+        uncertainty=stated,
+        bounds=(-bound, bound) if judged and not section.doubtful else None,
+        levels=tuple((value - size) / size for value in ours.levels),
+        notes=("judged",) if judged else (),
+    )
+
+
+def _lowering(solved: Solved) -> list[Figure]:
+    """Of finite elements of a body that has a base."""
+    run = solved.runs.get("finite_element")
+    if run is None or solved.problem.scene.body.thickness is None:
+        return []
+    values = [_lowered(level) for level in run.levels]
+    refined = grid_convergence(values, LOWERED.formal_order)
+    size = values[-1]
+    stated = numerical(iteration(run.finest), refined.uncertainty / size, 0.0, 0.0, refined)
+    at = {"friction": solved.problem.scene.load.friction[0]}
+    return [Figure(NAME, LOWERING, run.name, size, at, None, size, stated, levels=tuple(values))]
+
+
+def _lowered(level: Level) -> float:
+    return float(np.interp(0.0, level.grid.x, level.displacement))
+
+
+def row_of(
+    name: str, section: PublishedSection, of_models: Mapping[str, Figure]
+) -> tuple[str, ...]:
+    """Cells of HEAD by each model's figure."""
+    sizes = {model: f.scale * (1.0 + f.value) for model, f in of_models.items()}
+    texts = [section.as_published(sizes[model]) if model in sizes else "" for model in MODELS]
+    [judged] = [f for f in of_models.values() if "judged" in f.notes] or [None]
+    if judged is None:
+        return (name, section.value, *texts, "", "", "not known", section.note)
+    difference, uncertainty, _, verdict = judged_cells(judged)
+    spread = f"{section.value} ± {percent(section.spread)}" if section.scatter else section.value
+    if section.doubtful:
+        verdict = "agree" if abs(judged.value) <= section.spread + judged.numerical else "differ"
+        verdict += ", doubtful"
+    return (name, spread, *texts, difference, uncertainty, verdict, section.note)
+
+
+def table(sections: Mapping[str, PublishedSection], figures: Figures) -> list[tuple[str, ...]]:
+    """Rows of HEAD."""
+    return [
+        row_of(name, section, {f.source: f for f in figures.of(study=NAME, against=name)})
+        for name, section in sections.items()
+    ]
+
+
+def blocks(run: Run) -> list[Block]:
+    sections = run.problem.scene.published
+    rows = table(sections, run.figures)
+    sources = "; ".join(
+        f"{name}: {section.source}{'' if section.read else ' (not read itself)'}"
+        for name, section in sections.items()
+    )
+    shown = TextTable("", HEAD, tuple(rows), "comparison prose", words=True)
+    return [
+        Block("answers", (shown, Note(NOTE), Note(f"Sources. {sources}.")), "Published figures")
+    ]
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """A line for each published figure."""
+    rows = table(run.problem.scene.published, run.figures)
+    return [("published", f"{row[0]} {row[1]}: {row[4]} ± {row[5]}, {row[6]}") for row in rows]
+
+
+STUDY = Study(
+    NAME,
+    QUANTITIES,
+    solve,
+    applies=lambda solved: bool(solved.problem.scene.published),
+    blocks=blocks,
+    lines=lines,
+)

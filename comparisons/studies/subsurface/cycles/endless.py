@@ -1,0 +1,140 @@
+"""A smooth body that is rolled over from far behind to far ahead, on one level of refinement.
+
+Nomenclature: a half-width and p0 peak pressure of the smooth contact, k = Y/sqrt(3) yield stress in
+shear by von Mises, h edge of the elements."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from analytic.contact.patches import contact_patches
+from analytic.exact.shakedown import peak_carried
+from analytic.grid import HatGrid
+from comparisons.models.problem import Problem
+from comparisons.studies.subsurface.cycles.passes import CycledLevel, Passes
+from meshes.block import structured
+
+COARSEST = 4.0  # elements on a half-width, on level 1
+STEEPER = 0.3  # growth of the edges beyond what is refined, on level 1; 1/sqrt 2 of it on the next
+BESIDE = 1.0  # half-widths beside the contact that are refined
+LEAST_PRESSURE = 1.0 + 0.5 * np.pi  # times k: mean that a flat punch bears; contact is no wider
+# Half-widths that are refined below it: P/(pi z), which the largest shear comes near to, is k at
+# z = p0/(2k) a; the deepest flow is a little above.
+DEEP, LEAST_DEEP = 0.35, 1.5
+# Seconds of an iteration and of each of its unknowns, and iterations a pass, near the limit.
+ITERATION, EACH_UNKNOWN, ITERATIONS = 1e-3, 1.5e-6, 30.0
+
+
+def yield_in_shear(problem: Problem) -> float:
+    """k [Pa] by von Mises."""
+    return problem.scene.body.yield_stress / 3**0.5
+
+
+def peak_over_shear(problem: Problem) -> float:
+    """p0/k."""
+    return problem.hertz.peak_pressure / yield_in_shear(problem)
+
+
+def lines_of(problem: Problem, number: int) -> tuple[np.ndarray, np.ndarray]:
+    """x, over the surface, and z [m] of the mesh's lines on a level from 1."""
+    edges = COARSEST * 2.0 ** (number - 1)
+    ratio = 1.0 + STEEPER * 0.5 ** (0.5 * (number - 1))
+    edge, over = problem.hertz.half_width / edges, peak_over_shear(problem)
+    depth = problem.scene.body.thickness or problem.block
+    x = _graded(_reach(problem, edges), edge, ratio, 0.5 * problem.block)
+    z = _graded(round(max(LEAST_DEEP, DEEP * over) * edges), edge, ratio, depth)
+    return np.concatenate([-x[:0:-1], x]), z
+
+
+def _reach(problem: Problem, edges: float) -> int:
+    """Equal edges, so many to a half-width, to each side."""
+    widest = max(1.0, 0.25 * np.pi * peak_over_shear(problem) / LEAST_PRESSURE)
+    return round((widest + BESIDE) * edges)
+
+
+def _graded(count: int, edge: float, ratio: float, end: float) -> np.ndarray:
+    """0 to an end [m] by so many equal edges [m], or fewer, and then such that grow."""
+    if count * edge >= end:
+        return np.linspace(0.0, end, int(np.ceil(end / edge)) + 1)
+    left = end - count * edge
+    more = int(np.ceil(np.log1p(left * (ratio - 1.0) / (edge * ratio)) / np.log(ratio)))
+    grown = np.cumsum(ratio ** np.arange(more))
+    equal = edge * np.arange(count + 1)
+    return np.concatenate([equal, equal[-1] + left * grown / grown[-1]])
+
+
+def expected_seconds(problem: Problem, number: int, passes: int) -> float:
+    """Of a level from 1."""
+    x, z = lines_of(problem, number)
+    unknowns = 8.0 * len(x) * len(z)
+    return passes * ITERATIONS * (ITERATION + EACH_UNKNOWN * unknowns)
+
+
+def rolled(problem: Problem, number: int, begin: Callable[[int], None]) -> CycledLevel:
+    """The passes on a level from 1; `begin` is called with each. Raises FemError."""
+    from comparisons.models.finite_element.contact import roller_of
+    from fem.body.elasticity import elastic_body
+    from fem.body.support import Support
+    from fem.compliance.operator import FiniteElementCompliance
+    from fem.nonlinear.cycles import equivalent_of
+    from fem.nonlinear.plasticity import ElasticPlastic
+    from fem.nonlinear.press_plastic import TRAVEL, averaged_pressure
+    from fem.nonlinear.rolling import RolledBody
+
+    scene, hertz, load = problem.scene, problem.hertz, problem.hertz.load_per_length
+    friction, metal = max(scene.load.friction), scene.body.material
+    mesh = structured(*lines_of(problem, number))
+    edges = COARSEST * 2.0 ** (number - 1)
+    last = _reach(problem, edges) - 1
+    grid = HatGrid(hertz.half_width / edges, -last, last)
+    support = Support(scene.body.base or "bonded", "fixed")
+    body = elastic_body(mesh, metal, support)
+    nodes = grid.pitch * np.arange(grid.first - 1, grid.last + 2)
+    compliance, roller = FiniteElementCompliance(body, nodes), None
+    if not scene.roller.rigid:
+        other = scene.roller.material
+        alike = (other.youngs_modulus, other.poissons_ratio) == (
+            metal.youngs_modulus,
+            metal.poissons_ratio,
+        )
+        above = body if alike else elastic_body(mesh, other, Support("bonded", "fixed"))
+        roller = FiniteElementCompliance(above, nodes)
+    gap = grid.hat_integrals(problem.finite_element_gap)
+    rolled = RolledBody(
+        *(compliance, ElasticPlastic(metal, scene.body.flow_stress()), gap, grid.weights),
+        *(hertz.pressure(grid.x), friction, roller, TRAVEL),
+    )
+    before, rows, arrays = 0.0, [], []
+    for count in range(1, scene.cycles.passes + 1):
+        begin(count)
+        done = rolled.roll(load)
+        deepest, pressure = done.sx.argmin(), averaged_pressure(done.pressure)
+        patches = contact_patches(grid.x, done.pressure, done.opening)
+        row = {"flow": done.added.max(), "net": equivalent_of(done.plastic - before).max()}
+        # what holds the roller back: its pressures on its own slope, and what friction drags
+        row |= {"work": float((done.pressure * grid.weights) @ roller_of(problem)(grid.x)[1])}
+        row["work"] += done.dragged
+        row |= {"plastic_work": done.plastic_work, "stored": done.stored}
+        row |= {"residual": done.sx[deepest], "residual_depth": done.depth[deepest]}
+        row |= {"peak": pressure.max(), "length": np.ptp(patches, axis=1).sum()}
+        before = done.plastic
+        rows.append(row)
+        arrays.append((pressure, np.column_stack([done.sx, done.sy])))
+    shown = done.depth <= max(LEAST_DEEP, DEEP * peak_over_shear(problem)) * hertz.half_width
+    back = 2.0 / 3.0 * scene.body.flow_stress().kinematic * done.plastic * [1.0, 1.0, 0.5, 1.0]
+    rest = np.column_stack([done.sx, np.zeros((len(done.sx), 2)), done.sy]) - back
+    flow = scene.body.flow_stress().stress(done.equivalent) / scene.body.yield_stress
+    over = done.depth[shown] / hertz.half_width, (rest / yield_in_shear(problem))[shown]
+    return CycledLevel(
+        pitch=grid.pitch,
+        unknowns=body.unknowns,
+        seconds=0.0,
+        passes=Passes.of(rows),
+        x=grid.x,
+        pressure=np.array([arrays[0][0], arrays[-1][0]]),
+        lowering=np.zeros((2, grid.count)),
+        height=np.zeros(grid.count),
+        z=done.depth[shown],
+        profile=np.array([arrays[0][1], arrays[-1][1]])[:, shown],
+        carried=peak_carried(*over, flow[shown], friction, metal.poissons_ratio),
+    )

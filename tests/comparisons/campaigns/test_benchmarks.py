@@ -1,0 +1,104 @@
+"""Published benchmarks: the form of what is published, and two of them solved."""
+
+import json
+
+import pytest
+from scenes import STEEL, changed, resolved
+
+from comparisons.campaigns.benchmarks import run_benchmarks
+from comparisons.cli import main
+from comparisons.common.errors import SceneError
+from comparisons.scenes.files import benchmark_names, scene_names
+from comparisons.scenes.scene import Scene
+
+STATED = {"quantity": "peak_pressure", "value": "9.351 MPa", "source": "a manual"}
+PLAIN = {
+    "roller": {"radius": 4e-3, **STEEL},
+    "body": STEEL,
+    "load": {"per_length": 1e4},
+    "published": {"p0": STATED},
+}
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    out = tmp_path_factory.mktemp("benchmarks")
+    return run_benchmarks(out, out / "ci.xml", names=("vm191", "vm272")), out
+
+
+def test_published_figures_agree_but_for_the_doubtful_one(solved):
+    campaign, _ = solved
+    assert campaign.holds
+    verdicts = {
+        f"{name} {row[0]}": row[6] for name, rows in campaign.tables.items() for row in rows
+    }
+    assert verdicts == {
+        "vm191 target, 2b": "agree",
+        "vm191 Mechanical APDL, 2b": "differ, doubtful",
+        "vm272 2a": "agree",
+        "vm272 p0": "agree",
+    }
+
+
+def test_both_models_are_shown_in_the_published_unit(solved):
+    [_, peak] = solved[0].tables["vm272"]
+    assert peak[1] == "9.351 MPa"
+    for text in peak[2:4]:
+        number, unit = text.split()
+        assert unit == "MPa" and float(number) == pytest.approx(9.351, rel=2e-3)
+
+
+def test_files_say_the_same(solved):
+    out = solved[1]
+    written = json.loads((out / "benchmarks.json").read_text(encoding="utf-8"))
+    assert written["holds"] and [row["case"] for row in written["rows"]] == ["vm191", "vm272"]
+    page = (out / "benchmarks.html").read_text(encoding="utf-8")
+    assert "plane strain" in page and "Chandrasekaran" in page
+    assert 'failures="0"' in (out / "ci.xml").read_text(encoding="utf-8")
+
+
+def test_a_figure_beyond_its_scatter_differs(tmp_path, monkeypatch):
+    scene = Scene.read("vm272").changed({"published.p0.value": "9.400 MPa"})
+    monkeypatch.setattr(Scene, "read", lambda name: scene)
+    campaign = run_benchmarks(tmp_path, names=("vm272",))
+    assert not campaign.holds and "p0" in str(campaign.tables)
+
+
+def test_every_benchmark_says_what_is_published_and_where():
+    names = benchmark_names()
+    assert len(names) >= 6 and not set(names) & set(scene_names())
+    for name in names:
+        scene = Scene.read(name)
+        assert scene.published and scene.title
+        for section in scene.published.values():
+            assert section.size > 0.0 and 0.0 < section.spread < 0.2 and len(section.source) > 20
+
+
+def test_they_are_listed(capsys):
+    assert main(["scenes", "--benchmarks", "--json"]) == 0
+    assert list(json.loads(capsys.readouterr().out)) == benchmark_names()
+
+
+@pytest.mark.parametrize(("value", "spread"), [("9.351 MPa", 5e-4 / 9.351), ("30 mm", 0.5 / 30)])
+def test_scatter_is_at_least_that_of_the_digits(value, spread):
+    quantity = "peak_pressure" if "Pa" in value else "contact_length"
+    scene = resolved(
+        changed(PLAIN, published={"p0": STATED | {"value": value, "quantity": quantity}})
+    )
+    assert scene.published["p0"].spread == pytest.approx(spread)
+
+
+@pytest.mark.parametrize(
+    ("entry", "said"),
+    [
+        ({"value": "9.351"}, 'published.p0.value: is "9.351", which has no unit'),
+        ({"value": "9.351 mm"}, "published.p0.value: .*mm.*; allowed is a number and its unit"),
+        ({"value": "-1 MPa"}, "published.p0.value: is -1 MPa; allowed is a size above 0"),
+        ({"quantity": "weight"}, "published.p0.quantity: is .weight.; allowed is"),
+        ({"doubtful": True}, "published.p0.note: is missing beside doubtful = true"),
+        ({"sources": "x"}, "published.p0.sources: is no known field; the nearest is"),
+    ],
+)
+def test_what_is_no_published_figure_is_one_line(entry, said):
+    with pytest.raises(SceneError, match=said):
+        resolved(changed(PLAIN, published={"p0": STATED | entry}))
