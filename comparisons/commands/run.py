@@ -222,7 +222,7 @@ def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:
     nor under a load that must be found first."""
     if scene.running_in is not None or scene.load.kind == "approach" or not is_first():
         return
-    from comparisons.campaigns.maps.place import first_answer
+    from comparisons.campaigns.maps.answer import first_answer
     from comparisons.models.problem import problem_of
 
     for line in first_answer(problem_of(scene, surface)):

@@ -82,7 +82,7 @@ def init(
         show_json(made.as_dict())
         return ExitStatus.DONE
     from comparisons.campaigns.init.show import init_table
-    from comparisons.campaigns.maps.place import first_answer
+    from comparisons.campaigns.maps.answer import first_answer
     from comparisons.models.problem import problem_of
     from comparisons.output.terminal import PLAIN
 

@@ -19,7 +19,7 @@ from comparisons.commands.arguments import (
     out_option,
 )
 from comparisons.commands.output import progress, show_either, show_written
-from comparisons.common.errors import ExitStatus
+from comparisons.common.errors import ExitStatus, tell
 from comparisons.common.mpi import from_first
 
 Axis = Annotated[
@@ -39,6 +39,9 @@ def cost(
     scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
     repeats: Annotated[int, Option(help="Times that each setting is measured.")] = 3,
+    whole: Annotated[
+        bool, Option("--whole", help="Against the whole model: every effect that matters.")
+    ] = False,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
     """Measure error against time of every method; name the cheapest for each tolerance."""
@@ -49,7 +52,7 @@ def cost(
     asked = Scene.read(scene)
     directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
-        study = measured_cost(asked, directory, repeats, callback)
+        study = measured_cost(asked, directory, repeats, callback, whole=whole)
     path = directory / "cost.json"
     show_written(as_json, path, lambda: cost_table(study))
     if not as_json:
@@ -92,7 +95,7 @@ def map_of(
         request_of,
         show_finished,
     )
-    from comparisons.campaigns.maps.place import problem_named
+    from comparisons.campaigns.maps.place import problem_named, unlike
 
     marked = mark and from_first(lambda: problem_named(mark))
     solves = again or any(option is not None for option in (points, x, y, workers))
@@ -108,6 +111,8 @@ def map_of(
             content = make_map(request, directory, workers, callback, marked)
     if content is None:  # it worked for the first process
         return ExitStatus.DONE
+    if marked and (why := unlike(content, marked)):
+        tell(f"--mark: {marked.scene.name} {why}; the map's errors are those of its own scene")
     show_either(as_json, content, lambda: map_table(content, directory))
     return exit_status(content)
 

@@ -14,7 +14,7 @@ from rich.console import Console
 
 from comparisons.campaigns.init.first_scene import write_first_scene
 from comparisons.campaigns.init.show import init_table
-from comparisons.campaigns.maps.place import first_answer
+from comparisons.campaigns.maps.answer import first_answer
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.progress import no_progress
 from comparisons.models.problem import problem_of

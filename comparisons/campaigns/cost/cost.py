@@ -4,7 +4,7 @@ from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.campaigns.cost.measure import cost_cache, measured_study
-from comparisons.campaigns.cost.methods import METHODS, SolutionMethod
+from comparisons.campaigns.cost.methods import SolutionMethod, methods_of, with_every_effect
 from comparisons.campaigns.cost.recommend import Cost, assess
 from comparisons.campaigns.cost.show import content_of, cost_page
 from comparisons.common.cache import Cache
@@ -30,21 +30,31 @@ def cost(
     out: Path,
     repeats: int,
     callback: ProgressCallback = no_progress,
-    methods: tuple[SolutionMethod, ...] = METHODS,
+    methods: tuple[SolutionMethod, ...] | None = None,
+    whole: bool = False,
 ) -> Cost:
     """Measure, assess, and write cost.json and cost.html in `out`, whole or not at all. What was
     measured stays beside them (`comparisons.campaigns.cost.measure`): the same study goes on from
-    there. Raises InputError for a scene that cannot be solved or a folder that cannot be written,
+    there.
+
+    methods  None: all that apply
+    whole    whether the finite elements get every effect that matters, so that the models of the
+             ladder are measured beside each other
+
+    Raises InputError for a scene that cannot be solved or a folder that cannot be written,
     KeyboardInterrupt with how to go on."""
     if is_several():
         raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
     if repeats < 1:
         raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
     check_writable(out, FILES)
-    cache = cost_cache(out, scene, repeats)
+    cache = cost_cache(out, scene, repeats, whole)
     cache.remove_leftovers()
     try:
         problem = _problem(scene, cache, callback)
+        if whole:
+            problem = with_every_effect(problem)
+        methods = methods_of(problem) if methods is None else methods
         study = assess(problem, measured_study(problem, repeats, cache, callback, methods))
         callback("drawing the diagrams")
         publish(out, dict(zip(FILES, (as_json(content_of(study)), cost_page(study)), strict=True)))
@@ -57,6 +67,9 @@ def _problem(scene: Scene, cache: Cache, callback: ProgressCallback) -> Problem:
     """The scene's problem, under the load of its approach where that is prescribed."""
     callback("finding the extent of the contact")
     try:
+        if scene.periodic:
+            why = "is true; allowed is a roller, whose contact every method of `cost` solves"
+            raise SceneError(f"{scene.source}: profile.periodic: {why}")
         surface = surface_of(scene)
         if scene.load.kind != "approach":
             return problem_of(scene, surface)

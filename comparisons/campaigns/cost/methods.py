@@ -16,15 +16,26 @@ from analytic.stress.field import friction_field
 from analytic.stress.maxima import stress_maxima
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages
+from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, StressResult
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, search_window
 from comparisons.studies.contact import values_of
+from comparisons.studies.ladder.operators import (
+    OperatorModel,
+    carried_deformed,
+    carried_linear,
+    problem_carrying,
+)
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained, kinematic
+from comparisons.studies.model_error.selection import select_effects
 
 HALF_PLANE_PITCHES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)  # of the scene's coarsest
 FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5, 0.25)
+
+OPERATOR, DEFORMED, LINEAR = "operator", "deformed", "linear"  # elements of the ladder's models
 
 Values = tuple[dict[str, float], ...]  # [SI] of the compared quantities, one a friction coefficient
 
@@ -35,7 +46,9 @@ class SolutionMethod:
 
     name: str  # in table and diagram
     model: str  # half_plane | finite_element
-    element: str  # hat | strip of pressure; or P1 | P2 | P3
+    # hat | strip of pressure; or P1 | P2 | P3; or of a model of the ladder operator | deformed |
+    # linear
+    element: str
 
     def settings(self, problem: Problem) -> tuple[float, ...]:
         factors = HALF_PLANE_PITCHES if self.model == "half_plane" else FINITE_ELEMENT_PITCHES
@@ -49,6 +62,27 @@ METHODS = (
     *(SolutionMethod(degree, "finite_element", degree) for degree in ("P1", "P2", "P3")),
 )
 
+# Models of the ladder between the half-plane and the scene's own finite elements.
+LADDER = (
+    SolutionMethod("hats, layered", "half_plane", OPERATOR),
+    SolutionMethod("hats, deformed", "half_plane", DEFORMED),
+    SolutionMethod("P2, linear", "finite_element", LINEAR),
+)
+
+
+def methods_of(problem: Problem) -> tuple[SolutionMethod, ...]:
+    """Those of METHODS, and of LADDER what differs from them in a scene, the cheaper first."""
+    effects, settings = contained(problem.scene), problem.scene.finite_element
+    possible = {
+        OPERATOR: carried_linear(problem.scene, effects),
+        DEFORMED: carried_deformed(problem, effects),
+        LINEAR: settings.deformation == "finite" or settings.plastic,
+    }
+    if len(problem.scene.load.friction) > 1 and settings.coupled:
+        possible = {LINEAR: possible[LINEAR]}  # each coefficient has a contact of its own
+    between = [method for method in LADDER if possible.get(method.element)]
+    return tuple(sorted((*METHODS, *between), key=lambda method: MODELS.index(method.model)))
+
 
 def why_not(method: SolutionMethod, problem: Problem) -> str | None:
     """Why a method does not apply to a scene at all, None where it does."""
@@ -58,6 +92,8 @@ def why_not(method: SolutionMethod, problem: Problem) -> str | None:
             return "friction moves the surfaces: only hats by FFT have that"
         return None
     nonlinear = settings.plastic or settings.deformation == "finite"
+    if method.element == LINEAR:
+        return None
     if method.element != "P2" and nonlinear:
         return "bodies that yield or deform finitely take P2"
     return None
@@ -90,11 +126,17 @@ def solved(
         level = half_plane_level(problem, setting, window, stages)
     elif method.element == "strip":
         level = _by_strips(problem, setting, window, stages)
+    elif method.element in (OPERATOR, DEFORMED):
+        level = _by_operator(problem, setting, window, stages, method.element == DEFORMED)
     else:
         from comparisons.models.finite_element.level import LevelOptions, finite_element_level
         from comparisons.models.finite_element.mesh import Refinement
 
-        scene = problem.scene.unchecked({"finite_element.element": method.element})
+        sets = {"finite_element.element": method.element}
+        if method.element == LINEAR:
+            sets = {"finite_element.element": "P2", "finite_element.deformation": "linear"}
+            sets |= {"finite_element.plastic": False}
+        scene = problem.scene.unchecked(sets)
         problem, refinement = replace(problem, scene=scene), Refinement(setting, half_block)
         plan = make_plan(problem, ("finite_element",))
         level = finite_element_level(
@@ -103,6 +145,21 @@ def solved(
     frictions = problem.scene.load.friction
     values = tuple(values_of(level, problem, friction) for friction in frictions)
     return replace(level, mesh=None), values
+
+
+def _by_operator(
+    problem: Problem, pitch: float, window: Window | None, stages: Stages, deformed: bool
+) -> Level:
+    """With what an operator carries of the scene's finite elements, or on the deformed surface."""
+    frictions, effects = problem.scene.load.friction, contained(problem.scene)
+    held = carried_linear(problem.scene, effects)
+    if deformed:
+        held = carried_deformed(problem, effects)
+    coupling = frictions[0] if COUPLED in held else 0.0
+    model = OperatorModel(problem_carrying(problem, held), frictions, coupling, deformed)
+    level = model.level(pitch, window)
+    stages.seconds.update(level.seconds)
+    return level
 
 
 def _by_strips(problem: Problem, pitch: float, window: Window | None, stages: Stages) -> Level:
@@ -151,3 +208,15 @@ def _stresses(problem: Problem, level: Level, window: Window) -> tuple[StressRes
         field = StressState(*(np.vstack([unknown, part]) for part in parts))
         results.append(StressResult(friction, extremes, field))
     return tuple(results)
+
+
+def with_every_effect(problem: Problem) -> Problem:
+    """The problem whose finite elements have all effects of the whole model."""
+    level = half_plane_level(problem, problem.pitches[0], None, Stages())
+    scene, peak = problem.scene, float(level.solution.pressure.max())
+    added = select_effects(problem, peak, ()).added
+    if "finite_strain" in added:
+        added = added | kinematic(scene)
+    for name in added:
+        scene = EFFECTS[name].give(scene, scene)
+    return replace(problem, scene=scene)

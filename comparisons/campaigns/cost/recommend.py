@@ -8,7 +8,7 @@ from itertools import takewhile
 from operator import itemgetter
 
 from comparisons.campaigns.cost.measure import OK, CostRow, measuring_machine
-from comparisons.campaigns.cost.methods import FINEST, METHODS
+from comparisons.campaigns.cost.methods import DEFORMED, FINEST, LINEAR, OPERATOR
 from comparisons.campaigns.cost.reference import Reference, errors_of, references
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import integer, percent, percent_as_written, with_unit
@@ -19,6 +19,7 @@ from comparisons.models.problem import FEWEST_ELEMENTS, Problem
 from comparisons.models.window import window_of
 
 ALL = "all"
+RUNGS = {OPERATOR: "operators", DEFORMED: "deformed", LINEAR: "linear"}  # names for `--up-to`
 ELEMENTS_OF_RUN = ("P1", "P2", "P3")  # finite elements that a scene can have `run` solve with
 
 Tolerances = dict[str, float]
@@ -118,7 +119,7 @@ def _recommendation(
         return cheapest(candidates)
 
     half_plane, finite_element = steady(FINEST.name), steady(*ELEMENTS_OF_RUN)
-    best = steady(*(method.name for method in METHODS))
+    best = steady(*dict.fromkeys(row.method.name for row, _ in judged))
     below = float("inf") if best is None else best.seconds(stresses)
     lucky = cheapest(row for row, meets in judged if meets and row.seconds(stresses) < below)
     name, tolerance = next(iter(aim.items())) if len(aim) == 1 else (ALL, None)
@@ -127,10 +128,10 @@ def _recommendation(
 
 
 def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
-    """The sections of a scene whose first levels end at a row's setting. Three levels, which state
-    an uncertainty; two where the coarsest of three would be too coarse. The mesh grows at that
-    level as it did when it was measured; in a stress window its elements are as small as on the
-    scene's own third level. `run` refines on only while a tolerance is open."""
+    """The sections of a scene whose first levels end at a row's setting. There are three levels,
+    which state an uncertainty, or two where the coarsest of three would be too coarse. The mesh
+    grows at that level as it did when it was measured; in a stress window its elements are as small
+    as on the scene's own third level. `run` refines on only while a tolerance is open."""
     low, high = problem.extent
     levels = 2 if high - low < FEWEST_ELEMENTS * row.setting * 4.0 else 3
     sections = {"resolution": {"pitch": row.setting * 2.0 ** (levels - 1), "levels": levels}}
@@ -180,7 +181,9 @@ def _sentence(
         lead = "cheapest of all is" if parts else "nothing that run has will do, but"
         parts.append(f"{lead} {_words(best, tolerances)}")
         if lead.startswith("cheapest"):
-            parts[-1] += ", by which run cannot solve"
+            rung = best.method.element
+            how = f"run --up-to {RUNGS[rung]} has it" if rung in RUNGS else "run cannot solve by it"
+            parts[-1] += f" ({how})"
     if chance:
         parts.append(f"by chance it is met cheaper by {chance}")
     return f"For {aim} {'; '.join(parts)}."

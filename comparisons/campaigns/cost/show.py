@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.cost.measure import FAILED, OK, CostRow
-from comparisons.campaigns.cost.methods import METHODS
 from comparisons.campaigns.cost.recommend import Cost, needs_stress, scene_sections
 from comparisons.common.numbers import integer, percent, percent_as_written, with_unit
 from comparisons.drawing.style import COLUMN, REFERENCE, Picture, data_uri, drawing, figure
@@ -32,6 +31,9 @@ DASHED = (0, (4, 1.6))
 LOOKS = {
     "strips, FFT": ("#56B4E9", "-", "s"),
     "hats, FFT": ("#0072B2", "-", "o"),
+    "hats, layered": ("#332288", "-", "v"),
+    "hats, deformed": ("#882255", "-", "D"),
+    "P2, linear": ("#DDAA33", DASHED, "v"),
     "P1": ("#CC79A7", DASHED, "^"),
     "P2": ("#D55E00", DASHED, "o"),
     "P3": ("#009E73", DASHED, "s"),
@@ -266,7 +268,7 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
         return [(row.seconds(stresses), max(row.errors[quantity].value, least)) for row in rows]
 
     known = [row for row in cost.rows if row.status == OK and quantity in row.errors]
-    for method in METHODS:
+    for method in dict.fromkeys(row.method for row in cost.rows):
         line = points([row for row in known if row.method == method], LEAST)
         if line:
             colour, dashes, mark = LOOKS[method.name]

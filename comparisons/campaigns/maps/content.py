@@ -32,6 +32,11 @@ def differences(content: dict, quantity: str) -> np.ndarray:
     return _values(content, quantity, "difference")
 
 
+def uncertainties(content: dict, quantity: str) -> np.ndarray:
+    """(ny, nx) of the relative model errors, nan where unknown."""
+    return _values(content, quantity, "uncertainty")
+
+
 def errors(content: dict) -> tuple[np.ndarray, np.ndarray]:
     """(ny, nx) size of the model error, and with its uncertainty added; infinite where unknown."""
     quantity = content["quantity"]

@@ -63,6 +63,7 @@ class Group:
     section: str | None = None  # that a scene must have
     early: bool = False  # the group changes a
     vanishes: bool = True  # the effect goes to zero with the group
+    material: bool = False  # a property of materials, no size of an effect
 
 
 # What maps may show beside the contact.
@@ -78,9 +79,9 @@ def study_of(quantity: str) -> ModuleType | None:
 def smooth_problem(scene: Scene) -> Problem:
     """The smooth contact of half-planes under a scene's load, which groups refer to."""
     body, load = scene.body, scene.load
-    if load.kind == "approach":
+    if load.kind in ("approach", "mean_pressure"):
         raise SceneError(
-            f"{scene.source}: load.approach: is no load that groups can refer to; allowed for a "
+            f"{scene.source}: load.{load.kind}: is no load that groups can refer to; allowed for a "
             "map is per_length or hertz_peak_pressure"
         )
     tables = {
@@ -243,6 +244,19 @@ def _set_coating(scene: Scene, value: float) -> Changes:
     return {"coating.thickness": value * _half_width(scene)}
 
 
+def _ratio(problem: Problem) -> float:
+    return problem.scene.body.poissons_ratio
+
+
+def _modulus_ratio(problem: Problem) -> float | None:
+    """Of the plane strain moduli, which contacts know of; that of Young's where bodies are alike in
+    Poisson's ratio."""
+    roller, body = problem.scene.roller, problem.scene.body.material
+    if roller.rigid:
+        return None
+    return roller.material.plane_strain_modulus / body.plane_strain_modulus
+
+
 def _none(problem: Problem) -> None:
     """A group's that says nothing of how large an effect is."""
 
@@ -255,8 +269,8 @@ FUNCTIONS = {  # set_to, value_of
     "wavelength_over_a": (_set_wavelength, _wavelength),
     "friction_dundurs": (_set_friction, _friction),
     "peak_pressure_over_hardness": (_set_hardness, _none),
-    "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, _none),
-    "modulus_ratio": (_set_modulus_ratio, _none),
+    "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, _ratio),
+    "modulus_ratio": (_set_modulus_ratio, _modulus_ratio),
     "coating_over_a": (_set_coating, _none),
 }
 FUNCTIONS |= {

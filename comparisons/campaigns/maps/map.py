@@ -180,14 +180,21 @@ def misfit(content: dict, scene: Scene) -> str:
 
 def mark_of(content: dict, problem: Problem) -> tuple[str, tuple[float, float]]:
     """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
-    where a group has no value for a scene, or the scene is none of the map's kind."""
+    where a group has no value for a scene, or one off the map, or the scene is none of the map's
+    kind."""
     if why := misfit(content, problem.scene):
         raise InputError(f"--mark: {problem.scene.name} {why}; allowed is a scene of its kind")
     values = []
-    for name in (content["x"]["group"], content["y"]["group"]):
+    for axis in (content["x"], content["y"]):
+        name, (low, *_, high) = axis["group"], axis["values"]
         value = GROUPS[name].value_of(problem)
         if value is None:
             raise InputError(f"--mark: {problem.scene.name} has no {name} to be marked at")
+        if not low <= value <= high:
+            raise InputError(
+                f"--mark: {problem.scene.name} lies off the map: its {axis['symbol']} is "
+                f"{value:.2g}; allowed is {low:g} to {high:g}"
+            )
         values.append(value)
     return problem.scene.name, (values[0], values[1])
 

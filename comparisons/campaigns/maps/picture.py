@@ -1,8 +1,8 @@
 """A map as a picture: colours by the model error of the half-plane, lines at the tolerances.
 
-A cell a point. Where the error is within its numerical uncertainty the cell is hatched, without
-colour: dots where both are below the first tolerance, lines where the error may be above. A failed
-point has a cross. A scene of the user's own may be marked.
+Each point is a cell. Where the error is within its numerical uncertainty the cell is hatched,
+without colour: dots where both are below the first tolerance, lines where the error may be above. A
+failed point has a cross. A scene of the user's own may be marked.
 """
 
 from typing import TYPE_CHECKING
@@ -67,10 +67,7 @@ def _marked(axes: "Axes", content: dict, mark: Mark | None) -> list[object]:
     if mark is None:
         return []
     name, values = mark
-    at = [
-        np.clip(places(content[axis], value)[0], *ends)
-        for axis, value, ends in zip("xy", values, (axes.get_xlim(), axes.get_ylim()), strict=True)
-    ]
+    at = [places(content[axis], value)[0] for axis, value in zip("xy", values, strict=True)]
     look = {"marker": "*", "markersize": 15.0, "color": "#E6007A", "markeredgecolor": "white"}
     look |= {"linestyle": "none", "label": name}
     return axes.plot(*at, zorder=5, clip_on=False, **look)

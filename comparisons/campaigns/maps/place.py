@@ -1,7 +1,7 @@
 """A scene on the finished maps: about how large the half-plane's model error is, before solving.
 
 A map is of another scene with the same values of two groups: rigid rollers, one wave in place of a
-trace. Where a scene lies on no map, the estimates say what each effect may do at most.
+trace. `unlike` says what it differs by beside.
 """
 
 from dataclasses import dataclass
@@ -10,21 +10,27 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.maps.content import differences, places, scaled, unscaled
-from comparisons.campaigns.maps.groups import GROUPS, STUDIES
+from comparisons.campaigns.maps.content import (
+    differences,
+    places,
+    scaled,
+    uncertainties,
+    unscaled,
+)
+from comparisons.campaigns.maps.groups import GROUPS, STUDIES, smooth_problem
 from comparisons.campaigns.maps.map import finished_map, finished_names, misfit
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
-from comparisons.common.progress import Stages, no_progress
+from comparisons.common.progress import no_progress
 from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.scene import Scene
-from comparisons.studies.model_error.catalogue import EFFECTS, UNKNOWN
-from comparisons.studies.model_error.laws import EFFECT as LAW
-from comparisons.studies.model_error.selection import select_effects
+from comparisons.scenes.scene import Origin, Scene
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
+
+SAME_RATIO = 0.01  # of Poisson's ratios that count as one
+SAME_CURVATURE = 0.2  # relative, of a/R where a map has one for all its points
+STRAIGHT = 0.125  # of a second difference, which a straight line is off by in the middle
 
 
 @dataclass(frozen=True)
@@ -39,16 +45,18 @@ class Place:
     errors: dict[str, float]
 
     @property
-    def text(self) -> str:
+    def words(self) -> str:
         content = finished_map(self.name)
         values = (
             f"{content[axis]['symbol']} {'=' if value == shown else '<='} {significant(shown, 2)}"
             for axis, value, shown in zip("xy", self.groups, self.shown, strict=True)
         )
+        return f"by the map {self.name} ({', '.join(values)})"
+
+    @property
+    def text(self) -> str:
         errors = (f"{label(name)} {100.0 * error:+.2g} %" for name, error in self.errors.items())
-        return (
-            f"by the map {self.name} ({', '.join(values)}): model error about {', '.join(errors)}"
-        )
+        return f"{self.words}: model error about {', '.join(errors)}"
 
 
 def problem_named(name: str) -> Problem:
@@ -86,6 +94,65 @@ def place_on(name: str, problem: Problem) -> Place | None:
     return Place(name, tuple(groups), tuple(shown), errors) if errors else None
 
 
+def unlike(content: dict, problem: Problem) -> str:
+    """What a scene is that the map's is not, its groups apart, or nothing: the error of another
+    scene is a guide alone."""
+    scene, posed = problem.scene, content["scene"]
+    if why := misfit(content, scene):
+        return why
+    body, profile = posed["body"], posed.get("profile")
+    axes = {content["x"]["group"], content["y"]["group"]}
+    rigid, nu = posed["roller"].get("rigid", False), body["poissons_ratio"]
+    finite = content["finite_element"].get("deformation") == "finite"
+    reasons = {}
+    if scene.roller.rigid != rigid:
+        reasons["roller"] = f"has {'an elastic' if rigid else 'a rigid'} roller"
+    if "poissons_ratio" not in axes and abs(scene.body.poissons_ratio - nu) > SAME_RATIO:
+        reasons["ratio"] = f"has Poisson's ratio {scene.body.poissons_ratio:g}, not {nu:g}"
+    if scene.coating is not None and "coating_over_a" not in axes:
+        reasons["coating"] = "has a coating"
+    if scene.body.width is not None and "a_over_width" not in axes:
+        reasons["width"] = "has a width of its own"
+    if scene.body.base not in (None, body.get("base") or "bonded"):
+        reasons["base"] = "lies on another base"
+    if scene.finite_element.plastic:
+        reasons["flow"] = "flows"
+    if finite and scene.body.law not in (None, "neo-hookean"):
+        reasons["law"] = "has another law of elasticity"
+    if profile is not None:
+        if scene.profile.kind != profile["kind"]:
+            reasons["wave"] = f"is no {profile['kind']}"
+        its, own = _curvature_of(content), GROUPS["a_over_radius"].value_of(problem)
+        if abs(own / its - 1.0) > SAME_CURVATURE:
+            reasons["curvature"] = f"has a/R = {own:.2g}, not {its:.2g}"
+    return ", ".join(reasons.values())
+
+
+def _curvature_of(content: dict) -> float:
+    """a/R of the map's own scene."""
+    scene = Scene.of(content["scene"], Origin("map"))
+    return smooth_problem(scene).hertz.half_width / scene.roller.radius
+
+
+def known_to(content: dict, quantity: str, x: float, y: float) -> float:
+    """Uncertainty of `interpolated`: by the largest second differences of the points around, and
+    their own uncertainty; infinite where that is unknown."""
+    across, up = places(content["x"]), places(content["y"])
+    at = places(content["y"], y)[0], places(content["x"], x)[0]
+    axes = zip((up, across), at, strict=True)
+    low = (min(max(int(np.searchsorted(a, p)) - 1, 0), len(a) - 2) for a, p in axes)
+    cell = tuple(slice(k, k + 2) for k in low)
+    values, unsure = scaled(differences(content, quantity)), uncertainties(content, quantity)
+    bent = 0.0
+    for along, ends in enumerate((((1, 1), (0, 0)), ((0, 0), (1, 1)))):
+        second = np.pad(np.abs(np.diff(values, 2, axis=along)), ends, "edge")
+        bent += second[cell].max()
+    middle = scaled(interpolated(content, quantity, x, y))
+    ends = unscaled(middle + STRAIGHT * bent * np.array([-1.0, 0.0, 1.0]))
+    total = np.abs(np.diff(ends)).max() + unsure[cell].max()
+    return float(total) if np.isfinite(total) else np.inf
+
+
 def interpolated(content: dict, quantity: str, x: float, y: float) -> float:
     """Relative model error between a map's points; nan where a neighbour's is unknown."""
     across, up = content["x"], content["y"]
@@ -94,9 +161,15 @@ def interpolated(content: dict, quantity: str, x: float, y: float) -> float:
     return float(unscaled(between([places(up, y)[0], places(across, x)[0]])[0]))
 
 
+def is_of_materials(content: dict) -> bool:
+    """Whether a group is a property of materials, which every scene has."""
+    return any(GROUPS[content[axis]["group"]].material for axis in "xy")
+
+
 def places_of(problem: Problem) -> tuple[Place, ...]:
     """On as few finished maps as have all groups that the scene has, those with most first."""
-    known = [place for name in finished_names() if (place := place_on(name, problem))]
+    names = (name for name in finished_names() if not is_of_materials(finished_map(name)))
+    known = [place for name in names if (place := place_on(name, problem))]
     known.sort(key=lambda place: -np.count_nonzero(place.groups))
     chosen: list[Place] = []
     covered: set[tuple[bool, str]] = set()
@@ -110,30 +183,3 @@ def places_of(problem: Problem) -> tuple[Place, ...]:
             chosen.append(place)
             covered |= groups
     return tuple(chosen)
-
-
-def first_answer(problem: Problem) -> list[str]:
-    """Lines for a user who waits: by the maps, or else by the estimates for a coarse half-plane."""
-    on_maps = places_of(problem)
-    beside = {
-        "coating": problem.scene.coating,
-        "plastic flow": problem.scene.finite_element.plastic,
-    }
-    off = [name for name, has in beside.items() if has]
-    level = half_plane_level(problem, problem.pitches[0], None, Stages())
-    effects = select_effects(problem, float(level.solution.pressure.max()), ()).estimates
-    if on_maps and not off:
-        law = max(effects.get(LAW, {}).values(), default=0.0)
-        beyond = f"; the law of elasticity may add {100.0 * law:.2g} %" if law else ""
-        return [f"{place.text}{beyond}" for place in on_maps]
-    bounds = []
-    counted = {e: sizes for e, sizes in effects.items() if e not in UNKNOWN or e == LAW}
-    for name in problem.scene.tolerances:
-        sizes = {effect: s[name] for effect, s in counted.items() if name in s}
-        if sizes:
-            total, most = sum(sizes.values()), max(sizes, key=sizes.get)
-            bound = f"{100.0 * total:.2g} %" if total < 1.0 else "100 % or more"
-            bounds.append(f"{label(name)} {bound} ({EFFECTS[most].label} most)")
-    if not bounds:
-        return []
-    return [f"by estimates, on no finished map: model error at most about {', '.join(bounds)}"]

@@ -49,13 +49,20 @@ THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are
 
 def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
     """What an operator can carry of the whole's effects, and a cap where the body yields."""
-    scene, held = problem.scene, set(effects) & set(WORDS)
-    if scene.body.thickness is None:
-        held.discard("finite_size")
+    scene = problem.scene
+    if scene.periodic:
+        return frozenset()
+    held = set(carried_linear(scene, effects))
     yields = scene.body.yield_stress is not None and scene.body.hardness is None
     if yields and flow.worst.peak > TABOR * scene.body.yield_stress:
         held.add(CAP)
     return frozenset(held)
+
+
+def carried_linear(scene: Scene, effects: Iterable[str]) -> frozenset[str]:
+    """The same without a cap."""
+    alone = {"finite_size"} if scene.body.thickness is None else set()
+    return frozenset(set(effects) & set(WORDS) - alone)
 
 
 def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]:
@@ -63,7 +70,7 @@ def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]
     there is known of half-planes alone. Friction moves these surfaces as it does the whole's."""
     scene, effects = problem.scene, set(effects)
     strained = effects & kinematic(scene)
-    if not strained or is_layered(scene) or scene.body.width is not None:
+    if not strained or is_layered(scene) or scene.periodic or scene.body.width is not None:
         return frozenset()
     moves = any(scene.load.friction) and problem.dundurs_beta != 0.0
     return frozenset(strained | effects & {"exact_circle"} | ({COUPLED} if moves else set()))

@@ -19,15 +19,20 @@ from comparisons.campaigns.cost.measure import (
 )
 from comparisons.campaigns.cost.methods import (
     FINEST,
+    LADDER,
     METHODS,
     is_half_plane_problem,
+    methods_of,
+    solved,
     touching_strips,
     why_not,
+    with_every_effect,
 )
 from comparisons.campaigns.cost.recommend import assess
 from comparisons.campaigns.cost.reference import error_of, is_exact, references
 from comparisons.campaigns.cost.show import cells, shown
 from comparisons.common.errors import SceneError
+from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 
 WAVY = SMOOTH | {
@@ -173,6 +178,29 @@ class TestMeasure:
         with stages.stage("waiting"):
             time.sleep(0.05)
         assert stages.seconds["waiting"] < 0.02
+
+
+class TestLadder:
+    def test_its_models_are_measured_where_they_differ(self):
+        """On the same elements: those of a layer, and of a wave that deforms finitely."""
+        tall = {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 2e-6}
+        whole = with_every_effect(problem(WAVY | {"profile": tall}))
+        names = [method.name for method in methods_of(whole) if method not in METHODS]
+        assert names == ["hats, deformed", "P2, linear"]
+        layer = problem(changed(SMOOTH, body={"thickness": 2e-3}))
+        names = [method.name for method in methods_of(layer) if method not in METHODS]
+        assert names == ["hats, layered"]
+        assert methods_of(problem(SMOOTH)) == METHODS
+
+    def test_a_layer_by_its_operator_meets_finite_elements(self):
+        layer = problem(changed(SMOOTH, body={"thickness": 2e-3}))
+        pitch, [method] = layer.pitches[1], [m for m in LADDER if m.element == "operator"]
+        values = [
+            solved(m, layer, pitch, None, Stages())[1][0]["peak_pressure"]
+            for m in (FINEST, method, BY_NAME["P2"])
+        ]
+        assert values[1] == pytest.approx(values[2], rel=1e-3)
+        assert values[0] < values[2] * (1.0 - 1e-2)
 
 
 def test_both_models_are_measured():

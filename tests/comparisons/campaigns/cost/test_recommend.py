@@ -211,8 +211,8 @@ class TestRecommendation:
         assert choice.cheapest.method.name == "strips, FFT"
         assert choice.sentence.endswith(
             "P2 at a pitch of 4.00 m, 100 unknowns: expect 1.0 s; no setting of the half-plane "
-            "will do; cheapest of all is strips, FFT at a pitch of 8.00 m: expect 500 ms, "
-            "by which run cannot solve."
+            "will do; cheapest of all is strips, FFT at a pitch of 8.00 m: expect 500 ms "
+            "(run cannot solve by it)."
         )
 
     def test_nothing_will_do(self):

@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from comparisons.campaigns.maps.answer import first_answer
 from comparisons.campaigns.maps.content import differences, places, scaled, unscaled
 from comparisons.campaigns.maps.groups import GROUPS
 from comparisons.campaigns.maps.map import finished_map, finished_names, mark_of, request_of
 from comparisons.campaigns.maps.place import (
-    first_answer,
     interpolated,
     place_on,
     places_of,
@@ -113,16 +113,17 @@ def test_friction_of_unlike_bodies_is_on_the_other_map():
 
 def test_a_scene_on_no_map_gets_bounds_by_estimates():
     for name in ("layer", "ground-unrun", "coated"):
-        [line] = first_answer(problem_of(Scene.read(name)))
+        [first, line] = first_answer(problem_of(Scene.read(name)))
+        assert first.startswith("by the half-plane ")
         assert line.startswith("by estimates, on no finished map: model error at most about peak")
-    assert "100 % or more" in first_answer(problem_of(Scene.read("layer")))[0]
+    assert "100 % or more" in first_answer(problem_of(Scene.read("layer")))[1]
 
 
-def test_a_finished_map_is_shown_and_not_solved(tmp_path, capsys, monkeypatch):
+def test_a_finished_map_is_shown_and_not_solved(pressed, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("comparisons.campaigns.maps.map.solved_in", None)
     out = tmp_path / "map"
     asked = ["map", "curvature-thickness", "--quantity", "contact_length", "--out", str(out)]
-    assert main([*asked, "--mark", "smooth"]) == 0
+    assert main([*asked, "--mark", pressed]) == 0
     said = capsys.readouterr().out
     assert "contact length stays small" in said and "made by: crosscheck map curvature-" in said
     assert {path.name for path in out.iterdir()} == {"map.json", "map.svg"}
@@ -183,5 +184,21 @@ def test_of_a_prescribed_approach_nothing_is_said_before_its_load_is_known(
 
 
 def test_marks_are_the_scenes_groups():
-    name, values = mark_of(finished_map("curvature-thickness"), problem("smooth"))
-    assert name == "smooth" and sorted(values) == sorted(places_of(problem("smooth"))[0].groups)
+    slab = problem("smooth", body=Scene.read("smooth").tables["body"] | {"thickness": 2e-3})
+    name, values = mark_of(finished_map("curvature-thickness"), slab)
+    assert name == "smooth" and sorted(values) == sorted(places_of(slab)[0].groups)
+
+
+def test_a_scene_off_a_map_is_not_marked_at_its_edge(tmp_path, capsys):
+    out = str(tmp_path / "map")
+    assert main(["map", "curvature-thickness", "--mark", "layer", "--out", out]) == 2
+    said = capsys.readouterr().err
+    assert "layer lies off the map: its a/t is 4.5; allowed is 0.05 to 4" in said
+    assert not (tmp_path / "map").exists()
+
+
+def test_a_mark_of_another_kind_is_told(tmp_path, capsys):
+    out = str(tmp_path / "map")
+    assert main(["map", "slope-wavelength", "--mark", "sinusoid", "--out", out]) == 0
+    said = capsys.readouterr().err
+    assert "--mark: sinusoid has an elastic roller, has another law of elasticity" in said
