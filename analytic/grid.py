@@ -16,11 +16,13 @@ STEEPEST = 2.0 / np.sqrt(5.0)
 @dataclass(frozen=True)
 class HatGrid:
     """Hats at x_i = i * pitch for first <= i <= last, whole numbers: grids of halved pitch nest.
-    pitch [m]; `x` (n,) [m]; `weights` (n,) [m], the area under each hat of height 1."""
+    pitch [m]; `x` (n,) [m]; `weights` (n,) [m], the area under each hat of height 1. On a
+    `periodic` line the hat after the last is the first."""
 
     pitch: float
     first: int
     last: int
+    periodic: bool = False
 
     @classmethod
     def within(cls, start: float, stop: float, pitch: float) -> "HatGrid":
@@ -34,9 +36,37 @@ class HatGrid:
             )
         return cls(pitch, first, last)
 
+    @classmethod
+    def around(cls, period: float, count: int) -> "HatGrid":
+        """`count` hats, an even number, on a periodic line, from -period/2 [m] on."""
+        return cls(period / count, -(count // 2), count // 2 - 1, periodic=True)
+
     @property
     def count(self) -> int:
         return self.last - self.first + 1
+
+    @property
+    def period(self) -> float:
+        """[m] of a periodic line."""
+        return self.count * self.pitch
+
+    @property
+    def hats(self) -> np.ndarray:
+        """Nodes [m] with the feet of the outer two hats (n + 2,); of a periodic line (n + 1,), the
+        last the first."""
+        x = self.x
+        before = [] if self.periodic else [x[0] - self.pitch]
+        return np.concatenate([before, x, [x[-1] + self.pitch]])
+
+    def unfolded(self, values: np.ndarray) -> np.ndarray:
+        """Values (n,) as they stand on three periods (3n,); those on a free line as they are."""
+        return np.tile(values, 3) if self.periodic else values
+
+    @property
+    def unfolded_x(self) -> np.ndarray:
+        """Places [m] of `unfolded`: the grid's own in the middle."""
+        beside = self.count if self.periodic else 0
+        return np.arange(self.first - beside, self.last + beside + 1) * self.pitch
 
     @property
     def x(self) -> np.ndarray:

@@ -1,7 +1,7 @@
 """A roughness profile as data, and as the C2 curve that both models press on."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -22,10 +22,11 @@ Surface = Callable[..., np.ndarray]
 
 @dataclass(frozen=True)
 class Profile:
-    """Heights along a line, not periodic and unknown outside its samples."""
+    """Heights along a line, unknown outside its samples; or periodic, the last sample the first."""
 
     x: np.ndarray  # (n,) [m] strictly ascending, n >= 4; the samples need not be evenly spaced
     height: np.ndarray  # (n,) [m] positive out of the body
+    periodic: bool = False  # the surface repeats after its `length`
 
     def __post_init__(self) -> None:
         if self.x.ndim != 1 or self.x.shape != self.height.shape:
@@ -42,6 +43,8 @@ class Profile:
         for name, values in (("place", self.x), ("height", self.height)):
             if (most := float(np.abs(values).max())) > FARTHEST:
                 raise ValueError(f"a {name} is {most:.3g} m; allowed is up to {FARTHEST:g} m")
+        if self.periodic and self.height[0] != self.height[-1]:
+            raise ValueError("the last sample of a periodic profile must repeat the first")
 
     @property
     def length(self) -> float:
@@ -54,24 +57,28 @@ class Profile:
         return float(np.median(np.diff(self.x)))
 
     def spline(self) -> "CubicSpline":
-        """C2 cubic spline through the samples: height(x) [m]. Unlike `surface` it extrapolates."""
+        """C2 cubic spline through the samples: height(x) [m]. Unlike `surface` it extrapolates; of
+        a periodic profile it is known everywhere."""
         from scipy.interpolate import CubicSpline  # slow to load, and not needed to hold samples
 
-        return CubicSpline(self.x, self.height)
+        ends = "periodic" if self.periodic else "not-a-knot"
+        return CubicSpline(self.x, self.height, bc_type=ends)
 
     def shifted(self, position: float) -> "Profile":
         """The same profile with its x = `position` [m] moved to the origin."""
-        return Profile(self.x - position, self.height)
+        return replace(self, x=self.x - position)
 
     def mirrored(self) -> "Profile":
         """The profile as seen from the other side: height(-x)."""
-        return Profile(-self.x[::-1], self.height[::-1])
+        return replace(self, x=-self.x[::-1], height=self.height[::-1])
 
 
 def surface(profile: Profile) -> Surface:
     """The profile's spline as a callable that refuses to leave the samples. The result takes x [m]
     of any shape and `derivative` (0 height, 1 slope, 2 curvature), and raises ValueError where x
     lies outside the profile by more than rounding. It can be pickled."""
+    if profile.periodic:
+        return profile.spline()
     return partial(_within, profile.spline(), ROUNDING * profile.spacing)
 
 

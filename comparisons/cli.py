@@ -124,7 +124,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _open_streams() -> None:
     """Replace streams that were closed, and let the output take every character.
 
-    The next file to be opened would get a closed stream's number, and what libraries print."""
+    Else the next file that is opened gets a closed stream's number, and what libraries print."""
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode))

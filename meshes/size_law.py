@@ -186,7 +186,8 @@ def _estimated(pickled: bytes) -> int:
     filled, layered = [[low, high, 0.0, spec.interface or depth]], []
     if spec.interface is not None:
         filled.append([-half, half, spec.interface, depth])
-        layered = [[-half, low, 0.0, 0.0], [high, half, 0.0, 0.0]]
+        beside = (-half, low), (high, half)  # none where the core reaches to the sides
+        layered = [[start, stop, 0.0, 0.0] for start, stop in beside if stop > start]
     outer = [[-half, half, z, z] for z in (0.0, depth)]
     outer += [[x, x, 0.0, depth] for x in (-half, half)]
     # Euler: v - e + m = 1 and 2 e = 3 m + b give v + e = 1 + 2 m + b.

@@ -19,8 +19,10 @@ LAST = ("fem", "meshes", "analytic")  # folders of tests, by how long a file tak
 WORKER_MEMORY = 2.5e9  # bytes that one process with its share of the tests may take
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 
-# Tests start some hundred processes: what one has compiled, the next one need not.
+# Tests start some hundred processes: what one has compiled, the next one need not. Nor need pytest
+# rewrite assertions again that it has rewritten once.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 # Nor is what they print as wide as the terminal that pytest writes to.
 os.environ.pop("COLUMNS", None)
 # A shell hands an ignored SIGINT down to what it runs in the background; tests send interrupts.

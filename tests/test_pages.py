@@ -14,7 +14,7 @@ from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.notebook import run
 from comparisons.scenes.fields import SceneSection, allowed, file_fields
 from comparisons.scenes.finite_element import HELD_BLOCK
-from comparisons.scenes.profile import FILTER, VARIETIES
+from comparisons.scenes.profile import COMMON, VARIETIES
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies import STUDIES
 from comparisons.studies.model_error.catalogue import EFFECTS
@@ -155,7 +155,7 @@ class TestReference:
         assert listed.keys() == VARIETIES.keys() - {"file"}
         for kind, cells in listed.items():
             names = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-            assert names == VARIETIES[kind].fields() - {"kind", *FILTER}
+            assert names == VARIETIES[kind].fields() - {"kind", *COMMON}
 
     def test_quantities_are_those_of_the_studies(self):
         """Those that several studies share are named at the first."""

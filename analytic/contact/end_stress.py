@@ -19,6 +19,7 @@ pitches. There the stress at the surface under traction is right to 0.2 % of the
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -74,6 +75,7 @@ class EndStress:
     x_nodes: np.ndarray
     pressure: np.ndarray
     patches: tuple[SmoothPatch, ...]
+    along: ClassVar[float] = 0.0  # as of `analytic.stress.elements.FrictionStress`
 
     def parts(self, x: ArrayLike, z: ArrayLike) -> np.ndarray:
         """sx, sz, txz under p and sx under q = p (4, …) [Pa] at x, z >= 0 [m]; 0 far from ends."""

@@ -23,6 +23,11 @@ and a cycle between Q and -Q, whose branches are D doubled in both directions (M
 
 (2/3) (mu P)^2 l^3/(pi E*) for small l: Mindlin and Deresiewicz' cycle (1953) in plane strain. The
 largest tension is at the trailing edge, x = -a: 2 mu p0 sqrt(l), of which sliding leaves 2 mu p0.
+Beyond the stick zone the integral of q/(x - t) is pi mu p0 sqrt(x^2 - c^2)/a with the sign of x.
+The surfaces slip there by s, in a cycle between Q and -Q by as much to both sides of the middle,
+
+    s = (mu p0/(a E*)) [|x| sqrt(x^2 - c^2) - c^2 arcosh(|x|/c)],   sx = -p - (2 mu p0/a) sgn(x)
+        sqrt(x^2 - c^2).
 
 Unlike bodies that are pressed alone stick for |x| < c, and every form that is pressed on has the
 same c/a as a flat punch (Spence 1975, J. Elasticity 5, 297-319). Where tractions do not act back on
@@ -68,6 +73,21 @@ class SlippingContact:
             for half, middle in ((a, 0.0), (c, self.offset))
         )
         return self.friction * self.hertz.peak_pressure / a * (whole - held)
+
+    def slip(self, x: ArrayLike) -> np.ndarray:
+        """s [m] at x [m] of the contact, without bulk stress."""
+        c, far = self.stick_half_width, np.abs(x)
+        far = np.maximum(far, c)
+        unit = self.friction * self.hertz.peak_pressure
+        unit /= self.hertz.half_width * self.hertz.combined_modulus
+        return unit * (far * np.sqrt(far**2 - c**2) - c**2 * np.arccosh(far / c))
+
+    def surface_stress(self, x: ArrayLike) -> np.ndarray:
+        """sx [Pa] at x [m] of the contact, without bulk stress."""
+        a, x = self.hertz.half_width, np.asarray(x)
+        beyond = np.sqrt(np.maximum(x**2 - self.stick_half_width**2, 0.0))
+        pulled = 2.0 * self.friction * self.hertz.peak_pressure / a * np.sign(x) * beyond
+        return -self.hertz.pressure(x) - pulled
 
     @property
     def beyond_stick(self) -> float:

@@ -14,14 +14,39 @@ S = sin(pi a/lambda).
     p = pm + p* cos 2 psi,  peak pm + p*       once pm >= p*
     mean gap A (1 - r + r ln r),  r = S^2"""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.optimize import minimize
 
-from analytic.numerics import check_positive
+from analytic.numerics import check_positive, points_below
+from analytic.stress.elements import FrictionStress
+from analytic.stress.periodic import held_along
+from analytic.stress.potential import stresses
+from analytic.stress_state import Extremum, StressState
 
 _SERIES = 0.25  # open fraction 1 - r below which the mean gap is summed
+
+
+@dataclass(frozen=True)
+class FlatContact:
+    """Flat bodies under a `peak_pressure` [Pa] that is the same everywhere, on one period, twice
+    `half_width` [m]: what a periodic surface without its waves is. `load_per_length` [N/m] of a
+    period, `combined_modulus` [Pa]."""
+
+    half_width: float
+    peak_pressure: float
+    combined_modulus: float
+
+    @property
+    def load_per_length(self) -> float:
+        return 2.0 * self.half_width * self.peak_pressure
+
+    def pressure(self, x: ArrayLike) -> np.ndarray:
+        """[Pa] at x [m]."""
+        return np.full(np.shape(x), self.peak_pressure)
 
 
 @dataclass(frozen=True)
@@ -100,3 +125,62 @@ def westergaard_from_mean_pressure(
     return WestergaardContact(
         wavelength, amplitude, combined_modulus, mean_pressure, half_width, peak
     )
+
+
+def westergaard_stress(
+    contact: WestergaardContact,
+    x: ArrayLike,
+    z: ArrayLike,
+    poissons_ratio: float,
+    friction: float = 0.0,
+) -> StressState:
+    """Stresses [Pa] at x from a crest, z >= 0 [m] (broadcast together), under p and q = friction p
+    in +x, of a body that does not stretch along x on average. With w = sin psi, psi of the complex
+    place x + iz, and R = sqrt(w - S) sqrt(w + S), the surface's p is the real part of
+
+        G = 2i pm cos psi/(w + R),   in full contact G = pm + p* e^(2i psi),
+
+    which is analytic below the surface and tends to pm; Westergaard's Z is -G. Raises ValueError
+    for z < 0."""
+    x, z = points_below(x, z)
+    unit, mean = np.pi / contact.wavelength, contact.mean_pressure
+    psi = unit * (np.fmod(x, contact.wavelength) + 1j * z)
+    if contact.full:
+        wave = contact.closing_pressure * np.exp(2j * psi)
+        value, slope = mean + wave, 2j * wave
+    else:
+        # the strip of half a wavelength on either side of a crest is the half-plane of w
+        psi = psi - np.pi * np.round(psi.real / np.pi)
+        sine, edge = np.sin(psi), np.sqrt(mean / contact.closing_pressure)
+        root = np.sqrt(sine - edge) * np.sqrt(sine + edge)
+        value = 2j * mean * np.cos(psi) / (sine + root)
+        bend = np.where(root == 0.0, 0.0, np.cos(psi) ** 2 / np.where(root == 0.0, 1.0, root))
+        slope = -2j * mean / (sine + root) * (sine + bend)
+    parts = stresses(-1j * value, -1j * unit * z * slope)
+    return FrictionStress.of(parts, held_along(mean, poissons_ratio)).at(friction)
+
+
+def westergaard_extremes(
+    contact: WestergaardContact, poissons_ratio: float, friction: float = 0.0
+) -> dict[str, Extremum]:
+    """Largest `tau1` and |`txz`| [Pa] down to a wavelength, and their places."""
+    x = np.linspace(-0.5, 0.5, 241) * contact.wavelength
+    z = np.concatenate([[0.0], np.geomspace(1e-4, 1.0, 160)]) * contact.wavelength
+    state, found = westergaard_stress(contact, x, z[:, None], poissons_ratio, friction), {}
+    for name, size in (("tau1", lambda s: s.tau1), ("txz", lambda s: np.abs(s.txz))):
+        row, column = np.unravel_index(np.argmax(size(state)), state.sx.shape)
+        unit = size(state)[row, column] or 1.0
+
+        def fallen(place: np.ndarray, size: Callable = size, unit: float = unit) -> float:
+            below = contact.wavelength * place[0], contact.wavelength * max(place[1], 0.0)
+            return (
+                -float(size(westergaard_stress(contact, *below, poissons_ratio, friction))) / unit
+            )
+
+        start = np.array([x[column], z[row]]) / contact.wavelength
+        best = minimize(
+            fallen, start, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-14}
+        )
+        place = contact.wavelength * np.array([best.x[0], max(best.x[1], 0.0)])
+        found[name] = Extremum(-best.fun * unit, float(place[0]), float(place[1]))
+    return found

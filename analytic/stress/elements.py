@@ -11,7 +11,7 @@ every component keeps its digits. A hat's are, close to it; away from it moments
 are right to rounding of the largest of the four.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import xlogy
@@ -27,20 +27,21 @@ class FrictionStress:
 
     normal: StressState  # under p alone
     traction_sx: np.ndarray  # sx under q = p in +x, which is sx a unit of friction
+    along: float = 0.0  # sx everywhere beside these, which no traction on the surface makes
 
     @classmethod
-    def of(cls, parts: np.ndarray) -> "FrictionStress":
+    def of(cls, parts: np.ndarray, along: float = 0.0) -> "FrictionStress":
         """From sx, sz, txz under p and sx under q (4, …) [Pa]."""
-        return cls(StressState(*parts[:3]), parts[3])
+        return cls(StressState(*parts[:3]), parts[3], along)
 
     @property
     def parts(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """sx, sz, txz under p and sx under q [Pa]."""
         return self.normal.sx, self.normal.sz, self.normal.txz, self.traction_sx
 
-    def plus(self, parts: np.ndarray) -> "FrictionStress":
+    def plus(self, parts: np.ndarray, along: float = 0.0) -> "FrictionStress":
         """With those of another load, given as to `of`."""
-        return FrictionStress.of(np.array(self.parts) + parts)
+        return FrictionStress.of(np.array(self.parts) + parts, self.along + along)
 
     @property
     def traction(self) -> StressState:
@@ -49,7 +50,8 @@ class FrictionStress:
 
     def at(self, friction: float) -> StressState:
         """Under p and q = friction * p together."""
-        return self.normal.plus(friction, self.traction) if friction != 0.0 else self.normal
+        state = self.normal.plus(friction, self.traction) if friction != 0.0 else self.normal
+        return replace(state, sx=state.sx + self.along) if self.along else state
 
 
 def strip_between(

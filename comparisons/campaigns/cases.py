@@ -1,7 +1,7 @@
 """Named cases whose figures must lie within bounds: carried out, shown and written.
 
-In: cases, each a function that yields figures: those with bounds decide, others are accounts. Out:
-a row a case; of all rows the terminal's table, json and JUnit. A case that raises, that ends its
+In: cases, each a function that yields figures: those with bounds decide, others only inform. Out: a
+row a case; of all rows the terminal's table, json and JUnit. A case that raises, that ends its
 process, or that yields nothing to judge is a row that does not hold. `verify` and `stability`
 differ in their cases, and in what they say of them."""
 
@@ -306,7 +306,7 @@ def carry_out(
     """Carry out all cases of a command, and leave <command>.json, and .html where there is a page,
     in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written.
 
-    concluded  the campaign of command, rows and seconds"""
+    concluded  makes the finished campaign of the command, its rows and the seconds"""
     check_places(command, out, junit)
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)

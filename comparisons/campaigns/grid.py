@@ -54,7 +54,7 @@ def points_of(
     """Every combination of the axes' values, those of the last one inside.
 
     scene_at  the scene with these values; raises InputError where there is none
-    code      places in the project that shape the answers
+    code      modules and folders of the project whose code shapes the answers
     Raises SceneError where no point has a scene, with what is wrong at the first."""
     program = [versions(), program_code(*code), asked]
     points = []
@@ -88,7 +88,7 @@ def failures(points: Iterable[dict]) -> Counter[str]:
 @contextmanager
 def tasks_by(workers: int | str | None, kept: Cache) -> Iterator[Tasks | None]:
     """Tasks on so many processes, one a core (None), or on a Dask cluster, by its address. Under
-    mpirun on its ranks: each of these calls this; all but the first work, and get None.
+    mpirun its ranks are the workers: each calls this; all but the first work, and get None.
     Raises InputError for other workers."""
     if is_several():
         with ranks() as opens, Tasks(opens, math.inf, kept) as tasks:
@@ -118,11 +118,11 @@ def solved_in(
     workers: int | str | None,
     callback: ProgressCallback,
 ) -> list[Answer] | None:
-    """Solve the points that `out` does not have, and keep them there; one that kills its process
-    has failed. The answer at every point; None in processes that only work for the first one under
-    mpirun.
+    """The answer at every point; under mpirun None in processes that only work for the first one.
+    Points that `out` has are not solved again, others are kept there; one that kills its process
+    has failed.
 
-    files    that are to be written in `out`; the first one's name is what the points are of
+    files    that are to be written in `out`; the points are kept under the first one's name
     workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, KeyboardInterrupt with how to go on."""
     what, keys = files[0].partition(".")[0], dict.fromkeys(point.key for point in points)

@@ -1,7 +1,7 @@
 """Finished results on disk, so that a command that was stopped goes on: one .npz file a result.
 
 A file holds the arrays of a result, a JSON text that says how they make it up, and a hash of both.
-It is there whole or not at all, and is good for the key and name that it was saved under."""
+It is there whole or not at all, and is read only by the key and name that it was saved under."""
 
 import hashlib
 import io

@@ -53,9 +53,10 @@ def _unfinished(out: Path) -> Path:
 
 
 def claimed(out: Path, together: tuple[str, ...] = ()) -> set[str]:
-    """Names of the files in a folder that a record there says this program wrote.
+    """Names of the files in a folder that this program wrote, as the records there say.
 
-    together  names of files that are written together: a study's record is all of theirs"""
+    together  names of files that are written together; a study's record among them is the record
+              of all"""
     names: set[str] = set()
     record = _record(out / RECORD)
     if "hashes" in record:

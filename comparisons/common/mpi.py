@@ -76,7 +76,7 @@ def from_first(make: Callable[[], Result]) -> Result:
 
 def as_one(work: Callable[[], int], ends: Container[int]) -> int:
     """Carry out `work`, which returns an exit status, in every process, as if they were one.
-    Only the first prints, and another one that alone has an error. `ends` are the statuses with
+    Only the first prints, and one that alone has an error. `ends` are the statuses with
     which all end by themselves; with any other status a process ends the others too, which may be
     waiting for it. mpirun's SIGTERM interrupts the first process as Ctrl-C does."""
     if not is_several():

@@ -1,9 +1,9 @@
 """One way to have work done: tasks by key, side by side in workers, or one after the other here.
 
 A level, an effect, some samples, a point of a map, a case, a setting of a cost study and a picture
-are tasks. Their answers are those of one process, in any order of work, and what is kept of them
-is not computed again. A process that ends puts its task back, which is tried again while nothing
-else runs: the process that ends then was ended by its task (`ProcessEnded`)."""
+are tasks. The number of processes and the order of work change no answer, and what is kept is not
+computed again. Where a process ends amid a task, the task is tried again while nothing else runs. A
+process that ends then was ended by its task (`ProcessEnded`)."""
 
 import math
 import multiprocessing
@@ -143,8 +143,8 @@ class Tasks:
         """Make a task known: `work(here, *args)`, of expected seconds and bytes. The most urgent
         begins first. Of equally urgent ones a process takes the longest, but
 
-        - stays with what `shares` the same as its last one, while all of that takes longer;
-        - takes what shares its own with another process's last one after all else.
+        - first those whose `shares` is that of its last one, while these take longer in all;
+        - last those whose `shares` is that of another process's last one.
 
         A known task may become more urgent."""
         if key not in self._tasks:

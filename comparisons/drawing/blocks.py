@@ -1,7 +1,7 @@
 """What a page is made of, as data: blocks of tables, pictures and notes, in order.
 
 In: texts, names of pictures. Out: dataclasses, which a template shows by their classes' names; and
-cells of tables by figures, alike wherever they are shown, in the digits that are certain."""
+figures as cells of tables, alike wherever they are shown, in the digits that are certain."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -90,8 +90,12 @@ def load_text(problem: Problem) -> str:
 
 
 def hertz_text(problem: Problem) -> str:
-    """The load, and peak pressure and half-width of the smooth contact under it."""
+    """The load, and peak pressure and half-width of the smooth contact under it; of a periodic
+    surface the mean pressure and the period."""
     hertz = problem.hertz
+    if problem.scene.periodic:
+        mean, period = hertz.peak_pressure, 2.0 * hertz.half_width
+        return f"mean pressure p₀ = {with_unit(mean, 'Pa')},  period 2a = {with_unit(period, 'm')}"
     return (
         f"P = {load_text(problem)},  p₀ = {with_unit(hertz.peak_pressure, 'Pa')},  "
         f"a = {with_unit(hertz.half_width, 'm')}"

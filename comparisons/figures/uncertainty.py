@@ -1,12 +1,13 @@
 """The uncertainty of a figure: by cause, and how uncertainties are composed. All of it is here.
 
-Causes: iteration, by what is left of the contact conditions; discretisation, by the sequence of
-levels (`comparisons.figures.convergence`); domain, by what halving the distance of the far
-boundary changes. That is as many times smaller than what is left of the boundary's effect as a step
-of refinement of order 1/2 would be: stresses below a held block's contact were seen to go with
-order 0.5 to 1 of its size; increments of a load under which a body flows, by the coarsest level
-solved again with increments twice and four times as long. An increment is as long as an edge of
-contact travels over a pressure element, so that refinement of the mesh leaves its error as it is.
+    iteration       by what is left of the contact conditions
+    discretisation  by the sequence of levels (`comparisons.figures.convergence`)
+    domain          DOMAIN times what halving the distance D of the far boundary changes: all of
+                    its effect, where that goes with D^-0.5. Stresses below the contact of a held
+                    block were seen to go with D^-0.5 to D^-1
+    increments      of a load under which a body flows, by the coarsest level solved again with
+                    increments twice and four times as long. In one increment an edge of contact
+                    travels over a pressure element: refinement of the mesh leaves their error
 
 One rule composes them: every part bounds an error of unknown sign, and bounds add linearly,
 
@@ -130,7 +131,7 @@ def difference_of_figures(figure: float, ratio: float, reference: float) -> floa
     figure     uncertainty of the figure, relative to the reference
     ratio      figure over reference
     reference  relative uncertainty of the reference. It counts |ratio| times, to first order, and
-               not less than whole: a figure that vanishes says nothing of its reference."""
+               once at least: a figure that vanishes says nothing of its reference."""
     return figure + max(1.0, abs(ratio)) * reference
 
 

@@ -38,6 +38,8 @@ class Forecast:
     # [s] of flow beside finite elements that have none, where it may be found; None: it cannot
     flow: float | None = None
     leaves_out_flow: bool = False  # the budget is too small for it
+    # [s] of the same at finite strain, where small ones are not enough; None: it cannot be found
+    finite_flow: float | None = None
 
     @property
     def text(self) -> str:
@@ -54,6 +56,9 @@ class Forecast:
             more = "would take" if self.leaves_out_flow else "takes"
             text += f"; flow, where it is beyond doubt, {more} {with_unit(self.flow, 's', 2)} more"
             text += " and is left out (budget.time)" * self.leaves_out_flow
+        if self.finite_flow is not None and not self.leaves_out_flow:
+            text += f"; at finite strain, where that matters, {with_unit(self.finite_flow, 's', 2)}"
+            text += " more"
         return f"{text}; {self.ends}"
 
 
@@ -81,15 +86,19 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
         levels.append(PlannedLevel(pitch, elements, unknowns, seconds, memory))
     wave = None if scene.profile is None else shortest_wavelength(problem.surface.profile)
     per_wave = None if wave is None or np.isinf(wave) else float(wave / levels[-1].pitch)
-    asked, flow = len(problem.pitches), None
-    if problem.flows and plan.effects and not scene.finite_element.plastic:
-        flow = flow_seconds(problem, np.array([problem.extent]))
+    asked, settings, flow, finite_flow = len(problem.pitches), scene.finite_element, None, None
+    everywhere = np.array([problem.extent])
+    if problem.flows and plan.effects and not settings.plastic:
+        flow = flow_seconds(problem, everywhere)
+    if plan.effects and (flow or (settings.plastic and settings.deformation == "linear")):
+        finite_flow = finite_flow_seconds(problem, everywhere)
     return Forecast(
         levels=tuple(levels),
         asked=asked,
         per_wave=per_wave,
         ends=ends or f"{len(levels)} levels are the most",
         flow=flow,
+        finite_flow=finite_flow,
         leaves_out_flow=flow is not None
         and time_with_flow(problem, plan, everywhere) > problem.time,
     )
@@ -119,15 +128,34 @@ def expected_level(
 def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
     """Of flow on the first two levels and of the check of its increments, for every friction
     coefficient, by the laws of cost."""
+    from comparisons.models.finite_element.mesh import LONGER
+
+    return _flow_seconds(problem, patches, ((0, 1), (1, 1), *((0, times) for times in LONGER)))
+
+
+def finite_flow_seconds(problem: Problem, patches: np.ndarray) -> float:
+    """Of flow at finite strain on the first two levels, for every friction coefficient."""
+    return _flow_seconds(problem, patches, ((0, 1), (1, 1)), "finite")
+
+
+def _flow_seconds(
+    problem: Problem,
+    patches: np.ndarray,
+    solved: tuple[tuple[int, int], ...],
+    deformation: str = "linear",
+) -> float:
+    """Of levels from 0, each by so many times as long increments."""
     from comparisons.models.finite_element.cost import expected
-    from comparisons.models.finite_element.mesh import LONGER, Refinement
+    from comparisons.models.finite_element.mesh import Refinement
     from fem.nonlinear.press_plastic import TRAVEL
 
-    flowing = replace(problem, scene=problem.scene.unchecked({"finite_element.plastic": True}))
-    plan, (first, second, *_) = make_plan(flowing, MODELS), problem.pitches
-    solved = [Refinement(first), Refinement(second)]
-    solved += [Refinement(first, travel=times * TRAVEL) for times in LONGER]
-    seconds = sum(expected(flowing, plan, refinement, patches).seconds for refinement in solved)
+    switches = {"finite_element.plastic": True, "finite_element.deformation": deformation}
+    flowing = replace(problem, scene=problem.scene.unchecked(switches))
+    plan = make_plan(flowing, MODELS)
+    refinements = [
+        Refinement(problem.pitches[0] / 2.0**k, travel=times * TRAVEL) for k, times in solved
+    ]
+    seconds = sum(expected(flowing, plan, one, patches).seconds for one in refinements)
     return len(problem.scene.load.friction) * seconds
 
 

@@ -5,18 +5,24 @@ from dataclasses import replace
 import numpy as np
 
 from analytic.contact.end_stress import EndStress
-from analytic.contact.patches import contact_patches
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import CoupledHalfPlane
+from analytic.operators.periodic import PeriodicHalfPlane
 from analytic.stress.elements import FrictionStress
 from analytic.stress.field import FrictionField, friction_field
 from analytic.stress.maxima import stress_maxima
+from analytic.stress.periodic import ImageStress, PeriodicRest, held_along
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.level import ExpectedCost, Level, StressResult, under_each
-from comparisons.models.problem import Problem, ends_of, pressed_on
+from comparisons.models.problem import (
+    Problem,
+    ends_of,
+    half_plane_of,
+    patches_of,
+    pressed_on,
+)
 from comparisons.models.window import Window, search_window
 
 # Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.
@@ -37,6 +43,7 @@ def expected_with(problem: Problem, pitch: float, window: Window | None) -> Expe
     if window is None:
         return cost
     farthest, searched = max(map(abs, problem.extent)), search_window(problem, window)
+    farthest *= 1.0 if problem.period is None else 3.0  # three periods of pressures
     ring = 2.0 * (window.extent + farthest) * window.subdivisions(pitch) / pitch
     points = max(0.0, ring - FREE_POINTS)
     memory = BYTES_PER_POINT * points + BYTES_PER_SEARCHED * len(searched.x) * len(searched.z)
@@ -71,14 +78,15 @@ def half_plane_on(
     friction_dundurs  mu beta by which sliding traction moves the surfaces; 0 leaves it out
     frictions         coefficients that stresses are computed for"""
     with stages.stage("contact", "half-plane: contact"):
-        operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
+        operator = half_plane_of(problem, grid, friction_dundurs)
         solution = pressed_on(problem, grid, operator)
-        body = HalfPlane(grid.count, grid.pitch, problem.scene.body.material.plane_strain_modulus)
+        alone = PeriodicHalfPlane if grid.periodic else HalfPlane
+        body = alone(grid.count, grid.pitch, problem.scene.body.material.plane_strain_modulus)
         level = Level(
             grid=grid,
             solution=solution,
             displacement=body.apply(solution.pressure) / grid.weights,
-            patches=contact_patches(grid.x, solution.pressure, solution.gap),
+            patches=patches_of(grid, solution),
             seconds=stages.seconds,
             unknowns=grid.count,
             expected_seconds=expected_with(problem, grid.pitch, window).seconds,
@@ -94,8 +102,8 @@ def _stresses(
     problem: Problem, frictions: tuple[float, ...], level: Level, window: Window, fields: bool
 ) -> tuple[StressResult, ...]:
     """Extremes off the grid and, where asked for, `fields` on the window, one set a friction."""
-    x, pressure = level.grid.x, level.solution.pressure
-    ends = ends_of(problem, level.grid, level.solution)
+    x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)
+    ends = beside_hats(problem, level)
     points = *([window] if fields else []), search_window(problem, window)
     *shown, searched = (field_on(level, window, ends) for window in points)
     nu, results = problem.scene.body.poissons_ratio, []
@@ -109,26 +117,37 @@ def _stresses(
     return tuple(results)
 
 
-def field_on(level: Level, points: Window, ends: EndStress) -> FrictionField:
+def beside_hats(problem: Problem, level: Level) -> EndStress | PeriodicRest:
+    """What the hats of a level, on three periods of a periodic surface, leave out of stresses."""
+    ends, grid = ends_of(problem, level.grid, level.solution), level.grid
+    if not grid.periodic:
+        return ends
+    pressure, nu = level.solution.pressure, problem.scene.body.poissons_ratio
+    images = ImageStress(grid, pressure)
+    return PeriodicRest(ends.parts, images, held_along(float(pressure.mean()), nu))
+
+
+def field_on(level: Level, points: Window, ends: EndStress | PeriodicRest) -> FrictionField:
     """Stresses at a window's points, those next to the ends of contact included."""
     field = friction_field(
-        level.grid.x,
-        level.solution.pressure,
+        level.grid.unfolded_x,
+        level.grid.unfolded(level.solution.pressure),
         (points.x[0], points.x[-1]),
         points.z,
         subdivisions=points.subdivisions(level.grid.pitch),
         stride=points.stride(level.grid.pitch),
     )
-    return replace(field, stress=field.stress.plus(ends.parts(field.x, field.z[:, None])))
+    beside = ends.parts(field.x, field.z[:, None])
+    return replace(field, stress=field.stress.plus(beside, ends.along))
 
 
 def stresses_at(
     problem: Problem, level: Level, frictions: tuple[float, ...], x: np.ndarray, z: np.ndarray
 ) -> dict[float, StressState]:
     """A solved level's stresses by friction coefficient at x, z (n,) [m]; NaN where z < 0."""
-    below, parts = z >= 0.0, np.full((4, len(x)), np.nan)
+    below, parts, grid = z >= 0.0, np.full((4, len(x)), np.nan), level.grid
     at = x[below], z[below]
-    ends = ends_of(problem, level.grid, level.solution)
-    stress = friction_stress_at(level.grid.x, level.solution.pressure, *at)
+    ends = beside_hats(problem, level)
+    stress = friction_stress_at(grid.unfolded_x, grid.unfolded(level.solution.pressure), *at)
     parts[:, below] = stress.plus(ends.parts(*at)).parts
-    return {friction: FrictionStress.of(parts).at(friction) for friction in frictions}
+    return {friction: FrictionStress.of(parts, ends.along).at(friction) for friction in frictions}

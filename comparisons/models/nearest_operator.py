@@ -11,8 +11,9 @@ from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface, TangentialLayer
-from analytic.material import combined_modulus, dundurs_constants
+from analytic.material import Material, combined_modulus, dundurs_constants
 from analytic.operators.half_plane import HalfPlane, ModelOperator, SumOfConvolutions
+from analytic.operators.periodic import PeriodicHalfPlane
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair
 from comparisons.scenes.scene import Scene
 
@@ -27,6 +28,10 @@ def nearest_operator(scene: Scene, grid: HatGrid, friction: float = 0.0) -> Mode
 
     friction  coefficient of the sliding traction that moves the surfaces; 0 leaves it out"""
     count, pitch = grid.count, grid.pitch
+    if grid.periodic:  # of layers the half-plane, too: long waves alone see what is below
+        return PeriodicHalfPlane(
+            count, pitch, combined_modulus(scene.roller.material, surface_material(scene))
+        )
     if not is_layered(scene):
         modulus = combined_modulus(scene.roller.material, scene.body.material)
         if not friction:
@@ -45,6 +50,11 @@ def nearest_operator(scene: Scene, grid: HatGrid, friction: float = 0.0) -> Mode
         return normal
     # what the roller's own traction adds is left to the outer iteration
     return CoupledPair(normal, TangentialLayer(count, pitch, body), friction)
+
+
+def surface_material(scene: Scene) -> Material:
+    """The coating's, or the body's without one."""
+    return scene.body.material if scene.coating is None else scene.coating.material
 
 
 def solve_on(

@@ -102,6 +102,8 @@ def no_coupling(problem: Problem, friction: float) -> str | None:
         return "there is no friction"
     if problem.dundurs_beta == 0.0:
         return "the bodies have equal constants: Dundurs' beta is 0"
+    if problem.scene.periodic:
+        return "the operator of a periodic surface has none"
     return None
 
 

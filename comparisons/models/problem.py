@@ -1,7 +1,9 @@
 """A scene as the mechanical problem that both models solve.
 
 Symbols: R radius of relative curvature, E* combined modulus, P load per length, a and p0
-half-width and peak pressure of the smooth (Hertz) contact under the same load."""
+half-width and peak pressure of the smooth (Hertz) contact under the same load. A periodic surface
+is posed on one period L, under a flat body: R is infinite, the smooth contact touches everywhere,
+a = L/2, p0 is the mean pressure, P = p0 L."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -15,9 +17,11 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
+from analytic.exact.westergaard import FlatContact
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants
 from analytic.operators.half_plane import ModelOperator
+from analytic.operators.periodic import PeriodicHalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
 from analytic.profile import surface
 from analytic.surface.roughness import shortest_wavelength
@@ -44,6 +48,8 @@ WIDEST_CIRCLE = 0.8  # of the radius that pressures may extend to
 # thinner one takes are more than can be held, and the rounding of a thicker one shows at its top.
 THINNEST, THICKEST = 1e-3, 1e6
 STIFFEST = 1e9  # times the body's modulus, of a coating; as soft at least: a gel on diamond is 1e-9
+# Depth of an unbounded periodic body over its period: a wave of it is off by 1e-7 at half of that.
+PERIODS_DEEP = 3.0
 LEAST_EXTENT = 8.0  # of the farthest pressure: width and depth of an unbounded block
 # Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
 # elements beyond it, which are as wide as a smooth contact's are few.
@@ -65,7 +71,7 @@ class Problem:
     scene: Scene
     surface: SceneSurface  # run in where the scene asks for that
     modulus: float  # E* of roller and body [Pa]
-    hertz: HertzContact  # the smooth contact under the same load
+    hertz: HertzContact | FlatContact  # the smooth contact under the same load
     extent: tuple[float, float]  # (2,) [m] stretch of the surface that contact may reach
     # of the first levels, coarse to fine, each half of the one before [m]
     pitches: tuple[float, ...]
@@ -98,13 +104,26 @@ class Problem:
         return round(np.log2(pitch / self.reference_pitch))
 
     @property
-    def block(self) -> float:
+    def period(self) -> float | None:
+        """[m] after which the surface repeats; None: it does not."""
+        return self.surface.profile.length if self.scene.periodic else None
+
+    @property
+    def width(self) -> float | None:
+        """[m] of the rough body, or its period; None: unbounded."""
+        return self.period or self.scene.body.width
+
+    @property
+    def unbounded(self) -> tuple[float, float]:
         """Width and depth [m] of the block that stands for an unbounded body. In half-widths of the
         smooth contact, or of a wider extent of pressures: a light load on a rough surface touches
         far beyond its Hertz contact, and beside the roller's centre."""
+        if self.period is not None:
+            return self.period, PERIODS_DEEP * self.period
         half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
         farthest = max(abs(self.extent[0]), abs(self.extent[1]))
-        return max(self.scene.finite_element.block * half_width, LEAST_EXTENT * farthest)
+        size = max(self.scene.finite_element.block * half_width, LEAST_EXTENT * farthest)
+        return size, size
 
     def under(self, friction: float) -> "Problem":
         """The problem under one of the scene's friction coefficients alone."""
@@ -131,6 +150,9 @@ class Problem:
     @property
     def knots(self) -> np.ndarray | None:
         """(k,) [m] places where the gap's third derivative jumps, None if smooth."""
+        if self.period is not None:
+            one = self.surface.profile.x[:-1]
+            return np.concatenate([one + k * self.period for k in (-2, -1, 0, 1, 2)])
         return None if self.scene.profile is None else self.surface.profile.x
 
     @cached_property
@@ -149,6 +171,8 @@ class Problem:
         return max(self.scene.load.friction) * self.dundurs_beta if self.scene.load.coupled else 0.0
 
     def grid(self, pitch: float) -> HatGrid:
+        if self.period is not None:
+            return HatGrid.around(self.period, round(self.period / pitch))
         return HatGrid.within(*self.extent, pitch)
 
     def constraints(self, load: float | None = None) -> Constraints:
@@ -183,10 +207,23 @@ def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
 def ends_of(problem: Problem, grid: HatGrid, solution: ContactSolution) -> EndStress:
     """What the hats of a solution leave out of the stresses next to the ends of contact: both
     models' own, for both have hats. Nothing where the hardness holds a pressure."""
-    pressure, hardness = solution.pressure, problem.constraints().hardness
-    if np.any(pressure >= hardness):
-        return EndStress(grid.x, pressure, ())
-    return end_stress(grid.x, pressure, solution.gap)
+    pressure, x = grid.unfolded(solution.pressure), grid.unfolded_x
+    if np.any(pressure >= problem.constraints().hardness):
+        return EndStress(x, pressure, ())
+    return end_stress(x, pressure, grid.unfolded(solution.gap))
+
+
+def patches_of(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
+    """Contact patches (k, 2) [m], ascending. Of a periodic surface those that start in the grid's
+    period, which the last may end beyond; or the whole period."""
+    pressure, gap = solution.pressure, solution.gap
+    if not grid.periodic:
+        return contact_patches(grid.x, pressure, gap)
+    start, stop = grid.x[0], grid.x[0] + grid.period
+    if np.all(pressure > 0.0):
+        return np.array([[start, stop]])
+    every = contact_patches(grid.unfolded_x, grid.unfolded(pressure), grid.unfolded(gap))
+    return every[(every[:, 0] >= start) & (every[:, 0] < stop)]
 
 
 def problem_of(
@@ -202,11 +239,26 @@ def problem_of(
     or too many."""
     surface = run_in_surface(scene, surface or surface_of(scene))
     modulus = combined_modulus(scene.roller.material, scene.body.material)
+    if scene.periodic:
+        problem = _on_one_period(scene, surface, modulus)
+    else:
+        problem = _under_roller(scene, surface, modulus, load)
+    problem = replace(problem, levels=levels)
+    problem = replace(problem, pitches=_pitches(problem))
+    _check_count(problem)
+    _check_circle(problem)
+    return replace(problem, asperities=_asperities(problem))
+
+
+def _under_roller(
+    scene: Scene, surface: SceneSurface, modulus: float, load: float | None
+) -> Problem:
+    """The smooth contact, and how far that of the scene may reach."""
     hertz = _smooth_contact(scene, modulus, load)
     _check_layers(scene, hertz.half_width)
     extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
     plastic = scene.finite_element.plastic
-    problem = Problem(scene, surface, modulus, hertz, extent, pitches=(), levels=levels)
+    problem = Problem(scene, surface, modulus, hertz, extent, pitches=())
     problem = replace(problem, flows=plastic or _may_flow(scene, hertz))
     plain = scene.profile is None and scene.body.width is None and scene.body.hardness is None
     plain = plain and scene.coating is None and not problem.flows
@@ -218,10 +270,21 @@ def problem_of(
                 raise
             problem = replace(problem, flows=False)  # the half-plane fits; flow has no solution
             problem = replace(problem, extent=_contact_extent(problem))
-    problem = replace(problem, pitches=_pitches(problem))
-    _check_count(problem)
-    _check_circle(problem)
-    return replace(problem, asperities=_asperities(problem))
+    return problem
+
+
+def _on_one_period(scene: Scene, surface: SceneSurface, modulus: float) -> Problem:
+    """One period of the surface, all of which may touch."""
+    half, mean = 0.5 * surface.profile.length, scene.load.value
+    _check_layers(scene, half)
+    hardness = scene.body.hardness
+    if hardness is not None and mean >= FULL * hardness:
+        raise SceneError(
+            f"{scene.source}: load.mean_pressure: is {mean:g} Pa at a body.hardness of "
+            f"{hardness:g} Pa; allowed is less than {FULL * hardness:.3g} Pa"
+        )
+    smooth = FlatContact(half, mean, modulus)
+    return Problem(scene, surface, modulus, smooth, (-half, half), pitches=())
 
 
 def _may_flow(scene: Scene, hertz: HertzContact) -> bool:
@@ -336,14 +399,21 @@ def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[flo
 def _touched(problem: Problem, ends: tuple[float, float], layered: bool) -> tuple[float, float]:
     """First and last contact [m] in a range by SEARCH_HATS hats, on half-plane or layers."""
     grid = HatGrid.within(*ends, np.ptp(ends) / SEARCH_HATS)
-    operator = nearest_operator(problem.scene, grid) if layered else _half_plane(problem, grid)
+    operator = nearest_operator(problem.scene, grid) if layered else half_plane_of(problem, grid)
     solution = pressed_on(problem, grid, operator, problem.widest)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return float(patches[0, 0]), float(patches[-1, 1])
 
 
-def _half_plane(problem: Problem, grid: HatGrid) -> CoupledHalfPlane:
-    return CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
+def half_plane_of(
+    problem: Problem, grid: HatGrid, friction_dundurs: float | None = None
+) -> ModelOperator:
+    """Mutual compliance of half-planes in place of both bodies; by default coupled as the scene has
+    it."""
+    if grid.periodic:
+        return PeriodicHalfPlane(grid.count, grid.pitch, problem.modulus)
+    coupling = problem.coupling if friction_dundurs is None else friction_dundurs
+    return CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, coupling)
 
 
 def pressed_on(
@@ -359,11 +429,13 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     scene = problem.scene
     levels = scene.resolution.levels if problem.levels is None else problem.levels.models
     asked, elements = scene.resolution.pitch, scene.resolution.elements
+    if scene.resolution.nodes:
+        asked = 2.0 ** (levels - 1) * np.ptp(problem.extent) / scene.resolution.nodes
     if asked or elements:
         asked = asked or problem.hertz.half_width / elements
-        return tuple(asked / 2.0**k for k in range(levels))
+        return tuple(_whole(problem, asked) / 2.0**k for k in range(levels))
     finest = problem.hertz.half_width / SMOOTH_ELEMENTS
-    if is_layered(scene):
+    if is_layered(scene) and problem.period is None:
         start, stop = _touched(problem, problem.extent, layered=True)
         finest = min(finest, 0.5 * (stop - start) / SMOOTH_ELEMENTS)
     if scene.profile is not None:
@@ -373,7 +445,17 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     finest = max(min(finest, span / (2.0 * SMOOTH_ELEMENTS)), span / MOST_HATS)
     # what the rounding of a spectrum leaves would otherwise end in another mesh on another machine
     finest = problem.hertz.half_width / float(f"{problem.hertz.half_width / finest:.{FIGURES}g}")
-    return tuple(finest * 2.0 ** (2 - k) for k in range(levels))
+    return tuple(_whole(problem, 4.0 * finest) / 2.0**k for k in range(levels))
+
+
+def _whole(problem: Problem, pitch: float) -> float:
+    """Of a periodic surface the pitch, or a smaller one, that goes into the period 4 to 7 times a
+    power of two, so that grids can be halved again and again."""
+    if problem.period is None:
+        return pitch
+    count = max(FEWEST_ELEMENTS, problem.period / pitch * (1.0 - 1e-9))
+    power = 2.0 ** (np.floor(np.log2(count)) - 2)
+    return problem.period / (power * np.ceil(count / power))
 
 
 def standing_out(values: np.ndarray, least: float) -> list[int]:
@@ -398,7 +480,7 @@ def _asperities(problem: Problem) -> tuple[float, ...]:
     if problem.scene.profile is None:
         return ()
     grid = problem.grid(problem.pitches[0])
-    pressure = pressed_on(problem, grid, _half_plane(problem, grid)).pressure
+    pressure = pressed_on(problem, grid, half_plane_of(problem, grid)).pressure
     peaks = standing_out(pressure, STANDS_OUT * pressure.max())
     valleys = []
     for start, stop in pairwise(peaks):

@@ -37,15 +37,15 @@ class Window:
 
 def window_of(problem: Problem) -> Window:
     """The points of the scene's [stress], graded towards the surface.
-    The spacing in x is the pitch of the coarsest level times or over a power of two, next to the
-    one asked for, so that the grid belongs to every level's own and no field is interpolated.
+    The spacing in x is the coarsest level's pitch times a power of two, of either sign, next to the
+    one asked for: the points are some of every level's own, and no field is interpolated.
     Raises SceneError for a window that reaches beyond the body's mesh or shows nothing."""
     scene, wanted = problem.scene, problem.scene.stress
     half_width = problem.hertz.half_width
     half_range, depth = (e.metres(half_width) for e in (wanted.half_range, wanted.depth))
-    block = problem.block
+    width, block = problem.unbounded
     for name, size, body, unbounded in (
-        ("half_range", half_range, scene.body.width and 0.5 * scene.body.width, 0.25 * block),
+        ("half_range", half_range, problem.width and 0.5 * problem.width, 0.25 * width),
         ("depth", depth, scene.body.thickness, 0.5 * block),
     ):
         if body is None and size > unbounded:
@@ -53,7 +53,7 @@ def window_of(problem: Problem) -> Window:
                 f"{scene.source}: stress.{name}: is {size:.3g} m; allowed is at most half of what "
                 f"the unbounded body is meshed to (finite_element.block), {unbounded:.3g} m"
             )
-    half_range = min(half_range, 0.5 * (scene.body.width or np.inf))
+    half_range = min(half_range, 0.5 * (problem.width or np.inf))
     depth = min(depth, scene.body.thickness or np.inf)
     columns, rows = wanted.points
     coarsest, finest = problem.pitches[0], problem.reference_pitch

@@ -5,9 +5,9 @@ vtkhdf   ParaView and PyVista; HDF5, read in pieces: for large fields
 msh      gmsh, meshio, PyVista (MSH 2.2); each array is a view in gmsh
 
 Every file also says what it is of: `title`, `units` and `scene`, the latter two as JSON. In a vtu
-they are field data of bytes, bytes(data["scene"]).decode(): meshio opens no file with a text there.
-In a vtkhdf they are texts. In a msh they stand in a section $Comments. The scene stands as text in
-contact.csv beside them, too.
+they are bytes in the field data, to be read by bytes(data["scene"]).decode(), for meshio opens no
+file with texts there. In a vtkhdf they are texts, in a msh a section $Comments. The scene stands as
+text in contact.csv beside them, too.
 
 Numbers are in single precision; those on a mesh of finite elements have 17 significant bits, which
 moves each by less than 7.6e-6 of itself: a tenth of the least uncertainty that a stress of a scene
@@ -71,7 +71,7 @@ def field_of(run: Run, level: Level) -> FieldFile:
     points, zero where the body is held; and `half_plane_` and `difference_` COMPONENTS: the
     half-plane's stresses at the same points, and these less the finite elements', as rounded.
     Of several friction coefficients that share a contact each array has its own in the name. Where
-    the body yields there are also what flow leaves behind when the roller is gone."""
+    the body yields there is also what flow leaves behind when the roller is gone."""
     scene = run.problem.scene
     nu = scene.body.poissons_ratio
     on_mesh = level.field_on_mesh

@@ -130,7 +130,7 @@ def _law_leaned_on(run: Run) -> str:
     """For the end of a sentence: the law of elasticity that the whole has, or that none changes the
     verdict; nothing where the whole deforms little."""
     selection, scene = run.data(MODEL_ERROR).selection, run.problem.scene
-    if "finite_strain" not in selection.whole:
+    if "finite_strain" not in selection.whole or FLOW in selection.whole:  # that has Hencky's
         return ""
     if not without_law(scene):
         return f", with {laws(scene)} elasticity"
@@ -243,10 +243,9 @@ def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
         paste = '[roller]\nsupport = "opposite"'
         others = '"half disc" or {hub = "…"}'
         return f'roller.support = "opposite", {others}: what holds the roller.', (paste,)
-    if largest == "finite_strain" and FLOW in run.data(MODEL_ERROR).selection.whole:
-        paste = '[finite_element]\nplastic = true\ndeformation = "finite"'
-        both = 'plastic = true, deformation = "finite"'
-        return f"finite_element = {{{both}}} computes it.", (paste,)
+    if largest == "finite_strain" and (time := run.data(MODEL_ERROR).selection.time):
+        time = _rounded_up(time)
+        return f"budget.time = {time:g} computes it.", (f"[budget]\ntime = {time:g}",)
     if largest == "plastic_flow":
         paste = "[finite_element]\nplastic = true"
         missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"
@@ -265,6 +264,8 @@ def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[st
         fields = " and ".join(f'{n}.material = "{_like(s)}"' for n, s in unnamed.items())
         return f"{fields}, or what it is (crosscheck materials), for its moduli.", paste
     unmeasured = dict.fromkeys(part.solid for part in sections.values())
+    if not unmeasured:
+        return f"{tolerance} holds.", (tolerance,)
     known = f"no third-order constants of {' or '.join(unmeasured)} are published"
     return f"{tolerance} holds; {known}.", (tolerance,)
 
@@ -316,10 +317,11 @@ def _one_model(run: Run) -> str:
     known = run.figures.of(study=contact.NAME, source=name)
     peak, p0 = known.one(quantity="peak_pressure").value, run.problem.hertz.peak_pressure
     length = known.one(quantity="contact_length").value
+    smooth = "the mean" if run.problem.scene.periodic else "Hertz"
     return (
         f"Only the {HYPHENATED[name]} model was run: peak pressure {with_unit(peak, 'Pa')}, "
-        f"{significant(peak / p0)} times Hertz, contact length {with_unit(length, 'm')}; nothing "
-        "was compared."
+        f"{significant(peak / p0)} times {smooth}, contact length {with_unit(length, 'm')}; "
+        "nothing was compared."
     )
 
 

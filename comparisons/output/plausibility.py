@@ -29,7 +29,7 @@ FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between 
 def warnings_about(scene: Scene, surface: SceneSurface) -> list[str]:
     """One sentence each, before anything is solved."""
     warnings, radius = [], scene.roller.radius
-    if radius > LARGEST_RADIUS:
+    if radius > LARGEST_RADIUS and not scene.periodic:
         warnings.append(
             f"roller.radius is {as_written(radius, 'm')}: a number without unit is in m"
         )
@@ -91,7 +91,7 @@ def _of_solids(scene: Scene) -> Iterator[str]:
 
 
 def _of_load(scene: Scene) -> Iterator[str]:
-    if scene.load.kind == "approach":
+    if scene.load.kind == "approach" or scene.periodic:
         return
     hertz = hertz_from_load if scene.load.kind == "per_length" else hertz_from_peak_pressure
     modulus = combined_modulus(scene.body.material, scene.roller.material)

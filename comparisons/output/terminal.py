@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import LABELS, QUANTITIES, error_text
+from comparisons.models.smooth import scale_words
 from comparisons.output.headline import headline
-from comparisons.output.page.tables.comparison import comparison_rows, figure_rows
+from comparisons.output.page.tables.comparison import comparison_rows, figure_rows, first_model
 from comparisons.output.page.tables.problem import in_mm
 from comparisons.scenes.surface import ProfileInfo
 from comparisons.studies import STUDIES
@@ -17,7 +18,6 @@ from comparisons.studies.answers.show import (
     answers_of,
     reference_of,
 )
-from comparisons.studies.comparison import NAME as COMPARISON
 from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
 
@@ -61,25 +61,28 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
 def agreement_line(run: Run) -> str:
     """Both models' largest difference, and their largest uncertainty, where they agree in all that
     is judged; else nothing."""
-    judged = [row for row in run.figures.of(study=COMPARISON) if row.bounds is not None]
+    judged = [row for row in run.compared if row.bounds is not None]
     if not judged or any(row.verdict != "agree" for row in judged):
         return ""
     apart = max(judged, key=lambda row: abs(row.value))
     unsure = max(judged, key=lambda row: row.numerical)
     difference = error_text(apart.quantity, apart.value, apart.numerical)
     return (
-        "Half-plane and finite elements that assume the same agree: largest difference "
+        f"{first_model(run).capitalize()} and finite elements that assume the same agree: largest "
+        "difference "
         f"{difference} ({SHORT[apart.quantity]}), uncertainty {percent(unsure.numerical)}."
     )
 
 
 def _comparison(run: Run) -> "Table":
+    layered = first_model(run) != "half-plane"
+    first = "layered\nhalf-plane" if layered else "half-\nplane"
     table = plain_table(
         "quantity",
-        numbers=("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"),
+        numbers=("mu", first, "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"),
     )
     table.add_column("verdict", overflow="fold")
-    table.caption = "difference: (half-plane - finite elements) / finite elements"
+    table.caption = f"difference: ({first_model(run)} - finite elements) / finite elements"
     rows = comparison_rows(run)
     if any(row.verdict == "inconclusive" for row in rows):
         table.padding = 0  # the longest verdict fits into 80 columns
@@ -122,7 +125,8 @@ def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
 
 
 def _figures(outcome: Run) -> "Table":
-    table = plain_table("quantity", numbers=("mu", "value", "of Hertz", "uncert.\n%"))
+    over = f"of {scale_words(outcome.problem)}"
+    table = plain_table("quantity", numbers=("mu", "value", over, "uncert.\n%"))
     for quantity, *cells in figure_rows(outcome):
         table.add_row(SHORT[quantity], *map(_cell, cells))
     return table

@@ -97,7 +97,7 @@ def solve_scene(
     opens: Opens | None = None,
     known: Known = Known(),
 ) -> Run:
-    """Solve a scene, compare and judge. Of its files there is nothing yet (`finish`), but what is
+    """Solve a scene, compare and judge. Its files are written by `finish`. Until then what is
     solved is kept beside `out`: a run that is stopped goes on from there.
 
     models    of half_plane, finite_element; fewer where budget.up_to asks for no more

@@ -7,6 +7,7 @@ import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import Annotated, ClassVar, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, model_validator
@@ -348,11 +349,11 @@ def field_type(table: type[SceneSection], name: str) -> FieldType:
 
 def plain(value: object) -> object:
     """A section, or a value of a field, as a scene file would have it: defaults written out, SI
-    numbers, lists, no None."""
+    numbers, lists, no None, and no infinity, which stands for what a file leaves out."""
     if isinstance(value, SceneSection):
         fields = type(value).model_fields.items()
         pairs = ((info.alias or name, getattr(value, name)) for name, info in fields)
-        return {name: plain(item) for name, item in pairs if item is not None}
+        return {name: plain(item) for name, item in pairs if item not in (None, inf)}
     if isinstance(value, dict):
         return {name: plain(item) for name, item in value.items()}
     if isinstance(value, tuple):

@@ -95,8 +95,6 @@ class FiniteElementSection(SceneSection):
             yield "far_field", 'is "half-plane", but the body has a coating; allowed is "held"'
         if self.plastic and body.yield_stress is None:
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
-        if finite and self.plastic and coated:
-            yield "plastic", "is true for a coated body; allowed without [coating]"
         if finite and profile is not None and self.geometry == "flat":
             yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
         if finite and apart:

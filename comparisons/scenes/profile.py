@@ -3,6 +3,7 @@
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from operator import attrgetter
 from pathlib import Path
 from typing import Annotated
 
@@ -17,13 +18,32 @@ from comparisons.scenes.fields import (
     OneOf,
     SceneSection,
     Text,
+    Truth,
     Unit,
     Whole,
     allowed,
 )
 
 AUTOMATIC = "auto"
-FILTER = ("cutoff", "short_cutoff")  # fields of every variety
+FILTER = ("cutoff", "short_cutoff")
+COMMON = (*FILTER, "periodic")  # fields of every variety
+WHOLE = 1e-9  # relative: how near a length is to whole wavelengths
+# Sections that need a single contact under a roller, and fields that bend a body or its surface:
+# the bodies of a periodic surface are linear, its roughness is in the gap.
+NOT_PERIODIC = ("running_in", "scatter", "statistics", "heat", "partial_slip", "cycles", "answers")
+ON_ONE_PERIOD = {
+    "finite_element.deformation": "linear",
+    "finite_element.plastic": False,
+    "finite_element.geometry": "flat",
+    "finite_element.gap": "reference",
+    "finite_element.roller_shape": "parabola",
+    "finite_element.roller_body": "half-plane",
+    "finite_element.far_field": "held",
+    "finite_element.coupled": False,
+    "load.coupled": False,
+    "body.width": None,
+    "roller.support": None,
+}
 POSITIVE = Number(LENGTH, above=0.0)
 PLACE = Number(LENGTH, at_least=0.0)
 
@@ -130,6 +150,7 @@ class ProfileSection(SceneSection):
     noise_wavelength: Length | None = None
     cutoff: Annotated[float | str, CutOff()] | None = None
     short_cutoff: Length | None = None
+    periodic: Annotated[bool, Truth()] | None = None
 
     @property
     def variety(self) -> str:
@@ -153,8 +174,8 @@ class ProfileSection(SceneSection):
         variety = VARIETIES[self.variety]
         for name in sorted(self.model_fields_set - variety.fields()):
             if getattr(self, name) is not None:
-                others = sorted(variety.fields() - {"kind", "file", *FILTER})
-                there = ", ".join([*others, *FILTER])
+                others = sorted(variety.fields() - {"kind", "file", *COMMON})
+                there = ", ".join([*others, *COMMON])
                 yield name, f"does not belong to {variety.title}; allowed there are {there}"
         for name in variety.needed:
             if getattr(self, name) is None:
@@ -164,6 +185,36 @@ class ProfileSection(SceneSection):
             yield from self.unless_one_of(names, " and ")
         for names in variety.at_most_one_of:
             yield from self.unless_one_of(names, " and ", or_none=True)
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        """What a periodic surface does not take: a round body, another load, what bends."""
+        load = scene.load
+        if not self.periodic:
+            return
+        if scene.roller.radius is not None:
+            flat = "is given beside profile.periodic = true, where the smooth body is flat"
+            yield "roller.radius", f"{flat}; allowed is none"
+        if load.mean_pressure is None:
+            other = "is given for a periodic surface; allowed is load.mean_pressure"
+            yield f"load.{load.kind}", other
+        if self.wavelength is not None and self.length is not None:
+            waves = self.length / self.wavelength
+            if abs(waves - round(waves)) > WHOLE * waves:
+                whole = "a whole number of them where profile.periodic = true"
+                yield "profile.length", f"is {waves:g} wavelengths; allowed is {whole}"
+        for name in NOT_PERIODIC:
+            if getattr(scene, name):
+                yield name, "is given for a periodic surface; allowed is none"
+        for name, fits in ON_ONE_PERIOD.items():
+            value = attrgetter(name)(scene)
+            if value not in (None, fits):
+                words = {None: "none", False: "false"}.get(fits, f'"{fits}"')
+                yield name, f"does not fit a periodic surface; allowed is {words}"
+        if scene.stress is not None and scene.stress.bulge:
+            yield "stress.bulge", "does not fit a periodic surface; allowed is false"
+        if scene.body.base == "frictionless" and max(load.friction) > 0.0:
+            slides = "is given on a frictionless base, where nothing would hold a periodic body"
+            yield "load.friction", f'{slides}; allowed is friction = 0 or base = "bonded"'
 
 
 @dataclass(frozen=True)
@@ -179,7 +230,7 @@ class Variety:
 
     def fields(self) -> set[str]:
         groups = (*self.one_of, *self.at_most_one_of)
-        return set().union(self.needed, self.optional, self.defaults, FILTER, *groups)
+        return set().union(self.needed, self.optional, self.defaults, COMMON, *groups)
 
 
 _TABLES = tomllib.loads(Path(__file__).with_name("varieties.toml").read_text(encoding="utf-8"))

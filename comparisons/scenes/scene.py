@@ -166,6 +166,11 @@ class SceneBase(SceneSection):
         return tables
 
     @property
+    def periodic(self) -> bool:
+        """Whether the surface repeats, under a flat body."""
+        return self.profile is not None and bool(self.profile.periodic)
+
+    @property
     def tolerances(self) -> dict[str, float]:
         """Relative, by compared quantity; others are not judged."""
         return {name: value for name, value in self.tolerance if value is not None}
@@ -188,8 +193,6 @@ class SceneBase(SceneSection):
         if coating and body.thickness is not None and coating.thickness >= body.thickness:
             thick = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"
             yield "coating.thickness", f"{thick}; allowed is less, the body's thickness contains it"
-        if coating and self.finite_element.plastic:
-            yield "finite_element.plastic", "is true for a coated body; allowed without [coating]"
         if body.base == "frictionless" and body.width is not None and max(load.friction) > 0.0:
             held = 'allowed is friction = 0, base = "bonded" or no width'
             slides = f"is {max(load.friction):g} on a body of finite width on a frictionless base"

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import inf
 from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -54,9 +55,9 @@ OF_STRESS = [name for name, quantity in QUANTITIES.items() if quantity.needs_str
 
 
 class SolidSection(SceneSection):
-    """What may be named after a solid, which a file calls its `material`: moduli, and where they
-    are the solid's own its measured law of elasticity, then follow; what is written beside the
-    name wins."""
+    """A section that may name a solid, which a file calls its `material`. The solid gives the
+    moduli and its law of elasticity, unless they are written beside the name; the measured
+    constants of a law belong to the solid's own moduli alone."""
 
     solid: Annotated[str, SolidName()] | None = Field(None, alias="material")
 
@@ -170,7 +171,10 @@ class RollerSupportField(FieldType):
 
 
 class RollerSection(ElasticSection):
-    radius: Length
+    """The smooth body. Over a periodic surface it is flat: a file has no radius, which is infinite
+    once the scene is read."""
+
+    radius: Length | None = None
     rigid: Annotated[bool, Truth()] = False
     support: Annotated[RollerSupport, RollerSupportField()] | None = None
     youngs_modulus: Pressure | None = None
@@ -184,9 +188,10 @@ class RollerSection(ElasticSection):
             yield "law", "is given beside rigid = true; allowed is one of the two"
         if self.rigid and self.support is not None:
             yield "support", "is given beside rigid = true; allowed is one of the two"
-        if self.support is not None and (self.support.hub or 0.0) > WIDEST_HUB * self.radius:
+        hub = self.support and self.support.hub
+        if hub and self.radius is not None and hub > WIDEST_HUB * self.radius:
             most = f"at most {WIDEST_HUB:g} of the radius, {WIDEST_HUB * self.radius:g} m"
-            yield "support", f"has a hub of {self.support.hub:g} m; allowed is {most}"
+            yield "support", f"has a hub of {hub:g} m; allowed is {most}"
         for name in ("youngs_modulus", "poissons_ratio"):
             is_there = getattr(self, name) is not None
             if self.rigid and is_there:
@@ -194,6 +199,13 @@ class RollerSection(ElasticSection):
             if not self.rigid and not is_there:
                 both = "youngs_modulus with poissons_ratio, or rigid = true"
                 yield name, f"is missing; allowed is {both}"
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        if self.radius is None and not (scene.profile and scene.profile.periodic):
+            yield "roller.radius", f"is missing; allowed is {allowed(type(self), 'radius')}"
+
+    def completed(self, scene: SceneSection) -> Self:
+        return self if self.radius is not None else self.model_copy(update={"radius": inf})
 
     @property
     def material(self) -> Material | None:
@@ -244,17 +256,23 @@ class CoatingSection(ElasticSection):
 
 
 class LoadSection(SceneSection):
-    """One kind of load: `per_length` [N/m], `hertz_peak_pressure` [Pa] of the smooth pair, or
-    `approach` [m]."""
+    """One kind of load: `per_length` [N/m], `hertz_peak_pressure` [Pa] of the smooth pair,
+    `approach` [m], or `mean_pressure` [Pa] on a periodic surface."""
 
     per_length: Annotated[float, Number(LOAD, above=0.0)] | None = None
     hertz_peak_pressure: Pressure | None = None
     approach: Length | None = None
+    mean_pressure: Pressure | None = None
     friction: Frictions = (0.0,)
     position: Annotated[float, Number(LENGTH)] | None = None
     coupled: Annotated[bool, Truth()] = False
 
-    KINDS: ClassVar[tuple[str, ...]] = ("per_length", "hertz_peak_pressure", "approach")
+    KINDS: ClassVar[tuple[str, ...]] = (
+        "per_length",
+        "hertz_peak_pressure",
+        "approach",
+        "mean_pressure",
+    )
 
     @property
     def kind(self) -> str:
@@ -276,6 +294,9 @@ class LoadSection(SceneSection):
             if self.approach is not None and not there:
                 why = f"has no meaning {where}, whose displacement has no datum"
                 yield "load.approach", f"{why}; allowed is per_length, or approach with {needed}"
+        if self.mean_pressure is not None and not (scene.profile and scene.profile.periodic):
+            where = "under a roller, whose load is per length"
+            yield "load.mean_pressure", f"is given {where}; allowed with profile.periodic = true"
 
 
 class StressSection(SceneSection):
@@ -310,15 +331,20 @@ class ToleranceSection(SceneSection):
 
 class ResolutionSection(SceneSection):
     """`pitch` [m] of the coarsest pressure elements, or `elements` of them on a half-width of the
-    smooth contact (neither: automatic), and `levels` to begin with."""
+    smooth contact, or `nodes` of the finest of the first levels (none: automatic), and `levels` to
+    begin with."""
 
     pitch: Length | None = None
     elements: Annotated[float, Number(DIMENSIONLESS, at_least=1.0, at_most=1e4)] | None = None
+    nodes: Annotated[int, Whole(64, 2_000_000)] | None = None
     levels: Annotated[int, Whole(2, 6)] = 3
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.pitch is not None and self.elements is not None:
             yield "elements", "is given beside pitch; allowed is one of the two"
+        if self.nodes is not None and (self.pitch or self.elements):
+            beside = "pitch" if self.pitch else "elements"
+            yield "nodes", f"is given beside {beside}; allowed is one of the two"
 
 
 class BudgetSection(SceneSection):

@@ -9,6 +9,8 @@ from dataclasses import asdict, dataclass, field, replace
 from math import hypot, sqrt
 from pathlib import Path
 
+from numpy import diff
+
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
 from analytic.profile import Profile
@@ -38,7 +40,7 @@ from comparisons.common.provenance import digest
 from comparisons.common.units import LENGTH, unit_in_si
 from comparisons.scenes.fields import allowed, plain
 from comparisons.scenes.header_units import header_units
-from comparisons.scenes.profile import AUTOMATIC, FILTER, ProfileSection
+from comparisons.scenes.profile import AUTOMATIC, COMMON, ProfileSection
 from comparisons.scenes.scene import SceneBase
 
 SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
@@ -86,11 +88,14 @@ class ProfileInfo:
     # parameters after ISO 21920-2 of the whole trace, whatever is pressed
     standard: StandardRoughness | None = None
     standard_why: str | None = None  # why there are none
+    seam: float | None = None  # [m] between the heights of a periodic trace's ends, before they met
 
     def as_dict(self) -> dict:
         """The same for JSON, without `path`, which another machine does not have, and `trace`."""
         figures = asdict(replace(self, path=None, trace=None))
         del figures["path"], figures["trace"]
+        if self.seam is None:
+            del figures["seam"]
         nested = ("form", "roughness", "standard")
         return figures | {name: finite(figures[name]) for name in nested if figures[name]}
 
@@ -149,13 +154,16 @@ def surface_of(scene: SceneBase, known: KnownTrace | None = None) -> SceneSurfac
         return SceneSurface(None, None, scene.load.position or 0.0)
     table, length = plain(scene.profile), None
     if scene.profile.variety == "sinusoid" and scene.profile.length is None:
-        length = table["length"] = _sinusoid_length(scene)
+        one_wave = scene.profile.wavelength
+        length = table["length"] = one_wave if scene.periodic else _sinusoid_length(scene)
     if scene.profile.file is not None:
         trace, origin = _measured(table, scene, known)
     else:
         trace, origin = _made(table, scene.source, known)
-    position = _position(scene, trace)
     pressed, filtering = _filtered(trace, table, scene.source)
+    if scene.periodic:
+        pressed, filtering["seam"] = _closed(pressed, scene.source)
+    position = _position(scene, trace, pressed)
     info = ProfileInfo(
         **origin,
         **filtering,
@@ -244,7 +252,7 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
 
 def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profile, dict]:
     """The profile that `analytic.surface.synthetic` makes, about its mean line, and its origin."""
-    parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
+    parameters = {name: value for name, value in table.items() if name not in ("kind", *COMMON)}
     try:
         trace = known.read.profile if known else _MAKERS[table["kind"]](**parameters)
     except ValueError as error:
@@ -284,9 +292,28 @@ def _without_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:
     return remove_form(profile, form)
 
 
-def _position(scene: SceneBase, trace: Profile) -> float:
-    """Of the roller's centre on the trace [m], by default the middle."""
+def _closed(trace: Profile, source: str) -> tuple[Profile, float]:
+    """The trace as one period, whose last sample is the first, and what was between the two [m].
+    They meet at their mean where they are no further apart than neighbouring samples."""
+    height = trace.height.copy()
+    step, largest = abs(float(height[-1] - height[0])), float(abs(diff(height)).max())
+    if step > largest:
+        raise SceneError(
+            f"{source}: profile.periodic: is true, but the ends of the trace are {step:.3g} m "
+            f"apart, neighbouring samples {largest:.3g} m at most; allowed is a trace of whole "
+            'periods, whose last sample repeats the first (profile.form = "line" takes a tilt away)'
+        )
+    height[[0, -1]] = 0.5 * (height[0] + height[-1])
+    return Profile(trace.x, height, periodic=True), step
+
+
+def _position(scene: SceneBase, trace: Profile, pressed: Profile) -> float:
+    """Of the roller's centre on the trace [m], by default the middle; of a periodic one half a
+    period from its lowest place, where one period then ends and the next begins."""
     first, last, wanted = float(trace.x[0]), float(trace.x[-1]), scene.load.position
+    if wanted is None and scene.periodic:
+        lowest = float(pressed.x[pressed.height.argmin()])
+        return lowest + 0.5 * pressed.length * (1.0 if lowest < 0.5 * (first + last) else -1.0)
     if wanted is None:
         return 0.5 * (first + last)
     if not first < wanted < last:

@@ -156,9 +156,9 @@ def field_norms(
 def discretisations(
     runs: dict[str, ModelRun], problem: Problem, friction: float, window: Window | None
 ) -> dict[str, float]:
-    """Discretisation uncertainty that refinement is to lower: the larger of the difference's, which
-    is judged, and of SHOWN times each model's own, for figures are shown too; or of one model. Not
-    the sum: what the pressure elements leave out is in both and cancels in the difference."""
+    """The discretisation uncertainty that refinement is to lower: the difference's, which is
+    judged, or SHOWN times a model's own, whose figures are shown, where that is larger; of one
+    model alone its own. Not the sum: what the pressure elements leave out cancels."""
     by_model = [uncertainties(run, problem, friction) for run in runs.values()]
     if len(runs) == 1:
         return {name: _left(stated) for name, stated in by_model[0].items()}

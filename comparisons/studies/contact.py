@@ -27,6 +27,7 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.smooth import closed_form
 from comparisons.studies.study import SCATTER, Run, Solved, Study
 
 if TYPE_CHECKING:
@@ -245,9 +246,11 @@ def peak_position(level: Level) -> float:
 
 
 def closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
-    """Places and pressures with the feet of the first and last hat."""
-    x, pitch = level.grid.x, level.grid.pitch
-    return np.array([x[0] - pitch, *x, x[-1] + pitch]), np.pad(level.solution.pressure, 1)
+    """Places and pressures with the feet of the first and last hat; of a periodic surface from one
+    end of the period to the other."""
+    grid, pressure = level.grid, level.solution.pressure
+    ends = (pressure[:0], pressure[:1]) if grid.periodic else (np.zeros(1), np.zeros(1))
+    return grid.hats, np.concatenate([ends[0], pressure, ends[1]])
 
 
 def draw_pressures(
@@ -279,10 +282,12 @@ def draw_pressures(
         x, (low, high) = spread.x, spread.band / hertz.peak_pressure
         shown = style.near(x, across, spread.pitch)
         axes.fill_between(x[shown] / unit.factor, low[shown], high[shown], **style.BAND)
-    ends = np.clip([-hertz.half_width, hertz.half_width], *across)
-    x = np.union1d(np.linspace(*across, 600), ends)
-    smooth = hertz.pressure(x) / hertz.peak_pressure
-    axes.plot(x / unit.factor, smooth, label="Hertz, smooth", **style.REFERENCE)
+    smooth = closed_form(run.problem)
+    if smooth is not None:
+        ends = np.clip([-0.5 * smooth.contact_length, 0.5 * smooth.contact_length], *across)
+        x = np.union1d(np.linspace(*across, 600), ends)
+        pressure = smooth.pressure(x) / hertz.peak_pressure
+        axes.plot(x / unit.factor, pressure, label=smooth.label, **style.REFERENCE)
     axes.set_ylabel("p/p₀")
     axes.text(0.008, 0.97, hertz_text(run.problem), transform=axes.transAxes, va="top")
 

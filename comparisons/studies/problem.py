@@ -48,9 +48,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         "half_width": hertz.half_width,
         "peak_pressure": hertz.peak_pressure,
         "reduced_modulus": hertz.combined_modulus,
-        "tau1_max": hertz.tau1_max,
-        "tau1_max_depth": hertz.tau1_max_depth,
     }
+    if not problem.scene.periodic:
+        smooth |= {"tau1_max": hertz.tau1_max, "tau1_max_depth": hertz.tau1_max_depth}
     figures = figures_of(NAME, HERTZ, smooth, unsure)
     figures += figures_of(NAME, SCENE, _groups(problem), unsure)
     if (hardness := problem.scene.body.hardness) is not None:
@@ -72,7 +72,7 @@ def _groups(problem: Problem) -> dict[str, float | None]:
     body, roughness = scene.body, info and info.roughness
     return {
         "a_over_thickness": body.thickness and half_width / body.thickness,
-        "a_over_radius": half_width / scene.roller.radius,
+        "a_over_radius": None if scene.periodic else half_width / scene.roller.radius,
         "a_over_width": body.width and half_width / body.width,
         "rms_slope": None if roughness is None else roughness.rms_slope,
         "max_slope": None if roughness is None else roughness.max_slope,

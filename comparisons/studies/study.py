@@ -32,6 +32,8 @@ WHY_NOT, CONVERGED = "not done", "converged"
 REPEATED = "contact_ratio"  # says again what the contact length says
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
 SCATTER = "scatter"  # the study of uncertain inputs
+COMPARISON = "comparison"  # the study that judges the models against each other
+LAYERED = "layered"  # the study that does so for the analytic model of a layer or a coating
 LADDER = "ladder"  # the study that judges other models beside it, which no run answers for
 
 
@@ -88,7 +90,16 @@ class Run:
     def judged(self) -> Figures:
         """What the run answers for."""
         judged = (figure for figure in self.figures if figure.bounds is not None)
-        return Figures(figure for figure in judged if figure.study != LADDER)
+        beside = {LADDER, COMPARISON} if self.compared.of(study=LAYERED) else {LADDER}
+        return Figures(figure for figure in judged if figure.study not in beside)
+
+    @cached_property
+    def compared(self) -> Figures:
+        """Differences of an analytic model from the scene's own finite elements: of the layered
+        one, where it is the same problem, else of the half-plane."""
+        differences = [figure for figure in self.figures if figure.against == "finite_element"]
+        layered = Figures(figure for figure in differences if figure.study == LAYERED)
+        return layered or Figures(figure for figure in differences if figure.study == COMPARISON)
 
     @cached_property
     def model_errors(self) -> Figures:

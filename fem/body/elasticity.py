@@ -36,6 +36,7 @@ from fem.body.coating import Coating, coated_triangles, relative_constants
 from fem.body.nodes import Nodes, conditions_of, nodes_of, space_on
 from fem.body.support import Support, held_components
 from fem.body.surface import BoundaryPoints, Surface, boundary_points, surface_of
+from fem.body.ties import Ties, tied_sides
 from fem.body.triangle import Locator, reference_nodes, shapes
 from fem.solver.communicator import communicator
 from fem.solver.compilation import compiled, load_dolfinx
@@ -140,10 +141,13 @@ class ElasticBody(MeshedBody):
     # gives PETSc's stiffness for Young's modulus 1; held rows are those of the identity
     assemble: Callable[[], "Mat"]
     space: "FunctionSpace"
+    ties: Ties | None = None  # of its sides
 
     @cached_property
     def factor(self) -> SymmetricFactor:
         matrix = self.assemble()
+        if self.ties is not None:
+            matrix = self.ties.applied(matrix, self.owned, len(self.nodes))
         try:
             return SymmetricFactor(matrix)
         finally:
@@ -165,15 +169,18 @@ class ElasticBody(MeshedBody):
                     "a body on a frictionless base with free sides cannot bear a horizontal load: "
                     "bond its base or hold its sides"
                 )
-        free = np.where(self.held, 0.0, load)
+        free = np.where(self.held, 0.0, load if self.ties is None else self.ties.summed(load))
         part = free[..., self.owned, :].reshape(*load.shape[:-2], -1).T
-        return self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
+        moved = self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
+        return moved if self.ties is None else self.ties.followed(moved)
 
     def stiffness(self) -> csr_matrix:
         """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only. Rows and
         columns of held components are those of the identity times Young's modulus."""
         if self.processes > 1:
             raise FemError("the stiffness as one matrix is available on one process only")
+        if self.ties is not None:
+            raise FemError("the stiffness as one matrix is available without tied sides only")
         matrix = self.assemble()
         start, column, value = matrix.getValuesCSR()
         matrix.destroy()
@@ -217,7 +224,9 @@ def elastic_body(
     from dolfinx import fem
 
     numbering = nodes_of(mesh, degree)
-    held = held_components(numbering.flat, support, boundary_points(numbering.flat, mesh.spec))
+    sides = boundary_points(numbering.flat, mesh.spec)
+    held = held_components(numbering.flat, support, sides)
+    ties = tied_sides(numbering.flat, sides) if support.sides == "tied" else None
     coated = coated_triangles(mesh, coating)
     curved = bool(np.any(mesh.shift))
     space, cell, node = space_on(mesh, numbering, (2,), communicator())
@@ -238,7 +247,7 @@ def elastic_body(
     owned = node[: space.dofmap.index_map.size_local]
     form_of_body = (mesh, material, coating, coated, numbering)
     assemble = partial(compat.petsc_matrix, form, conditions)
-    return ElasticBody(*form_of_body, support, held, owned, assemble, space)
+    return ElasticBody(*form_of_body, support, held, owned, assemble, space, ties)
 
 
 def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":

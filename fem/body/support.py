@@ -8,7 +8,7 @@ import numpy as np
 from fem.body.surface import BoundaryPoints
 
 Base = Literal["bonded", "frictionless"]
-Sides = Literal["free", "rollers", "fixed"]
+Sides = Literal["free", "rollers", "fixed", "tied"]
 
 
 @dataclass(frozen=True)
@@ -19,12 +19,13 @@ class Support:
     Hertz's largest shear stress is 0.22 % high at a depth of 400 half-widths and 0.9 % at 100; with
     rollers 0.38 and 1.5 %, with free sides 0.41 and 1.6 %. The pressure changes by 1e-4.
 
-    With a frictionless base and free sides the bottom point nearest to the middle is held
+    With a frictionless base and free or tied sides the bottom point nearest to the middle is held
     horizontally; a load with a horizontal resultant has no equilibrium then."""
 
     # "bonded": no displacement at the bottom; "frictionless": no vertical displacement
     base: Base = "bonded"
-    sides: Sides = "free"  # "free"; "rollers": no horizontal displacement; "fixed": no displacement
+    # "free"; "rollers": no horizontal displacement; "fixed": no displacement; "tied": both the same
+    sides: Sides = "free"
     # (x, z) [m]: points with |x| or z beyond are fixed, which makes a smaller body of the same mesh
     within: tuple[float, float] = (np.inf, np.inf)
 
@@ -39,7 +40,7 @@ class Support:
     @property
     def can_slide(self) -> bool:
         """Whether nothing but one pinned point resists a horizontal force."""
-        return self.base == "frictionless" and self.sides == "free"
+        return self.base == "frictionless" and self.sides in ("free", "tied")
 
 
 def held_components(flat: np.ndarray, support: Support, sides: BoundaryPoints) -> np.ndarray:
@@ -47,7 +48,7 @@ def held_components(flat: np.ndarray, support: Support, sides: BoundaryPoints) -
     held = np.zeros(flat.shape, dtype=bool)
     flanks = np.union1d(sides.left, sides.right)
     held[sides.bottom] = support.base == "bonded", True
-    held[flanks, 0] |= support.sides != "free"
+    held[flanks, 0] |= support.sides in ("rollers", "fixed")
     held[flanks, 1] |= support.sides == "fixed"
     held[(np.abs(flat) > support.within).any(axis=1)] = True
     if support.can_slide:

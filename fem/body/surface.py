@@ -147,20 +147,35 @@ def hat_points(surface: Surface, hats: np.ndarray, cuts: Sequence[float] = ()) -
 
 
 def hat_forces(
-    surface: Surface, hats: np.ndarray, direction: Direction = straight_down
+    surface: Surface,
+    hats: np.ndarray,
+    direction: Direction = straight_down,
+    periodic: bool = False,
 ) -> csr_matrix:
     """Nodal forces B (2k, count) [m] of unit hat pressures. `hats` (count + 2,) [m] are the hats'
-    nodes, ascending, with the outer feet. A pressure is a force per length of x, not of arc. Rows
-    2a and 2a+1 are the x and z force at surface node a. Exact for a `direction` linear on each
-    piece between vertices and hat nodes. Errors as of `hat_points`."""
+    nodes, ascending, with the outer feet; or (count + 1,) of a `periodic` surface from one side to
+    the other, where the halves of the first hat are. A pressure is a force per length of x, not of
+    arc. Rows 2a and 2a+1 are the x and z force at surface node a. Exact for a `direction` linear on
+    each piece between vertices and hat nodes. Errors as of `hat_points`."""
     points, count = hat_points(surface, hats), len(hats) - 2
     along = np.stack(np.broadcast_arrays(*direction(points.x)))
     # value[a, c, h, piece]: shape function, component, hat, piece
     value = np.einsum("aeg,cheg->ache", points.shape * points.weight, along[:, None] * points.hat)
     row = 2 * points.node[:, None, None, :] + np.arange(2)[:, None, None]
-    forces = matrix_of(value, row, points.column + 1, (2 * len(surface.x), count + 2))[:, 1:-1]
+    column = points.column + 1
+    if periodic:
+        column[column == count + 1] = 0
+    forces = matrix_of(value, row, column, (2 * len(surface.x), count + 2))
+    forces = forces[:, :-1] if periodic else forces[:, 1:-1]
     forces.eliminate_zeros()
     return forces
+
+
+def nodal_on(hats: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values at all nodes of hats (count + 2,) from those (count,) of the hats: zero at their outer
+    feet; on hats (count + 1,) of a periodic surface the first again."""
+    periodic = len(hats) == len(values) + 1
+    return np.append(values, values[0]) if periodic else np.pad(values, 1)
 
 
 def _ordered(flat: np.ndarray, spec: BlockSpec) -> np.ndarray:

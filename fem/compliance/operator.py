@@ -21,7 +21,8 @@ BATCH = 32
 class FiniteElementCompliance:
     """Maps pressures on `count` hats to weighted displacements of `body`.
 
-    hats        (count + 2,) [m] the hats' nodes, ascending, with the outer feet
+    hats        (count + 2,) [m] the hats' nodes, ascending, with the outer feet; on a body with
+                tied sides (count + 1,) from one side to the other, the last the first
     direction   function of x [m] that gives the force (d_x, d_z) per length of x of a unit
                 pressure; None: (0, 1). On a rough boundary (slope, 1) of the smooth roller
     far         gives the body's boundary the half-plane's displacement; None: the support holds it
@@ -38,14 +39,17 @@ class FiniteElementCompliance:
         far: FarField | None = None,
     ) -> None:
         direction = straight_down if direction is None else direction
-        self.body, self.hats, self.count, self.far = body, hats, len(hats) - 2, far
-        self.normal = hat_forces(body.surface, hats, direction)
+        self._periodic = body.ties is not None
+        self.body, self.hats, self.far = body, hats, far
+        self.count = len(hats) - (1 if self._periodic else 2)
+        self.normal = hat_forces(body.surface, hats, direction, self._periodic)
         self._means = self.normal.T.tocsr()  # faster than a transposed view at each product
         self._direction = direction
 
     @cached_property
     def tangential(self) -> csr_matrix:
-        return hat_forces(self.body.surface, self.hats, tangent_of(self._direction))
+        along = tangent_of(self._direction)
+        return hat_forces(self.body.surface, self.hats, along, self._periodic)
 
     def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """integral(phi_i u dx) (count,) [m^2], u along the direction of pressure, into the body.

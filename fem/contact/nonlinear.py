@@ -20,12 +20,17 @@ Nomenclature
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import bmat, csr_matrix
+from scipy.sparse import csr_matrix
 
+from fem.contact.system import ContactSystem, ReusedFactor
 from fem.contact.terms import Contact, ContactTerms, Response
 from fem.solver.mumps import FemError, solve_once
+
+if TYPE_CHECKING:
+    from fem.nonlinear.condensed import Condensed
 
 # Largest of three residuals: forces over the contact's forces, where the rounding of a stiff body
 # counts as little as what it moves; complementarity over the pressure; load over the load. Rounding
@@ -140,7 +145,8 @@ class ContactProblem:
     constant: np.ndarray
     weights: np.ndarray
     hardness: float | np.ndarray  # of all hats, or (count,) of each
-    flexible: np.ndarray | None = None  # C (count, count); None: zero
+    flexible: "np.ndarray | Condensed | None" = None  # C (count, count); None: zero
+    factor: ReusedFactor | None = None  # solves its systems; None: each has its own
 
     @cached_property
     def free(self) -> list[np.ndarray]:
@@ -180,6 +186,12 @@ class ContactProblem:
             bodies.append((force.ravel(), tangent, contact.at(u, state.pressure)))
         return ContactPoint(state, bodies)
 
+    def solve(self, system: ContactSystem, right: np.ndarray) -> np.ndarray:
+        """Newton's step (size,) of a right side; what a reused factor leaves comes next."""
+        if self.factor is None:
+            return solve_once(system.matrix(), right, system.symmetric)
+        return self.factor.solve(system, right)
+
     def weighted_gap(self, point: ContactPoint) -> np.ndarray:
         """g (count,) [m^2]."""
         parts = sum(terms.gap for _, _, terms in point.bodies)
@@ -210,14 +222,15 @@ def _ratio(left: np.ndarray, whole: np.ndarray) -> float:
 
 
 def newton(
-    problem: ContactProblem, guess: ContactState, load: float | None
+    problem: ContactProblem, guess: ContactState, load: float | None, enough: float = 0.0
 ) -> tuple[ContactState, np.ndarray, list[float]]:
     """Equilibrium at the load, or at the guess's approach, its mean gaps (count,) [m], and the
-    residuals of the iterations. Raises FemError if it does not converge."""
+    residuals of the iterations, which may end at a part `enough` of the first one or of 1. Raises
+    FemError if it does not converge."""
     point = problem.at(guess)
     states = HatStates(guess.pressure, problem.hardness, load, problem.weights)
     history = [problem.residual(point, load)]
-    while history[-1] > RESIDUAL:
+    while history[-1] > max(RESIDUAL, enough * min(1.0, history[0])):
         if len(history) > MOST_ITERATIONS:
             raise FemError(f"residual {history[-1]:.1e} after {MOST_ITERATIONS} iterations")
         gap = problem.weighted_gap(point) / problem.weights
@@ -265,30 +278,21 @@ def _step(
     fixed = np.where(states == CAPPED, problem.hardness, 0.0)
     fixed[hats] = pressure[hats]
 
-    size = len(problem.bodies) + 2
-    rows: list[list[csr_matrix | None]] = [[None] * size for _ in range(size)]
-    right = []
-    for place, ((force, tangent, terms), free) in enumerate(
-        zip(point.bodies, problem.free, strict=True)
-    ):
+    bodies, right = [], []
+    for (force, tangent, terms), free in zip(point.bodies, problem.free, strict=True):
         matrix = tangent if terms.stiffness is None else tangent - terms.stiffness
-        rows[place][place] = matrix[free][:, free] / stiff
-        rows[place][-2] = -terms.force[free][:, hats] / width
-        rows[-2][place] = -terms.gradient[free][:, hats].T / width
+        bodies.append((matrix, terms, free))
         right.append((terms.force @ fixed - force)[free] / stiff)
     # what hats that open lose in pressure closes the gap of the others no longer
-    rows[-2][-2], closed = csr_matrix((len(hats), len(hats))), 0.0
+    closed = 0.0
     if problem.flexible is not None:
-        rows[-2][-2] = csr_matrix(problem.flexible[np.ix_(hats, hats)] * (-stiff / width**2))
         closed = (problem.flexible @ (fixed - pressure))[hats]
     right.append((gap[hats] + closed) / width)
     if load is not None:
-        share = csr_matrix(weights[hats, None] / width)
-        rows[-2][-1], rows[-1][-2], rows[-1][-1] = share, share.T, csr_matrix((1, 1))
         right.append(np.array([(load - weights @ fixed) / stiff]))
-    else:
-        rows = [row[:-1] for row in rows[:-1]]
-    solution = solve_once(bmat(rows, format="csr"), np.concatenate(right), problem.symmetric)
+    kind = stiff, load is not None, problem.symmetric
+    system = ContactSystem(bodies, problem.flexible, weights, hats, *kind)
+    solution = problem.solve(system, np.concatenate(right))
 
     pieces = np.split(solution, np.cumsum([len(part) for part in right])[:-1])
     displacements = []

@@ -7,9 +7,12 @@ from collections.abc import Callable
 import numpy as np
 
 from fem.contact.nonlinear import CONTACT, HatStates
+from fem.contact.system import ContactSystem, ReusedFactor
 from fem.solver.mumps import FemError
 
 MOST_EXCHANGES = 100  # of hats that touch and hats that do not
+ACCURACY = 1e-12  # of the elastic pressures
+ROOM = 64  # columns by which the space for them grows
 
 
 class Condensed:
@@ -19,26 +22,37 @@ class Condensed:
     columns  gives those (count, k) of hats (k,)"""
 
     def __init__(self, columns: Callable[[np.ndarray], np.ndarray], count: int) -> None:
-        self._form, self._known = columns, np.zeros((count, 0))
-        self._place = np.full(count, -1)
+        self._form, self._known = columns, np.zeros((count, 0), order="F")
+        self._place, self._hats = np.full(count, -1), np.zeros(0, dtype=int)
 
     def of(self, hats: np.ndarray) -> np.ndarray:
         """Columns (count, k) of hats (k,)."""
-        new = hats[self._place[hats] < 0]
-        if len(new):
-            self._place[new] = self._known.shape[1] + np.arange(len(new))
-            self._known = np.hstack([self._known, self._form(new)])
+        self._have(hats)
         return self._known[:, self._place[hats]]
+
+    def _have(self, hats: np.ndarray) -> None:
+        new = hats[self._place[hats] < 0]
+        if len(new) == 0:
+            return
+        start, stop = len(self._hats), len(self._hats) + len(new)
+        if stop > self._known.shape[1]:
+            more = np.empty((len(self._place), stop + ROOM), order="F")
+            more[:, :start] = self._known[:, :start]
+            self._known = more
+        self._known[:, start:stop] = self._form(new)
+        self._place[new] = np.arange(start, stop)
+        self._hats = np.append(self._hats, new)
 
     def __matmul__(self, pressure: np.ndarray) -> np.ndarray:
         """C p (count,) [m^2]."""
-        hats = np.flatnonzero(pressure)
-        return self.of(hats) @ pressure[hats]
+        self._have(np.flatnonzero(pressure))
+        return self._known[:, : len(self._hats)] @ pressure[self._hats]
 
     def __getitem__(self, block: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
         """The block of `numpy.ix_` of rows and columns."""
         rows, hats = block
-        return self.of(hats.ravel())[rows.ravel()]
+        self._have(hats.ravel())
+        return self._known[rows, self._place[hats]]
 
 
 class ElasticContact:
@@ -46,6 +60,7 @@ class ElasticContact:
 
     def __init__(self, flexible: np.ndarray | Condensed, weights: np.ndarray) -> None:
         self.flexible, self._weights = flexible, weights
+        self._factor = ReusedFactor(ACCURACY)
 
     def __call__(self, gap: np.ndarray, load: float, start: np.ndarray) -> tuple[np.ndarray, float]:
         """Pressure (count,) [Pa] and approach [m] under a load [N/m] > 0, for a weighted gap
@@ -54,15 +69,16 @@ class ElasticContact:
         hats = HatStates(start, np.inf, load, weights)
         hats.keep_one_in_contact(gap / weights)
         one = np.flatnonzero(hats.states == CONTACT)[:1]
-        stiff = weights.mean() / float(flexible[np.ix_(one, one)][0, 0])
+        width = weights.mean()
+        stiff = width / float(flexible[np.ix_(one, one)][0, 0])
+        modulus = stiff * width  # makes all unknowns lengths
         for _ in range(MOST_EXCHANGES):
             before, on = hats.states.copy(), np.flatnonzero(hats.states == CONTACT)
-            system = np.zeros((len(on) + 1, len(on) + 1))
-            system[:-1, :-1] = flexible[np.ix_(on, on)] * stiff
-            system[:-1, -1], system[-1, :-1] = -weights[on], weights[on]
-            solution = np.linalg.solve(system, np.append(-stiff * gap[on], load))
-            pressure, approach = np.zeros_like(gap), float(solution[-1]) / stiff
-            pressure[on] = solution[:-1]
+            system = ContactSystem([], flexible, weights, on, modulus, True, False)
+            right = np.append(gap[on] / width, load / modulus)
+            solution = self._factor.solve(system, right)
+            pressure, approach = np.zeros_like(gap), float(solution[-1])
+            pressure[on] = solution[:-1] * (modulus / width)
             opening = (gap + flexible @ pressure) / weights - approach
             opening[on] = 0.0
             hats.exchange(pressure, opening, stiff)

@@ -113,10 +113,10 @@ class CycledBody(LoadHistory):
             before, flowed, replace(self.state, pressure=0.0 * before.pressure, load=0.0)
         )
 
-    def _accept(self, found: ContactState) -> None:
+    def _accept(self, state: ContactState) -> None:
         before, flowed = self.state, self.body.state
-        super()._accept(found)
-        self._add_work(before, flowed, found)
+        super()._accept(state)
+        self._add_work(before, flowed, state)
 
     def _move(self, gap: np.ndarray) -> None:
         """To a place of another weighted gap (count,) [m^2], under the same load."""

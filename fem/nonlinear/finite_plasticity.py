@@ -19,8 +19,7 @@ from fem.nonlinear.plasticity import (
     PlasticBody,
     PlasticState,
     PlasticStep,
-    return_mapping,
-    stress,
+    stress_of,
 )
 
 CHUNK = 8192  # elements whose tangents are formed at once
@@ -34,9 +33,12 @@ class FinitePlasticBody(PlasticBody):
 
     def __init__(self, body: ElasticBody, metal: ElasticPlastic) -> None:
         super().__init__(body, metal)
-        lame, shear = metal.elastic.lame_constants
-        self._elastic = shear * np.diag([2.0, 2.0, 1.0])
-        self._elastic[:2, :2] += lame
+        self._elastic = np.zeros((2, 3, 3))  # of the metal, and of what is coated
+        materials = metal.elastic, body.surface_material
+        for matrix, material in zip(self._elastic, materials, strict=True):
+            lame, shear = material.lame_constants
+            matrix += shear * np.diag([2.0, 2.0, 1.0])
+            matrix[:2, :2] += lame
         elements, count = body.elements, len(body.nodes)
         pair = elements[:, :, None].astype(np.int64) * count + elements[:, None, :]
         pairs, self._place = np.unique(pair, return_inverse=True)
@@ -63,7 +65,7 @@ class FinitePlasticBody(PlasticBody):
     ) -> tuple[np.ndarray, np.ndarray]:
         """Cauchy's sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m]."""
         strain = LogStrain(self.gradient(displacement))
-        conjugate, across = stress(self.metal, strain.strain, state)
+        conjugate, across = stress_of(self._shear, self._ratio, strain.strain, state)
         first, _ = _first_piola(strain, conjugate)
         cauchy = first @ strain.deformed.transpose(0, 2, 1) / strain.volume[:, None, None]
         inside = np.column_stack([cauchy[:, 0, 0], cauchy[:, 1, 1], cauchy[:, 0, 1]])
@@ -72,8 +74,8 @@ class FinitePlasticBody(PlasticBody):
     def _at(self, displacement: np.ndarray) -> tuple[LogStrain, PlasticStep, np.ndarray]:
         """The strain, the step from the accepted state, and the stress conjugate to the strain."""
         strain = LogStrain(self.gradient(displacement))
-        step = return_mapping(self.metal, strain.strain, self.state)
-        return strain, step, stress(self.metal, strain.strain, step.state)[0]
+        step = self._mapped(strain.strain)
+        return strain, step, stress_of(self._shear, self._ratio, strain.strain, step.state)[0]
 
     def _balanced(self, strain: LogStrain, conjugate: np.ndarray) -> np.ndarray:
         first, _ = _first_piola(strain, conjugate)
@@ -82,7 +84,7 @@ class FinitePlasticBody(PlasticBody):
         return nodal_sums(self.body.elements, nodal, len(self.body.nodes))
 
     def _tangent(self, strain: LogStrain, step: PlasticStep, conjugate: np.ndarray) -> csr_matrix:
-        inner = np.tile(self._elastic, (len(conjugate), 1, 1))
+        inner = self._elastic[self._coated.astype(int)]
         inner[step.yields] -= step.softening
         material = strain.tangent(conjugate, inner) * self.areas.reshape(-1, 1, 1)
         _, piola = _first_piola(strain, conjugate)

@@ -24,13 +24,18 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem.contact.nonlinear import ContactProblem, ContactState, newton
+from fem.contact.system import ReusedFactor
 from fem.contact.terms import Contact, ContactTerms, LinearContact, LinearResponse, Response
+from fem.nonlinear.condensed import Condensed
 from fem.solver.mumps import FemError
 
 # Forces over the contact's forces, and of a contact on deformed surfaces complementarity over the
 # pressure.
 RESIDUAL = 1e-9
 MOST_LINEAR_CONTACTS = 40
+# What is left of a linear system over its right side, and of a linear contact over the residual
+# before it. More takes more linear contacts for as much work: Newton's order is not used up.
+ACCURACY, ENOUGH = 5e-2, 0.1
 # The line search ends where the energy's slope is below this part of the first one.
 SLACK = 0.5
 MOST_TRIALS = 12
@@ -88,19 +93,22 @@ def newton_by_contacts(
     load: float | None = None,
     approach: float | None = None,
     residual: float = RESIDUAL,
-    flexible: np.ndarray | None = None,
+    flexible: np.ndarray | Condensed | None = None,
+    factor: ReusedFactor | None = None,
 ) -> tuple[ContactState, list[float]]:
     """Equilibrium under a `load` P [N/m] > 0 or at an `approach` d [m], and the residuals, the last
-    one at most the given `residual`. `flexible` is the compliance of what stays elastic. The
-    approach works near the limit load too. The caller accepts the displacements into the bodies'
-    histories. Held components keep their displacements. Other arguments as of
-    `solve_nonlinear_contact`. Raises FemError if it does not converge."""
-    state, history = start, []
+    one at most the given `residual`. `flexible` is the compliance of what stays elastic. With a
+    `factor`, of the same bodies in contacts before, systems and linear contacts are solved no
+    further than a step may use; without it exactly. The approach works near the limit load too.
+    The caller accepts the displacements into the bodies' histories. Held components keep their
+    displacements. Other arguments as of `solve_nonlinear_contact`. Raises FemError if it does not
+    converge."""
+    state, history, enough = start, [], ENOUGH if factor else 0.0
     while len(history) < MOST_LINEAR_CONTACTS:
         near = _linearised(bodies, state)
-        problem = ContactProblem(near, gap, weights, np.inf, flexible)
+        problem = ContactProblem(near, gap, weights, np.inf, flexible, factor)
         guess = state if approach is None else replace(state, approach=approach)
-        goal, _, _ = newton(problem, guess, load)
+        goal, _, left = newton(problem, guess, load, enough)
         moves = [u - v for u, v in zip(goal.displacements, state.displacements, strict=True)]
         rise = goal.pressure - state.pressure
         elastic_work = 0.0 if flexible is None else float(rise @ (flexible @ rise))
@@ -108,7 +116,7 @@ def newton_by_contacts(
         part, forces, applied = _length(bodies, state, moves, goal, starts, elastic_work)
         change = ContactState(tuple(moves), rise, goal.approach - state.approach)
         state = replace(state.moved(part, change), load=goal.load)
-        worst = 0.0
+        worst = left[-1]
         for (body, _), f, a in zip(bodies, forces, applied, strict=True):
             ok, soft = ~body.held.ravel(), body.softness
             rest, size = (soft * (f - a).ravel())[ok], (soft * a.ravel())[ok]

@@ -99,16 +99,23 @@ def stress(
     metal: ElasticPlastic, strain: np.ndarray, state: PlasticState
 ) -> tuple[np.ndarray, np.ndarray]:
     """sx, sz, txz (k, 3) and sy (k,) [Pa] of a strain (k, 3) exx, ezz, gxz in a state."""
-    shear, nu = metal.elastic.shear_modulus, metal.elastic.poissons_ratio
+    return stress_of(metal.elastic.shear_modulus, metal.elastic.poissons_ratio, strain, state)
+
+
+def stress_of(
+    shear: float | np.ndarray, nu: float | np.ndarray, strain: np.ndarray, state: PlasticState
+) -> tuple[np.ndarray, np.ndarray]:
+    """`stress` of a shear modulus [Pa] and a Poisson's ratio, or of those of every point (k,)."""
     volume = strain[:, 0] + strain[:, 1]
     mean = 2.0 * shear * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)) * volume
-    deviator = 2.0 * shear * (strain @ DEVIATOR.T - state.strain)
+    deviator = np.asarray(2.0 * shear)[..., None] * (strain @ DEVIATOR.T - state.strain)
     across = mean - deviator[:, 0] - deviator[:, 1]
     return deviator + np.outer(mean, [1.0, 1.0, 0.0]), across
 
 
 class PlasticBody:
     """`body` of an elastic-plastic metal with the body's elastic constants, and its plastic state.
+    A coating stays elastic.
 
     held    (n, 2) components that the support holds
     points  (3m, 2) [m] quadrature points, three of each element in turn
@@ -120,8 +127,8 @@ class PlasticBody:
     symmetric, softness = True, np.ones(1)
 
     def __init__(self, body: ElasticBody, metal: ElasticPlastic) -> None:
-        if body.coating is not None or metal.elastic != body.material:
-            raise ValueError("the metal's elastic constants must be those of the whole body")
+        if metal.elastic != body.material:
+            raise ValueError("the metal's elastic constants must be those of the body")
         if body.degree != 2:
             raise ValueError(f"plastic flow wants displacements of degree 2, not {body.degree}")
         self.body, self.metal, self.held = body, metal, body.held
@@ -133,6 +140,8 @@ class PlasticBody:
         self.areas = GAUSS_WEIGHT * np.linalg.det(jacobian)
         self._stiffness = body.stiffness()
         self.state = PlasticState.virgin(self.areas.size)
+        self._coated = np.repeat(body.coated, 3)  # (3m,) points that stay elastic
+        self._shear, self._ratio = np.repeat([body.shear_modulus, body.poissons_ratio], 3, axis=1)
 
     def gradient(self, displacement: np.ndarray) -> np.ndarray:
         """du_i/dx_j (3m, 2, 2) of a displacement (n, 2) [m]."""
@@ -146,7 +155,11 @@ class PlasticBody:
 
     def step(self, displacement: np.ndarray) -> PlasticStep:
         """The step from the accepted state to a displacement (n, 2) [m]."""
-        return return_mapping(self.metal, self.strain(displacement), self.state)
+        return self._mapped(self.strain(displacement))
+
+    def _mapped(self, strain: np.ndarray) -> PlasticStep:
+        """The step from the accepted state to a strain (3m, 3)."""
+        return return_mapping(self.metal, np.where(self._coated[:, None], 0.0, strain), self.state)
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal force (n, 2) [N/m] and its derivative (2n, 2n) [Pa] at a displacement (n, 2).
@@ -176,7 +189,7 @@ class PlasticBody:
         self, displacement: np.ndarray, state: PlasticState
     ) -> tuple[np.ndarray, np.ndarray]:
         """sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m] in a state."""
-        return stress(self.metal, self.strain(displacement), state)
+        return stress_of(self._shear, self._ratio, self.strain(displacement), state)
 
     def force_of(self, stress: np.ndarray) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] in balance with sx, sz, txz (3m, 3) [Pa]."""

@@ -78,7 +78,7 @@ class _FiniteHistory(LoadHistory):
             response = TwoBodies(self.body, contact.response.parts[1], moduli)
         self._response, self._bodies = response, [(response, contact.contact)]
         self._beyond = np.zeros_like(contact.linear)  # displacements that are not linear
-        self.state = _Start((contact.linear,), start, approach=0.0)
+        self.state = self._last = _Start((np.zeros_like(contact.linear),), start, approach=0.0)
 
     def contact(self, load: float, iterations: int) -> FinitePlasticContact:
         common = dict(vars(super().contact(load, iterations)))
@@ -104,7 +104,7 @@ class _FiniteHistory(LoadHistory):
         if start is None or self._flows(start):
             return False
         try:
-            end, _ = self._settled(load, start)
+            end, _ = self._solved(start, load)
         except FemError:
             return False
         if self._flows(end):
@@ -116,30 +116,35 @@ class _FiniteHistory(LoadHistory):
         displacement = state.displacements[0][: len(self.body.held)]
         return bool(self.body.step(displacement).yields.any())
 
-    def _to_plastic(self, load: float, start: ContactState, residual: float) -> int:
-        looser = 1.0 if residual == RESIDUAL else LOOSER
-        end, contacts = self._settled(load, start, residual, looser)
-        self._accept(end)
-        return contacts
-
-    def _settled(
-        self, load: float, start: "_Start", residual: float = RESIDUAL, looser: float = 1.0
+    def _solved(
+        self,
+        start: "_Start",
+        load: float | None,
+        approach: float | None = None,
+        residual: float = RESIDUAL,
     ) -> tuple["_Start", int]:
-        """The contact under a load [N/m], `FiniteContact.settled`, and the linear contacts to get
-        there."""
-        contacts, asked = 0, self._contact.pressing(load, *start.displacements, start.pressure)
+        """As of small strains, `FiniteContact.settled`."""
+        contact, looser = self._contact, 1.0 if residual == RESIDUAL else LOOSER
+        contacts, asked = 0, load and contact.pressing(load, *start.displacements, start.pressure)
         for _ in range(MOST_SETTINGS):
             end, residuals = newton_by_contacts(
-                *(self._bodies, np.zeros_like(self._gap), self._weights, start, asked),
+                *(self._bodies, np.zeros_like(self._gap), self._weights, start, asked, approach),
                 residual=residual,
+                factor=self._factor,
             )
             contacts += len(residuals)
-            end = _Start(end.displacements, end.pressure, end.approach, load, start.aside)
-            moved, asked, is_settled = self._contact.settled(end, load, asked, looser)
+            borne = load or contact.borne(*end.displacements, end.pressure)
+            end = _Start(end.displacements, end.pressure, end.approach, borne, start.aside)
+            moved, asked, is_settled = contact.settled(end, load, asked, looser)
             if is_settled:
                 break
             start = self._set_back(end, moved)
         return end, contacts
+
+    def _onward(self, way: float) -> "_Start":
+        onward, part = super()._onward(way), way / (self.state.approach - self._last.approach)
+        aside = self.state.aside + part * (self.state.aside - self._last.aside)
+        return replace(onward, aside=aside)
 
     def _set_back(self, state: "_Start", to: np.ndarray) -> "_Start":
         """The state with its bodies moved back along x, to displacements (n, 2) [m]."""
@@ -154,8 +159,9 @@ class _FiniteHistory(LoadHistory):
         return np.vstack([displacement, self._opposite.displacement(pressure, -self._friction)])
 
     def _frozen(self, load: float, plastic: PlasticState) -> "_Start | None":
-        there = self.state.displacements[0], self.state.pressure
-        linear = super()._frozen(self._contact.pressing(load, *there), plastic)
+        [there] = self.state.displacements if self.state.load else [self._contact.linear]
+        pressing = self._contact.pressing(load, there, self.state.pressure)
+        linear = super()._frozen(pressing, plastic)
         if linear is None:
             return None
         moved = self._linear(linear.pressure, plastic)
@@ -164,7 +170,7 @@ class _FiniteHistory(LoadHistory):
         return self._set_back(_Start((moved,), linear.pressure, linear.approach, load), back)
 
     def _accept(self, state: "_Start") -> None:
-        self._former = self.state.load, self.body.state
+        self._former, self._last = (self.state.load, self.body.state), self.state
         self._response.accept(state.displacements[0])
         self.state = state
         linear = self._linear(state.pressure, self.body.state)

@@ -27,11 +27,13 @@ from fem.body.sums import nodal_sums
 from fem.body.triangle import GAUSS, reference_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState
+from fem.contact.system import ReusedFactor
 from fem.contact.terms import LinearContact
 from fem.nonlinear.condensed import Condensed, ElasticContact
-from fem.nonlinear.newton import RESIDUAL, newton_by_contacts
+from fem.nonlinear.newton import ACCURACY, RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
+from fem.stress.recovery import stress_nodes
 
 # Residual on the way to a load: it moves pressures under the load by 1e-8 of the largest, the
 # plastic strain at single points by 1e-5. With 3e-3 predicted edges are so inaccurate that a finer
@@ -49,7 +51,9 @@ LEAST_INCREMENT = 1e-3  # of the larger of the loads between which it lies; the 
 # body, which flows at once, and no increment is shortened further
 ROUNDING = 1e-9
 LONGER = 2.0  # factor on the next increment, at most
-MOST_FAILURES = 3  # increments on the way to a load that are halved as Newton's method fails
+MOST_FAILURES = 3  # increments on the way to a load that are halved as Newton's method fails;
+# then those of the approach are, so many times one after the other, of so many
+MOST_HALVINGS, MOST_SINKING = 6, 200
 ELASTIC_WITHIN = 0.9  # of the load at which flow begins: reached at once
 
 # Part of the largest load from which the roller is removed, and at which it touches again: less
@@ -138,7 +142,9 @@ class LoadHistory:
         self._elastic = ElasticContact(both, weights)
         self._bodies = [(self.body, LinearContact(compliance, friction))]
         self.state = ContactState((np.zeros(self.body.held.shape),), guess, approach=0.0)
-        self._former = 0.0, self.body.state  # load and plastic state before the last increment
+        self._factor = ReusedFactor(ACCURACY)
+        # load, plastic state and contact before the last increment
+        self._former, self._last = (0.0, self.body.state), self.state
 
     def through(self, loads: Sequence[float]) -> tuple[PlasticContact, ...]:
         """The contact under each of the loads P [N/m] in turn; 0 removes the roller. Raises
@@ -174,16 +180,57 @@ class LoadHistory:
                 contacts += self._to_plastic(
                     load, start, RESIDUAL if load == target else ON_THE_WAY
                 )
-            except FemError as error:
+            except FemError:
                 failures += 1
                 if step <= least or failures > MOST_FAILURES:
-                    raise FemError(f"the load of {load:g} N/m was not reached: {error}") from error
+                    try:
+                        return contacts + self._sink(target)
+                    except FemError as error:
+                        why = f"the load of {target:g} N/m was not reached: {error}"
+                        raise FemError(why) from error
                 step = max(least, 0.5 * step)
                 continue
             moved = edge_travel(before.pressure, self.state.pressure)
             step *= min(LONGER, self._travel / moved) if moved else LONGER
             step = float(np.clip(step, least, most))
         return contacts
+
+    def _sink(self, target: float) -> int:
+        """Linear contacts that lead to a load [N/m] by increments of the approach. Where a metal is
+        nearly rigid the load hardly rises until further hats touch, and tells nothing of how far
+        the roller sinks; the approach does. The last increment ends on the load."""
+        sign, contacts, failures = np.sign(target - self.state.load), 0, 0
+        way = sign * abs(self.state.approach - self._last.approach)
+        if not way:
+            raise FemError("nothing has sunk yet")
+        for _ in range(MOST_SINKING):
+            here, goal = self.state, self.state.approach + way
+            try:
+                end, count = self._solved(self._onward(way), None, goal, ON_THE_WAY)
+                contacts += count
+                if sign * (end.load - here.load) <= 0.0:
+                    raise FemError(f"it ends at {here.load:g} N/m, where the roller sinks on")
+                if sign * (end.load - target) >= 0.0:
+                    part = (target - here.load) / (end.load - here.load)
+                    end, count = self._solved(self._onward(part * way), target, None, RESIDUAL)
+                    contacts += count
+            except FemError:
+                failures, way = failures + 1, 0.5 * way
+                if failures > MOST_HALVINGS:
+                    raise
+                continue
+            self._accept(end)
+            if end.load == target:
+                return contacts
+            failures, moved = 0, edge_travel(here.pressure, end.pressure)
+            way *= min(LONGER, self._travel / moved) if moved else LONGER
+        raise FemError(f"it was {self.state.load:g} N/m after {MOST_SINKING} increments")
+
+    def _onward(self, way: float) -> ContactState:
+        """The state after a further approach [m], displaced as it was over the last increment."""
+        part = way / (self.state.approach - self._last.approach)
+        pairs = zip(self.state.displacements, self._last.displacements, strict=True)
+        return replace(self.state, displacements=tuple(u + part * (u - v) for u, v in pairs))
 
     def _next(self, target: float, step: float, least: float) -> tuple[float, ContactState]:
         """The next load [N/m], at most a `step` from here and at least the `least` one, and where
@@ -228,13 +275,21 @@ class LoadHistory:
 
     def _to_plastic(self, load: float, start: ContactState, residual: float) -> int:
         """Linear contacts that lead to a load [N/m] in one increment. Raises FemError."""
+        end, contacts = self._solved(start, load, None, residual)
+        self._accept(end)
+        return contacts
+
+    def _solved(
+        self, start: ContactState, load: float | None, approach: float | None, residual: float
+    ) -> tuple[ContactState, int]:
+        """The contact under a load [N/m] or at an approach [m], and the linear contacts to it."""
         end, residuals = newton_by_contacts(
-            *(self._bodies, self._gap, self._weights, start, load),
+            *(self._bodies, self._gap, self._weights, start, load, approach),
             residual=residual,
             flexible=self._flexible,
+            factor=self._factor,
         )
-        self._accept(end)
-        return len(residuals)
+        return end, len(residuals)
 
     def _ahead(self, load: float) -> ContactState:
         """Where to start for a load [N/m]: plastic strain goes on as over the last increment."""
@@ -255,7 +310,7 @@ class LoadHistory:
         return ContactState((moved,), pressure, approach, load)
 
     def _accept(self, state: ContactState) -> None:
-        self._former = self.state.load, self.body.state
+        self._former, self._last = (self.state.load, self.body.state), self.state
         self.body.accept(state.displacements[0])
         self.state = state
 
@@ -312,7 +367,8 @@ def unloaded(body: PlasticBody, displacement: np.ndarray, scale: float) -> np.nd
 
 @dataclass(frozen=True)
 class PlasticFields:
-    """Fields at the mesh's n points under one load."""
+    """Fields at n nodes under one load: the mesh's points, on a coating's interface one for each
+    material (`fem.stress.recovery.stress_nodes`)."""
 
     stress: StressState  # (n,) [Pa] in the plane
     sy: np.ndarray  # (n,) [Pa] across the plane, nu (sx + sz) only without plastic strain
@@ -326,11 +382,12 @@ class PlasticFields:
 
 def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     """Stresses and plastic strain of a body under a contact of its history. Area-weighted means of
-    the linear fields through the three points of each element around a mesh point. Patches of
+    the linear fields through the three points of each element around a node. Patches of
     higher degree (`fem.stress.recovery`) would overshoot at the plastic zone's kinks."""
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
-    elements, count = body.body.elements, len(body.body.nodes)
+    nodes = stress_nodes(body.body)
+    elements, count = nodes.triangles, len(nodes.point)
     areas = np.repeat(body.areas.sum(axis=1), 6).reshape(elements.shape)
     values = EXTRAPOLATION @ sampled.reshape(len(elements), 3, -1) * areas[..., None]
     total = nodal_sums(elements, areas, count)

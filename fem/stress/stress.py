@@ -150,10 +150,8 @@ class _LoadedRecovery(Recovery):
             self._stress[node] += self.further.at(self.body.points[self.nodes.point[node]])
 
 
-def at_mesh_points(body: MeshedBody, stress: StressState) -> NodalStress:
-    """Stresses of a plain body from those at the mesh's points (n,), quadratic between them."""
-    if body.coated.any():
-        raise ValueError("a coated body has two stresses at the points of its interface")
+def at_nodes(body: MeshedBody, stress: StressState) -> NodalStress:
+    """Stresses from those at the `stress_nodes` (k,), quadratic between them."""
     values = np.column_stack([stress.sx, stress.sz, stress.txz])
     nodes = stress_nodes(body)
     nu = nodes.of_triangles(body.poissons_ratio)

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from fem.body.elasticity import MeshedBody
-from fem.body.surface import Direction, tangent_of
+from fem.body.surface import Direction, nodal_on, tangent_of
 from fem.stress.kinks import Kinks
 
 
@@ -22,7 +22,7 @@ class SurfaceLoad:
     one a friction coefficient, which adds an axis (c,) to kinks and tractions."""
 
     body: MeshedBody
-    hats: np.ndarray  # (count + 2,) [m] nodes of the hats, with the feet of the outer two
+    hats: np.ndarray  # [m] nodes of the hats, as of `fem.compliance.operator`
     pressure: np.ndarray  # (count,) [Pa]
     friction: float | np.ndarray  # (c,); times the pressure is the sliding traction towards +x
     direction: Direction  # of the pressure, as in `fem.compliance.operator`
@@ -45,8 +45,13 @@ class SurfaceLoad:
         return Kinks(x + 1j * self.surface(x), along, jump.T)
 
     def _bend(self, nodal: np.ndarray) -> np.ndarray:
-        """Jumps (count + 2,) of the slope of nodal values."""
-        return np.diff(np.diff(nodal) / np.diff(self.hats), prepend=0.0, append=0.0)
+        """Jumps of the slope of nodal values at the hats' nodes."""
+        slope, periodic = (
+            np.diff(nodal) / np.diff(self.hats),
+            len(self.hats) == len(self.pressure) + 1,
+        )
+        before, after = (slope[-1], slope[0]) if periodic else (0.0, 0.0)
+        return np.diff(slope, prepend=before, append=after)
 
     def tangent(self, x: np.ndarray) -> np.ndarray:
         """t (k, 2) at x (k,) [m]."""
@@ -65,11 +70,12 @@ class SurfaceLoad:
 
     @cached_property
     def _nodal(self) -> np.ndarray:
-        return np.concatenate([[0.0], self.pressure, [0.0]])
+        return nodal_on(self.hats, self.pressure)
 
     @cached_property
     def _nodal_traction(self) -> np.ndarray:
-        return np.zeros(len(self.hats)) if self.traction is None else np.pad(self.traction, 1)
+        none = self.traction is None
+        return np.zeros(len(self.hats)) if none else nodal_on(self.hats, self.traction)
 
     def _along(self, x: np.ndarray) -> np.ndarray:
         """Force (k, 2) per length of x under unit traction."""

@@ -67,6 +67,9 @@ def _problem(scene: Scene, cache: Cache, callback: ProgressCallback) -> Problem:
     """The scene's problem, under the load of its approach where that is prescribed."""
     callback("finding the extent of the contact")
     try:
+        if scene.periodic:
+            why = "is true; allowed is a roller, whose contact every method of `cost` solves"
+            raise SceneError(f"{scene.source}: profile.periodic: {why}")
         surface = surface_of(scene)
         if scene.load.kind != "approach":
             return problem_of(scene, surface)

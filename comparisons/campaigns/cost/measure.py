@@ -1,10 +1,10 @@
 """All methods at all their settings, each measured in a process of its own with one thread.
 
 In: a problem, and a cache of what was measured before. Out: a row for every setting, its solution
-and what it cost; what fails is a row as well. Seconds are processor time, gmsh's process included:
-on an idle machine the wall time, on a busy one what the wall time would be if the machine were
-idle. A setting that was measured is not measured again unless scene, program, versions, machine or
-the number of repeats differ; the time it took counts as before."""
+and what it cost; what fails is a row as well. Seconds are processor time, gmsh's process included,
+which is about the wall time of an idle machine. A setting that was measured is not measured again
+unless scene, program, versions, machine or the number of repeats differ; the time it took counts as
+before."""
 
 import re
 import statistics

@@ -128,10 +128,10 @@ def _recommendation(
 
 
 def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
-    """The sections of a scene whose first levels end at a row's setting. Three levels, which state
-    an uncertainty; two where the coarsest of three would be too coarse. The mesh grows at that
-    level as it did when it was measured; in a stress window its elements are as small as on the
-    scene's own third level. `run` refines on only while a tolerance is open."""
+    """The sections of a scene whose first levels end at a row's setting. There are three levels,
+    which state an uncertainty, or two where the coarsest of three would be too coarse. The mesh
+    grows at that level as it did when it was measured; in a stress window its elements are as small
+    as on the scene's own third level. `run` refines on only while a tolerance is open."""
     low, high = problem.extent
     levels = 2 if high - low < FEWEST_ELEMENTS * row.setting * 4.0 else 3
     sections = {"resolution": {"pitch": row.setting * 2.0 ** (levels - 1), "levels": levels}}

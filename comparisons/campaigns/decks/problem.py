@@ -99,6 +99,9 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     """The deck of a problem with elements of `pitch` [m] on the contact, in meshes like those of
     the finite elements' level. Raises SceneError for what decks do not describe."""
     scene, settings = problem.scene, problem.scene.finite_element
+    if scene.periodic:
+        why = "is true; allowed in a deck is a roller: it does not tie the sides of a body"
+        raise SceneError(f"{scene.source}: profile.periodic: {why}")
     if scene.body.hardness is not None and not settings.plastic:
         why = "is given; allowed in a deck are elastic bodies, and such that flow (plastic = true)"
         raise SceneError(f"{scene.source}: body.hardness: {why}")

@@ -79,9 +79,9 @@ def study_of(quantity: str) -> ModuleType | None:
 def smooth_problem(scene: Scene) -> Problem:
     """The smooth contact of half-planes under a scene's load, which groups refer to."""
     body, load = scene.body, scene.load
-    if load.kind == "approach":
+    if load.kind in ("approach", "mean_pressure"):
         raise SceneError(
-            f"{scene.source}: load.approach: is no load that groups can refer to; allowed for a "
+            f"{scene.source}: load.{load.kind}: is no load that groups can refer to; allowed for a "
             "map is per_length or hertz_peak_pressure"
         )
     tables = {

@@ -1,8 +1,8 @@
 """A map as a picture: colours by the model error of the half-plane, lines at the tolerances.
 
-A cell a point. Where the error is within its numerical uncertainty the cell is hatched, without
-colour: dots where both are below the first tolerance, lines where the error may be above. A failed
-point has a cross. A scene of the user's own may be marked.
+Each point is a cell. Where the error is within its numerical uncertainty the cell is hatched,
+without colour: dots where both are below the first tolerance, lines where the error may be above. A
+failed point has a cross. A scene of the user's own may be marked.
 """
 
 from typing import TYPE_CHECKING

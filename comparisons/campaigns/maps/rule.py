@@ -7,9 +7,9 @@ with u one group of the map and v the other.
 Each line of equal v is followed from the good end of u for as long as the error and its numerical
 uncertainty together stay within the tolerance, between points by straight lines in logarithms. k is
 fitted through the ends; C is then the largest, to two figures, with which no line is overstepped.
-V, a value of the map, leaves lines out where more points are inside without them. Of both groups,
-their ends and all V the rule is taken with most points inside. A point that failed or has no known
-uncertainty ends its line.
+V, one of the map's v, leaves lines out where the rule then holds at more points. Both groups, both
+ends and every V are tried; the rule that holds at most points is taken. A point that failed or has
+no known uncertainty ends its line.
 """
 
 import math

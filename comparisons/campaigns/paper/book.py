@@ -1,8 +1,8 @@
 """The numbers of Seireg's (1998) theory that judge its claims.
 
-Of rough contact, solved to eight digits. Of heat, chapter 5, its short formulas against exact
-solutions, its partition against the one that is solved under Hertz's pressure: temperatures are
-parts of the surface's rise, times multiples of tL, in which heat passes a slab."""
+Its rough contact is solved to eight digits. Its short formulas of heat (chapter 5) are compared
+with exact solutions, its partition with the one that is solved under Hertz's pressure. Temperatures
+are relative to the surface's rise, times to tL, in which heat passes a slab."""
 
 from functools import cache
 

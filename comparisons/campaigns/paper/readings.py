@@ -263,9 +263,9 @@ class LevelView:
         return float(np.max(errors))
 
     def error_on_rough_surface(self, element: Element, largest: bool = False) -> float:
-        """Error of sx and sz at depths less than a sampling interval of the trace, sliding [p0].
-        The sum over elements that are one sampling interval wide, against the level's own finer
-        pressures joined linearly. The root mean square of all errors, or the largest."""
+        """Error [p0] of sx and sz, sliding, above the depth of one sampling interval of the trace:
+        of elements as wide as that, against the level's own finer pressures joined linearly. The
+        root mean square of all errors, or the largest."""
         grid, pressure, hertz = self.level.grid, self.level.solution.pressure, self.problem.hertz
         coarser = max(1, round(self.problem.surface.info.spacing / grid.pitch))
         nodes = slice(grid.count // 2 % coarser, None, coarser)
@@ -350,7 +350,7 @@ def joining_level(field: np.ndarray, seed: Point, target: np.ndarray) -> float:
 def share_joined(
     field: np.ndarray, weights: np.ndarray, level: float, seed: Point, part: np.ndarray
 ) -> float:
-    """Of the area in `part` (m, k) at or above a level, the share joined with `seed`; 0 of none.
+    """Of the area in `part` (m, k) at or above a level, the share joined with `seed`; 0 if empty.
 
     weights  (m, 1) or (m, k), the area that a point stands for"""
     area = np.broadcast_to(weights, field.shape)

@@ -2,8 +2,8 @@
 
 Each is solved as `run` does, from the tables of a scene to a stated uncertainty, and judged by a
 closed form (or, on layers, by a table of ten digits) that the solution does not use. An elastic
-contact only depends on ratios. For the numerics cases differ by where the edges fall between two
-nodes, so each case has its own number of pressure elements on a half-width.
+contact depends on ratios alone. What differs numerically is where the edges fall between two nodes,
+so each case has its own number of pressure elements on a half-width.
 
 Nomenclature: a half-width [m], h pitch of the pressure elements [m], R radius [m], p0 peak
 pressure [Pa], mu friction coefficient."""

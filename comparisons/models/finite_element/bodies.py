@@ -26,7 +26,7 @@ from comparisons.models.finite_element.roller import (
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from fem.body.elasticity import Coating, ElasticBody, elastic_body
-from fem.body.support import Support
+from fem.body.support import Sides, Support
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 
@@ -57,10 +57,9 @@ class BodyPair:
 
 
 class BodyCache:
-    """The latest meshes and factored bodies: what asks for the same again shares them.
+    """The latest meshes and factored bodies, which all that need the same ones share.
     Loads, friction coefficients and profiles in the gap change neither, but for a load that changes
-    where the contact may be. Few are held: the next
-    request is mostly the same, or older ones never return."""
+    where the contact may be. Few are held: a request mostly repeats one of the last."""
 
     def __init__(self) -> None:
         self._meshes: OrderedDict[Hashable, BlockMesh] = OrderedDict()
@@ -126,8 +125,9 @@ def bodies_of(
         mesh = roller_mesh(problem, flat)
     # flat, it is that of a flat rough body, if they are alike
     shape = _key(wanted) if mesh is flat else (_key(wanted), roller_key(problem))
-    within = beyond * wanted.half_width, beyond * wanted.depth
-    support = Support("bonded", UNBOUNDED_SIDES, within)
+    aside = beyond if problem.period is None else np.inf
+    within = aside * wanted.half_width, beyond * wanted.depth
+    support = Support("bonded", _sides(problem), within)
     if is_disc(problem):
         support = disc_support(problem)
     roller = body(mesh, shape, scene.roller.material, support)
@@ -138,11 +138,16 @@ def rough_support(problem: Problem, spec: BlockSpec, beyond: float = np.inf) -> 
     """How the rough body is held; where it is unbounded, everywhere `beyond` this part of it."""
     scene = problem.scene
     within = (
-        beyond * spec.half_width if scene.body.width is None else np.inf,
+        beyond * spec.half_width if problem.width is None else np.inf,
         beyond * spec.depth if scene.body.thickness is None else np.inf,
     )
-    sides = "free" if scene.body.width is not None else UNBOUNDED_SIDES
+    sides = "free" if scene.body.width is not None else _sides(problem)
     return Support(scene.body.base or "bonded", sides, within)
+
+
+def _sides(problem: Problem) -> Sides:
+    """Of a body without width of its own."""
+    return UNBOUNDED_SIDES if problem.period is None else "tied"
 
 
 def _key(spec: BlockSpec) -> Hashable:

@@ -20,10 +20,9 @@ import numpy as np
 
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ComplianceOperator, ModelOperator
-from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.common.numbers import percent, percent_as_written
 from comparisons.models.nearest_operator import is_layered
-from comparisons.models.problem import Problem
+from comparisons.models.problem import Problem, half_plane_of
 from comparisons.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -173,8 +172,7 @@ def operator_check(
         size = problem.dundurs_beta * (
             scene.load.friction[0] if scene.finite_element.coupled else 0.0
         )
-        half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, size)
-        effect = against(half_plane, datum=False)
+        effect = against(half_plane_of(problem, grid, size), datum=False)
     return ComplianceCheck(
         nearest, datum, not_modelled, effect, bounds, *judged(nearest, not_modelled)
     )
@@ -263,6 +261,7 @@ def _not_modelled(scene: Scene) -> tuple[str, ...]:
             ("pressure along the roller's normal", settings.gap == "displaced"),
             ("the roller's round body", settings.roller_body == "disc"),
             ("the body's sides", scene.body.width is not None),
+            ("layers below a periodic surface", scene.periodic and is_layered(scene)),
             (
                 "the traction on the roller",
                 shared and settings.coupled and any(scene.load.friction),

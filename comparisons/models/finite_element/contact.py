@@ -92,7 +92,7 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
     """Both bodies under the same hats. Along the roller's normal where the gap is on the deformed
     surface: to first order the displacement along it closes the gap there."""
     scene, settings = problem.scene, problem.scene.finite_element
-    hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
+    hats = grid.hats
     friction = scene.load.friction[0] if settings.coupled else 0.0
     down = up = None
     if settings.gap == "displaced":

@@ -215,6 +215,8 @@ class _LevelSolution:
                     start,
                     tolerance,
                 )
+            if grid.periodic:  # all of the surface is refined
+                return _MeshedContact(bodies, operator, solution, check)
             touching = grid.x[solution.pressure > 0.0]
             missed = unrefined_contact(refined, touching, reach=grid.pitch)
             if len(missed) == 0:

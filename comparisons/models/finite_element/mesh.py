@@ -44,16 +44,16 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     scene, half_width = problem.scene, problem.hertz.half_width
     edge = refinement.pitch / EDGES_PER_HAT
     coarser = problem.coarser(refinement.pitch)
-    depth = problem.block
-    across = 0.5 * depth
+    width, depth = problem.unbounded
+    across = 0.5 * width
     if scene.body.thickness is not None:
         depth = scene.body.thickness
         # whole edges: the rounding of a predicted contact must not make another mesh
         across = edge * np.ceil((np.abs(problem.extent).max() + LAYER_EXTENT * depth) / edge)
-    if scene.body.width is not None:
-        across = 0.5 * scene.body.width
+    if problem.width is not None:
+        across = 0.5 * problem.width
     margin = MARGIN_HATS * refinement.pitch
-    if is_rough(problem):  # wherever pressure may come to act
+    if is_rough(problem) or problem.period is not None:  # wherever pressure may come to act
         patches, margin = np.array([problem.extent]), 0.0
     intervals = refined_ranges(patches, edge, margin=margin, half_width=across)
     if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
@@ -107,6 +107,8 @@ def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:
     profile wherever pressure may come to act; beyond it the roughness fades, so that elements which
     grow there need not follow waves that they cannot resolve."""
     curve = problem.surface.profile.spline()
+    if problem.period is not None:
+        return curve
     first, last = problem.surface.profile.x[[0, -1]]
     start, stop = problem.extent
     highest = np.abs(problem.surface.profile.height).max()

@@ -35,7 +35,7 @@ from fem.nonlinear.press_plastic import (
     press_plastically,
 )
 from fem.solver.mumps import FemError
-from fem.stress.stress import at_mesh_points
+from fem.stress.stress import at_nodes
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
@@ -201,7 +201,7 @@ def pressed_plastically(
         both, loaded.pressure, gap, weights, loaded.approach, constraints, counts, FLOW_TOLERANCE
     )
     fields, others = plastic_fields(body, loaded), _of_flow(body, loaded, released)
-    stress = at_mesh_points(rough.body, fields.stress)
+    stress = at_nodes(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     if loaded.state.equivalent.any():
         solution = replace(solution, pressure=averaged_pressure(solution.pressure))
@@ -248,7 +248,7 @@ def pressed_plastically_finitely(
         averaged = averaged_pressure(loaded.solution.pressure)
         loaded = replace(loaded, solution=replace(loaded.solution, pressure=averaged))
     fields = plastic_fields(body, pressed)
-    stress = at_mesh_points(rough.body, fields.stress)
+    stress = at_nodes(rough.body, fields.stress)
     loaded = replace(
         loaded,
         stresses=lambda frictions: (stress,) * len(frictions),

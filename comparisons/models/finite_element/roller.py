@@ -50,7 +50,8 @@ def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
                 "is a lighter load or a larger radius"
             )
     else:
-        half_width, depth = 0.5 * problem.block, problem.block
+        width, depth = problem.unbounded
+        half_width = 0.5 * width
         if (spec.half_width, spec.depth, spec.interface) == (half_width, depth, None):
             return spec  # one mesh serves both
     return replace(spec, half_width=half_width, depth=depth, window=None, interface=None)

@@ -5,14 +5,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.stress_state import von_mises
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
 from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
-from comparisons.models.problem import Problem, ends_of, mean_height
+from comparisons.models.problem import Problem, ends_of, mean_height, patches_of
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
@@ -71,7 +70,7 @@ def pressed_linearly(
         return RecoverableField(*placed, rough.hats, pressure, frictions, ends)
 
     dragged = problem.scene.load.friction[0] if settings.coupled else 0.0
-    patches = contact_patches(x, pressure, solution.gap)
+    patches = patches_of(grid, solution)
     if not displaced:
         if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap
             both = (solution.gap + solution.approach) * grid.weights - gap

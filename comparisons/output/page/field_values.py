@@ -1,8 +1,8 @@
 """The fields as numbers in the page, for a reader who points at a picture or cuts a section.
 
-Integers of two bytes on a part of the window's points: the half-plane's field, and its difference
-from the other model that pictures show on a separate scale, which preserves its digits. The page
-computes the other model's field."""
+Integers of two bytes at some of the window's points: the half-plane's field, and its difference
+from the other model that pictures show. A scale of its own preserves the difference's digits; the
+page computes the other model's field from both."""
 
 import base64
 import json

@@ -80,8 +80,8 @@ def draw_again(
 ) -> list[Report]:
     """Write report.html of each folder again, if `draws`, and the summary if a path is given.
     All folders are read before anything is written. Raises InputError for one that holds no run,
-    or whose place cannot be written; and at the end, where the others are drawn and summed up, for
-    those that make up no report."""
+    or whose place cannot be written; and at the end, once the others are drawn and summed up, for
+    those of which no report can be drawn."""
     for folder in folders:
         callback(f"{folder}: reading")
         read_run(folder, with_mesh=False)

@@ -105,8 +105,8 @@ SECTION = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
 
 def answers_named(options: Sequence[str], known: object) -> dict:
     """The tables [answers.NAME] of answers given as NAME=FILE.
-    A FILE takes the place of those that the `known` tables have under its name; of several each
-    is a resolution. A FILE.toml holds the table itself, with files from its own folder. Raises
+    A FILE replaces those that the `known` tables have under its name; several of one name are
+    its resolutions. A FILE.toml holds the table itself, with files from its own folder. Raises
     InputError for what is neither."""
     tables = dict(known) if isinstance(known, dict) else {}
     named: dict[str, list] = {}

@@ -2,8 +2,8 @@
 
 They are put on the models' own pressure elements, and the contact conditions are evaluated with the
 models' operators: the half-plane's always, the finite elements' where they are linear bodies under
-vertical pressures, on the coarsest level. The approach is that which leaves no gap on average by
-pressure. Of interpolation between points at a spacing s a residual of the order (s/a)^1.5 remains.
+vertical pressures, on the coarsest level. With the approach the gap vanishes on average, weighted
+by pressure. Interpolation between points at a spacing s leaves a residual of order (s/a)^1.5.
 """
 
 from collections.abc import Mapping

@@ -9,6 +9,7 @@ import numpy as np
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.partial_slip import SurfacePair
 from analytic.grid import HatGrid
+from analytic.stress_state import StressState
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import (
@@ -29,10 +30,11 @@ from comparisons.studies.friction.half_planes import (
     friction_of,
     slipped_level,
     surface_places,
+    with_surface,
 )
 from fem.body.surface import straight_down
 from fem.stress.maximum import maximum
-from fem.stress.stress import evaluate, nodal_stresses
+from fem.stress.stress import NodalStress, evaluate, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
 # Of the largest pressure: what the last turn of normal and tangential problem moves on finite
@@ -101,26 +103,36 @@ def _with_mesh_stress(
     problem: Problem, operator: MutualCompliance, slipped: SlippedLevel, window: Window
 ) -> SlippedLevel:
     """Stresses of the rough body, recovered from its displacement."""
-    rough, state, scene = operator.rough, slipped.states[-1], problem.scene
-    body, pressure = rough.body, state.normal.pressure
-    displaced = scene.finite_element.gap == "displaced"
+    rough, scene = operator.rough, problem.scene
+    body, displaced = rough.body, scene.finite_element.gap == "displaced"
     direction = roller_normal(problem) if displaced else straight_down
-    load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), direction, traction=state.traction)
-    moved = rough.displacement_of(pressure, state.traction)
-    beside = [ends_stress(problem, slipped.grid, state)]
-    [nodal] = nodal_stresses(moved[:, None], load, beside)
-    strain = bulk_stress(problem) / scene.body.material.plane_strain_modulus
     layer = scene.coating and scene.coating.material.plane_strain_modulus
     stiffness = np.where(body.coated, layer or 0.0, scene.body.material.plane_strain_modulus)
-    bulk = np.zeros((len(nodal.nodes.point), 3))
-    bulk[:, 0] = strain * nodal.nodes.of_triangles(stiffness)
-    whole = replace(
-        nodal,
-        at=lambda node: nodal.at(node) + bulk[node],
-        estimate=lambda: nodal.estimate() + bulk,
-        together=None,
-    )
+
+    def loaded(number: int) -> tuple[NodalStress, SurfaceLoad]:
+        """Stresses at nodes and what makes them, under a load of the path."""
+        state = slipped.states[number]
+        pressure, traction = state.normal.pressure, state.traction
+        load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), direction, traction=traction)
+        moved = rough.displacement_of(pressure, traction)
+        beside = [ends_stress(problem, slipped.grid, state)]
+        [nodal] = nodal_stresses(moved[:, None], load, beside)
+        strain = bulk_stress(problem, number) / scene.body.material.plane_strain_modulus
+        bulk = np.zeros((len(nodal.nodes.point), 3))
+        bulk[:, 0] = strain * nodal.nodes.of_triangles(stiffness)
+        whole = replace(
+            nodal,
+            at=lambda node: nodal.at(node) + bulk[node],
+            estimate=lambda: nodal.estimate() + bulk,
+            together=None,
+        )
+        return whole, load
+
+    def surface(number: int) -> StressState:
+        whole, load = last if number == -1 else loaded(number)
+        return evaluate(body, whole, x, load.surface(x))
+
+    last, x = loaded(-1), surface_places(problem, slipped, window)
     bounds = -window.extent, window.extent, window.z[-1]
-    tau1 = maximum(body, whole, lambda stress: stress.tau1, bounds)
-    x = surface_places(problem, slipped, window)
-    return replace(slipped, tau1=tau1, x=x, sx=evaluate(body, whole, x, load.surface(x)).sx)
+    tau1 = maximum(body, last[0], lambda stress: stress.tau1, bounds)
+    return with_surface(problem, replace(slipped, tau1=tau1, x=x), surface)

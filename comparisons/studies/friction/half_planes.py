@@ -18,7 +18,9 @@ from analytic.contact.partial_slip import (
 )
 from analytic.contact.patches import contact_patches
 from analytic.grid import HatGrid
+from analytic.material import Material
 from analytic.stress.elements import FrictionStress
+from analytic.stress.fatigue import ruiz, smith_watson_topper
 from analytic.stress.field import StressField, friction_field
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import friction_stress_at
@@ -27,6 +29,9 @@ from comparisons.models.level import Level
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
 
+# Pitches from an end of contact where the surface's stress is looked at too: tension, traction and
+# slip together are largest between the last nodes
+BESIDE_AN_END = np.arange(-16, 17) / 8.0
 Beside = Callable[[np.ndarray, np.ndarray], StressState]
 
 
@@ -40,9 +45,13 @@ class SlippedLevel:
     energies: np.ndarray  # (m,) [J/m] lost to friction from the first touch on
     displacements: np.ndarray  # (m,) [m] of the roller, against the ends of the coarsest grid
     is_stepped: bool  # whether the loads come by increments
+    material: Material  # of the body's surface
+    slips: np.ndarray  # (m, n) [m] of the roller over the body since the first touch
     tau1: Extremum | None = None  # largest, at the end; with [stress]
     x: np.ndarray = field(default_factory=lambda: np.empty(0))  # (k,) [m]
-    sx: np.ndarray = field(default_factory=lambda: np.empty(0))  # (k,) [Pa] of the surface there
+    # (k,) of the surface there; at the other end of the cycle (None: there is no cycle)
+    surface: StressState | None = None
+    opposite: StressState | None = None
 
     @property
     def worst(self) -> float:
@@ -53,32 +62,61 @@ class SlippedLevel:
         """At the end of a path of loads."""
         normal, stuck = self.states[-1].normal, float(np.ptp(self.zones[-1], axis=1).sum())
         contact = contact_patches(self.grid.x, normal.pressure, normal.gap)
+        touching = self.grid.x[normal.pressure > 0.0]
         known = {
             "stick_length": stuck,
             "stick_ratio": stuck / float(np.ptp(contact, axis=1).sum()),
             "tangential_displacement": float(self.displacements[-1]),
             "energy_lost": float(self.energies[-1]),
+            "slip_amplitude": float(self.amplitude(path, np.append(touching, contact)).max()),
         }
         before = last_visit(path)
         if before is not None:
             known["energy_of_cycle"] = float(self.energies[-1] - self.energies[before])
         if self.tau1 is not None:
-            known["edge_tension"] = float(np.nanmax(self.sx))
+            known["edge_tension"] = float(np.nanmax(self.surface.sx))
             known["tau1_slip"] = self.tau1.value
+            known |= self.fatigue(path)
         return known
+
+    def amplitude(self, path: tuple[float, ...], x: np.ndarray) -> np.ndarray:
+        """Of slip (k,) [m] at x (k,) [m]: half of what a cycle runs through; without one what was
+        slipped, as much as in a cycle between the load and its opposite."""
+        before = last_visit(path)
+        span = np.abs(self.slips[-1])
+        if before is not None:
+            span = 0.5 * np.ptp(self.slips[before:], axis=0)
+        return np.interp(x, self.grid.x, span)
+
+    def fatigue(self, path: tuple[float, ...]) -> dict[str, float]:
+        """Ruiz' parameter at the end of a path, and with a cycle Smith, Watson and Topper's."""
+        amplitude, last = self.amplitude(path, self.x), self.surface
+        known = {"ruiz": ruiz(last.sx, last.txz, amplitude)}
+        if self.opposite is not None:
+            parameter = smith_watson_topper(last, self.opposite, self.material)
+            known["smith_watson_topper"] = parameter
+        return {name: float(np.nanmax(values)) for name, values in known.items()}
 
     @property
     def places(self) -> dict[str, tuple[float, ...]]:
         """Of the largest [m]."""
         if self.tau1 is None:
             return {}
-        largest = float(self.x[np.nanargmax(self.sx)])
+        largest = float(self.x[np.nanargmax(self.surface.sx)])
         return {"edge_tension": (largest,), "tau1_slip": (self.tau1.x, self.tau1.z)}
 
 
 def last_visit(path: tuple[float, ...]) -> int | None:
     """Where a path was last at its final load, before; None if never."""
     return next((k for k in reversed(range(len(path) - 1)) if path[k] == path[-1]), None)
+
+
+def opposite_of(path: tuple[float, ...]) -> int | None:
+    """Where in the last cycle the load is farthest from the final one; None without a cycle."""
+    before = last_visit(path)
+    if before is None:
+        return None
+    return max(range(before, len(path)), key=lambda k: abs(path[k] - path[-1]))
 
 
 def friction_of(problem: Problem) -> float:
@@ -98,8 +136,8 @@ def half_plane_slip(
     if window is None:
         return slipped
     state, x = slipped.states[-1], surface_places(problem, slipped, window)
-    beside = _traction_stress(problem, grid, state)
-    searched, bulk = search_window(problem, window), bulk_stress(problem)
+    beside, bulk = _traction_stress(problem, grid, state, -1), bulk_stress(problem, -1)
+    searched = search_window(problem, window)
     spread = (searched.x[0], searched.x[-1]), searched.z
     steps = searched.subdivisions(grid.pitch), "hat", searched.stride(grid.pitch)
     normal = friction_field(grid.x, state.normal.pressure, *spread, *steps)
@@ -116,15 +154,29 @@ def half_plane_slip(
         problem.scene.body.poissons_ratio,
         beside=beside,
     ).tau1
-    top = x, np.zeros_like(x)
-    pressed = friction_stress_at(grid.x, state.normal.pressure, *top).normal
-    return replace(slipped, tau1=tau1, x=x, sx=pressed.sx + beside(*top).sx)
+
+    def surface(number: int) -> StressState:
+        at, top = slipped.states[number], (x, np.zeros_like(x))
+        pressed = friction_stress_at(grid.x, at.normal.pressure, *top).normal
+        return pressed.plus(1.0, _traction_stress(problem, grid, at, number)(*top))
+
+    return with_surface(problem, replace(slipped, tau1=tau1, x=x), surface)
 
 
-def bulk_stress(problem: Problem) -> float:
-    """Of the body at the end of the history [Pa]."""
+def with_surface(
+    problem: Problem, slipped: SlippedLevel, surface: Callable[[int], StressState]
+) -> SlippedLevel:
+    """With stresses (k,) of the surface at the level's places x under the last load, and at the
+    other end of the cycle, of what gives them under each load of the path."""
+    opposite = opposite_of(problem.scene.partial_slip.path)
+    other = None if opposite is None else surface(opposite)
+    return replace(slipped, surface=surface(-1), opposite=other)
+
+
+def bulk_stress(problem: Problem, number: int) -> float:
+    """Of the body under a load of the history [Pa]."""
     slip = problem.scene.partial_slip
-    return slip.bulk_stress * slip.path[-1] / slip.largest
+    return slip.bulk_stress * slip.path[number] / slip.largest
 
 
 def steps_of(problem: Problem, unlike: bool, increments: int) -> Iterator[tuple[Loads, ...]]:
@@ -145,28 +197,40 @@ def slipped_level(
     problem: Problem, grid: HatGrid, pair: SurfacePair, increments: int
 ) -> SlippedLevel:
     state, work, coarsest = None, 0.0, problem.grid(problem.pitches[0]).x[[0, -1]]
-    states, energies, moved = [], [], []
+    states, energies, moved, slips = [], [], [], []
+    slipped = np.zeros(grid.count)
     for steps in steps_of(problem, pair.raised is not None, increments):
         for loads in steps:
             state = stepped(pair, state, loads)
             work += state.work
+            slipped = slipped + state.slip
         states.append(state)
+        slips.append(slipped)
         energies.append(work)
         carried = pair.carried(state.normal.pressure, state.traction)
         moved.append(state.displacement - np.interp(coarsest, grid.x, carried).mean())
     zones = tuple(stick_zones(grid.x, state, pair.friction) for state in states)
     return SlippedLevel(
-        grid, tuple(states), zones, np.array(energies), np.array(moved), pair.raised is not None
+        grid=grid,
+        states=tuple(states),
+        zones=zones,
+        energies=np.array(energies),
+        displacements=np.array(moved),
+        is_stepped=pair.raised is not None,
+        material=(problem.scene.coating or problem.scene.body).material,
+        slips=np.array(slips),
     )
 
 
 def surface_places(problem: Problem, slipped: SlippedLevel, window: Window) -> np.ndarray:
-    """x (k,) [m] of grid, window and ends of contact, where sx of the surface is largest."""
+    """x (k,) [m] of grid, window and about ends of contact, where sx of the surface is largest."""
     state = slipped.states[-1]
     ends = ends_of(problem, slipped.grid, state.normal).patches
     patches = contact_patches(slipped.grid.x, state.normal.pressure, state.normal.gap)
-    edges = patches.ravel(), *(patch.ends for patch in ends)
-    x = np.unique(np.concatenate([window.x, slipped.grid.x, *edges]))
+    edges = np.concatenate([patches.ravel(), *(patch.ends for patch in ends)])
+    beside = slipped.grid.pitch * BESIDE_AN_END
+    near = (edges[:, None] + beside).ravel()
+    x = np.unique(np.concatenate([window.x, slipped.grid.x, near]))
     return x[np.abs(x) <= window.extent]
 
 
@@ -184,9 +248,9 @@ def ends_stress(problem: Problem, grid: HatGrid, state: SlipState) -> Beside:
     return stress
 
 
-def _traction_stress(problem: Problem, grid: HatGrid, state: SlipState) -> Beside:
-    """Stresses of the traction, of the ends and of the bulk."""
-    ends, bulk = ends_stress(problem, grid, state), bulk_stress(problem)
+def _traction_stress(problem: Problem, grid: HatGrid, state: SlipState, number: int) -> Beside:
+    """Stresses of the traction, of the ends and of the bulk, under a load of the path."""
+    ends, bulk = ends_stress(problem, grid, state), bulk_stress(problem, number)
 
     def stress(x: np.ndarray, z: np.ndarray) -> StressState:
         traction = friction_stress_at(grid.x, state.traction, x, z).traction

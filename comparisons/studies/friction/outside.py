@@ -25,9 +25,9 @@ def outside_figures(
     """Of the finest answer of each name that has tractions: the length that sticks, its difference
     from a `model`'s, and the relative L2 norm of both tractions' difference on its finest level.
 
-    A length is read to the spacing of the answer's points at either end of a zone, from both in one
-    way; the norm has what these points leave out of the model's own traction, and by how much that
-    differs on the level before, which is of first order."""
+    Both lengths are read in one way, each end of a zone to the spacing of the answer's points. The
+    norm's uncertainty is what these points leave out of the model's own traction, and what the
+    last level changed of that traction, whose error is of first order."""
     grid, state = levels[-1].grid, levels[-1].states[-1]
     reference, _ = _stuck(state.normal.pressure, state.traction, model.friction, grid.pitch)
     for name, resolutions in answers.items():
@@ -79,9 +79,9 @@ def _stuck(
 def _apart(
     levels: Sequence[SlippedLevel], answer: Answer, shear: np.ndarray
 ) -> tuple[float, float, float]:
-    """Relative L2 norm of an answer's traction (n,) [Pa] on the finest level's grid less the
-    model's; of what the answer's points leave out of the model's; and of what the last level has
-    changed of that, infinite where there is no level before."""
+    """Three relative L2 norms, on the finest level's grid: of an answer's traction (n,) [Pa] less
+    the model's; of what the answer's points leave out of the model's; and of what the last level
+    changed of the model's, infinite where there is no level before."""
     grid, traction = levels[-1].grid, levels[-1].states[-1].traction
     size = float(np.linalg.norm(traction)) or 1.0
 

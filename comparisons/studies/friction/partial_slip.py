@@ -41,14 +41,22 @@ QUANTITIES = {
     "energy_of_cycle": Quantity("energy lost in a cycle", "J/m", formal_order=2.0),
     "edge_tension": Quantity("largest σx of the surface", "Pa"),
     "tau1_slip": Quantity("largest τ1", "Pa", formal_order=2.0),
+    "slip_amplitude": Quantity("largest slip amplitude", "m"),
+    "ruiz": Quantity("Ruiz' parameter σx q δ, largest", "Pa^2 m"),
+    "smith_watson_topper": Quantity("Smith, Watson and Topper's parameter, largest", "Pa"),
     "stick_ratio": Quantity("share of the contact that sticks"),
     "traction_l2": Quantity("tractions, relative L2 difference", of_pair=True),
 }
-COMPARED = tuple(QUANTITIES)[:6]  # judged where both models have them
+COMPARED = tuple(QUANTITIES)[:9]  # judged where both models have them
 LENGTHS = "stick_length", "stick_ratio"  # read with the grid's resolution
 # Of the largest stress of the surface: how well it is read at an end of contact, where it is a cusp
 # (`analytic.contact.end_stress`; 8e-4 off the exact one at 77 elements to a half-width)
 END_READ = 1.5e-3
+AT_AN_END = {
+    "edge_tension": 1.0,
+    "ruiz": 1.0,
+    "smith_watson_topper": 2.0,
+}  # by which power of that stress
 NONLINEAR = """small strains and elastic bodies alone are modelled: at finite deformation, and of a
 body that yields, what sticks is not known"""
 Solve = Callable[[Level, int], SlippedLevel]  # of a level, by so many increments
@@ -192,8 +200,7 @@ def _uncertainty(
         ends = (length_resolution(m.finest.grid.pitch, len(m.finest.zones[-1])) for m in models)
         known = models[0].finest.figures(path)
         resolution = sum(ends) * (known[name] / known["stick_length"] if known[name] else 0.0)
-    if name == "edge_tension":
-        resolution = END_READ * scale
+    resolution += END_READ * AT_AN_END.get(name, 0.0) * scale
     refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
     domain = sum(
         far_boundary(of(model.smaller), of(model.levels[0])) for model in models if model.smaller

@@ -14,6 +14,7 @@ from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.smooth import closed_form
 from comparisons.studies.contact import uncertainties, values_of
 from comparisons.studies.friction import coupling
 from comparisons.studies.ladder.operators import (
@@ -29,6 +30,7 @@ from comparisons.studies.ladder.rungs import (
     KINDS,
     OPERATORS,
     Rung,
+    closed_form_words,
     cost_of,
     hertz_quantities,
     operator_runs,
@@ -49,7 +51,8 @@ def estimated_rungs(
     problem, half_plane = solved.problem, solved.runs[HALF_PLANE]
     sizes = _sizes(solved, before)
     began = perf_counter()
-    hertz = {mu: _hertz(solved, mu) for mu in problem.scene.load.friction}
+    smooth, frictions = closed_form(problem) is not None, problem.scene.load.friction
+    hertz = {mu: _hertz(solved, mu) for mu in frictions} if smooth else {}
     seconds = perf_counter() - began
     runs = dict.fromkeys(problem.scene.load.friction, half_plane)
     values, left = _values(solved, runs), list(sizes.values())
@@ -66,13 +69,13 @@ def estimated_rungs(
             rungs = [Rung(rung, rung, words_of(held), judged, *cost_of(runs), held)]
             figures = _figures(solved, HALF_PLANE, values, reference, left)
     reference = runs, _values(solved, runs)
-    by_hertz = _figures(solved, HERTZ, hertz, reference, left)
     cost = sum(half_plane.seconds.values()), half_plane.finest.peak_memory
-    return [
-        Rung(HERTZ, HERTZ, KINDS[HERTZ], by_hertz, seconds, 0.0),
-        Rung(HALF_PLANE, HALF_PLANE, KINDS[HALF_PLANE], figures, *cost),
-        *rungs,
-    ]
+    rungs.insert(0, Rung(HALF_PLANE, HALF_PLANE, KINDS[HALF_PLANE], figures, *cost))
+    if smooth:
+        by_hertz = _figures(solved, HERTZ, hertz, reference, left)
+        words = closed_form_words(problem)
+        rungs.insert(0, Rung(HERTZ, HERTZ, words, by_hertz, seconds, 0.0))
+    return rungs
 
 
 def hertz_alone(problem: Problem) -> tuple[bool, str]:

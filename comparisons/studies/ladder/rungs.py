@@ -10,11 +10,11 @@ from time import perf_counter
 import numpy as np
 
 from analytic.contact.problem import ContactError
-from analytic.exact.hertz import hertz_extremes, hertz_stress
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.smooth import closed_form
 from comparisons.models.window import Window
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import uncertainties
@@ -90,12 +90,13 @@ class Ladder:
         """From the cheapest to the whole."""
         made = [self._hertz(), self._half_plane(), *self._effects(), self._own(), self._whole()]
         made = [rung for rung in made if rung is not None]
-        by_half_plane = made[:2]
+        by_half_plane = [rung for rung in made if rung.name in (HERTZ, HALF_PLANE)]
+        smooth = len(by_half_plane)
         for make in (self._operators, self._deformed):
             if any(rung.verdict == "holds" for rung in by_half_plane):
                 break
             by_half_plane += [rung for rung in [make(made)] if rung is not None]
-        made += by_half_plane[2:]
+        made += by_half_plane[smooth:]
         order = list(KINDS)
         return sorted(made, key=lambda rung: order.index(rung.kind))
 
@@ -152,7 +153,9 @@ class Ladder:
         judged = (figure_of(error, self.budget.selection, tolerances) for error in errors)
         return tuple(renamed(figure, name) for figure in judged)
 
-    def _hertz(self) -> Rung:
+    def _hertz(self) -> Rung | None:
+        if closed_form(self.solved.problem) is None:
+            return None
         began, problem, window = perf_counter(), self.solved.problem, self.solved.window
         errors, finite_elements = [], self.solved.runs[OTHER]
         for friction, solutions in self.budget.solutions.items():
@@ -165,7 +168,8 @@ class Ladder:
                 numerical = row.numerical if uncertainty is None else uncertainty.total
                 errors.append(solutions.of_exact(row.quantity, levels, numerical))
         seconds = perf_counter() - began
-        return Rung(HERTZ, HERTZ, KINDS[HERTZ], self._figures(HERTZ, errors), seconds, 0.0)
+        figures = self._figures(HERTZ, errors)
+        return Rung(HERTZ, HERTZ, closed_form_words(problem), figures, seconds, 0.0)
 
     def _half_plane(self) -> Rung:
         run = self.solved.runs["half_plane"]
@@ -248,6 +252,10 @@ def operator_runs(
     return runs
 
 
+def closed_form_words(problem: Problem) -> str:
+    return f"{closed_form(problem).name}'s closed form"
+
+
 def has_norms(problem: Problem) -> bool:
     """Whether a norm of fields is judged."""
     return any(QUANTITIES[name].of_pair for name in problem.scene.tolerances)
@@ -270,23 +278,22 @@ def renamed(figure: Figure, rung: str) -> Figure:
 def hertz_quantities(
     problem: Problem, grids: Iterable[np.ndarray], friction: float, window: Window | None
 ) -> list[QuantitiesOfInterest]:
-    """Hertz's contact on each grid of nodes (n,) [m], with its field on the window where a norm of
-    fields is judged."""
-    hertz = problem.hertz
+    """The smooth contact's closed form, where it has one, on each grid of nodes (n,) [m], with its
+    field on the window where a norm of fields is judged."""
+    smooth, tau1 = closed_form(problem), None
     values = {
-        "peak_pressure": hertz.peak_pressure,
-        "contact_length": 2.0 * hertz.half_width,
-        "contact_ratio": 1.0,
+        "peak_pressure": smooth.peak_pressure,
+        "contact_length": smooth.contact_length,
+        "contact_ratio": smooth.contact_length / (2.0 * problem.hertz.half_width),
     }
-    tau1 = None
     if window is not None:
-        largest = hertz_extremes(hertz, friction)
-        values |= {"tau1_max": largest.tau1.value, "tau1_max_depth": largest.tau1.z}
-        values["txz_max_abs"] = max(abs(largest.txz_max.value), abs(largest.txz_min.value))
+        largest = smooth.extremes(friction)
+        values |= {"tau1_max": largest["tau1"].value, "tau1_max_depth": largest["tau1"].z}
+        values["txz_max_abs"] = abs(largest["txz"].value)
         if has_norms(problem):
-            tau1 = hertz_stress(hertz, window.x, window.z[:, None], friction).tau1
+            tau1 = smooth.stress(window.x, window.z[:, None], friction).tau1
     figures = {name: np.array([value]) for name, value in values.items()}
-    return [QuantitiesOfInterest(figures, hertz.pressure(x), tau1) for x in grids]
+    return [QuantitiesOfInterest(figures, smooth.pressure(x), tau1) for x in grids]
 
 
 def _rung_of(

@@ -6,6 +6,7 @@ deformation together, c normal-tangential coupling, 0 none:
     an effect i            F({i}) - F(0)
     finite deformation     F(K + c) - F(c), c only under friction, where sliding traction moves it
     plastic flow           F(flow + c) - F(c)
+    finite deformation of a body that flows    F(W) - F(W - K)
     interaction            F(W) - F(0) - the sum of these
 
 These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
@@ -100,7 +101,7 @@ class VariantSolutions(Protocol):
 def split_variants(problem: Problem, selection: EffectSelection, friction: float) -> SplitVariants:
     """The variants at a friction coefficient, the same on every level."""
     chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
-    quadratic = problem.scene.finite_element.element != STRAINED and "finite_strain" in chosen
+    quadratic = problem.scene.finite_element.element != STRAINED and bool(chosen & set(NONLINEAR))
 
     def variant(effects: frozenset[str]) -> ModelVariant:
         shaped = effects & {COUPLED, *NONLINEAR} or problem.scene.load.coupled
@@ -118,6 +119,10 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
         if name in chosen and not inside:
             beside = chosen & {COUPLED} if name in NONLINEAR else nothing
             pairs[name] = variant(grown(beside | {name})), variant(beside)
+    if chosen.issuperset(NONLINEAR):  # what an elastic body would do at finite strain matters less
+        whole_of = KINEMATIC if "finite_strain" in selection.contained else ("finite_strain",)
+        small = variant(grown(chosen - set(whole_of)))
+        pairs["finite_strain"] = variant(grown(chosen)), small
     of_scene = None
     if quadratic:
         of_scene = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))

@@ -44,6 +44,7 @@ from comparisons.studies.model_error.quantities_of_interest import (
 from comparisons.studies.model_error.sampling import announce_sampling, sampling_changes
 from comparisons.studies.model_error.selection import (
     FLOW,
+    NONLINEAR,
     NOT_CERTAIN,
     SMALL_STRAINS,
     EffectSelection,
@@ -122,7 +123,11 @@ def error_budget(
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
             wholes = {mu: variants.finest(split.whole).under(mu) for mu, split in splits.items()}
             selection = _with_plastic_strain(problem, selection, wholes)
-            break
+            if selection.impossible.get("finite_strain") != SMALL_STRAINS:
+                break
+            selection = _with_finite_flow(selection, refined.errors, variants)
+            if "finite_strain" not in selection.added:
+                break
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
@@ -161,6 +166,28 @@ def _with_plastic_strain(
     return selection.resized("finite_strain", sizes, problem.scene.tolerances)
 
 
+def _with_finite_flow(
+    selection: EffectSelection, errors: Iterable[ModelError], variants: SolvedVariants
+) -> EffectSelection:
+    """With finite strain of a whole that flows, whose estimate matters, where that may decide a
+    verdict and the time allows it by the laws of cost; else with the reason why not."""
+    problem, least = variants.problem, range(1, LEAST_LEVELS + 1)
+    asked, finite = problem.scene.budget.effects, selection.flowing_finitely()
+    figures = (figure_of(e, selection, problem.scene.tolerances) for e in errors)
+    open_figures = (f for f in figures if f.bounds and f.verdict == "inconclusive")
+    if not asked or (asked != "all" and all(figure.is_unresolved for figure in open_figures)):
+        why = f"cannot change a verdict ({ASKED})" if asked else "not asked for (budget.effects)"
+        return selection.without(frozenset({"finite_strain"}), f"{SMALL_STRAINS}: {why}")
+    wholes = [split_variants(problem, finite, mu).whole for mu in problem.scene.load.friction]
+    seconds = math.fsum(variants.forecast(w, n) for w in dict.fromkeys(wholes) for n in least)
+    time = _spent(variants) + seconds
+    if time <= problem.time:
+        return finite
+    more = with_unit(seconds, "s", 2)
+    why = f"{SMALL_STRAINS}: finite ones take {more} more (budget.time)"
+    return replace(selection.without(frozenset({"finite_strain"}), why), time=time)
+
+
 def _took(
     splits: dict[float, SplitVariants], variants: SolvedVariants
 ) -> dict[str, tuple[float, int]]:
@@ -180,13 +207,13 @@ def _took(
 def announce_effects(
     solved: Solved, couplings: tuple[Coupling, ...], tasks: Tasks
 ) -> Callable[[], None]:
-    """Make known to the tasks what `error_budget` will ask for, as far as the half-plane alone, on
-    the levels that the scene asks for, can tell: they may begin before the finite elements are
-    done. Should the half-plane's finest level select other effects, these are solved then.
+    """Add to the tasks what `error_budget` will ask for, as the half-plane on the levels that the
+    scene asks for selects it: it may begin before the finite elements are done. Should a finer
+    half-plane select other effects, these are solved then.
 
     Call what is returned once the scene's own finite elements leave a figure open on the least
-    levels: the whole will leave it open, too, and its further level need not wait until it does. A
-    process then stays with the bodies of one level."""
+    levels. The whole will leave it open, too: its further level need not wait, and a process stays
+    with the bodies of one level."""
     problem, half_plane = solved.problem, solved.runs["half_plane"]
     selection, variants = _selected(solved, couplings), _variants(solved, tasks, None)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.load.friction]
@@ -216,7 +243,7 @@ def announce_effects(
 
 
 def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> SolvedVariants:
-    """None of them solved yet; `own` are the scene's finite elements."""
+    """None of them is solved yet; `of_scene` are the scene's own finite elements."""
     patches = solved.runs["half_plane"].levels[0].patches
     return SolvedVariants(solved.problem, solved.window, of_scene, tasks, patches)
 
@@ -255,6 +282,12 @@ def longer_increments(whole: ModelVariant, selection: EffectSelection) -> tuple[
     return tuple(replace(whole, times=t) for t in LONGER) if FLOW in selection.added else ()
 
 
+def _at_small_strains(split: SplitVariants, selection: EffectSelection) -> ModelVariant:
+    """The whole, as its increments are checked: these are the same at finite strain."""
+    flows = selection.whole.issuperset(NONLINEAR)
+    return split.pairs["finite_strain"][1] if flows else split.whole
+
+
 def _most_levels(problem: Problem) -> int:
     most = None if problem.levels is None else problem.levels.effects
     return min(MOST_LEVELS, most or MOST_LEVELS)
@@ -287,7 +320,9 @@ class _Refinement:
         self.laws = {mu: law_variants(split.whole, laws) for mu, split in splits.items()}
         self.open_laws, self.without_laws = laws, ""  # why they have no solution
         self.with_laws: dict[float, LawSolutions] = {}
-        self.increments = {mu: longer_increments(s.whole, selection) for mu, s in splits.items()}
+        small = {mu: _at_small_strains(split, selection) for mu, split in splits.items()}
+        longer = {mu: longer_increments(whole, selection) for mu, whole in small.items()}
+        self.increments = {mu: (*some, small[mu]) if some else () for mu, some in longer.items()}
         self.longer: dict[float, list[QuantitiesOfInterest]] = {}
         self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
         self.runs = {"half_plane": half_plane, "finite_element": solved.of_scene}
@@ -423,10 +458,16 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
 def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant]) -> bool:
     """Whether a level of these variants would exceed the time, by the laws of cost: clocks would
     give another machine other figures."""
-    spent = sum(level.expected_seconds for level in solved.of_scene.levels)
-    spent += sum(solved.expected_of(level) for level in range(1, number))
     finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
-    return spent + finer > solved.problem.time
+    return _spent(solved, number) + finer > solved.problem.time
+
+
+def _spent(solved: SolvedVariants, below: int | None = None) -> float:
+    """Seconds of the levels of the scene's finite elements and of all variants, of these `below` a
+    number, by the laws of cost."""
+    numbers = {number for _, number in solved.expected if below is None or number < below}
+    spent = sum(level.expected_seconds for level in solved.of_scene.levels)
+    return spent + sum(solved.expected_of(number) for number in sorted(numbers))
 
 
 def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:

@@ -84,8 +84,9 @@ class Solutions:
     history: list[EffectContributions]
     friction: float
     laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
-    # the whole on the coarsest level by longer increments of flow, the longest first; empty: they
-    # have no solution; None: it does not flow, or the scene's own finite elements do
+    # the whole, at small strains, on the coarsest level by longer increments of flow, the longest
+    # first, and by its own; empty: they have no solution; None: it does not flow, or the scene's
+    # own finite elements do
     longer: list[QuantitiesOfInterest] | None = None
 
     @cached_property
@@ -267,7 +268,7 @@ class Solutions:
         """The part by increments of flow; unknown where longer ones have no solution."""
         if not self.longer:
             return 0.0 if self.longer is None else np.inf
-        repeated = [*self.longer, self.wholes[0]]
+        repeated = self.longer
         if not QUANTITIES[name].of_pair:
             scale = self._scale_of(name, at)
             return of_increments([float(value.figures[name][at] / scale) for value in repeated])

@@ -6,7 +6,6 @@ half-plane is enough, for both models press one curve."""
 from collections.abc import Sequence
 from dataclasses import replace
 
-from analytic.profile import Profile
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
@@ -67,5 +66,5 @@ def _thinned(problem: Problem, first: int) -> Problem:
     profile = surface.profile
     last = len(profile.x) - 1
     samples = sorted({0, *range(first, last + 1, 2), last})
-    profile = Profile(profile.x[samples], profile.height[samples])
+    profile = replace(profile, x=profile.x[samples], height=profile.height[samples])
     return replace(problem, surface=replace(surface, profile=profile))

@@ -16,6 +16,7 @@ SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 FLOW = "plastic_flow"
 SMALL_STRAINS = "flow is taken at small strains"
 NOT_CERTAIN = "it is not beyond doubt (finite_element.plastic = true computes it)"
+ON_ONE_PERIOD = ("finite_size", "coating")  # effects that a periodic surface may have
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
 NONLINEAR = ("finite_strain", FLOW)
 ORDER = (
@@ -40,6 +41,8 @@ class EffectSelection:
     impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
     estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
     laws: tuple[OpenLaw, ...] = ()  # of elasticity, with which the whole is solved once more
+    # [s] budget.time in which finite strain of what flows can be computed, where it is too short
+    time: float | None = None
 
     @property
     def whole(self) -> frozenset[str]:
@@ -54,6 +57,11 @@ class EffectSelection:
             names, laws = names | {LAW}, ()
         impossible = dict(sorted((self.impossible | dict.fromkeys(names, why)).items()))
         return replace(self, added=added, impossible=impossible, laws=laws)
+
+    def flowing_finitely(self) -> "EffectSelection":
+        """The same with finite strain of what flows, which could not be computed before."""
+        impossible = {name: why for name, why in self.impossible.items() if name != "finite_strain"}
+        return replace(self, added=self.added | {"finite_strain"}, impossible=impossible)
 
     def resized(
         self, name: str, sizes: Sizes, tolerances: Mapping[str, float]
@@ -125,6 +133,8 @@ def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
 def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
     """Why an effect cannot be computed in a scene, or None; `flows`: the whole model does."""
     scene = problem.scene
+    if scene.periodic and name not in ON_ONE_PERIOD:
+        return "the bodies of a periodic surface are linear, its roughness is in the gap"
     if name == "roller_support":
         return "no support is given: a sector of the disc is held at 0.4 of its radius"
     if name not in (*NONLINEAR, LAW):
@@ -133,7 +143,6 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
     if name == FLOW:
         reasons = {
             "the body has no yield stress": scene.body.yield_stress is None,
-            "it takes no coating": scene.coating is not None,
             "it takes no prescribed approach": scene.load.kind == "approach",
             'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
         } | reasons

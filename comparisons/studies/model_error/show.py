@@ -190,7 +190,7 @@ def flow_taken(errors: Sequence[Figure]) -> str:
     changes = []
     for error in errors:
         part = error.part(FLOW)
-        if part is not None and abs(part.value) > 0.5 * abs(error.value):
+        if part is not None and -part.value * np.sign(error.value) > 0.5 * abs(error.value):
             size = part.value / (1.0 + error.value)
             what = "takes {} off" if size < 0.0 else "adds {} to"
             changes.append(f"{what.format(percent(abs(size)))} the {label(error.quantity)}")

@@ -13,7 +13,7 @@ from comparisons.common.progress import Stages
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import expected_level
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import ExpectedCost, Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -107,6 +107,10 @@ class SolvedVariants:
         }
         return math.fsum(known.get(variant, 0.0) for variant in (known if asked is None else asked))
 
+    def forecast(self, variant: ModelVariant, number: int) -> float:
+        """Seconds that a level of a variant takes by the laws of cost."""
+        return self._posed(variant, number)[-1].seconds
+
     def keep(self, wholes: Iterable[ModelVariant]) -> None:
         """Take these for `wholes`, from their first level on."""
         self.wholes = dict.fromkeys(wholes)
@@ -125,15 +129,23 @@ class SolvedVariants:
         return shaped and not changed and variant.effects == effects
 
     def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
-        whole, problem = variant in self.wholes, problem_with(self.problem, variant)
+        whole = variant in self.wholes
         key = f"{'whole' if whole else 'part'}-{variant.name}-{number}"
-        plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
-        cost = expected_level("finite_element", problem, plan, pitch, self.patches)
+        problem, plan, pitch, cost = self._posed(variant, number)
         self.expected.setdefault((variant, number), cost.seconds)
         work = partial(_solved, problem=problem, plan=plan, window=self.window, fields=whole)
         size = {"seconds": cost.seconds, "memory": cost.memory}
         self.tasks.add(key, work, variant, number, **size, urgency=urgency, shares=pitch)
         return key
+
+    def _posed(
+        self, variant: ModelVariant, number: int
+    ) -> tuple[Problem, Plan, float, ExpectedCost]:
+        """Problem, plan, pitch [m] and cost of a variant on a level."""
+        problem = problem_with(self.problem, variant)
+        plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
+        cost = expected_level("finite_element", problem, plan, pitch, self.patches)
+        return problem, plan, pitch, cost
 
     def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
         """Note the solution of a variant on a level."""

@@ -266,9 +266,11 @@ def _excess(
     near: float,
     tilt: float | None = None,
 ) -> Excess:
-    """Within `near` [m] of each level's centre [m]. The tilt: the step is constant to infinity, and
-    held at a far boundary it falls evenly on the way. None: from the farthest s, where bulges have
-    ended; 0 of a body with its own base or sides."""
+    """The bulge within `near` [m] of each level's centre [m].
+
+    tilt  by which the curve is uncertain, times s: the step of an unbounded body is constant, that
+          of a block held at its far boundary falls evenly on the way. None: it is read off the
+          farthest s, where bulges have ended; 0 of a body with its own base or sides"""
 
     def of_level(level: Level, centre: float) -> tuple[np.ndarray, np.ndarray]:
         curve = _across(centre, s, *_rise(level, friction))

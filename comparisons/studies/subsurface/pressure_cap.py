@@ -113,7 +113,7 @@ def _figures(problem: Problem, solutions: Solutions) -> Iterator[Figure]:
             differs = quantity in scales
             scale = 1.0 if differs else value
             sequence = [solution[quantity] / scale for solution in there]
-            increments = [*(solution[quantity] / scale for solution in first), sequence[0]]
+            increments = [solution[quantity] / scale for solution in first]
             least = resolution if quantity in (LENGTH, MEAN) else 0.0
             parts = {
                 "discretisation": grid_convergence(sequence, 1.0, least).uncertainty,
@@ -132,7 +132,8 @@ def _figures(problem: Problem, solutions: Solutions) -> Iterator[Figure]:
 
 
 def _flowing(problem: Problem, solutions: Solutions) -> tuple[list[_Flowing], list[_Flowing]]:
-    """The whole by longer increments on the coarsest level, and on all of its levels."""
+    """The whole on the coarsest level by longer increments and its own, empty where these have no
+    solution; and on all of its levels."""
     elements = solutions.runs["finite_element"]
     grids = [level.grid for level in elements.levels]
     levels = solutions.of_scene if solutions.contains_all else solutions.wholes
@@ -140,6 +141,7 @@ def _flowing(problem: Problem, solutions: Solutions) -> tuple[list[_Flowing], li
     if longer is None:  # the scene's own finite elements flow
         again = elements.longer_increments
         longer = [quantities_of(level, problem, solutions.friction) for level in again]
+        longer += solutions.of_scene[:1] if longer else []
 
     def made(grid: HatGrid, solution: object) -> _Flowing:
         peak, length = solution.figures[PEAK].max(), solution.figures[LENGTH][0]

@@ -195,6 +195,8 @@ def zone_figures(
 def needs(solved: Solved) -> str | None:
     """Why the field does not show a zone, None where it does."""
     window, half_width = solved.window, solved.problem.hertz.half_width
+    if solved.problem.scene.periodic:
+        return "below a periodic surface there is no Hertz zone"
     ends = min(window.x[-1], -window.x[0]), window.z[-1]
     for name, end, least in zip(("half_range", "depth"), ends, (1.0, DEEPEST), strict=True):
         if end < least * half_width * (1.0 - SHORT):

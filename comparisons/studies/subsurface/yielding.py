@@ -365,7 +365,8 @@ def lines(run: Run) -> list[tuple[str, str]]:
     if flow.ratio is None:
         return []
     pressure = significant(2.0 * flow.worst.peak / flow.yield_stress, 3)
-    text = f"peak pressure {pressure} k, elastic shakedown up to {flow.worst.shakedown:.3g} k"
+    limit = f"elastic shakedown up to {flow.worst.shakedown:.3g} k, k = Y/2"
+    text = f"peak pressure {pressure} k, {limit}"
     indices = {"summits": flow.summit_index, "slope": flow.slope_index}
     known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
     said = [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]

@@ -69,10 +69,10 @@ def test_the_half_plane_bears_the_load_on_what_flow_leaves(pressed):
 
 
 def test_page_and_files_have_it(rolled, pressed):
-    for found, words in ((rolled, "endless"), (pressed, "pressed once")):
-        page = (found.directory / "report.html").read_text(encoding="utf-8")
+    for shown, words in ((rolled, "endless"), (pressed, "pressed once")):
+        page = (shown.directory / "report.html").read_text(encoding="utf-8")
         assert ">Cycles<" in page and words in page
-        stress = found.directory / "finite_element/cycles_stress.csv"
+        stress = shown.directory / "finite_element/cycles_stress.csv"
         z, sx, *_ = np.genfromtxt(stress, delimiter=",", skip_header=1).T
         assert np.all(np.diff(z) > 0.0) and sx.min() < -1e7
     surface = pressed.directory / "finite_element/cycles_surface.csv"

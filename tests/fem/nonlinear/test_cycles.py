@@ -133,9 +133,9 @@ def test_what_is_alike_along_the_surface_needs_no_force(block):
     metal.spread(PlasticState(strain, np.exp(-z)))
     stress, sy = metal.stress(np.zeros_like(metal.body.nodes), metal.state)
     across = -strain[:, 0] - strain[:, 1]
-    for found, one, other in ((stress[:, 0], strain[:, 0], across), (sy, across, strain[:, 0])):
+    for part, one, other in ((stress[:, 0], strain[:, 0], across), (sy, across, strain[:, 0])):
         exact = -STEEL.plane_strain_modulus * (one + 0.3 * other)
-        np.testing.assert_allclose(found, exact, atol=1e-12)
+        np.testing.assert_allclose(part, exact, atol=1e-12)
     np.testing.assert_allclose(stress[:, 1:], 0.0, atol=1e-12)
     assert not metal.plastic_force(metal.state).any()
 

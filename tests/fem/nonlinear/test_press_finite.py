@@ -192,3 +192,25 @@ def test_released_and_pressed_again(body):
     assert left.shape[1:] == ()
     np.testing.assert_allclose(again.pressure, pressed.pressure, atol=2e-3 * peak)
     assert again.approach == pytest.approx(pressed.approach, rel=1e-4)
+
+
+def test_a_cylinder_sinks_into_a_nearly_rigid_metal():
+    """Slip lines of a smooth face at the angle t to a level surface turn by pi/2 - t, so that it
+    bears 2 k (1 + pi/2 - t); the material that rises beside the roller is left out (Jackson 2018,
+    J. Appl. Mech. 85, 024501, neglects it, too). Loads alone lead to a contact of 0.3 of the
+    radius: between two hats that touch they hardly rise."""
+    edge, reach, metal = 0.1, 0.8, Material(1e3, NU, Law("hencky"))
+    spec = BlockSpec(8.0, 8.0, np.array([[-reach, reach]]), edge, 0.3, (-1.2, 1.2, 0.8, 2.2 * edge))
+    body = elastic_body(build_block(spec), metal, Support("bonded", "fixed"))
+    hats = np.linspace(-reach, reach, round(2.0 * reach / edge) + 1)
+    start = 20.0 * np.sqrt(np.maximum(0.15**2 - hats[1:-1] ** 2, 0.0))
+    contact = FiniteContact(body, hats, circle(1.0), start)
+    angle = np.arcsin(0.5)
+    slip = 2.0 / np.sqrt(3.0) * (1.0 + np.pi / 2.0 - angle + np.tan(angle / 2.0))
+    _, (found,) = press_plastically_finitely(
+        contact, ElasticPlastic(metal, Hardening(1.0)), [2.0 * 0.5 * slip]
+    )
+    place, on = found.deformed.place, np.flatnonzero(found.pressure)
+    ends = 0.5 * (place[on[[0, -1]]] + place[on[[0, -1]] + [-1, 1]])  # of the last hats' shares
+    assert found.load / np.ptp(ends) == pytest.approx(slip, rel=0.05)
+    assert found.deformed.load == pytest.approx(found.load, rel=1e-9)

@@ -344,6 +344,7 @@ def test_load_beyond_the_limit_is_said(small, monkeypatch):
     # others here take up to 8
     monkeypatch.setattr("fem.nonlinear.newton.MOST_LINEAR_CONTACTS", 12)
     monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_FAILURES", 0)
+    monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_SINKING", 2)
     scene = Scene(small, 7.2, 6, reach=1.5)
     with pytest.raises(FemError, match=r"load of .* N/m was not reached"):
         scene.press([1.0])

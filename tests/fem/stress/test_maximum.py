@@ -11,7 +11,7 @@ from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import straight_down
 from fem.stress.maximum import NEAR, Samples, maxima, maximum
-from fem.stress.stress import at_mesh_points, nodal_stress, nodal_stresses
+from fem.stress.stress import at_nodes, nodal_stress, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
 
@@ -54,7 +54,7 @@ def body(structured_block):
 
 
 def field(body, value):
-    return at_mesh_points(body, StressState(value, 0.0 * value, 0.0 * value))
+    return at_nodes(body, StressState(value, 0.0 * value, 0.0 * value))
 
 
 def test_the_top_of_a_smooth_hill_lies_between_the_nodes(body):
@@ -91,7 +91,7 @@ def test_rounding_does_not_choose_the_polynomial(body, rng):
         stress, tops = np.array([hill, -0.5 * hill, 0.3 * hill * (1.0 + x)]), []
         for _ in range(6):
             rounded = StressState(*(stress * (1.0 + 1e-14 * rng.standard_normal(stress.shape))))
-            top = maximum(body, at_mesh_points(body, rounded), tau1)
+            top = maximum(body, at_nodes(body, rounded), tau1)
             tops.append((top.value, top.x, top.z))
         assert np.ptp(tops, axis=0) == pytest.approx(np.zeros(3), abs=1e-9)
 

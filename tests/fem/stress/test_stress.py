@@ -14,7 +14,7 @@ from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.triangle import shapes
 from fem.compliance.operator import FiniteElementCompliance
-from fem.stress.stress import at_mesh_points, evaluate, nodal_stress, nodal_stresses, within
+from fem.stress.stress import at_nodes, evaluate, nodal_stress, nodal_stresses, within
 from fem.stress.surface_load import SurfaceLoad
 from meshes.block import BlockSpec
 from meshes.build import build_block
@@ -202,13 +202,6 @@ def test_kinks_are_not_seen_across_an_interface(structured_block):
     assert np.abs(off[body.coated]).max() > 0.01
 
 
-def test_stresses_at_mesh_points_are_refused_for_a_coated_body(coated):
-    body, _, _ = coated
-    zero = np.zeros(len(body.points))
-    with pytest.raises(ValueError, match="two stresses"):
-        at_mesh_points(body, StressState(zero, zero, zero))
-
-
 def test_tractions_at_a_flat_surface_are_exact(pressed):
     case = pressed(20)
     x = np.linspace(-2.0, 2.0, 4001)
@@ -315,7 +308,7 @@ def test_evaluation_is_quadratic_and_keeps_shapes(structured_block):
     mesh = structured_block(np.linspace(-1, 1, 7), np.linspace(0, 1, 4), seed=4)
     body = elastic_body(mesh, MATERIAL, Support())
     x, z = body.points.T
-    nodal = at_mesh_points(body, StressState(x**2, x * z - 1, z**2 + x))
+    nodal = at_nodes(body, StressState(x**2, x * z - 1, z**2 + x))
     where = np.array([[-1.0, 0.3, 1.0], [0.0, 0.5, 2.0]]), np.array([[0.0, 0.3, 1.0]])
     sx, sz, txz = parts(evaluate(body, nodal, *where))
     a, b = np.broadcast_arrays(*where)

@@ -42,20 +42,21 @@ def problem_picture(run: Run) -> style.Picture:
     sliding = f", sliding with friction {frictions}" if any(scene.load.friction) else ""
     return style.picture(
         drawn,
-        f"A roller of radius {as_written(scene.roller.radius, 'm')} pressed on {body} by "
-        f"{load_text(run.problem)}{sliding}; {'; '.join(_body_in_words(scene))}.",
+        f"A {_pressing(scene)} pressed on {body} by {_load(run.problem)}{sliding}; "
+        f"{'; '.join(_body_in_words(scene))}.",
         "The problem. Above: to scale. Below: roller and body where they first touch, "
         f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
-        "is the width 2a of the Hertz contact under the same load.",
+        f"is {'the period' if scene.periodic else 'the width'} 2a"
+        f"{'' if scene.periodic else ' of the Hertz contact under the same load'}.",
         data=False,
     )
 
 
 def _to_scale(axes: "Axes", problem: Problem) -> None:
-    from matplotlib.patches import Circle
+    from matplotlib.patches import Circle, Rectangle
 
     scene, radius = problem.scene, problem.scene.roller.radius
-    view = VIEW * radius
+    view = 1.5 * problem.period if scene.periodic else VIEW * radius
     if scene.body.thickness is not None:
         least = max(LAYERS_IN_VIEW * scene.body.thickness, 4.0 * problem.hertz.half_width)
         view = min(view, least)
@@ -65,7 +66,10 @@ def _to_scale(axes: "Axes", problem: Problem) -> None:
     depth = np.inf if scene.body.thickness is None else scene.body.thickness / unit.factor
     below = min(depth, 0.42 * view)
     for look in (style.ROLLER, {"fill": False, **EDGE}):
-        axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **look))
+        if scene.periodic:
+            axes.add_patch(Rectangle((-2.0 * view, 0.0), 4.0 * view, 0.62 * view, **look))
+        else:
+            axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **look))
     across = np.linspace(-half, half, 200)
     torn = depth > below  # the drawing ends before the body does
     bottom = 0.02 * view * np.sin(24.0 * across / view) if torn else 0.0
@@ -89,10 +93,13 @@ def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], ro
     roomy  words of the body stand in it, where it is large; else under it"""
     scene, (view, half, below) = problem.scene, sizes
     note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
-    load = f"P = {load_text(problem)}"
+    load = f"{'p₀' if scene.periodic else 'P'} = {_load(problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
-    roller = f"roller\nR = {as_written(scene.roller.radius, 'm')}\n{material}"
+    roller = (
+        "flat body" if scene.periodic else f"roller\nR = {as_written(scene.roller.radius, 'm')}"
+    )
+    roller = f"{roller}\n{material}"
     axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
     rough = "rough body" if scene.profile is not None else "body"
     said = "\n".join([f"{rough}, {elastic_text(scene.body.material)}", *_body_in_words(scene)])
@@ -128,8 +135,10 @@ def _close_up(axes: "Axes", problem: Problem) -> float:
     relief = 0.0 if profile is None else np.ptp(profile.height)
     reach = np.sqrt(2.0 * scene.roller.radius * RISE * relief) if relief else np.inf
     reach = np.clip(reach / half_width, *CLOSE_UP) * half_width
+    if scene.periodic:
+        reach = 1.5 * problem.period
     low, high = -reach, reach
-    if profile is not None:
+    if profile is not None and not scene.periodic:
         low, high = max(low, profile.x[0]), min(high, profile.x[-1])
     if scene.body.width is not None:
         low, high = max(low, -0.5 * scene.body.width), min(high, 0.5 * scene.body.width)
@@ -156,6 +165,18 @@ def _close_up(axes: "Axes", problem: Problem) -> float:
     box = axes.get_position()
     wide, tall = axes.figure.get_size_inches() * (box.width, box.height)
     return (tall / (top - bottom)) / (wide / (high - low))
+
+
+def _pressing(scene: Scene) -> str:
+    if scene.periodic:
+        return "flat body"
+    return f"roller of radius {as_written(scene.roller.radius, 'm')}"
+
+
+def _load(problem: Problem) -> str:
+    if problem.scene.periodic:
+        return as_written(problem.scene.load.value, "Pa")
+    return load_text(problem)
 
 
 def _arrow(axes: "Axes", tail: tuple[float, float], tip: tuple[float, float]) -> None:

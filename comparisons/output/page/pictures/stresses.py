@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.exact.hertz import hertz_stress
 from analytic.stress_state import StressState
 from comparisons.common.numbers import decimal, percent_as_written, plain, significant
 from comparisons.drawing import style
 from comparisons.drawing.curves import COINCIDE, columns, distinct, joint_label
 from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
+from comparisons.models.smooth import closed_form
 from comparisons.studies.contact import peak_position
 from comparisons.studies.study import MODEL_ERROR, Run
 from comparisons.studies.subsurface.quiescent_zone import NAME as ZONE
@@ -259,8 +259,10 @@ def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float)
     curves = {n: (at, _tau1(run, n, friction, column)[shown]) for n in run.levels(friction)}
     for names, (_, values) in distinct(curves).items():
         axes.plot(at, values, label=joint_label(names), **style.LINES[names[0]])
-    exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure
-    axes.plot(at, exact, label="Hertz, exact", **style.REFERENCE)
+    smooth = closed_form(run.problem)
+    if smooth is not None:
+        exact = smooth.stress(x, z[shown], friction).tau1 / hertz.peak_pressure
+        axes.plot(at, exact, label=f"{smooth.name}, exact", **style.REFERENCE)
     first = next(iter(run.runs))
     for zone in zones_of(run.findings.get(ZONE)):
         if (zone.model, zone.friction) == (first, friction) and "start" in zone.figures:

@@ -15,9 +15,10 @@ from comparisons.drawing.blocks import TextTable, compared_cells
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, label
 from comparisons.models.problem import Problem
-from comparisons.studies import comparison, contact
+from comparisons.models.smooth import scale_words
+from comparisons.studies import contact
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.study import MODEL_ERROR, Run
+from comparisons.studies.study import LAYERED, MODEL_ERROR, Run
 
 SAME_PROBLEM = "the same problem"
 
@@ -41,7 +42,7 @@ class ComparisonRow:
 
 def comparison_rows(run: Run) -> list[ComparisonRow]:
     """In the order of quantities, then of friction coefficients."""
-    rows, differences = [], run.figures.of(study=comparison.NAME)
+    rows, differences = [], run.compared
     for name in QUANTITIES:
         pairs = [(figure, _values(run, figure)) for figure in differences.of(quantity=name)]
         for same in grouped(pairs, _shown):
@@ -51,7 +52,8 @@ def comparison_rows(run: Run) -> list[ComparisonRow]:
 
 def comparison_table(run: Run) -> TextTable:
     """The same for the page; below a figure in grey that over Hertz's."""
-    head = ("quantity", "friction", "half-plane", "finite elements", "difference", "uncertainty")
+    first = first_model(run)
+    head = ("quantity", "friction", first, "finite elements", "difference", "uncertainty")
     rows = tuple(
         (
             f"{label(row.quantity)}\n{row.note}",
@@ -69,14 +71,20 @@ def comparison_table(run: Run) -> TextTable:
 def _values(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:
     """Both models' figures, None of a norm."""
     at = {"quantity": difference.quantity, "at": difference.at}
+    layered = run.figures.one(study=LAYERED, source=difference.source, against=None, **at)
     one, other = (run.figures.one(study=contact.NAME, source=m, **at) for m in MODELS)
-    return one, other
+    return (one if difference.study != LAYERED else layered), other
 
 
 def _shown(pair: tuple[Figure, tuple[Figure | None, ...]]) -> tuple:
     difference, values = pair
     sizes = tuple(figure and figure.value for figure in values)
     return difference.value, difference.numerical, *sizes
+
+
+def first_model(run: Run) -> str:
+    """What is compared with the finite elements."""
+    return "layered half-plane" if run.compared.of(study=LAYERED) else "half-plane"
 
 
 def reference_of(run: Run, quantity: str) -> str:
@@ -107,8 +115,8 @@ def figure_rows(run: Run) -> list[tuple[str, ...]]:
 
 def figure_table(run: Run) -> TextTable:
     """The same for the page."""
-    [model] = run.runs
-    head = ("quantity", "friction", f"{HYPHENATED[model]} model", "over Hertz", "uncertainty")
+    [model], over = run.runs, f"over {scale_words(run.problem)}"
+    head = ("quantity", "friction", f"{HYPHENATED[model]} model", over, "uncertainty")
     rows = ((label(name), *cells) for name, *cells in figure_rows(run))
     return TextTable("", head, tuple(rows))
 

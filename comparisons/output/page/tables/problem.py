@@ -14,6 +14,7 @@ from comparisons.studies.study import Run
 LOADS = {  # by kind: in words, and the unit
     "per_length": ("load per length", "N/m"),
     "hertz_peak_pressure": ("Hertz peak pressure", "Pa"),
+    "mean_pressure": ("mean pressure", "Pa"),
     "approach": ("approach", "m"),
 }
 Rows = list[tuple[str, str]]
@@ -34,8 +35,9 @@ def problem_sheet(run: Run) -> list[tuple[str, Rows]]:
 
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
-    rows = [("radius of relative curvature R", as_written(scene.roller.radius, "m"))]
-    body = scene.body
+    rows, body = [("smooth body", "flat")], scene.body
+    if not scene.periodic:
+        rows = [("radius of relative curvature R", as_written(scene.roller.radius, "m"))]
     if body.thickness is None:
         rows.append(("body, thickness", "unbounded"))
     else:
@@ -44,6 +46,8 @@ def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
             ("body, thickness t", f"{as_written(body.thickness, 'm')}, {base} a rigid base")
         )
     width = "unbounded" if body.width is None else as_written(body.width, "m")
+    if scene.periodic:
+        width = f"unbounded, the surface repeats after {with_unit(surface.profile.length, 'm')}"
     rows.append(("body, width w", width))
     if surface.info is None:
         return [*rows, ("surface", "smooth")]
@@ -173,9 +177,16 @@ def _load(problem: Problem) -> Rows:
     rows = [(f"{label} (given)", as_written(scene.load.value, unit))]
     if scene.load.kind != "per_length":
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))
+    rows.append(("friction coefficient µ", listed(scene.load.friction)))
+    if scene.periodic:
+        period = with_unit(2.0 * hertz.half_width, "m")
+        return [
+            *rows,
+            ("period 2a", period),
+            ("mean pressure p₀", with_unit(scene.load.value, "Pa")),
+        ]
     return [
         *rows,
-        ("friction coefficient µ", listed(scene.load.friction)),
         ("Hertz half-width a", with_unit(hertz.half_width, "m")),
         ("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")),
         (

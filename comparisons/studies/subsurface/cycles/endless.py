@@ -4,6 +4,7 @@ Nomenclature: a half-width and p0 peak pressure of the smooth contact, k = Y/sqr
 shear by von Mises, h edge of the elements."""
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from analytic.grid import HatGrid
 from comparisons.models.problem import Problem
 from comparisons.studies.subsurface.cycles.passes import CycledLevel, Passes
 from meshes.block import structured
+
+if TYPE_CHECKING:
+    from fem.nonlinear.rolling import RolledBody, RollingPass
 
 COARSEST = 4.0  # elements on a half-width, on level 1
 STEEPER = 0.3  # growth of the edges beyond what is refined, on level 1; 1/sqrt 2 of it on the next
@@ -72,69 +76,89 @@ def expected_seconds(problem: Problem, number: int, passes: int) -> float:
 
 def rolled(problem: Problem, number: int, begin: Callable[[int], None]) -> CycledLevel:
     """The passes on a level from 1; `begin` is called with each. Raises FemError."""
-    from comparisons.models.finite_element.contact import roller_of
-    from fem.body.elasticity import elastic_body
-    from fem.body.support import Support
-    from fem.compliance.operator import FiniteElementCompliance
-    from fem.nonlinear.cycles import equivalent_of
-    from fem.nonlinear.plasticity import ElasticPlastic
-    from fem.nonlinear.press_plastic import TRAVEL, averaged_pressure
-    from fem.nonlinear.rolling import RolledBody
+    from fem.nonlinear.press_plastic import averaged_pressure
 
-    scene, hertz, load = problem.scene, problem.hertz, problem.hertz.load_per_length
-    friction, metal = max(scene.load.friction), scene.body.material
-    mesh = structured(*lines_of(problem, number))
     edges = COARSEST * 2.0 ** (number - 1)
     last = _reach(problem, edges) - 1
-    grid = HatGrid(hertz.half_width / edges, -last, last)
-    support = Support(scene.body.base or "bonded", "fixed")
-    body = elastic_body(mesh, metal, support)
-    nodes = grid.pitch * np.arange(grid.first - 1, grid.last + 2)
-    compliance, roller = FiniteElementCompliance(body, nodes), None
-    if not scene.roller.rigid:
-        other = scene.roller.material
-        alike = (other.youngs_modulus, other.poissons_ratio) == (
-            metal.youngs_modulus,
-            metal.poissons_ratio,
-        )
-        above = body if alike else elastic_body(mesh, other, Support("bonded", "fixed"))
-        roller = FiniteElementCompliance(above, nodes)
-    gap = grid.hat_integrals(problem.finite_element_gap)
-    rolled = RolledBody(
-        *(compliance, ElasticPlastic(metal, scene.body.flow_stress()), gap, grid.weights),
-        *(hertz.pressure(grid.x), friction, roller, TRAVEL),
-    )
-    before, rows, arrays = 0.0, [], []
-    for count in range(1, scene.cycles.passes + 1):
+    grid = HatGrid(problem.hertz.half_width / edges, -last, last)
+    body, done, rows = _body(problem, grid, number), [], []
+    for count in range(1, problem.scene.cycles.passes + 1):
         begin(count)
-        done = rolled.roll(load)
-        deepest, pressure = done.sx.argmin(), averaged_pressure(done.pressure)
-        patches = contact_patches(grid.x, done.pressure, done.opening)
-        row = {"flow": done.added.max(), "net": equivalent_of(done.plastic - before).max()}
-        # what holds the roller back: its pressures on its own slope, and what friction drags
-        row |= {"work": float((done.pressure * grid.weights) @ roller_of(problem)(grid.x)[1])}
-        row["work"] += done.dragged
-        row |= {"plastic_work": done.plastic_work, "stored": done.stored}
-        row |= {"residual": done.sx[deepest], "residual_depth": done.depth[deepest]}
-        row |= {"peak": pressure.max(), "length": np.ptp(patches, axis=1).sum()}
-        before = done.plastic
-        rows.append(row)
-        arrays.append((pressure, np.column_stack([done.sx, done.sy])))
-    shown = done.depth <= max(LEAST_DEEP, DEEP * peak_over_shear(problem)) * hertz.half_width
-    back = 2.0 / 3.0 * scene.body.flow_stress().kinematic * done.plastic * [1.0, 1.0, 0.5, 1.0]
-    rest = np.column_stack([done.sx, np.zeros((len(done.sx), 2)), done.sy]) - back
-    flow = scene.body.flow_stress().stress(done.equivalent) / scene.body.yield_stress
-    over = done.depth[shown] / hertz.half_width, (rest / yield_in_shear(problem))[shown]
+        done.append(body.roll(problem.hertz.load_per_length))
+        rows.append(_row(problem, grid, done[-1], done[-2].plastic if count > 1 else 0.0))
+    ends, z = (done[0], done[-1]), done[-1].depth
+    shown = z <= max(LEAST_DEEP, DEEP * peak_over_shear(problem)) * problem.hertz.half_width
+    stresses = [np.column_stack([one.sx, one.sy])[shown] for one in ends]
     return CycledLevel(
         pitch=grid.pitch,
-        unknowns=body.unknowns,
+        unknowns=body.body.body.unknowns,
         seconds=0.0,
         passes=Passes.of(rows),
         x=grid.x,
-        pressure=np.array([arrays[0][0], arrays[-1][0]]),
+        pressure=np.array([averaged_pressure(one.pressure) for one in ends]),
         lowering=np.zeros((2, grid.count)),
         height=np.zeros(grid.count),
-        z=done.depth[shown],
-        profile=np.array([arrays[0][1], arrays[-1][1]])[:, shown],
-        carried=peak_carried(*over, flow[shown], friction, metal.poissons_ratio),
+        z=z[shown],
+        profile=np.array(stresses),
+        carried=_carried(problem, done[-1]),
     )
+
+
+def _body(problem: Problem, grid: HatGrid, number: int) -> "RolledBody":
+    """On its mesh, under the roller."""
+    from fem.body.elasticity import elastic_body
+    from fem.body.support import Support
+    from fem.compliance.operator import FiniteElementCompliance
+    from fem.nonlinear.plasticity import ElasticPlastic
+    from fem.nonlinear.press_plastic import TRAVEL
+    from fem.nonlinear.rolling import RolledBody
+
+    scene, mesh = problem.scene, structured(*lines_of(problem, number))
+    body = elastic_body(mesh, scene.body.material, Support(scene.body.base or "bonded", "fixed"))
+    nodes = grid.pitch * np.arange(grid.first - 1, grid.last + 2)
+    compliance = roller = FiniteElementCompliance(body, nodes)
+    if scene.roller.rigid:
+        roller = None
+    elif scene.roller.material != scene.body.material or scene.body.thickness is not None:
+        above = elastic_body(mesh, scene.roller.material, Support("bonded", "fixed"))
+        roller = FiniteElementCompliance(above, nodes)
+    metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
+    gap, guess = grid.hat_integrals(problem.finite_element_gap), problem.hertz.pressure(grid.x)
+    friction = max(scene.load.friction)
+    return RolledBody(compliance, metal, gap, grid.weights, guess, friction, roller, TRAVEL)
+
+
+def _row(
+    problem: Problem, grid: HatGrid, done: "RollingPass", before: np.ndarray | float
+) -> dict[str, float]:
+    """What is read of a pass, from plastic strains (n, 4) on."""
+    from comparisons.models.finite_element.contact import roller_of
+    from fem.nonlinear.cycles import equivalent_of
+    from fem.nonlinear.press_plastic import averaged_pressure
+
+    lowest = done.sx.argmin()
+    patches = contact_patches(grid.x, done.pressure, done.opening)
+    # what holds the roller back: its pressures on its own slope, and what friction drags
+    slope = roller_of(problem)(grid.x)[1]
+    return {
+        "flow": done.added.max(),
+        "net": equivalent_of(done.plastic - before).max(),
+        "work": float((done.pressure * grid.weights) @ slope) + done.dragged,
+        "plastic_work": done.plastic_work,
+        "stored": done.stored,
+        "residual": done.sx[lowest],
+        "residual_depth": done.depth[lowest],
+        "peak": averaged_pressure(done.pressure).max(),
+        "length": np.ptp(patches, axis=1).sum(),
+    }
+
+
+def _carried(problem: Problem, done: "RollingPass") -> float:
+    """p0/k that what a pass leaves carries without flow."""
+    hardening, nu = problem.scene.body.flow_stress(), problem.scene.body.poissons_ratio
+    back = 2.0 / 3.0 * hardening.kinematic * done.plastic * [1.0, 1.0, 0.5, 1.0]
+    rest = np.column_stack([done.sx, np.zeros((len(done.sx), 2)), done.sy]) - back
+    flow = hardening.stress(done.equivalent) / hardening.yield_stress
+    depth = done.depth / problem.hertz.half_width
+    rest, friction = rest / yield_in_shear(problem), max(problem.scene.load.friction)
+    return peak_carried(depth, rest, flow, friction, nu)

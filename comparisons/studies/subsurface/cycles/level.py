@@ -148,7 +148,7 @@ def _cycled(scene_problem: Problem, number: int, begin: Callable[[int], None]) -
         if done.loaded.pressure[[0, -1]].any():
             raise FemError("the contact of the flowing body reaches beyond the pressure elements")
         reader.read(before, done)
-    return reader.level(sum(each.unknowns for each in set(bodies.all)))
+    return reader.level(sum(body.unknowns for body in set(bodies.all)))
 
 
 def _gap(problem: Problem, grid: HatGrid, place: float) -> np.ndarray:

@@ -5,7 +5,7 @@ strain by pass, of residual stresses over depth, and of the surfaces with their 
 
 import numpy as np
 
-from comparisons.common.numbers import percent, scale_of, significant, with_unit
+from comparisons.common.numbers import percent, percent_as_written, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import over, panels
@@ -78,6 +78,7 @@ def passes_table(run: Run) -> TextTable:
     for row in rows[: SHOWN - 1] + rows[SHOWN - 1 :][-1:]:
         units = ("plastic_work", "residual", "residual_depth", "peak", "length")
         texts = (with_unit(row[name], series.columns[name].unit, 3) for name in units)
+        texts = (text.replace("^2", "²") for text in texts)
         added = significant(row["flow"], 3), percent(row["flow"] / first)
         cells.append((str(row["pass"]), *added, significant(row["net"], 3), *texts))
     head = ("pass", "plastic strain added", "of the first", "of it stays", "plastic work")
@@ -107,11 +108,11 @@ def surfaces_table(run: Run) -> TextTable:
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """The verdict; what pressing flat misses; or why nothing was done."""
-    found, known = run.findings[NAME], run.figures.of(study=NAME)
-    why_not = found.said(WHY_NOT)
+    findings, known = run.findings[NAME], run.figures.of(study=NAME)
+    why_not = findings.said(WHY_NOT)
     if why_not is not None:
         return [("cycles", f"not done: it {why_not}")]
-    said = [("cycles", f"the body {found.said(VERDICT)}")]
+    said = [("cycles", f"the body {findings.said(VERDICT)}")]
     flat, once = (known.one(quantity="peak_reloaded", source=name) for name in (FLATTENED, ONCE))
     if flat is not None:
         lengths = [
@@ -138,7 +139,7 @@ def passes_picture(run: Run) -> style.Picture | None:
     first = data.levels[-1].passes.flow[0]
     if first:
         share = run.problem.scene.cycles.share
-        label = f"{percent(share)} of the first"
+        label = f"{percent_as_written(share)} of the first"
         panel.axhline(share * first, label=label, **style.REFERENCE)
         panel.set_yscale("log")
     panel.set_ylabel("plastic strain added")

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from analytic.exact.shakedown import shakedown_limit
-from comparisons.common.numbers import percent, significant, with_unit
+from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.common.tasks import NEEDED, Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
@@ -27,7 +27,11 @@ from comparisons.studies.subsurface.cycles.level import (
     travel_of,
 )
 from comparisons.studies.subsurface.cycles.passes import CycledLevel
-from comparisons.studies.subsurface.cycles.surfaces import LeftSurfaces, left_surfaces
+from comparisons.studies.subsurface.cycles.surfaces import (
+    FLATTENED,
+    LeftSurfaces,
+    left_surfaces,
+)
 
 NAME = "cycles"
 SOURCE = "finite_element"
@@ -57,7 +61,7 @@ QUANTITIES = {
 LONGEST = 600.0  # seconds that rolling over a trace may take
 STEADY = 0.95  # of the plastic strain of a quarter of the passes before: it falls no more
 ONE_WAY = 0.1  # of a pass's plastic strain, to and fro: what stays of it goes on one way
-VERDICT, SECONDS = "shakedown", "seconds"
+VERDICT = "shakedown"
 Outcome = Literal["elastic", "shakes down", "settling", "cycles", "ratchets"]
 
 
@@ -93,7 +97,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     seconds = expected_seconds(problem)
     tasks.callback(f"planned: cycles, about {with_unit(seconds, 's', 2)}")
     for number in numbers:
-        share = 4.0**number / sum(4.0**each for each in numbers)
+        share = 4.0**number / sum(4.0**earlier for earlier in numbers)
         tasks.add(
             _key(number), solved_level, problem, number, seconds=share * seconds, urgency=NEEDED
         )
@@ -101,18 +105,17 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     problem, cycles = solved.problem, solved.problem.scene.cycles
-    begin(Solved(problem, solved.plan, None, {}), tasks)  # where nothing was made known
     levels = tuple(tasks.result(_key(number)) for number in range(1, cycles.levels + 1))
-    left = None
+    left: list[LeftSurfaces] = []
     if not is_endless(problem):
-        left = left_surfaces(cycled_problem(problem), levels[-1], travel_of(problem))
+        posed, travel = cycled_problem(problem), travel_of(problem)
+        left = [left_surfaces(posed, level, travel) for level in levels]
     at = {"friction": max(problem.scene.load.friction)}
     figures = [*_of_passes(solved, levels, at), *_of_limits(solved, levels, at)]
     figures += _of_surfaces(left, at)
     said = Statement(VERDICT, verdict(solved, levels[-1]), SOURCE, at)
-    return Findings(
-        tuple(figures), (_series(solved, levels, at),), (said,), CycleStudy(levels, left)
-    )
+    series, data = _series(solved, levels, at), CycleStudy(levels, left[-1] if left else None)
+    return Findings(tuple(figures), (series,), (said,), data)
 
 
 def _key(number: int) -> str:
@@ -147,9 +150,10 @@ def verdict(solved: Solved, level: CycledLevel) -> str:
     if what == "elastic":
         return f"nothing flows, not even in the first pass{limit}"
     if what == "shakes down":
+        share = percent_as_written(cycles.share)
         return (
-            f"shakes down: from pass {count} on a pass adds less than {percent(cycles.share)} of "
-            f"the first one's plastic strain{limit}"
+            f"shakes down: from pass {count} on a pass adds less than {share} of the first one's "
+            f"plastic strain{limit}"
         )
     if what == "settling":
         return (
@@ -200,16 +204,16 @@ def _of_passes(
         f"{work}_last": lambda passes: passes.plastic_work[-1],
         "peak_last": lambda passes: passes.peak[-1],
         "length_last": lambda passes: passes.length[-1],
+        "energy_balance": lambda passes: np.abs(passes.balance).max(),
     }
     for name, value in read.items():
         place = (float(finest.residual_depth[-1]),) if name == "residual_stress" else None
         yield _figure(name, [value(level.passes) for level in levels], at, place=place)
-    exact = {"energy_balance": float(np.abs(finest.balance).max())}
-    what, count = outcome(levels[-1], solved.problem.scene.cycles.share)
-    if what == "shakes down":
-        exact["passes_to_shakedown"] = count
-    for name, value in exact.items():
-        yield Figure(NAME, name, SOURCE, float(value), at, uncertainty=Uncertainty())
+    share = solved.problem.scene.cycles.share
+    reached = [outcome(level, share) for level in levels]
+    counts = [float(count) for what, count in reached if what == "shakes down"]
+    if reached[-1][0] == "shakes down":
+        yield _figure("passes_to_shakedown", counts, at)
 
 
 def _of_limits(
@@ -225,18 +229,19 @@ def _of_limits(
     yield _figure("carried", [level.carried for level in levels], at)
 
 
-def _of_surfaces(left: LeftSurfaces | None, at: Mapping[str, float]) -> Iterator[Figure]:
-    """As they are read on the finest level; how certain is not stated."""
-    if left is None:
-        return
-    for name, surface in left.by_name.items():
-        values = {"peak_reloaded": surface.peak, "length_reloaded": surface.length}
-        for quantity, value in (values | {"ra": surface.ra}).items():
-            yield _figure(quantity, [value], at, name)
-    for quantity in ("shape_rms", "bearing_rms", "lowered_rms"):
-        value = getattr(left, quantity.removeprefix("shape_"))
-        if np.isfinite(value):
-            yield _figure(quantity, [value], at)
+def _of_surfaces(left: list[LeftSurfaces], at: Mapping[str, float]) -> Iterator[Figure]:
+    """By level, of those surfaces that all levels have."""
+    names = [name for name in (left[-1].by_name if left else ()) if name in left[0].by_name]
+    for name in names:
+        surfaces = [one.by_name[name] for one in left]
+        yield _figure("peak_reloaded", [one.peak for one in surfaces], at, name)
+        yield _figure("length_reloaded", [one.length for one in surfaces], at, name)
+        yield _figure("ra", [one.ra for one in surfaces], at, name)
+    if names:
+        yield _figure("lowered_rms", [one.lowered_rms for one in left], at)
+    if FLATTENED in names:
+        yield _figure("shape_rms", [one.rms for one in left], at)
+        yield _figure("bearing_rms", [one.bearing_rms for one in left], at)
 
 
 def _series(solved: Solved, levels: tuple[CycledLevel, ...], at: Mapping[str, float]) -> Series:
@@ -249,6 +254,6 @@ def _series(solved: Solved, levels: tuple[CycledLevel, ...], at: Mapping[str, fl
     for name, unit in units.items():
         values = getattr(finest, name)
         moved = values if len(levels) < 2 else values - getattr(levels[-2].passes, name)
-        unsure = tuple(float(each) for each in 3.0 * np.abs(moved))
+        unsure = tuple(float(size) for size in 3.0 * np.abs(moved))
         columns[name] = Column(tuple(map(float, values)), unit, unsure)
     return Series("passes", columns, SOURCE, at)

@@ -19,16 +19,21 @@ LIGHT = {
 }
 
 
-def level_of(deformation):
+COATING = {"thickness": 1e-3, "youngs_modulus": 300e9, "poissons_ratio": 0.25, "law": "hencky"}
+
+
+def level_of(deformation, coating):
     settings = {"plastic": True, "deformation": deformation}
-    problem = problem_of(resolved(changed(LIGHT, finite_element=settings)))
+    scene = LIGHT | ({"coating": coating} if coating else {})
+    problem = problem_of(resolved(changed(scene, finite_element=settings)))
     plan = make_plan(problem, ("finite_element",))
     refinement = Refinement(problem.pitches[0])
     return finite_element_level(problem, plan, refinement, window_of(problem), Stages())
 
 
-def test_at_light_loads_finite_strains_are_small():
-    small, finite = level_of("linear"), level_of("finite")
+@pytest.mark.parametrize("coating", [None, COATING], ids=["bare", "coated"])
+def test_at_light_loads_finite_strains_are_small(coating):
+    small, finite = (level_of(deformation, coating) for deformation in ("linear", "finite"))
     assert small.plastic_strain == pytest.approx(finite.plastic_strain, rel=0.02) != 0.0
     assert finite.contact_length == pytest.approx(small.contact_length, rel=2e-3)
     peaks = [level.solution.pressure.max() for level in (small, finite)]

@@ -57,7 +57,6 @@ REFUSED = {
         ("plastic", "P1"),
         ("plastic", "P3"),
         ("plastic", "far"),
-        ("plastic", "coated"),
         ("far", "coated"),
         ("far", "layer"),
         ("far", "width"),

@@ -4,6 +4,8 @@ import shutil
 import subprocess
 import sys
 from importlib.util import find_spec
+from pathlib import Path
+from unittest.mock import patch
 
 import meshio
 import numpy as np
@@ -17,6 +19,7 @@ from comparisons.common.errors import InputError
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.answers import answers_named
+from comparisons.studies.answers.meshes import _write_faces
 from comparisons.studies.answers.read import read_answers
 from meshes.block import structured
 
@@ -55,6 +58,18 @@ def block(hertz):
     x = np.concatenate([-far[::-1], fine, far])
     z = np.concatenate([[0.0], np.cumsum(0.05 * 1.25 ** np.arange(22))])
     return structured(hertz.half_width * x, hertz.half_width * z)
+
+
+@pytest.fixture
+def in_this_process():
+    """Whole files are read without another process, whose start takes far longer."""
+
+    def here(command, **others):
+        _, _, _, path, out, *step = command
+        _write_faces(Path(path), Path(out), int(step[0]) if step else None)
+
+    with patch("comparisons.studies.answers.meshes.said_by", here):
+        yield
 
 
 def upright(mesh):
@@ -100,6 +115,7 @@ def holds(answer, hertz, near=0.02):
     assert answer.stress.depth == pytest.approx(hertz.tau1_max_depth, rel=0.1)
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("up", ["y", "-y", "z", "-z"])
 def test_any_axis_may_point_out_of_the_body(hertz, tmp_path, up):
     mesh = block(hertz)
@@ -117,6 +133,7 @@ def test_any_axis_may_point_out_of_the_body(hertz, tmp_path, up):
         assert np.sign(np.nansum(right)) == np.sign(known.sum())
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_friction_keeps_its_direction(hertz, tmp_path):
     """The shear on the top is minus the traction's: sliding that pulls towards +x."""
     mesh = block(hertz)
@@ -128,6 +145,7 @@ def test_friction_keeps_its_direction(hertz, tmp_path):
     assert answer.stress.field.txz[0, middle] == pytest.approx(expected[0], rel=0.02)
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_the_roller_in_the_same_file_is_left_out(hertz, tmp_path):
     mesh = block(hertz)
     body, stress = upright(mesh), tensor(exact(mesh, hertz))
@@ -176,6 +194,7 @@ def solved_by_calculix(hertz, tmp_path_factory):
     return solved
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("flag", [",OUTPUT=2D", ",OUTPUT=3D"])
 def test_a_result_of_calculix(solved_by_calculix, hertz, flag):
     """In its plane, or as the layer of wedges that it solves on; the last of two steps."""
@@ -240,6 +259,7 @@ def test_what_cannot_be_read_is_said_in_one_line(tmp_path, capsys, name, content
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_body_that_is_not_in_a_plane(hertz, tmp_path):
     block = pyvista.ImageData(dimensions=(6, 6, 6), spacing=(1e-4,) * 3).cast_to_unstructured_grid()
     block["S"] = np.zeros((block.n_points, 6))
@@ -248,6 +268,7 @@ def test_a_body_that_is_not_in_a_plane(hertz, tmp_path):
         read({"file": str(tmp_path / "a.vtu"), "up": "y"})
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_missing_stresses_steps_and_frictions(hertz, tmp_path):
     mesh = block(hertz)
     points, stress = upright(mesh), tensor(exact(mesh, hertz))
@@ -262,6 +283,7 @@ def test_missing_stresses_steps_and_frictions(hertz, tmp_path):
     holds(read(moved | {"z_origin": -1e-3}), hertz, near=2e-3)
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_components_in_an_exodus_file(hertz, tmp_path):
     """In MOOSE's order, of which VTK takes the first two for a vector."""
     from vtkmodules.vtkIOExodus import vtkExodusIIWriter
@@ -278,6 +300,7 @@ def test_components_in_an_exodus_file(hertz, tmp_path):
     holds(read({"file": str(tmp_path / "a.e")}), hertz, near=2e-3)
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_steps_of_xdmf(hertz, tmp_path):
     mesh = block(hertz)
     stress = tensor(exact(mesh, hertz))

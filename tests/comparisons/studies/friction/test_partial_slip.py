@@ -7,6 +7,7 @@ import pytest
 from scenes import NEO_HOOKEAN, STEEL, changed, problem, resolved
 
 from analytic.exact.partial_slip import SlippingContact
+from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
@@ -43,6 +44,12 @@ def cycled(tmp_path_factory):
     return run(resolved(SMOOTH), tmp_path_factory.mktemp("slip") / "out", MODELS)
 
 
+def largest_ruiz(exact: SlippingContact) -> float:
+    """Over the trailing half of the contact."""
+    x = -np.linspace(0.0, 1.0, 20_001) * exact.hertz.half_width
+    return float(ruiz(exact.surface_stress(x), exact.traction(x), exact.slip(x)).max())
+
+
 def test_a_cycle_is_covered_by_what_is_stated(cycled):
     """Both models, at the larger friction, against Mindlin and Deresiewicz."""
     exact = SlippingContact(cycled.problem.hertz, 0.3, 0.5)
@@ -51,6 +58,10 @@ def test_a_cycle_is_covered_by_what_is_stated(cycled):
         "stick_length": 2.0 * exact.stick_half_width,
         "energy_of_cycle": exact.energy_of_cycle,
         "edge_tension": exact.edge_tension,
+        "slip_amplitude": float(exact.slip(cycled.problem.hertz.half_width)),
+        "ruiz": largest_ruiz(exact),
+        # at the trailing edge, where there is no traction, on the upright plane; E' = 2 E*
+        "smith_watson_topper": 0.5 * exact.edge_tension**2 / exact.hertz.combined_modulus,
     }
     for source in MODELS:
         known = cycled.figures.of(study="partial_slip", source=source, against=None)
@@ -58,7 +69,9 @@ def test_a_cycle_is_covered_by_what_is_stated(cycled):
             figure = known.one(quantity=quantity)
             assert figure.friction == 0.3
             print(source, quantity, figure.value / value - 1.0, figure.numerical)
-            assert abs(figure.value / value - 1.0) <= figure.numerical < 0.02
+            # three factors of which each is uncertain at an end of contact
+            ceiling = 0.04 if quantity in ("ruiz", "smith_watson_topper") else 0.02
+            assert abs(figure.value / value - 1.0) <= figure.numerical < ceiling
 
 
 def test_models_agree_within_their_uncertainty(cycled):

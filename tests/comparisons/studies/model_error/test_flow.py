@@ -1,5 +1,7 @@
 """Flow beside a half-plane that exceeds the yield stress beyond doubt, or why there is none."""
 
+from dataclasses import replace
+
 import pytest
 from scenes import STEEL, changed, resolved
 
@@ -10,6 +12,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.output.headline import headline
 from comparisons.runs.run import run
+from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.subsurface.yielding import blocks as yield_blocks
 
@@ -34,6 +37,22 @@ def beside():
 @pytest.fixture(scope="module")
 def switched_on():
     return outcome_of(finite_element={"plastic": True})
+
+
+# between the error and what finite strain may make of it
+OPEN = {"peak_pressure": 0.365, "contact_length": 0.5}
+
+
+@pytest.fixture(scope="module")
+def short():
+    return outcome_of(tolerance=OPEN, budget={"time": 4.5})
+
+
+@pytest.fixture(scope="module")
+def finite(short):
+    """In the time that the other asks for."""
+    time = float(headline(short).paste[0].rpartition("=")[2])
+    return outcome_of(tolerance=OPEN, budget={"time": time})
 
 
 def test_a_yield_stress_alone_gives_the_figures_of_the_switch(beside, switched_on):
@@ -67,6 +86,45 @@ def test_the_cap_by_peak_is_what_the_whole_bears(beside, switched_on):
     assert caps[0].numerical == pytest.approx(caps[1].numerical, rel=1e-6)
     rows = {row[0]: row for row in yield_blocks(beside)[0].items[2].rows}
     assert rows["cap by peak"][3].startswith(f"{bears:.3g} ±")
+
+
+def test_flow_beside_linear_elements_is_of_quadratic_ones(beside):
+    scene = beside.problem.scene.unchecked({"finite_element.element": "P1"})
+    selection = beside.data("model_error").selection
+    split = split_variants(replace(beside.problem, scene=scene), selection, 0.0)
+    assert split.whole.quadratic and split.of_scene.quadratic
+
+
+def test_finite_strain_is_chosen_where_it_decides(beside, finite):
+    """Where flow at small strains leaves a verdict open; else it says what would compute it."""
+    assert finite.data("model_error").selection.added == {FLOW, "finite_strain"}
+    assert headline(finite).kind == "holds"
+    reason = beside.data("model_error").selection.impossible["finite_strain"]
+    assert reason.startswith("flow is taken at small strains: cannot change a verdict")
+    for error in finite.model_errors:
+        change, counted = (
+            error.part("finite_strain"),
+            beside.model_errors.one(quantity=error.quantity).unknown["finite_strain"],
+        )
+        assert 0.002 < abs(change.value) < counted < 0.02
+        assert error.part("interaction").value == pytest.approx(0.0, abs=1e-12)
+
+
+def test_flow_at_finite_strain_is_the_scene_with_both_switches(finite):
+    both = outcome_of(finite_element={"plastic": True, "deformation": "finite"})
+    for error in finite.model_errors:
+        known = both.model_errors.one(quantity=error.quantity)
+        assert error.scale == pytest.approx(known.scale, rel=1e-9)
+        assert error.part("finite_strain").value == pytest.approx(
+            known.part("finite_strain").value, rel=0.02
+        )
+
+
+def test_without_time_for_finite_strain_it_says_how_much(short):
+    assert "; at finite strain, where that matters, " in forecast(short.problem, short.plan).text
+    selection, said = short.data("model_error").selection, headline(short)
+    assert selection.impossible["finite_strain"].endswith("s more (budget.time)")
+    assert said.kind == "inconclusive" and "finite deformation, which is" in said.sentence
 
 
 def test_without_time_it_says_how_long_flow_takes(beside):

@@ -6,7 +6,7 @@ import pytest
 from scenes import NEO_HOOKEAN, judging
 
 from comparisons.common.mpi import RANKS
-from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE, select_effects
+from comparisons.studies.model_error.selection import FLOW, SHARE_OF_TOLERANCE, select_effects
 
 RIGID = {"roller": {"rigid": True}}
 
@@ -76,6 +76,12 @@ def test_a_cap_stands_for_flow_only_where_nothing_flows(problem_with):
     capped = chosen(problem, peak=6e9)
     assert capped.estimates["plastic_flow"]["peak_pressure"] == pytest.approx(0.1)
     assert "no yield stress" in capped.impossible["plastic_flow"]
+
+
+def test_a_coated_body_flows_as_any(problem_with):
+    coating = {"thickness": 2e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.2}
+    problem = problem_with(body={"yield_stress": 1e9}, coating=coating)
+    assert FLOW in select_effects(problem, 4e9, (), no_flow=None).added
 
 
 def test_what_is_given_up_stands_with_its_reason(problem_with):

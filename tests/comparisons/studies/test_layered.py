@@ -1,0 +1,43 @@
+"""A coated scene: the analytic operator and finite elements are two models of one problem."""
+
+import pytest
+from scenes import STEEL, resolved
+
+from comparisons.figures.quantity import MODELS
+from comparisons.output.page.tables.comparison import comparison_rows, first_model
+from comparisons.runs.run import run
+
+TABLES = {
+    "roller": {"radius": 8e-3, "rigid": True},
+    "body": dict(STEEL),
+    "coating": {"thickness": 30e-6, "youngs_modulus": 420e9, "poissons_ratio": 0.22},
+    "load": {"hertz_peak_pressure": 1.5e9},
+    "stress": {"points": [60, 20]},
+    "resolution": {"levels": 3},
+    "budget": {"effects": False},
+}
+
+
+@pytest.fixture(scope="module")
+def outcome():
+    return run(resolved(TABLES), None, MODELS)
+
+
+def test_both_agree_within_what_they_state_where_the_half_plane_differs(outcome):
+    layered, alone = (
+        {f.quantity: f for f in outcome.figures.of(study=study, against="finite_element")}
+        for study in ("layered", "comparison")
+    )
+    for name in ("peak_pressure", "contact_length", "tau1_max"):
+        assert abs(layered[name].value) <= layered[name].total < 2e-2, name
+        assert abs(alone[name].value) > 2.0 * abs(layered[name].value), name
+    assert layered["peak_pressure"].verdict == "agree"
+    assert abs(layered["peak_pressure"].value) < 3e-4 < 5e-3 < abs(alone["peak_pressure"].value)
+
+
+def test_they_are_the_first_table_and_what_is_judged(outcome):
+    assert first_model(outcome) == "layered half-plane"
+    rows = {row.quantity: row for row in comparison_rows(outcome)}
+    assert rows["peak_pressure"].verdict == "agree"
+    assert rows["peak_pressure"].half_plane == rows["peak_pressure"].finite_element
+    assert {figure.study for figure in outcome.judged} == {"layered", "model_error"}

@@ -1,0 +1,148 @@
+"""An elastic coating on a body that flows: its limits, first flow below it, work and energy.
+
+Lengths in half-widths of the contact that Hertz expects on the uncoated body, stresses in its yield
+stress."""
+
+import numpy as np
+import pytest
+from pressed_bodies import press
+from scenes import hat_nodes
+
+from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
+from analytic.material import Law, Material
+from analytic.material.hardening import Hardening
+from fem.body.coating import Coating
+from fem.body.elasticity import Support, elastic_body
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.terms import LinearContact, LinearResponse
+from fem.nonlinear import hyperelastic
+from fem.nonlinear.finite_plasticity import FinitePlasticBody
+from fem.nonlinear.hyperelastic import HyperelasticBody
+from fem.nonlinear.plasticity import ElasticPlastic
+from fem.nonlinear.press_plastic import plastic_fields, press_plastically
+from fem.stress.recovery import stress_nodes
+from meshes.block import BlockSpec
+from meshes.build import build_block
+
+METAL, HARD = Material(200.0, 0.3, Law("hencky")), Material(500.0, 0.2, Law("hencky"))
+EDGE = 1.0 / 6.0
+HATS = hat_nodes(-11 * EDGE, EDGE, 23)
+X = HATS[1:-1]
+
+
+@pytest.fixture(scope="module")
+def body_of(structured_block, graded):
+    """A block with a row of elements of a thickness at its surface, coated or not."""
+    beyond = graded(4.0, 0.3, 1.4)
+    x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
+
+    def made(thickness, coat):
+        mesh = structured_block(x, np.append(0.0, thickness + graded(6.0, 0.14, 1.2)))
+        coating = coat and Coating(coat, thickness)
+        return elastic_body(mesh, METAL, Support("bonded", "fixed"), coating=coating)
+
+    return made
+
+
+def touching(body, ratio, hats=HATS, share=1.0):
+    """Arguments for a rigid roller that Hertz would press with a `ratio` of the yield stress on the
+    uncoated body, or one of as elastic a metal, and the load [N/m]."""
+    modulus = share * METAL.plane_strain_modulus
+    hertz = hertz_from_peak_pressure(ratio, 0.5 * modulus / ratio, modulus)
+    x, pitch = hats[1:-1], hats[1] - hats[0]
+    gap = pitch * (x**2 + pitch**2 / 6.0) / (2.0 * hertz.radius)
+    weights = np.full(len(x), pitch)
+    return FiniteElementCompliance(body, hats), gap, weights, hertz
+
+
+def pressed(body, ratio, metal, friction=0.0, loads=(1.0,), travel=1.0):
+    compliance, gap, weights, hertz = touching(body, ratio)
+    loads, start = [load * hertz.load_per_length for load in loads], hertz.pressure(X)
+    contact = compliance, metal, gap, weights, loads, start, friction
+    return press_plastically(*contact, travel=travel)
+
+
+def test_below_yield_it_is_the_elastic_coating(body_of):
+    body, metal = body_of(0.3, HARD), ElasticPlastic(METAL, Hardening(1e6))
+    compliance, gap, _, hertz = touching(body, 2.4)
+    response, load = (LinearResponse(body), LinearContact(compliance)), hertz.load_per_length
+    wanted = press([response], body, HATS, hertz.pressure(X), load, gap=gap).state
+    _, (contact,) = pressed(body, 2.4, metal)
+    np.testing.assert_allclose(contact.pressure, wanted.pressure, atol=1e-9)
+    np.testing.assert_allclose(contact.displacement, wanted.displacements[0], atol=1e-11)
+
+
+def test_at_finite_strain_both_follow_henckys_law(body_of, monkeypatch):
+    monkeypatch.setattr(hyperelastic, "quadrature_degree", lambda *_: 2)
+    body = body_of(0.3, HARD)
+    x, z = body.nodes.T
+    moved = np.where(body.held, 0.0, 0.05 * np.column_stack([np.sin(x + z), np.cos(x - 2.0 * z)]))
+    plastic = FinitePlasticBody(body, ElasticPlastic(METAL, Hardening(1e6)))
+    (force, tangent), (wanted, exact) = (
+        response.linearised(moved) for response in (plastic, HyperelasticBody(body))
+    )
+    free = ~body.held.ravel()
+    scale = np.abs(wanted[~body.held]).max()
+    np.testing.assert_allclose(force.ravel()[free], wanted.ravel()[free], atol=1e-12 * scale)
+    assert abs((tangent - exact)[free][:, free]).max() < 1e-11 * abs(exact).max()
+
+
+def test_a_thin_coating_of_the_bodys_own_kind_vanishes(body_of):
+    """It holds what would flow at the surface: the difference falls with its thickness."""
+    metal, left = ElasticPlastic(METAL, Hardening(1.0, 2.0)), []
+    for thickness in (0.1, 0.05, 0.025):
+        bare, coated = (
+            pressed(body_of(thickness, coat), 3.0, metal, 0.1)[1][0] for coat in (None, METAL)
+        )
+        off = np.linalg.norm(coated.pressure - bare.pressure) / np.linalg.norm(bare.pressure)
+        left.append(off)
+    orders = np.log2(np.divide(left[:-1], left[1:]))
+    assert np.all((orders > 0.8) & (orders < 1.3)), (left, orders)
+    assert left[-1] < 0.03
+
+
+THICKNESS = 1.0
+
+
+def test_first_flow_is_below_the_coating():
+    """Where Hertz's equivalent stress below its lower side reaches the yield stress."""
+    x, z = np.meshgrid(np.linspace(-1.0, 1.0, 81), np.linspace(THICKNESS, 2.0, 41))
+    most = hertz_stress(hertz_from_peak_pressure(1.0, 0.5, 1.0), x, z, 0.0).von_mises(0.3).max()
+    window = (-1.3, 1.3, 1.3, 0.06)
+    spec = BlockSpec(300.0, 300.0, np.array([[-1.3, 1.3]]), 0.1, 0.3, window, interface=THICKNESS)
+    body = elastic_body(
+        build_block(spec), METAL, Support("bonded", "fixed"), coating=Coating(METAL, THICKNESS)
+    )
+    hats = hat_nodes(-1.2, 0.1, 25)
+    for part, flows in ((0.97, False), (1.03, True)):
+        compliance, gap, weights, hertz = touching(body, part / most, hats=hats, share=0.5)
+        plastic, (contact,) = press_plastically(
+            *(compliance, ElasticPlastic(METAL, Hardening(1.0)), gap, weights),
+            *([hertz.load_per_length], hertz.pressure(hats[1:-1]), 0.0, compliance, np.inf),
+        )
+        assert contact.state.equivalent.any() == flows
+    below = plastic.points[contact.state.equivalent > 0.0]
+    assert THICKNESS < below[:, 1].min() < below[:, 1].max() < THICKNESS + 0.2
+    fields = plastic_fields(plastic, contact)
+    nodes = stress_nodes(body)
+    assert len(fields.equivalent_strain) == len(nodes.point) > len(body.points)
+
+
+def test_work_is_elastic_and_plastic(body_of):
+    """Of the load on the approach, over increments of a frictionless contact."""
+    body, rise = body_of(0.3, HARD), 2.0
+    metal, loads = ElasticPlastic(METAL, Hardening(1.0, rise)), np.linspace(0.0, 1.0, 17)[1:]
+    plastic, history = pressed(body, 4.0, metal, loads=tuple(loads), travel=np.inf)
+    load = np.append(0.0, [contact.load for contact in history])
+    approach = np.append(0.0, [contact.approach for contact in history])
+    work = np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(approach))
+    last = history[-1]
+    inside, across = plastic.stress(last.displacement, last.state)
+    elastic = plastic.strain(last.displacement) * [1.0, 1.0, 0.5] - last.state.strain
+    through = last.state.strain[:, 0] + last.state.strain[:, 1]
+    stored = 0.5 * ((inside * elastic) @ [1.0, 1.0, 2.0] + across * through)
+    k, areas = last.state.equivalent, plastic.areas.ravel()
+    flowed = areas @ (k + 0.5 * rise * k**2)
+    assert flowed > 0.1 * work
+    assert areas @ stored + flowed == pytest.approx(work, rel=2e-3)
+    assert not k[np.repeat(body.coated, 3)].any()
