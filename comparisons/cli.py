@@ -111,6 +111,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _open_streams()
         # the cores are for processes: figures are the same on every machine, none waits for another
         os.environ.setdefault("OMP_NUM_THREADS", "1")
+        # nobody's plugins look into scenes: to search for them takes longer than to read one
+        os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
         from comparisons.common.interrupt import watched

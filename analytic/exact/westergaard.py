@@ -166,7 +166,7 @@ def westergaard_extremes(
     """Largest `tau1` and |`txz`| [Pa] down to a wavelength, and their places."""
     x = np.linspace(-0.5, 0.5, 241) * contact.wavelength
     z = np.concatenate([[0.0], np.geomspace(1e-4, 1.0, 160)]) * contact.wavelength
-    state, found = westergaard_stress(contact, x, z[:, None], poissons_ratio, friction), {}
+    state, extremes = westergaard_stress(contact, x, z[:, None], poissons_ratio, friction), {}
     for name, size in (("tau1", lambda s: s.tau1), ("txz", lambda s: np.abs(s.txz))):
         row, column = np.unravel_index(np.argmax(size(state)), state.sx.shape)
         unit = size(state)[row, column] or 1.0
@@ -182,5 +182,5 @@ def westergaard_extremes(
             fallen, start, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-14}
         )
         place = contact.wavelength * np.array([best.x[0], max(best.x[1], 0.0)])
-        found[name] = Extremum(-best.fun * unit, float(place[0]), float(place[1]))
-    return found
+        extremes[name] = Extremum(-best.fun * unit, float(place[0]), float(place[1]))
+    return extremes

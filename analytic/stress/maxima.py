@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.ndimage import maximum_filter, minimum_filter
@@ -65,14 +66,18 @@ def stress_maxima(
     cell, count = np.searchsorted(cells, field.x), len(cells) + 1
     largest = np.full((len(quantities), 3, count), np.nan)
     largest[:, 0] = 0.0
+    edges = [0, *np.searchsorted(field.x, cells, side="right"), len(field.x)]
     for index, quantity in enumerate(quantities):
         values = quantity(field.stress)
         row, column = _local_maxima(values)
-        for k in np.unique(cell) if count > 1 else ():
-            mine = np.where(cell == k, values, -np.inf)
-            i, j = np.unravel_index(np.argmax(mine), values.shape)
+        highest = values.max()
+        for k, (start, stop) in enumerate(pairwise(edges)) if count > 1 else ():
+            if start == stop:
+                continue
+            i, j = np.unravel_index(np.argmax(values[:, start:stop]), (len(values), stop - start))
+            j += start
             largest[index, :, k] = values[i, j], field.x[j], field.z[i]
-            if mine[i, j] >= NEAR * values.max() and not np.any(cell[column] == k):
+            if values[i, j] >= NEAR * highest and not np.any(cell[column] == k):
                 row, column = np.append(row, i), np.append(column, j)
         rows.append(row)
         columns.append(column)

@@ -37,6 +37,7 @@ NEIGHBOURS = 3
 # Outer coefficients summed for a box so many boxes away: less than 1e-15 of its load is left out.
 _OUTER_ORDERS = (ORDER, 46, 28, 22)
 _BOXES = 2048  # boxes at a time
+_PER_POINT = 16  # boxes of the finest level that are worth their expansions, for each point
 
 
 @dataclass(frozen=True)
@@ -50,8 +51,30 @@ class BoxLevel:
 
 
 def box_levels(load: np.ndarray, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:
-    """Expansions on each level of boxes, the finest first; `boxes` of the points on each."""
-    outer = list(_outer_levels(np.asarray(load, dtype=float).tobytes(), element))
+    """Expansions on each level of boxes, the finest first; `boxes` of the points on each. Those of
+    all boxes, which the next points may take again, where that is not much more work."""
+    line, points = np.asarray(load, dtype=float).tobytes(), sum(map(len, boxes))
+    if len(load) <= LEAF * min(_PER_POINT * points, _BOXES):
+        everywhere = _everywhere(line, element)
+        if all(map(_holds, everywhere, boxes)) and len(boxes) <= len(everywhere):
+            return everywhere
+    return _levels(line, element, boxes)
+
+
+def _holds(level: BoxLevel, box: np.ndarray) -> bool:
+    return len(box) == 0 or bool(level.ids[0] <= box.min() and box.max() <= level.ids[-1])
+
+
+@lru_cache(maxsize=32)
+def _everywhere(load: bytes, element: Element) -> list[BoxLevel]:
+    """Of all boxes over a load, and of their neighbours."""
+    count = _outer_levels(load, element)[0].shape[1]
+    return _levels(load, element, [np.arange(-NEIGHBOURS, count + NEIGHBOURS)])
+
+
+def _levels(load: bytes, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:
+    """Of the boxes that are asked for, and their ancestors."""
+    outer = list(_outer_levels(load, element))
     while len(outer) < len(boxes):
         outer.append(_parents(outer[-1]))
     ids = []

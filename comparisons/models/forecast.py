@@ -4,11 +4,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from analytic.contact.patches import contact_patches
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
 from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import expected_with
 from comparisons.models.level import ExpectedCost
+from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, window_of
@@ -63,15 +65,17 @@ class Forecast:
 
 
 def forecast(problem: Problem, plan: Plan) -> Forecast:
-    """Of a plan's levels, without its effects and far-boundary check; as if contact were all over
-    the stretch of pressures, which it never exceeds."""
+    """Of a plan's levels, without its effects and checks. Finite elements that flow are expected in
+    the contact of the nearest analytic operator, as far as flow may spread it, others as if contact
+    were all over the stretch of pressures, which it never exceeds."""
     scene, levels, total, ends = problem.scene, [], 0.0, ""
     window = window_of(problem) if plan.stress else None
+    everywhere = np.array([problem.extent])
+    patches = _flowing_contact(problem) if scene.finite_element.plastic else everywhere
     for number in range(problem.most_levels):
         pitch = problem.pitches[0] / 2.0**number
         elements = problem.grid(pitch).count
-        everywhere = np.array([problem.extent])
-        how = plan, pitch, everywhere, window
+        how = plan, pitch, patches, window
         costs = [expected_level(name, problem, *how) for name in plan.models]
         seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
         total += seconds
@@ -87,7 +91,6 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     wave = None if scene.profile is None else shortest_wavelength(problem.surface.profile)
     per_wave = None if wave is None or np.isinf(wave) else float(wave / levels[-1].pitch)
     asked, settings, flow, finite_flow = len(problem.pitches), scene.finite_element, None, None
-    everywhere = np.array([problem.extent])
     if problem.flows and plan.effects and not settings.plastic:
         flow = flow_seconds(problem, everywhere)
     if plan.effects and (flow or (settings.plastic and settings.deformation == "linear")):
@@ -102,6 +105,16 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
         leaves_out_flow=flow is not None
         and time_with_flow(problem, plan, everywhere) > problem.time,
     )
+
+
+def _flowing_contact(problem: Problem) -> np.ndarray:
+    """Patches (k, 2) [m] of the nearest analytic operator on the first level, which increments of
+    flow follow."""
+    grid = problem.grid(problem.pitches[0])
+    gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+    operator = nearest_operator(problem.scene, grid)
+    guess = solve_on(operator, gap, grid.weights, problem.widest)
+    return contact_patches(grid.x, guess.pressure, guess.gap)
 
 
 def expected_level(

@@ -91,7 +91,7 @@ class MeshField:
     """A finite-element level's own mesh, with stresses and displacements, one set a friction."""
 
     points: np.ndarray  # (n, 2) x and z [m] of the real body; twice where two materials meet
-    triangles: np.ndarray  # (m, 6) quadratic triangles in gmsh order
+    triangles: np.ndarray  # (m, 6) quadratic triangles in gmsh order; (m, 3) of corners alone
     stresses: dict[float, StressState]  # by friction coefficient, (n,) each
     # by friction coefficient, (n, 2) [m] in x and z, zero where the body is held; at finite
     # deformation but for a shift of all along x; of a flowing body that without friction, too,
@@ -119,6 +119,22 @@ class MeshField:
         points, top = body.points[nodes.point], np.flatnonzero(np.isin(nodes.point, body.top.point))
         top = top[np.argsort(points[top, 0])]
         return MeshField(points, nodes.triangles, *sets, nu, others, top)
+
+    @property
+    def at_corners(self) -> "MeshField":
+        """The same on triangles of three points, those of the corners."""
+        kept, cells = np.unique(self.triangles[:, :3], return_inverse=True)
+        return MeshField(
+            self.points[kept],
+            cells.reshape(-1, 3),
+            {
+                friction: StressState(s.sx[kept], s.sz[kept], s.txz[kept])
+                for friction, s in self.stresses.items()
+            },
+            {friction: moved[kept] for friction, moved in self.displacement.items()},
+            self.poissons_ratio[kept],
+            {name: values[kept] for name, values in self.others.items()},
+        )
 
 
 @dataclass(frozen=True)

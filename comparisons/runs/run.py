@@ -45,13 +45,8 @@ from fem.solver.communicator import is_alone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-# Modules that say what was solved, and that draw and write it; first those that others would import
-# at once.
+# Modules that say what was solved. Those that draw it come afterwards: an answer waits for no page.
 ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
-REPORT = (
-    *("PIL.Image", "pyparsing", "matplotlib.axes", "matplotlib.figure"),
-    *("matplotlib.backends.backend_svg", "jinja2", "comparisons.output.page.page"),
-)
 # What shapes levels, and the answers of studies that are kept beside them.
 CODE = (
     *LEVEL_CODE,
@@ -197,11 +192,8 @@ def solve(scene: Solved, out: Path | None, callback: ProgressCallback = no_progr
     problem, plan = scene.problem, scene.plan
     cache = level_cache(out, problem, plan)
     chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
-    has_elements = "finite_element" in plan.models
-    there = _for_finite_elements() if has_elements else ()
-    # the half-plane is done before pictures are imported
-    modules = ANSWER + REPORT * (has_elements and out is not None)
-    here = [revision, *(partial(import_module, name) for name in modules)]
+    there = _for_finite_elements() if "finite_element" in plan.models else ()
+    here = [revision, *(partial(import_module, name) for name in ANSWER)]
     try:
         with tasks_here(callback, problem.scene.budget.memory, cache, here, there) as tasks:
 

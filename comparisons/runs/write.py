@@ -1,5 +1,6 @@
 """The files of a finished run: curves, fields, mesh, result, record, report."""
 
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,8 @@ from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
+DRAWING = ("matplotlib.axes", "matplotlib.figure", "matplotlib.backends.backend_svg")
+
 
 def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATIC) -> None:
     """Write everything into the run's folder; whole files, all at the end, by one process.
@@ -28,6 +31,8 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
     from comparisons.output.page.page import render, report_tasks
     from comparisons.output.page.saved import FILE
 
+    for module in DRAWING:  # before processes that draw are copied from this one
+        import_module(module)
     with published(outcome.directory) as folder, report_tasks(outcome) as tasks:
         levels = _written(outcome)
         for name in sorted(levels, key=lambda name: levels[name].mesh is None):  # longest first

@@ -293,7 +293,7 @@ class FieldError(ValueError):
 class SceneSection(BaseModel):
     """One section: unknown fields are errors."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     STEP: ClassVar[str | None] = None  # of a run, that is skipped where a scene has no such section
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:

@@ -93,13 +93,13 @@ def row_of(
     texts = [section.as_published(sizes[model]) if model in sizes else "" for model in MODELS]
     [judged] = [f for f in of_models.values() if "judged" in f.notes] or [None]
     if judged is None:
-        return (name, section.value, *texts, "", "", "not known", section.note)
+        return (name, section.value, *texts, "", "", "not known", section.note or "")
     difference, uncertainty, _, verdict = judged_cells(judged)
     spread = f"{section.value} ± {percent(section.spread)}" if section.scatter else section.value
     if section.doubtful:
         verdict = "agree" if abs(judged.value) <= section.spread + judged.numerical else "differ"
         verdict += ", doubtful"
-    return (name, spread, *texts, difference, uncertainty, verdict, section.note)
+    return (name, spread, *texts, difference, uncertainty, verdict, section.note or "")
 
 
 def table(sections: Mapping[str, PublishedSection], figures: Figures) -> list[tuple[str, ...]]:

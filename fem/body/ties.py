@@ -59,8 +59,8 @@ class Ties:
         comm = matrix.comm
         columns = (2 * row_of[leader[owned], None] + np.arange(2)).ravel().astype(PETSc.IntType)
         give = one_a_row(columns, np.ones(len(columns)))
-        own = np.arange(start, start + len(columns), dtype=PETSc.IntType)
-        identity = one_a_row(own, np.repeat(follows[owned].astype(float), 2))
+        numbers = np.arange(start, start + len(columns), dtype=PETSc.IntType)
+        identity = one_a_row(numbers, np.repeat(follows[owned].astype(float), 2))
         tied = matrix.PtAP(give)
         tied.axpy(1.0, identity)
         for used in (matrix, give, identity):

@@ -97,6 +97,12 @@ class HatStates:
         self.states[violated & lifts] = OPEN
         self.states[violated & yields] = CAPPED
 
+    def are_settled(self, pressure: np.ndarray, gap: np.ndarray) -> bool:
+        """Whether no open hat overlaps and none in contact pulls, at a pressure (count,) [Pa] and
+        a mean gap [m]."""
+        overlaps = (self.states == OPEN) & (gap < 0.0)
+        return not (overlaps | ((self.states == CONTACT) & (pressure < 0.0))).any()
+
     def keep_one_in_contact(self, gap: np.ndarray) -> None:
         """Bring hats into contact if none is under a prescribed load, which fixes the approach."""
         if self.load is None or (self.states == CONTACT).any():
@@ -225,15 +231,18 @@ def newton(
     problem: ContactProblem, guess: ContactState, load: float | None, enough: float = 0.0
 ) -> tuple[ContactState, np.ndarray, list[float]]:
     """Equilibrium at the load, or at the guess's approach, its mean gaps (count,) [m], and the
-    residuals of the iterations, which may end at a part `enough` of the first one or of 1. Raises
-    FemError if it does not converge."""
+    residuals of the iterations, which may end at a part `enough` of the first one or of 1, with
+    settled hats. Raises FemError if it does not converge."""
     point = problem.at(guess)
     states = HatStates(guess.pressure, problem.hardness, load, problem.weights)
     history = [problem.residual(point, load)]
-    while history[-1] > max(RESIDUAL, enough * min(1.0, history[0])):
+    while history[-1] > RESIDUAL:
         if len(history) > MOST_ITERATIONS:
             raise FemError(f"residual {history[-1]:.1e} after {MOST_ITERATIONS} iterations")
         gap = problem.weighted_gap(point) / problem.weights
+        is_enough = history[-1] <= enough * min(1.0, history[0])
+        if is_enough and states.are_settled(point.state.pressure, gap):
+            break
         if len(history) > 1:
             states.exchange(point.state.pressure, gap, problem.stiff)
         states.keep_one_in_contact(gap)

@@ -244,14 +244,17 @@ def conjugate_residuals(
     accuracy: float,
 ) -> tuple[np.ndarray | None, int]:
     """x (n,) of matrix x = right, preconditioned by an approximate inverse, and the steps. None if
-    after MOST_STEPS more than `accuracy` of the right side is left."""
+    after MOST_STEPS more than `accuracy` of the right side is left, or the inverse is singular."""
     enough = accuracy * float(np.linalg.norm(right))
     x, left = np.zeros_like(right), right.copy()
     moves: list[tuple[np.ndarray, np.ndarray]] = []  # and what they do, orthogonal and of size one
     for step in range(MOST_STEPS + 1):
         if np.linalg.norm(left) <= enough:
             return x, step
-        move = inverse(left)
+        try:
+            move = inverse(left)
+        except np.linalg.LinAlgError:  # the hats that have joined depend on one another
+            break
         image = matrix @ move
         for before, known in moves:
             part = known @ image

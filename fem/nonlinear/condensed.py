@@ -7,11 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from fem.contact.nonlinear import CONTACT, HatStates
-from fem.contact.system import ContactSystem, ReusedFactor
 from fem.solver.mumps import FemError
 
 MOST_EXCHANGES = 100  # of hats that touch and hats that do not
-ACCURACY = 1e-12  # of the elastic pressures
 ROOM = 64  # columns by which the space for them grows
 
 
@@ -60,7 +58,6 @@ class ElasticContact:
 
     def __init__(self, flexible: np.ndarray | Condensed, weights: np.ndarray) -> None:
         self.flexible, self._weights = flexible, weights
-        self._factor = ReusedFactor(ACCURACY)
 
     def __call__(self, gap: np.ndarray, load: float, start: np.ndarray) -> tuple[np.ndarray, float]:
         """Pressure (count,) [Pa] and approach [m] under a load [N/m] > 0, for a weighted gap
@@ -69,16 +66,15 @@ class ElasticContact:
         hats = HatStates(start, np.inf, load, weights)
         hats.keep_one_in_contact(gap / weights)
         one = np.flatnonzero(hats.states == CONTACT)[:1]
-        width = weights.mean()
-        stiff = width / float(flexible[np.ix_(one, one)][0, 0])
-        modulus = stiff * width  # makes all unknowns lengths
+        stiff = weights.mean() / float(flexible[np.ix_(one, one)][0, 0])
         for _ in range(MOST_EXCHANGES):
             before, on = hats.states.copy(), np.flatnonzero(hats.states == CONTACT)
-            system = ContactSystem([], flexible, weights, on, modulus, True, False)
-            right = np.append(gap[on] / width, load / modulus)
-            solution = self._factor.solve(system, right)
-            pressure, approach = np.zeros_like(gap), float(solution[-1])
-            pressure[on] = solution[:-1] * (modulus / width)
+            system = np.zeros((len(on) + 1, len(on) + 1))
+            system[:-1, :-1] = flexible[np.ix_(on, on)] * stiff
+            system[:-1, -1], system[-1, :-1] = -weights[on], weights[on]
+            solution = np.linalg.solve(system, np.append(-stiff * gap[on], load))
+            pressure, approach = np.zeros_like(gap), float(solution[-1]) / stiff
+            pressure[on] = solution[:-1]
             opening = (gap + flexible @ pressure) / weights - approach
             opening[on] = 0.0
             hats.exchange(pressure, opening, stiff)

@@ -130,7 +130,6 @@ class _FiniteHistory(LoadHistory):
             end, residuals = newton_by_contacts(
                 *(self._bodies, np.zeros_like(self._gap), self._weights, start, asked, approach),
                 residual=residual,
-                factor=self._factor,
             )
             contacts += len(residuals)
             borne = load or contact.borne(*end.displacements, end.pressure)

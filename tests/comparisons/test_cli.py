@@ -243,7 +243,7 @@ def test_help_loads_nothing_heavy(arguments):
     assert loaded.isdisjoint(HEAVY)
 
 
-def test_the_half_plane_answers_before_pictures_are_imported(tmp_path):
+def test_the_answer_comes_before_pictures_are_imported(tmp_path):
     code = f"""import sys
 from comparisons.runs import run
 run.finish = lambda *_: print({{"matplotlib", "PIL", "vtkmodules", "jinja2"}} & {{*sys.modules}})

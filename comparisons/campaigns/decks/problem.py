@@ -105,8 +105,8 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     if scene.body.hardness is not None and not settings.plastic:
         why = "is given; allowed in a deck are elastic bodies, and such that flow (plastic = true)"
         raise SceneError(f"{scene.source}: body.hardness: {why}")
-    if settings.plastic and any(scene.load.friction):  # a deck slides after it has pressed
-        why = "is given for a body that flows; allowed in a deck is 0"
+    if settings.plastic and len(scene.load.friction) > 1:  # flow remembers the one before
+        why = f"has {len(scene.load.friction)} coefficients; allowed in a deck with flow is one"
         raise SceneError(f"{scene.source}: load.friction: {why}")
     grid = problem.grid(pitch)
     weighted = grid.hat_integrals(problem.finite_element_gap, problem.knots)

@@ -90,7 +90,8 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
     stiffness = STIFFNESS * modulus / deck.edge
     held = _held(deck)
     unlike = held and deck.problem.dundurs_beta != 0.0
-    flow = _flow(deck)
+    flow, slides = _flow(deck), (mu for mu in scene.load.friction if mu and not held)
+    distances = [(mu, SLIDE * mu * deck.load / modulus) for mu in slides]
     job = rendered(
         TEMPLATES / "job.inp.j2",
         code=code,
@@ -102,9 +103,8 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
         stick=STICK * stiffness,
         held=held,
         increment=1.0 / scene.partial_slip.increments if unlike else OF_FLOW if flow else 1.0,
-        sliding=[
-            (mu, SLIDE * mu * deck.load / modulus) for mu in scene.load.friction if mu and not held
-        ],
+        sliding=[] if flow else distances,
+        dragging=distances[0] if flow and distances else None,
     )
     return {"job.inp": job, "mesh.inp": "\n".join(_mesh(deck, code)) + "\n"}
 

@@ -122,9 +122,9 @@ def unlike(content: dict, problem: Problem) -> str:
     if profile is not None:
         if scene.profile.kind != profile["kind"]:
             reasons["wave"] = f"is no {profile['kind']}"
-        its, own = _curvature_of(content), GROUPS["a_over_radius"].value_of(problem)
-        if abs(own / its - 1.0) > SAME_CURVATURE:
-            reasons["curvature"] = f"has a/R = {own:.2g}, not {its:.2g}"
+        its, value = _curvature_of(content), GROUPS["a_over_radius"].value_of(problem)
+        if abs(value / its - 1.0) > SAME_CURVATURE:
+            reasons["curvature"] = f"has a/R = {value:.2g}, not {its:.2g}"
     return ", ".join(reasons.values())
 
 

@@ -5,6 +5,7 @@ the scatter for the terminal."""
 
 import re
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from math import isfinite
 from operator import itemgetter
@@ -103,10 +104,11 @@ def _swept(option: str, scene: Scene) -> tuple[str, tuple[Value, ...]]:
 
 
 def _number(text: str) -> Value:
-    try:
-        return float(text)
-    except ValueError:
-        return text
+    """As TOML reads it: some fields take whole numbers alone."""
+    for kind in (int, float):
+        with suppress(ValueError):
+            return kind(text)
+    return text
 
 
 def _between(option: str, first: str, last: str, count: str) -> tuple[Value, ...]:
@@ -118,7 +120,7 @@ def _between(option: str, first: str, last: str, count: str) -> tuple[Value, ...
             f"values, from 2 to {MOST}"
         )
     values = np.linspace(float(ends[0][1]), float(ends[1][1]), int(count))
-    numbers = [float(f"{value:.10g}") for value in values]
+    numbers = [_number(f"{value:.10g}") for value in values]
     unit = "".join(units)
     return tuple(f"{value:.10g} {unit}" if unit else value for value in numbers)
 

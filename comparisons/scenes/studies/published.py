@@ -32,7 +32,7 @@ class PublishedSection(SceneSection):
     source: Annotated[str, Text("where it stands")]
     read: Annotated[bool, Truth()] = True  # whether the source itself was read
     doubtful: Annotated[bool, Truth()] = False  # shown, and not judged
-    note: Annotated[str, Text("what it is, or why it is doubtful")] = ""
+    note: Annotated[str, Text("what it is, or why it is doubtful")] | None = None
 
     @property
     def size(self) -> float:

@@ -49,9 +49,10 @@ THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are
 
 def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
     """What an operator can carry of the whole's effects, and a cap where the body yields."""
-    scene, held = problem.scene, set(carried_linear(problem.scene, effects))
+    scene = problem.scene
     if scene.periodic:
         return frozenset()
+    held = set(carried_linear(scene, effects))
     yields = scene.body.yield_stress is not None and scene.body.hardness is None
     if yields and flow.worst.peak > TABOR * scene.body.yield_stress:
         held.add(CAP)
@@ -71,8 +72,7 @@ def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]
     there is known of half-planes alone. Friction moves these surfaces as it does the whole's."""
     scene, effects = problem.scene, set(effects)
     strained = effects & kinematic(scene)
-    bounded = is_layered(scene) or scene.body.width is not None or scene.periodic
-    if not strained or bounded:
+    if not strained or is_layered(scene) or scene.periodic or scene.body.width is not None:
         return frozenset()
     moves = any(scene.load.friction) and problem.dundurs_beta != 0.0
     return frozenset(strained | effects & {"exact_circle"} | ({COUPLED} if moves else set()))

@@ -69,8 +69,6 @@ class Rung:
     seconds: float
     memory: float  # [bytes] largest of the process that solved it; 0 of a closed form
     effects: frozenset[str] = frozenset()  # that it has beside the half-plane's assumptions
-    # what it differs by from the scene's own finite elements, where both have the same effects
-    beside: tuple[Figure, ...] = ()
 
     @property
     def verdict(self) -> str:
@@ -124,29 +122,23 @@ class Ladder:
 
     def _by_half_plane(self, name: str, held: frozenset[str]) -> Rung | None:
         """The half-plane with some of the effects, on the finite elements' pressure elements."""
-        problem, selection = self.solved.problem, self.budget.selection
-        finite_elements, errors, compared = self.solved.runs[OTHER], [], []
+        problem, finite_elements = self.solved.problem, self.solved.runs[OTHER]
         runs = operator_runs(problem, held, finite_elements, self.solved.window)
         if runs is None:
             return None
-        for friction, run in runs.items():
-            for row, error in self._beside(run, friction):
-                errors.append(error)
-                compared.append(renamed(row, name))
+        errors = [error for mu, run in runs.items() for error in self._errors(run, mu)]
         figures = self._figures(name, errors)
-        beside = tuple(compared) if name == OPERATORS and selection.contained == held else ()
-        return Rung(name, name, words_of(held), figures, *cost_of(runs), held, beside)
+        return Rung(name, name, words_of(held), figures, *cost_of(runs), held)
 
-    def _beside(self, run: ModelRun, friction: float) -> list[tuple[Figure, ModelError]]:
-        """Differences from the scene's own finite elements, and errors against the whole, of a
-        model that was solved on the half-plane's pressure elements."""
+    def _errors(self, run: ModelRun, friction: float) -> list[ModelError]:
+        """Errors against the whole of a model that was solved on the half-plane's pressures."""
         problem, window = self.solved.problem, self.solved.window
         finite_elements = self.solved.runs[OTHER]
         rows = differences_of(run, finite_elements, problem, friction, window)
         runs = {"half_plane": run, OTHER: finite_elements}
         solutions = replace(self.budget.solutions[friction], runs=runs)
         judged = [rows[row.quantity] for row in self._rows(friction)]
-        return [(row, solutions.error(row)) for row in judged]
+        return [solutions.error(row) for row in judged]
 
     def _figures(self, name: str, errors: Iterable[ModelError]) -> tuple[Figure, ...]:
         tolerances = self.solved.problem.scene.tolerances

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from math import isfinite
 
-from comparisons.common.numbers import percent, plain, with_unit
-from comparisons.drawing.blocks import Block, Note, TextTable, judged_cells
+from comparisons.common.numbers import percent, with_unit
+from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.studies.ladder.rungs import verdict_of
@@ -14,7 +14,6 @@ RUNGS = "rungs"  # series: what each rung took
 # Statements: the cheapest rung that holds, and what says so; why none does; the next one to try,
 # and what it drops.
 SUFFICES, BY, NONE, ESCALATE_TO, NEXT = "suffices", "by", "none", "escalate to", "next"
-BESIDE = "The half-plane with what its operator carries, against finite elements of the same bodies"
 ESTIMATES = "estimates"  # of all that a model leaves out
 NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
 figure that is nearest to its tolerance or farthest beyond, with its uncertainty. A model holds
@@ -32,22 +31,7 @@ def blocks(run: Run) -> list[Block]:
     head = ("model", "quantity", "error", "uncertainty", "verdict", "time", "memory")
     line = "; ".join(f"{name}: {text}" for name, text in lines(run))
     table = TextTable(line, head, tuple(rows), "comparison", words=False)
-    return [Block("model-error", (table, Note(NOTE), *_beside(run)))]
-
-
-def _beside(run: Run) -> list[TextTable | Note]:
-    """The layered operator beside the scene's own finite elements, where both solve one problem."""
-    rows = [
-        (label(figure.quantity), plain(figure.friction), *judged_cells(figure, is_norm(figure)))
-        for figure in run.figures.of(study=LADDER)
-        if figure.against != WHOLE
-    ]
-    head = ("quantity", "friction", "difference", "uncertainty", "tolerance", "verdict")
-    return [TextTable(BESIDE, head, tuple(rows), "comparison")] if rows else []
-
-
-def is_norm(figure: Figure) -> bool:
-    return QUANTITIES[figure.quantity].of_pair
+    return [Block("model-error", (table, Note(NOTE)))]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:

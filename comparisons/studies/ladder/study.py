@@ -31,7 +31,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 
 def _findings(rungs: Sequence[Rung], flows: str, errors: Findings | None) -> Findings:
     """With what suffices; `errors` of the half-plane, None where no whole is solved."""
-    figures = tuple(figure for rung in rungs for figure in (*rung.figures, *rung.beside))
+    figures = tuple(figure for rung in rungs for figure in rung.figures)
     columns = {
         "rung": Column(tuple(rung.name for rung in rungs)),
         "model": Column(tuple(rung.words for rung in rungs)),

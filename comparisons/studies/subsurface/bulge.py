@@ -22,7 +22,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid, trapezoid
 from scipy.interpolate import griddata
 
 from analytic.statistics.penetration import contact_kind, relative_penetration
@@ -135,6 +134,8 @@ def elastic_energy(
 ) -> tuple[float, float]:
     """Elastic strain energy [J/m] in the window behind and ahead of the load's centre, as far to
     both sides of it as the window reaches. In all of a half-plane it is infinite."""
+    from scipy.integrate import cumulative_trapezoid, trapezoid
+
     field, centre, body = level.stress(friction).field, _centre(level), problem.scene.body.material
     nu, mesh = body.poissons_ratio, level.field_on_mesh
     sy = nu * (field.sx + field.sz)

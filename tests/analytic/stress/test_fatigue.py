@@ -22,8 +22,8 @@ def state(sx: float, sz: float, txz: float) -> StressState:
 )
 def test_a_reversed_cycle(amplitude, compliance):
     one, other = state(*amplitude), state(*(-value for value in amplitude))
-    [found] = smith_watson_topper(one, other, STEEL)
-    assert found == pytest.approx(SIZE**2 * compliance / 210e9, rel=1e-12)
+    [damage] = smith_watson_topper(one, other, STEEL)
+    assert damage == pytest.approx(SIZE**2 * compliance / 210e9, rel=1e-12)
 
 
 def test_a_turned_state_has_the_same():
@@ -31,8 +31,8 @@ def test_a_turned_state_has_the_same():
     c, s = np.cos(turn), np.sin(turn)
     one, other = state(SIZE, 0.0, 0.0), state(-SIZE, 0.0, 0.0)
     turned = [state(a * c**2, a * s**2, a * s * c) for a in (SIZE, -SIZE)]
-    [straight], [found] = (smith_watson_topper(*pair, STEEL) for pair in ((one, other), turned))
-    assert found == pytest.approx(straight, rel=2e-4)  # planes a degree apart
+    [straight], [aslant] = (smith_watson_topper(*pair, STEEL) for pair in ((one, other), turned))
+    assert aslant == pytest.approx(straight, rel=2e-4)  # planes a degree apart
 
 
 def test_compression_opens_no_crack():

@@ -70,6 +70,7 @@ def test_every_benchmark_says_what_is_published_and_where():
     for name in names:
         scene = Scene.read(name)
         assert scene.published and scene.title
+        assert Scene.of(scene.tables).tables == scene.tables  # what a record repeats
         for section in scene.published.values():
             assert section.size > 0.0 and 0.0 < section.spread < 0.2 and len(section.source) > 20
 

@@ -207,10 +207,10 @@ def test_a_cylinder_sinks_into_a_nearly_rigid_metal():
     contact = FiniteContact(body, hats, circle(1.0), start)
     angle = np.arcsin(0.5)
     slip = 2.0 / np.sqrt(3.0) * (1.0 + np.pi / 2.0 - angle + np.tan(angle / 2.0))
-    _, (found,) = press_plastically_finitely(
+    _, (sunk,) = press_plastically_finitely(
         contact, ElasticPlastic(metal, Hardening(1.0)), [2.0 * 0.5 * slip]
     )
-    place, on = found.deformed.place, np.flatnonzero(found.pressure)
+    place, on = sunk.deformed.place, np.flatnonzero(sunk.pressure)
     ends = 0.5 * (place[on[[0, -1]]] + place[on[[0, -1]] + [-1, 1]])  # of the last hats' shares
-    assert found.load / np.ptp(ends) == pytest.approx(slip, rel=0.05)
-    assert found.deformed.load == pytest.approx(found.load, rel=1e-9)
+    assert sunk.load / np.ptp(ends) == pytest.approx(slip, rel=0.05)
+    assert sunk.deformed.load == pytest.approx(sunk.load, rel=1e-9)

@@ -44,8 +44,9 @@ def lines_of(problem: Problem, number: int) -> tuple[np.ndarray, np.ndarray]:
     edges = COARSEST * 2.0 ** (number - 1)
     ratio = 1.0 + STEEPER * 0.5 ** (0.5 * (number - 1))
     edge, over = problem.hertz.half_width / edges, peak_over_shear(problem)
-    depth = problem.scene.body.thickness or problem.block
-    x = _graded(_reach(problem, edges), edge, ratio, 0.5 * problem.block)
+    wide, deep = problem.unbounded
+    depth = problem.scene.body.thickness or deep
+    x = _graded(_reach(problem, edges), edge, ratio, 0.5 * wide)
     z = _graded(round(max(LEAST_DEEP, DEEP * over) * edges), edge, ratio, depth)
     return np.concatenate([-x[:0:-1], x]), z
 

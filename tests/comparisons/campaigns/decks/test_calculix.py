@@ -14,8 +14,12 @@ import scenes
 import comparisons as crosscheck
 from analytic.exact.partial_slip import SlippingContact
 from comparisons.campaigns.decks.write import write_deck
+from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.plan import make_plan
 
 pytestmark = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="decks in CalculiX: apt-get install calculix-ccx"
@@ -173,3 +177,42 @@ def test_a_tangential_load_sticks_where_it_does(tmp_path):
     middle = np.abs(x) < 0.5 * exact.stick_half_width
     assert off < 0.03
     assert traction[middle] == pytest.approx(exact.traction(x[middle]), rel=0.01)
+
+
+FLOWING = scenes.STEEL | {"yield_stress": "0.8 GPa", "hardening_modulus": "10 GPa"}
+FLOW = {"plastic": True, "growth": 0.5, "block": 20.0}
+LONG = WAVES | {"shortest_wavelength": "60 um", "longest_wavelength": "200 um"}
+# By name, profile, peak pressure of Hertz, settings; how far apart peaks and pressures (in the mean
+# square) are, at most: less than twice what they are.
+FLOWS = {
+    "smooth": (None, "2 GPa", {}, 0.0014, 0.03),
+    "rough": (LONG, "1 GPa", {"geometry": "rough"}, 0.045, 0.15),
+    "rough, finite": (LONG, "1 GPa", FINITE, 0.04, 0.17),
+}
+
+
+@pytest.mark.parametrize("name", FLOWS)
+def test_a_body_flows_under_friction_as_in_the_finite_elements(tmp_path, name):
+    """On the same mesh, elements a quarter of a half-width wide, in four increments. All slides
+    from the first touch: shear is friction times pressure."""
+    profile, hertz, settings, of_peak, of_pressure = FLOWS[name]
+    tables = {"roller": {"radius": "5 mm", "rigid": True}, "body": FLOWING}
+    tables |= {"load": {"hertz_peak_pressure": hertz, "friction": 0.1}}
+    tables |= {"finite_element": FLOW | settings} | ({"profile": profile} if profile else {})
+    tables = coarse(tables, 4.0)
+    given = "0.02, 1., 1E-6, 0.02", "0.25, 1., 1E-6, 0.25"
+    x, pressure = solved(tmp_path, tables, 1, *given).T
+    shear, pressures = (contact_values(tmp_path / "job.frd", at) for at in (SHEAR, PRESSURE))
+    pressed = [n for n, p in pressures.items() if p > 0.1 * max(pressures.values())]
+    ratios = [abs(shear[n]) / pressures[n] for n in pressed]
+    assert ratios == pytest.approx([0.1] * len(pressed), rel=1e-4)
+
+    problem = scenes.problem(tables)
+    plan, refinement = make_plan(problem, MODELS[1:]), Refinement(problem.pitches[0])
+    level = finite_element_level(problem, plan, refinement, None, Stages(lambda stage: None))
+    own, theirs = level.solution.pressure, np.interp(level.grid.x, x, pressure)
+    inside = own > 0.5 * own.max()
+    off = np.linalg.norm((theirs - own)[inside]) / np.linalg.norm(own[inside])
+    print(theirs.max() / own.max() - 1.0, off)
+    assert abs(theirs.max() / own.max() - 1.0) < of_peak
+    assert off < of_pressure

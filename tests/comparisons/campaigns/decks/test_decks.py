@@ -137,6 +137,8 @@ def test_a_linear_deck_is_the_scene_in_flatter_form():
 
 
 STRETCHED = scenes.changed(scenes.SMOOTH, load={"friction": 0.3})
+YIELDING = crosscheck.Scene.read("yielding").written
+TWICE = scenes.changed(YIELDING, load={"friction": [0.0, 0.1]})
 STRETCHED |= {"partial_slip": {"load": 0.5, "bulk_stress": 1e8}}
 
 
@@ -145,9 +147,10 @@ def test_what_a_code_cannot_have_is_refused(tmp_path):
     for tables, code, said in (
         (hencky, "calculix", "body.law"),
         (hencky, "fenicsx", "flat ones"),
-        (crosscheck.Scene.read("yielding").written, "fenicsx", "finite_element.plastic"),
+        (YIELDING, "fenicsx", "finite_element.plastic"),
         (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "abaqus", "body.hardness"),
         (STRETCHED, "calculix", "partial_slip.bulk_stress"),
+        (TWICE, "calculix", "load.friction: has 2"),
     ):
         with pytest.raises(SceneError, match=said):
             write_deck(scenes.resolved(tables), code, tmp_path / code)

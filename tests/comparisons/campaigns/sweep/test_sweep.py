@@ -43,6 +43,13 @@ def test_placements_keep_the_contact_on_the_trace():
     assert all(point.why is None for point in asked.points)
 
 
+@pytest.mark.parametrize("over", ["profile.seed=1,2", "profile.seed=1:2:2"])
+def test_whole_numbers_stay_whole(over):
+    asked = request([over])
+    assert [point.why for point in asked.points] == [None, None]
+    assert [type(seed) for seed in asked.fields["profile.seed"]] == [int, int]
+
+
 def test_each_point_is_the_scene_with_its_values():
     swept = crosscheck.sweep(WAVES, ["position=2", "load=0.5 GPa,1 GPa"], workers=1)
     assert len(swept.content["points"]) == 4
