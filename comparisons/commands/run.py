@@ -4,6 +4,7 @@ import math
 import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
+from difflib import get_close_matches
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -20,7 +21,7 @@ from comparisons.commands.arguments import (
     out_option,
 )
 from comparisons.commands.output import progress, show, show_either
-from comparisons.common.errors import ExitStatus, InputError, drop, nearest, tell
+from comparisons.common.errors import ExitStatus, InputError, drop, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 
@@ -177,10 +178,10 @@ def _limited(scene: "Scene", up_to: str) -> "Scene":
     """The scene up to a rung. Raises InputError for one that there is not."""
     allowed = HERTZ, *UP_TO
     if up_to not in allowed:
-        near = nearest(up_to, allowed)
+        near = get_close_matches(up_to, allowed, n=1)
+        nearby = f"the nearest is {near[0]}; " if near else ""
         raise InputError(
-            f"--up-to: there is no model {up_to}; the nearest is {near}; allowed are "
-            f"{', '.join(allowed)}"
+            f"--up-to: there is no model {up_to}; {nearby}allowed are {', '.join(allowed)}"
         )
     return scene.changed("budget.up_to", up_to)
 

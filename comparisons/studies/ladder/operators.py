@@ -61,6 +61,8 @@ def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> f
 
 def carried_linear(scene: Scene, effects: Iterable[str]) -> frozenset[str]:
     """The same without a cap."""
+    if scene.periodic:
+        return frozenset()
     alone = {"finite_size"} if scene.body.thickness is None else set()
     return frozenset(set(effects) & set(WORDS) - alone)
 

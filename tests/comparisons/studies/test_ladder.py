@@ -153,3 +153,5 @@ def test_an_unknown_model_is_answered_in_one_line(capsys):
     said = capsys.readouterr().err
     assert said.startswith("crosscheck: --up-to: there is no model half-plan; the nearest is half-")
     assert said.count("\n") == 1
+    assert main(["run", "smooth", "--up-to", "moon"]) == ExitStatus.BAD_INPUT
+    assert "no model moon; allowed are hertz, half-plane, operators," in capsys.readouterr().err
