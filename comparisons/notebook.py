@@ -468,10 +468,10 @@ def scene_of(scene: AnyScene) -> Scene:
 
     >>> scene_of("sinusoid").load.hertz_peak_pressure
     1000000000.0
-    >>> scene_of({"roller": {}})
+    >>> scene_of({"roller": {"radius": "8"}})
     Traceback (most recent call last):
-    comparisons.common.errors.SceneError: scene: roller.radius: is missing; allowed is a length \
-above 0: a number in m or "8.2 mm"
+    comparisons.common.errors.SceneError: scene: roller.radius: is "8", which has no unit; allowed \
+is a length above 0: a number in m or "8.2 mm"
     """
     if isinstance(scene, Mapping):
         return Scene.of(scene)

@@ -125,7 +125,7 @@ def error_budget(
             selection = _with_plastic_strain(problem, selection, wholes)
             if selection.impossible.get("finite_strain") != SMALL_STRAINS:
                 break
-            selection = _with_finite_flow(selection, refined.errors, variants)
+            selection = _with_finite_flow(selection, refined, splits, variants)
             if "finite_strain" not in selection.added:
                 break
         except NotComputedError as error:
@@ -167,22 +167,31 @@ def _with_plastic_strain(
 
 
 def _with_finite_flow(
-    selection: EffectSelection, errors: Iterable[ModelError], variants: SolvedVariants
+    selection: EffectSelection,
+    refined: "_Refined",
+    splits: Mapping[float, SplitVariants],
+    variants: SolvedVariants,
 ) -> EffectSelection:
     """With finite strain of a whole that flows, whose estimate matters, where that may decide a
     verdict and the time allows it by the laws of cost; else with the reason why not."""
     problem, least = variants.problem, range(1, LEAST_LEVELS + 1)
     asked, finite = problem.scene.budget.effects, selection.flowing_finitely()
-    figures = (figure_of(e, selection, problem.scene.tolerances) for e in errors)
+    figures = (figure_of(e, selection, problem.scene.tolerances) for e in refined.errors)
     open_figures = (f for f in figures if f.bounds and f.verdict == "inconclusive")
     if not asked or (asked != "all" and all(figure.is_unresolved for figure in open_figures)):
         why = f"cannot change a verdict ({ASKED})" if asked else "not asked for (budget.effects)"
         return selection.without(frozenset({"finite_strain"}), f"{SMALL_STRAINS}: {why}")
     wholes = [split_variants(problem, finite, mu).whole for mu in problem.scene.load.friction]
     seconds = math.fsum(variants.forecast(w, n) for w in dict.fromkeys(wholes) for n in least)
-    time = _spent(variants) + seconds
-    if time <= problem.time:
+    spent = _spent(variants)
+    if spent + seconds <= problem.time:
         return finite
+    flowing = dict.fromkeys(v for split in splits.values() for v in split.wholes)
+    time = spent + seconds
+    finer = GROWTH_OF_TIME * variants.expected_of(refined.levels, flowing)
+    for _ in range(refined.levels, min(_most_levels(problem), len(variants.of_scene.levels))):
+        if spent + finer <= time:  # the time allows this level at small strains, too
+            spent, time, finer = spent + finer, time + finer, GROWTH_OF_TIME * finer
     more = with_unit(seconds, "s", 2)
     why = f"{SMALL_STRAINS}: finite ones take {more} more (budget.time)"
     return replace(selection.without(frozenset({"finite_strain"}), why), time=time)

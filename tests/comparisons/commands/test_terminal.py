@@ -184,7 +184,7 @@ def test_scenes_as_json(capsys):
     ],
 )
 def test_a_study_as_json_is_its_file(tmp_path, monkeypatch, capsys, name, module, function):
-    def done(*arguments: object) -> object:
+    def done(*arguments: object, **switches: bool) -> object:
         (tmp_path / f"{name}.json").write_text('{"schema": 1}\n')
         return types.SimpleNamespace(exit_status=0)
 

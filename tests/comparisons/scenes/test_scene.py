@@ -73,7 +73,8 @@ FULL = {
 }
 
 
-SECTIONS = {name: part for name, part in sections_of(Scene).items() if name != "answers"}
+BY_NAME = "answers", "published"  # of others, each in a section of its own name
+SECTIONS = {name: part for name, part in sections_of(Scene).items() if name not in BY_NAME}
 PLACES = [(section, name) for section, table in SECTIONS.items() for name in file_fields(table)]
 
 

@@ -28,8 +28,8 @@ WAVY = {
 
 
 def flowing_as(caps, longer=None):
-    """A whole model that is the half-plane under a cap [Pa] on each level, by longer increments
-    under others."""
+    """A whole model that is the half-plane under a cap [Pa] on each level; of increments from long
+    to short on the first one `longer` are the caps before its own."""
     asked = problem(WAVY)
     grids = [asked.grid(pitch) for pitch in asked.pitches[: len(caps)]]
 
@@ -48,7 +48,7 @@ def flowing_as(caps, longer=None):
         runs={"finite_element": levels},
         contains_all=False,
         wholes=[quantities(grid, cap) for grid, cap in zip(grids, caps, strict=True)],
-        longer=[quantities(grids[0], cap) for cap in longer or (caps[0], caps[0])],
+        longer=[quantities(grids[0], cap) for cap in (*(longer or caps[:1] * 2), caps[0])],
     )
     return Figures(figures_of_caps(asked, whole))
 

@@ -26,7 +26,7 @@ from comparisons.campaigns.cost import cost, methods
 from comparisons.cli import main
 methods.HALF_PLANE_PITCHES, methods.FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5), (2.0, 1.0)
 small = tuple(m for m in methods.METHODS if m.name in ("hats, FFT", "P2"))
-cost.cost.__defaults__ = (*cost.cost.__defaults__[:-1], small)
+cost.cost.__defaults__ = (cost.no_progress, small, False)
 if __name__ == "__main__":
     sys.exit(main())
 """

@@ -36,7 +36,7 @@ def beside():
 
 @pytest.fixture(scope="module")
 def switched_on():
-    return outcome_of(finite_element={"plastic": True})
+    return outcome_of(finite_element={"plastic": True}, budget={"time": 2.0})  # on as many levels
 
 
 # between the error and what finite strain may make of it
