@@ -301,7 +301,8 @@ def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
         MEANT.get(name.casefold()) or _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
     )
     near = near or _nearest(name, inside)
-    return f"{place}: is no known field; the nearest is {near}"
+    meant = ", a force per length" if near == "load.per_length" else ""
+    return f"{place}: is no known field; the nearest is {near}{meant}"
 
 
 def _nearest(name: str, shown: dict[str, str], alike: float = 0.0) -> str | None:

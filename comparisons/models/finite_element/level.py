@@ -18,6 +18,7 @@ from analytic.operators.half_plane import ModelOperator
 from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
+from comparisons.models.approach import settled
 from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
 from comparisons.models.finite_element.compliance_check import (
     ComplianceCheck,
@@ -40,7 +41,7 @@ from comparisons.models.finite_element.stress import LoadedBody, pressed_linearl
 from comparisons.models.level import Level, refuse_too_large, under_each
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import Levels, Problem, problem_of
+from comparisons.models.problem import Levels, Problem
 from comparisons.models.window import Window
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
@@ -49,8 +50,6 @@ from meshes.build import start_worker
 from meshes.refined_ranges import merge, unrefined_contact
 
 START_TOLERANCE = 1e-5  # of the linear contact that finite deformation starts from
-LAST_LOAD_CHANGE = 1e-3  # relative change of the load that no longer moves the mesh
-MOST_ROUNDS = 12  # of loads for a prescribed approach
 MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
 
@@ -266,33 +265,17 @@ def problem_of_approach(
     Only a body with a datum has an approach: a layer on its base under a rigid roller. Each round
     meshes for the load of the one before and prescribes the approach there. Raises SceneError if
     the rounds do not settle."""
-    wanted = scene.load.value
-    # a rigid body of the roller's shape would cut the surface over twice this half-width
-    half_width = np.sqrt(scene.roller.radius * wanted)
-    modulus = scene.body.material.plane_strain_modulus
-    load = np.pi * modulus * half_width**2 / (4.0 * scene.roller.radius)
     if scene.finite_element.coupled and len(scene.load.friction) > 1:
         raise SceneError(
             f"{scene.source}: load.friction: has {len(scene.load.friction)} coefficients, each of "
             "which takes another load for load.approach; allowed is one, or per_length"
         )
-    body_cache, surface = BodyCache(), surface or surface_of(scene)
-    asked = LevelOptions(approach=wanted)
-    for _ in range(MOST_ROUNDS):
-        problem = problem_of(scene, surface, load, levels)
-        plan = make_plan(problem, ("finite_element",))
-        pitch = problem.pitches[-1]
+    body_cache, asked = BodyCache(), LevelOptions(approach=scene.load.value)
+
+    def pressed(problem: Problem) -> tuple[float, np.ndarray]:
         callback("finite elements: load of the prescribed approach")
-        level = finite_element_level(
-            problem, plan, Refinement(pitch), None, Stages(), body_cache, asked
-        )
-        before, load = load, level.solution.load
-        low, high = problem.extent
-        if level.patches[0, 0] < low + pitch or level.patches[-1, 1] > high - pitch:
-            load = 2.0 * before  # the contact fills the grid: it carries more than that
-        elif abs(load - before) <= LAST_LOAD_CHANGE * load:
-            return problem_of(scene, surface, load, levels)
-    raise SceneError(
-        f"{scene.source}: load.approach: no load was found that gives {wanted:g} m; allowed is a "
-        "load (per_length) instead"
-    )
+        plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[-1])
+        level = finite_element_level(problem, plan, refinement, None, Stages(), body_cache, asked)
+        return level.solution.load, level.patches
+
+    return settled(scene, surface or surface_of(scene), pressed, levels=levels)

@@ -17,7 +17,6 @@ from comparisons.scenes.fields import (
 
 CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
 FEWEST, MOST = 8, 4096  # samples
-LOADS = ("per_length", "hertz_peak_pressure")
 # Inputs that are fields of the scene, with their section; the load is a field of two kinds.
 FIELDS = {
     "roller_radius": ("roller", "radius"),
@@ -132,8 +131,11 @@ class ScatterSection(SceneSection):
             yield "correlation_length", "is given without noise; allowed beside it"
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
-        if scene.load.approach is not None:
-            yield "scatter", "is given beside load.approach; allowed with another kind of load"
+        if scene.load.approach is not None and scene.coating is not None:
+            why = (
+                "is given with a coating and load.approach, whose load no layer of one solid tells"
+            )
+            yield "scatter", f"{why}; allowed with per_length"
         for name in OF_PROFILE:
             if name in self.inputs and scene.profile is None:
                 yield f"scatter.{name}", "is given for a smooth surface; allowed with [profile]"

@@ -3,6 +3,8 @@
 A sample is a point of the unit cube, which stands for a scene with other inputs. It is solved by
 the half-plane on its coarsest pressure elements, whose error is in every sample alike; figures are
 scaled to the finest. Shares of the variance are those of `comparisons.studies.scatter.shares`.
+Where the approach is prescribed, the load of a sample is that of the endless layer at its approach,
+scaled as the finite elements' load of the scene is to the layer's.
 
 In: a scene with [scatter], and the solved half-plane. Out: figures with their spread; how many
 samples there were; the band that pressures lie in; a table, and sentences."""
@@ -33,6 +35,7 @@ from comparisons.figures.figure import (
 )
 from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.approach import load_on_layer
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
@@ -73,8 +76,12 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     problem = solved.problem
     x = problem.grid(problem.pitches[0]).x
     cost, by = expected_of(len(x)).seconds * TOGETHER, _tasks(solved, tasks)
+    scale = None
+    if problem.scene.load.kind == "approach":
+        on_layer = load_on_layer(problem.scene, problem.surface)
+        scale = problem.hertz.load_per_length / on_layer
     for key, points in _batches(_points(problem)).items():
-        sampled_scene = problem.scene, problem.surface, points, x
+        sampled_scene = problem.scene, problem.surface, points, x, scale
         by.add(key, _solve_batch, *sampled_scene, seconds=cost, urgency=LATER)
 
 
@@ -233,16 +240,24 @@ def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarra
 
 
 def _solve_batch(
-    here: Here, scene: Scene, surface: SceneSurface, points: np.ndarray, places: np.ndarray
+    here: Here,
+    scene: Scene,
+    surface: SceneSurface,
+    points: np.ndarray,
+    places: np.ndarray,
+    scale: float | None,
 ) -> dict[str, object]:
     """What the half-plane finds at points (n, d): `figures`, at each a dictionary by quantity for
     every friction coefficient, or why there is none; and its `pressures` (n, k) [Pa] at places
-    (k,) [m], nan without a solution."""
+    (k,) [m], nan without a solution. `scale` of the layer's load where the approach is prescribed,
+    else None."""
     here.callback("half-plane: uncertain inputs")
     answers, pressures = [], np.full((len(points), len(places)), np.nan)
     for number, point in enumerate(points):
         try:
-            problem = problem_of(*sampled(scene, surface, point))
+            one = sampled(scene, surface, point)
+            load = None if scale is None else scale * load_on_layer(*one)
+            problem = problem_of(*one, load)
             by_friction, pressure = _nominal(problem)
             x = problem.grid(problem.pitches[0]).x
             pressures[number] = np.interp(places, x, pressure, 0.0, 0.0)

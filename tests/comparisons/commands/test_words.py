@@ -47,7 +47,11 @@ def test_a_misspelt_scene_beside_one_is_told_its_name(folder, capsys, name):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("per_length", "force", "load.force: is no known field; the nearest is load.per_length"),
+        (
+            "per_length",
+            "force",
+            "load.force: is no known field; the nearest is load.per_length, a force per length",
+        ),
         ("radius", "diameter", "is no known field; the nearest is roller.radius"),
         ("0.5 N/um", "100 N", 'is "100 N", a force: a force per length is "100 N/mm"; allowed is'),
     ],

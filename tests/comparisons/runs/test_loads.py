@@ -8,6 +8,8 @@ from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
 from comparisons.runs.run import run
+from comparisons.studies.scatter.shares import designs
+from comparisons.studies.scatter.study import values_at
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -49,3 +51,26 @@ def test_a_load_that_touches_one_crest_only(tmp_path, load):
         peak, length = (known.one(quantity=n).value for n in ("peak_pressure", "contact_length"))
         assert peak == pytest.approx(crest.peak_pressure, rel=2e-3)
         assert length == pytest.approx(2.0 * crest.half_width, rel=5e-3)
+
+
+def test_inputs_scatter_at_a_prescribed_approach():
+    """A layer's load at an approach is in proportion to its modulus, and its contact the same: so
+    is the half-plane's peak pressure, (P E)^1/2, and its contact length."""
+    tables = {
+        "roller": {"radius": 10e-3, "rigid": True},
+        "body": {"youngs_modulus": 200e9, "poissons_ratio": 0.3, "thickness": 1e-3},
+        "load": {"approach": 2e-6},
+        "resolution": {"elements": 8, "levels": 2},
+        "scatter": {"body_youngs_modulus": "6 %", "samples": 8},
+        "budget": {"effects": False},
+    }
+    outcome = run(resolved(tables), None, MODELS)
+    peak, length = (
+        outcome.figures.one(study="scatter", quantity=name)
+        for name in ("peak_pressure", "contact_length")
+    )
+    scene, points = outcome.problem.scene, designs(8, 1, 0).reshape(-1, 1)
+    moduli = values_at(scene.scatter.body_youngs_modulus, 1.0, points)
+    assert peak.spread.deviation / peak.value == pytest.approx(moduli.std(ddof=1), rel=1e-4)
+    assert peak.spread.mean / peak.value == pytest.approx(moduli.mean(), rel=1e-4)
+    assert length.spread.deviation < 1e-4 * length.value
