@@ -68,7 +68,7 @@ def test_a_figure_beyond_its_scatter_differs(tmp_path, monkeypatch):
 
 def test_every_benchmark_says_what_is_published_and_where():
     names = benchmark_names()
-    assert len(names) >= 9 and not set(names) & set(scene_names())
+    assert len(names) >= 10 and not set(names) & set(scene_names())
     for name in names:
         scene = Scene.read(name)
         assert scene.published and scene.title
