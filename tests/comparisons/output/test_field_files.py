@@ -163,7 +163,7 @@ def test_principal_directions_diagonalise_the_stress(field):
         assert np.hypot(x, z) == pytest.approx(1.0, abs=1e-6) and not y.any()
         normal = (sx[there] * x + txz[there] * z) * x + (txz[there] * x + sz[there] * z) * z
         middle, size = 0.5 * (sx + sz)[there], np.abs(tau1[there]).max()
-        assert normal == pytest.approx(middle + tau1[there], abs=1e-5 * size)
+        assert normal == pytest.approx(middle + tau1[there], abs=float(1e-5 * size))
 
 
 def test_mesh_and_fields_lie_in_one_plane(outcome, tmp_path):

@@ -59,7 +59,7 @@ def test_a_factor_is_made_again_where_others_cost_more(compliance, monkeypatch):
     """Its solutions take ever more steps as the tangent softens; with one step each there is one
     factorisation for all."""
     monkeypatch.setattr(module, "FACTOR_WORTH", 2)
-    reused, made = ReusedFactor(1e-10), []
+    reused, made = ReusedFactor(1e-3), []
     renew = reused._renew
     reused._renew = lambda system: (made.append(system), renew(system))
     for soft in (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6):

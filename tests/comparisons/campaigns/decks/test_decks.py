@@ -80,7 +80,7 @@ def test_a_deck_is_complete(tmp_path, scene, code):
     assert set(np.ravel(list(elements.values()))) == set(nodes) - set(sets["REFERENCE"])
     for row in elements.values():  # anticlockwise, with midpoints between their corners
         x, y = np.array([nodes[n] for n in row]).T
-        assert np.cross([x[1] - x[0], y[1] - y[0]], [x[2] - x[0], y[2] - y[0]]) > 0.0
+        assert (x[1] - x[0]) * (y[2] - y[0]) > (y[1] - y[0]) * (x[2] - x[0])
         bend = np.hypot(x[3:] - 0.5 * (x[:3] + x[[1, 2, 0]]), y[3:] - 0.5 * (y[:3] + y[[1, 2, 0]]))
         assert bend.max() < 0.1 * np.hypot(x[1] - x[0], y[1] - y[0])
     for name, faces in surfaces.items():

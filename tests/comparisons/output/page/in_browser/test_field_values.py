@@ -40,7 +40,7 @@ def expect(text: str, outcome: Run, component: int, friction: float) -> dict[str
     assert shown["finite elements"] == pytest.approx(other[row, column], abs=1e-4)
     largest = np.max(np.abs(one - other))
     between = one[row, column] - other[row, column]
-    assert shown["difference"] == pytest.approx(between, rel=0.06, abs=1e-4 * largest)
+    assert shown["difference"] == pytest.approx(between, rel=0.06, abs=float(1e-4 * largest))
     return shown
 
 
@@ -138,7 +138,8 @@ def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_o
         )
         assert numbers[:, 2] == pytest.approx(one, abs=1e-4)
         assert numbers[:, 3] == pytest.approx(other, abs=1e-4)
-        assert numbers[:, 4] == pytest.approx(one - other, abs=1e-4 * np.abs(one - other).max())
+        least = float(1e-4 * np.abs(one - other).max())
+        assert numbers[:, 4] == pytest.approx(one - other, abs=least)
 
 
 def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: Run):
@@ -165,7 +166,8 @@ def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: 
             assert page.value("!document.querySelector('.tip').hidden")
             shown = expect(text, wavy_outcome, drawn["component"], frictions[drawn["friction"]])
             wanted = drawn["x"][0] + 0.3 * np.ptp(drawn["x"])
-            assert shown["x"] == pytest.approx(wanted, abs=0.02 * np.ptp(wavy_outcome.window.x) / a)
+            near = float(0.02 * np.ptp(wavy_outcome.window.x) / a)
+            assert shown["x"] == pytest.approx(wanted, abs=near)
             wanted = drawn["z"][0] + 0.5 * np.ptp(drawn["z"])
             rows = np.abs(wavy_outcome.window.z / a - wanted)
             assert abs(shown["z"] - wanted) <= 1.001 * rows.min() + 1e-4
