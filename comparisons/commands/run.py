@@ -3,7 +3,7 @@
 import math
 import sys
 from collections.abc import Sequence
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from difflib import get_close_matches
 from pathlib import Path
 from time import perf_counter
@@ -220,14 +220,17 @@ def _say_warnings(warnings: list[str]) -> None:
 
 def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:
     """What maps or estimates say of the model error; not of a surface that must be run in first,
-    nor under a load that must be found first."""
+    nor under a load that must be found first, nor of a contact that has no solution: the run says
+    why."""
     if scene.running_in is not None or scene.load.kind == "approach" or not is_first():
         return
+    from analytic.contact.problem import ContactError
     from comparisons.campaigns.maps.answer import first_answer
     from comparisons.models.problem import problem_of
 
-    for line in first_answer(problem_of(scene, surface)):
-        tell(line)
+    with suppress(ContactError):
+        for line in first_answer(problem_of(scene, surface)):
+            tell(line)
 
 
 def _print(directory: Path) -> None:

@@ -318,6 +318,11 @@ def _layered_beta(problem: Problem) -> float:
 # the pressure, hardnesses from 2.4 Y to 3 Y fit what finite elements that flow do, none everywhere:
 # 2.4 Y at 3 to 4 times first yield, 2.8 Y at 6 to 12 times, 3 Y beyond.
 FIRST_FLOW, CAP = 0.6, 0.1
+# Without a cap, smooth bodies without hardening, at friction 0 and 0.2: from first flow on the peak
+# pressure is too high by 0.9 of p/H - 0.6 at most, 33 % at p = H and 83 % at 1.5 H, the length too
+# small by half of that; stresses by up to 1.5 times as much, and by 6 % already where friction
+# makes the surface flow first. Their largest value moves to another depth.
+UNCAPPED, UNCAPPED_STRESS, FIRST_AT_SURFACE = 1.0, 1.5, 0.1
 TABOR = 3.0  # hardness over yield stress (D. Tabor, The Hardness of Metals, 1951)
 
 
@@ -327,9 +332,14 @@ def _plastic_flow(problem: Problem, peak: float) -> Sizes:
     hardness = scene.body.hardness or (yield_stress and TABOR * yield_stress)
     if scene.finite_element.plastic or not hardness:
         return {}  # the scene's own finite elements flow, or nothing does
-    beyond = (peak / hardness - FIRST_FLOW) / (1.0 - FIRST_FLOW)
-    # without a cap the peak itself is as much too high
-    return _equal(CAP * min(1.0, beyond) + max(0.0, peak / hardness - 1.0)) if beyond > 0.0 else {}
+    beyond = peak / hardness - FIRST_FLOW
+    if beyond <= 0.0:
+        return {}
+    if scene.body.hardness:
+        return _equal(CAP * min(1.0, beyond / (1.0 - FIRST_FLOW)) + max(0.0, peak / hardness - 1.0))
+    stress = UNCAPPED_STRESS * beyond + FIRST_AT_SURFACE
+    stresses = dict.fromkeys((*STRESSES, *NORMS), stress) | {"tau1_max_depth": max(1.0, stress)}
+    return _equal(UNCAPPED * beyond) | stresses
 
 
 # What the half-plane on its deformed surface still leaves out of finite deformation. Of the third
