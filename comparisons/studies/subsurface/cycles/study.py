@@ -171,12 +171,15 @@ def _figure(
     at: Mapping[str, float],
     source: str = SOURCE,
     place: tuple[float, ...] | None = None,
+    increments: float = 0.0,
 ) -> Figure:
-    """Of values by level; of one level alone the uncertainty is not known."""
+    """Of values by level, and what increments leave of the last; of one level alone the
+    uncertainty is not known."""
     scale, stated = abs(values[-1]) or 1.0, None
     if len(values) > 1:
         refined = grid_convergence(values, 1.0)
-        stated = Uncertainty({"discretisation": refined.uncertainty / scale}, refined)
+        parts = {"discretisation": refined.uncertainty, "increments": increments}
+        stated = Uncertainty({name: part / scale for name, part in parts.items() if part}, refined)
     return Figure(
         study=NAME,
         quantity=quantity,
@@ -195,6 +198,8 @@ def _of_passes(
 ) -> Iterator[Figure]:
     work = "loss" if is_endless(solved.problem) else "plastic_work"
     finest = levels[-1].passes
+    off = np.abs(finest.plastic_work - finest.flowed)
+    off = {f"{work}_first": off[0], f"{work}_last": off[-1]}
     read = {
         "flow_first": lambda passes: passes.flow[0],
         "flow_last": lambda passes: passes.flow[-1],
@@ -208,7 +213,8 @@ def _of_passes(
     }
     for name, value in read.items():
         place = (float(finest.residual_depth[-1]),) if name == "residual_stress" else None
-        yield _figure(name, [value(level.passes) for level in levels], at, place=place)
+        values = [value(level.passes) for level in levels]
+        yield _figure(name, values, at, place=place, increments=off.get(name, 0.0))
     share = solved.problem.scene.cycles.share
     reached = [outcome(level, share) for level in levels]
     counts = [float(count) for what, count in reached if what == "shakes down"]
