@@ -7,7 +7,9 @@ from functools import partial
 import numpy as np
 
 from analytic.contact.defect_correction import solve_with_model
-from analytic.contact.partial_slip import SurfacePair
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.partial_slip import Loads, SlipState, SurfacePair, stick_zones
+from analytic.contact.problem import assessed
 from analytic.grid import HatGrid
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages
@@ -18,6 +20,11 @@ from comparisons.models.finite_element.contact import (
     roller_normal,
 )
 from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.finite_element.nonlinear import (
+    FINITE_TOLERANCE,
+    refuse_cut_off,
+    unpressed_contact,
+)
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import nearest_operator
 from comparisons.models.plan import Plan
@@ -25,14 +32,18 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.friction.half_planes import (
     SlippedLevel,
+    Way,
     bulk_stress,
     ends_stress,
     friction_of,
     slipped_level,
+    steps_of,
     surface_places,
     with_surface,
 )
 from fem.body.surface import straight_down
+from fem.nonlinear.finite_deformation import FiniteDeformation
+from fem.nonlinear.stick_slip import RESIDUAL, HeldContact, HeldState
 from fem.stress.maximum import maximum
 from fem.stress.stress import NodalStress, evaluate, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
@@ -51,11 +62,13 @@ def finite_element_slip(
     half_block: bool = False,
 ) -> SlippedLevel:
     """Of the finite elements of a level, made again; a `half_block` ends an unbounded body at half
-    of its size."""
+    of its size. Raises FemError where finite deformation has no solution."""
     grid = problem.grid(level.grid.pitch)
     refinement = Refinement(grid.pitch, half_block=half_block)
     bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), BodyCache())
     operator = mutual_compliance(problem, bodies, grid)
+    if problem.scene.finite_element.deformation == "finite":
+        return finite_deformation_slip(problem, operator, grid, level, increments)
     slipped = slipped_level(problem, grid, finite_element_pair(problem, operator, grid), increments)
     return slipped if window is None else _with_mesh_stress(problem, operator, slipped, window)
 
@@ -96,6 +109,80 @@ def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatG
         raised=(lambda traction: operator.moved(traction=traction)[0]) if unlike else None,
         dragged=(lambda pressure: operator.moved(pressure=pressure)[1]) if unlike else None,
         settled=SETTLED,
+    )
+
+
+def finite_deformation_slip(
+    problem: Problem, operator: MutualCompliance, grid: HatGrid, level: Level, increments: int
+) -> SlippedLevel:
+    """On deformed surfaces, whose pressures and tractions are Cauchy's: `place` says where the
+    grid's nodes are on these, from the roller's lowest point."""
+    start = level.solution.pressure * (problem.hertz.load_per_length / level.solution.load)
+    contact = unpressed_contact(problem, operator, start, 0.0)
+    held, slipped, work = HeldContact(contact, friction_of(problem)), np.zeros(grid.count), 0.0
+    reached, states, slips, energies, moved = held.apart, [], [], [], []
+    ends = problem.grid(problem.pitches[0]).x[[0, -1]]
+    for steps in steps_of(problem, True, increments):
+        way = Way()
+        for loads in steps:
+            share = loads.tangential / (held.friction * loads.normal)
+            reached = held.stepped(reached, loads.normal, share)
+            refuse_cut_off(problem, grid, reached.pressure, start, "at finite deformation")
+            slip = reached.lever * reached.slip
+            slipped, work = slipped + slip, work + reached.work
+            way.go(loads, slip)
+        deformed = contact.deformed(reached.solution)
+        states.append(
+            (_state_of(grid, reached, deformed, loads, held.friction, way.slip), deformed.place)
+        )
+        slips.append(slipped)
+        energies.append(work)
+        # what the roller has gone past the ends
+        moved.append(float(np.interp(ends, grid.x, grid.x - reached.place).mean()))
+    states, places = zip(*states, strict=True)
+    zones = [stick_zones(grid.x, state, held.friction) for state in states]
+    return SlippedLevel(
+        grid=grid,
+        states=states,
+        zones=tuple(np.interp(z, grid.x, x) for z, x in zip(zones, places, strict=True)),
+        energies=np.array(energies),
+        displacements=np.array(moved),
+        is_stepped=True,
+        material=(problem.scene.coating or problem.scene.body).material,
+        slips=np.array(slips),
+        place=places[-1],
+    )
+
+
+def _state_of(
+    grid: HatGrid,
+    held: HeldState,
+    deformed: FiniteDeformation,
+    loads: Loads,
+    friction: float,
+    slip: np.ndarray,
+) -> SlipState:
+    """The state as others have it, per deformed area and length."""
+    weights, initial = grid.weights, deformed.initial_gap * grid.weights
+    moved = (held.gap + held.approach) * weights - initial
+    pressing = Constraints(load=float(weights @ held.pressure))
+    counts = {"newton_steps": held.iterations}
+    normal = assessed(
+        *(moved, held.pressure, initial, weights, held.approach, pressing, counts),
+        FINITE_TOLERANCE,
+    )
+    limit, pressure = friction * held.pressure, deformed.cauchy_pressure
+    share = np.divide(held.traction, limit, out=np.zeros_like(limit), where=limit > 0.0)
+    share = np.where(np.abs(share) > 1.0 - RESIDUAL, np.sign(share), share)
+    return SlipState(
+        loads=loads,
+        normal=replace(normal, pressure=pressure, load=loads.normal),
+        traction=share * (friction * pressure),
+        slip=slip,
+        displacement=held.way,
+        work=held.work,
+        residual=max(held.residual, normal.residuals.worst),
+        converged=normal.converged,
     )
 
 
