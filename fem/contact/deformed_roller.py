@@ -160,18 +160,19 @@ class PairContact:
         stiffness, drag = along.T @ (load @ diags(bend)) @ along + mixed + mixed.T, None
         if traction is not None or not self.frictionless:
             sliding = (along.T @ weighted - down.T @ diags(slope) @ weighted).tocsr()
+            factor, pull = (self._friction, pressure) if traction is None else (1.0, traction)
             if traction is None:
-                force, traction = gradient + self._friction * sliding, self._friction * pressure
+                force = gradient + factor * sliding
             else:
                 undeformed = self._roller.surface.x[node]
                 part = (turn * undeformed).sum(axis=1)  # dY/dx
                 where = weighted.T @ (edge_shapes(t) * undeformed).sum(axis=1)
                 lever = weighted.T @ ((1.0 + slope**2) / part)
                 drag = Drag(sliding, where, (along.T @ diags(part) @ weighted).tocsr(), lever)
-            pull = diags(on.weight * (on.hats @ traction))
+            pull = diags(on.weight * (on.hats @ pull))
             slides = turn_x.T @ pull @ along + turn_z.T @ (pull @ diags(slope)) @ along
             slides = slides + down.T @ pull @ (turning + diags(bend) @ along)
-            stiffness = stiffness - slides
+            stiffness = stiffness - factor * slides
         return ContactTerms(gap, gradient, force.tocsr(), stiffness.tocsr(), drag)
 
     def _under_hats(

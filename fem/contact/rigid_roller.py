@@ -115,10 +115,11 @@ class CurrentContact:
         if traction is not None or not self.frictionless:
             travel = on.x.T @ on.weighted
             sliding = (travel - on.z.T @ diags(slope) @ on.weighted).tocsr()
+            factor, pull = (self._friction, pressure) if traction is None else (1.0, traction)
             if traction is None:
-                force, traction = gradient + self._friction * sliding, self._friction * pressure
+                force = gradient + factor * sliding
             else:
                 where, lever = on.weighted.T @ x, on.weighted.T @ (1.0 + slope**2)
                 drag = Drag(sliding, where, travel.tocsr(), lever)
-            turning = turning - on.z.T @ diags(bend * (on.hats @ traction)) @ on.x
+            turning = turning - factor * (on.z.T @ diags(bend * (on.hats @ pull)) @ on.x)
         return ContactTerms(gap, gradient, force.tocsr(), turning.tocsr(), drag)

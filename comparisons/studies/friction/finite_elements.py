@@ -1,6 +1,6 @@
 """Partial slip on finite elements: their compliance along the surface, and their stresses."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -41,16 +41,19 @@ from comparisons.studies.friction.half_planes import (
     surface_places,
     with_surface,
 )
+from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
 from fem.nonlinear.finite_deformation import FiniteDeformation
 from fem.nonlinear.stick_slip import RESIDUAL, HeldContact, HeldState
 from fem.stress.maximum import maximum
-from fem.stress.stress import NodalStress, evaluate, nodal_stresses
+from fem.stress.stress import FurtherStress, NodalStress, evaluate, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
 # Of the largest pressure: what the last turn of normal and tangential problem moves on finite
 # elements, each application of which takes a back-substitution
 SETTLED = 1e-6
+# Stresses at nodes and what makes them, after a load of the path
+Stressed = Callable[[int], tuple[NodalStress, SurfaceLoad]]
 
 
 def finite_element_slip(
@@ -68,9 +71,15 @@ def finite_element_slip(
     bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), BodyCache())
     operator = mutual_compliance(problem, bodies, grid)
     if problem.scene.finite_element.deformation == "finite":
-        return finite_deformation_slip(problem, operator, grid, level, increments)
-    slipped = slipped_level(problem, grid, finite_element_pair(problem, operator, grid), increments)
-    return slipped if window is None else _with_mesh_stress(problem, operator, slipped, window)
+        slipped, ends = finite_deformation_slip(problem, operator, grid, level, increments)
+        stressed = _finite_stress(problem, slipped, ends)
+    else:
+        pair = finite_element_pair(problem, operator, grid)
+        slipped = slipped_level(problem, grid, pair, increments)
+        stressed = _linear_stress(problem, operator, slipped)
+    if window is None:
+        return slipped
+    return _with_mesh_stress(problem, bodies.rough, slipped, window, stressed)
 
 
 @dataclass(frozen=True)
@@ -114,13 +123,13 @@ def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatG
 
 def finite_deformation_slip(
     problem: Problem, operator: MutualCompliance, grid: HatGrid, level: Level, increments: int
-) -> SlippedLevel:
-    """On deformed surfaces, whose pressures and tractions are Cauchy's: `place` says where the
-    grid's nodes are on these, from the roller's lowest point."""
+) -> tuple[SlippedLevel, list[FiniteDeformation]]:
+    """And both bodies after each load. On deformed surfaces, whose pressures and tractions are
+    Cauchy's: `place` says where the grid's nodes are on these, from the roller's lowest point."""
     start = level.solution.pressure * (problem.hertz.load_per_length / level.solution.load)
     contact = unpressed_contact(problem, operator, start, 0.0)
     held, slipped, work = HeldContact(contact, friction_of(problem)), np.zeros(grid.count), 0.0
-    reached, states, slips, energies, moved = held.apart, [], [], [], []
+    reached, deformed, states, slips, energies, moved = held.apart, [], [], [], [], []
     ends = problem.grid(problem.pitches[0]).x[[0, -1]]
     for steps in steps_of(problem, True, increments):
         way = Way()
@@ -131,27 +140,29 @@ def finite_deformation_slip(
             slip = reached.lever * reached.slip
             slipped, work = slipped + slip, work + reached.work
             way.go(loads, slip)
-        deformed = contact.deformed(reached.solution)
-        states.append(
-            (_state_of(grid, reached, deformed, loads, held.friction, way.slip), deformed.place)
-        )
+        after = contact.deformed(reached.solution)
+        deformed.append(replace(after, traction=reached.traction))
+        states.append(_state_of(grid, reached, after, loads, held.friction, way.slip))
         slips.append(slipped)
         energies.append(work)
         # what the roller has gone past the ends
         moved.append(float(np.interp(ends, grid.x, grid.x - reached.place).mean()))
-    states, places = zip(*states, strict=True)
-    zones = [stick_zones(grid.x, state, held.friction) for state in states]
-    return SlippedLevel(
+    zones = [
+        np.interp(stick_zones(grid.x, state, held.friction), grid.x, after.place)
+        for state, after in zip(states, deformed, strict=True)
+    ]
+    slipped = SlippedLevel(
         grid=grid,
-        states=states,
-        zones=tuple(np.interp(z, grid.x, x) for z, x in zip(zones, places, strict=True)),
+        states=tuple(states),
+        zones=tuple(zones),
         energies=np.array(energies),
         displacements=np.array(moved),
         is_stepped=True,
         material=(problem.scene.coating or problem.scene.body).material,
         slips=np.array(slips),
-        place=places[-1],
+        place=deformed[-1].place,
     )
+    return slipped, deformed
 
 
 def _state_of(
@@ -186,18 +197,15 @@ def _state_of(
     )
 
 
-def _with_mesh_stress(
-    problem: Problem, operator: MutualCompliance, slipped: SlippedLevel, window: Window
-) -> SlippedLevel:
-    """Stresses of the rough body, recovered from its displacement."""
+def _linear_stress(problem: Problem, operator: MutualCompliance, slipped: SlippedLevel) -> Stressed:
+    """Recovered from displacements under the tractions, and the bulk stress."""
     rough, scene = operator.rough, problem.scene
     body, displaced = rough.body, scene.finite_element.gap == "displaced"
     direction = roller_normal(problem) if displaced else straight_down
     layer = scene.coating and scene.coating.material.plane_strain_modulus
     stiffness = np.where(body.coated, layer or 0.0, scene.body.material.plane_strain_modulus)
 
-    def loaded(number: int) -> tuple[NodalStress, SurfaceLoad]:
-        """Stresses at nodes and what makes them, under a load of the path."""
+    def stressed(number: int) -> tuple[NodalStress, SurfaceLoad]:
         state = slipped.states[number]
         pressure, traction = state.normal.pressure, state.traction
         load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), direction, traction=traction)
@@ -215,11 +223,40 @@ def _with_mesh_stress(
         )
         return whole, load
 
+    return stressed
+
+
+def _finite_stress(
+    problem: Problem, slipped: SlippedLevel, ends: Sequence[FiniteDeformation]
+) -> Stressed:
+    """Cauchy's, with what hats leave out next to the ends of contact as at small strains."""
+
+    def stressed(number: int) -> tuple[NodalStress, SurfaceLoad]:
+        deformed = ends[number]
+        load, nodal = deformed.cauchy.load, deformed.cauchy.nodal
+        beside = ends_stress(problem, slipped.grid, slipped.states[number])
+        further = FurtherStress(load.surface, (beside,))
+        added = further.at(deformed.body.points[nodal.nodes.point])[:, 0]
+        whole = replace(nodal, at=lambda node: nodal.at(node) + added[node], further=further)
+        return whole, load
+
+    return stressed
+
+
+def _with_mesh_stress(
+    problem: Problem,
+    body: ElasticBody,
+    slipped: SlippedLevel,
+    window: Window,
+    stressed: Stressed,
+) -> SlippedLevel:
+    """With the largest stresses of the rough body at the end of the path."""
+
     def surface(number: int) -> StressState:
-        whole, load = last if number == -1 else loaded(number)
+        whole, load = last if number == -1 else stressed(number)
         return evaluate(body, whole, x, load.surface(x))
 
-    last, x = loaded(-1), surface_places(problem, slipped, window)
+    last, x = stressed(-1), surface_places(problem, slipped, window)
     bounds = -window.extent, window.extent, window.z[-1]
     tau1 = maximum(body, last[0], lambda stress: stress.tau1, bounds)
     return with_surface(problem, replace(slipped, tau1=tau1, x=x), surface)
