@@ -77,6 +77,10 @@ def finite_element_slip(
         pair = finite_element_pair(problem, operator, grid)
         slipped = slipped_level(problem, grid, pair, increments)
         stressed = _linear_stress(problem, operator, slipped)
+        if problem.scene.body.thickness is not None:
+            last = slipped.states[-1]
+            lowered = operator.rough.moved(last.normal.pressure, last.traction)[0] / grid.weights
+            slipped = replace(slipped, lowering=float(np.interp(0.0, grid.x, lowered)))
     if window is None:
         return slipped
     return _with_mesh_stress(problem, bodies.rough, slipped, window, stressed)
@@ -151,6 +155,10 @@ def finite_deformation_slip(
         np.interp(stick_zones(grid.x, state, held.friction), grid.x, after.place)
         for state, after in zip(states, deformed, strict=True)
     ]
+    lowering, top = None, contact.body.top
+    if problem.scene.body.thickness is not None:
+        down = contact.body.at_points(deformed[-1].displacement)[top.point, 1]
+        lowering = float(np.interp(0.0, top.x, down))
     slipped = SlippedLevel(
         grid=grid,
         states=tuple(states),
@@ -161,6 +169,7 @@ def finite_deformation_slip(
         material=(problem.scene.coating or problem.scene.body).material,
         slips=np.array(slips),
         place=deformed[-1].place,
+        lowering=lowering,
     )
     return slipped, deformed
 

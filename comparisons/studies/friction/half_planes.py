@@ -49,6 +49,8 @@ class SlippedLevel:
     slips: np.ndarray  # (m, n) [m] of the roller over the body since the first touch
     # (n,) [m] where the grid's nodes are at the end, on deformed surfaces; None: where they were
     place: np.ndarray | None = None
+    # [m] of the body's surface under the roller at the end; None: it has no base
+    lowering: float | None = None
     tau1: Extremum | None = None  # largest, at the end; with [stress]
     x: np.ndarray = field(default_factory=lambda: np.empty(0))  # (k,) [m]
     # (k,) of the surface there; at the other end of the cycle (None: there is no cycle)
@@ -78,6 +80,11 @@ class SlippedLevel:
             "energy_lost": float(self.energies[-1]),
             "slip_amplitude": float(self.amplitude(path, np.append(touching, edges)).max()),
         }
+        known["held_pressure"] = float(normal.pressure.max())
+        if self.lowering is not None:
+            known["held_lowering"] = self.lowering
+        if not any(path):  # symmetry alone
+            del known["tangential_displacement"]
         before = last_visit(path)
         if before is not None:
             known["energy_of_cycle"] = float(self.energies[-1] - self.energies[before])

@@ -24,6 +24,7 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import (
     SlippedLevel,
@@ -45,6 +46,8 @@ QUANTITIES = {
     "ruiz": Quantity("Ruiz' parameter σx q δ, largest", "Pa^2 m"),
     "smith_watson_topper": Quantity("Smith, Watson and Topper's parameter, largest", "Pa"),
     "stick_ratio": Quantity("share of the contact that sticks"),
+    HELD_PRESSURE: Quantity("largest pressure that friction leaves", "Pa", formal_order=2.0),
+    HELD_LOWERING: Quantity("lowering that friction leaves", "m", formal_order=2.0),
     "traction_l2": Quantity("tractions, relative L2 difference", of_pair=True),
 }
 COMPARED = tuple(QUANTITIES)[:9]  # judged where both models have them
