@@ -44,7 +44,7 @@ from comparisons.studies.friction.half_planes import (
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
 from fem.nonlinear.finite_deformation import FiniteDeformation
-from fem.nonlinear.stick_slip import RESIDUAL, HeldContact, HeldState
+from fem.nonlinear.stick_slip import HeldContact, HeldState
 from fem.stress.maximum import maximum
 from fem.stress.stress import FurtherStress, NodalStress, evaluate, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
@@ -146,7 +146,7 @@ def finite_deformation_slip(
             way.go(loads, slip)
         after = contact.deformed(reached.solution)
         deformed.append(replace(after, traction=reached.traction))
-        states.append(_state_of(grid, reached, after, loads, held.friction, way.slip))
+        states.append(_state_of(grid, reached, after, loads, way.slip))
         slips.append(slipped)
         energies.append(work)
         # what the roller has gone past the ends
@@ -179,7 +179,6 @@ def _state_of(
     held: HeldState,
     deformed: FiniteDeformation,
     loads: Loads,
-    friction: float,
     slip: np.ndarray,
 ) -> SlipState:
     """The state as others have it, per deformed area and length."""
@@ -191,13 +190,10 @@ def _state_of(
         *(moved, held.pressure, initial, weights, held.approach, pressing, counts),
         FINITE_TOLERANCE,
     )
-    limit, pressure = friction * held.pressure, deformed.cauchy_pressure
-    share = np.divide(held.traction, limit, out=np.zeros_like(limit), where=limit > 0.0)
-    share = np.where(np.abs(share) > 1.0 - RESIDUAL, np.sign(share), share)
     return SlipState(
         loads=loads,
-        normal=replace(normal, pressure=pressure, load=loads.normal),
-        traction=share * (friction * pressure),
+        normal=replace(normal, pressure=deformed.cauchy_pressure, load=loads.normal),
+        traction=held.traction / deformed.stretch,
         slip=slip,
         displacement=held.way,
         work=held.work,
