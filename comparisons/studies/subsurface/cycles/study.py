@@ -88,6 +88,12 @@ def needs(solved: Solved) -> str | None:
     return None
 
 
+def planned(solved: Solved) -> str:
+    cycles = solved.problem.scene.cycles
+    seconds = with_unit(expected_seconds(solved.problem), "s", 2)
+    return f"take about {seconds} more, {cycles.passes} passes on {cycles.levels} levels"
+
+
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Make the levels known, before anything is solved."""
     if solved.runs:
@@ -95,7 +101,6 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     problem = solved.problem
     numbers = range(1, problem.scene.cycles.levels + 1)
     seconds = expected_seconds(problem)
-    tasks.callback(f"planned: cycles, about {with_unit(seconds, 's', 2)}")
     for number in numbers:
         share = 4.0**number / sum(4.0**earlier for earlier in numbers)
         tasks.add(
