@@ -145,6 +145,21 @@ def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
     axes.grid(False, axis="y")
 
 
+def beside_bar(axes: "Axes", x: float, y: float, text: str, **look: object) -> None:
+    """Words to the right of a bar's end."""
+    behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
+    beside = {"textcoords": "offset points", "va": "center", "bbox": behind}
+    axes.annotate(text, (x, y), (3, 0), **beside, **look)
+
+
+def whisker(
+    axes: "Axes", x: float, y: float, reach: tuple[float, float], thick: float = 1.4, cap: float = 3
+) -> None:
+    """What may be wrong with a bar's end, so far to the left and to the right."""
+    look = {"elinewidth": thick, "capsize": cap, "color": "#000000", "fmt": "none"}
+    axes.errorbar(x, y, xerr=[[reach[0]], [reach[1]]], **look)
+
+
 def hatch(axes: "Axes", patches: Sequence["Patch"], colour: object, width: float = 0.8) -> None:
     """Diagonals on patches of the axes, as lines: browsers print patterns as coarse pixels."""
     from matplotlib.lines import Line2D

@@ -334,7 +334,7 @@ def flow_table(run: Run) -> TextTable:
         return meaning.label, *texts
 
     read = (run.findings[NAME].said("read", friction=friction) for friction in frictions)
-    rows = [row("tau1_max"), row("von_mises_max"), ("found", *(FOUND[text] for text in read))]
+    rows = [row("tau1_max"), row("von_mises_max"), ("taken from", *(FOUND[text] for text in read))]
     if known.one(quantity="yield_stress") is not None:
         rows += map(row, OF_FIRST_FLOW)
     if known.one(quantity="plasticity_index_slope") is not None:
