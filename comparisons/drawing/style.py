@@ -36,6 +36,7 @@ LINES = {
     "finite_element": {"color": "#D55E00", "linestyle": (0, (4, 1.6)), "linewidth": 1.1},
     "whole": {"color": "#009E73", "linestyle": (0, (7, 1.2, 1.4, 1.2)), "linewidth": 1.3},
 }
+DASHES = [look["linestyle"] for look in LINES.values()] + [(0, (1, 1.3))]  # for other curves
 REFERENCE = {"color": "#222222", "linestyle": (0, (1, 1.3)), "linewidth": 1.3}
 DIFFERENCE = {"color": "#222222", "linestyle": "-", "linewidth": 0.9}
 BAND = {"color": "#0072B2", "alpha": 0.18, "linewidth": 0.0, "label": "inputs, 95 %"}

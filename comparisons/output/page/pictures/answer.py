@@ -64,7 +64,7 @@ def overview(run: Run, width: float) -> "Drawn":
     look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
     names = len(panels[0].get_legend_handles_labels()[1])
     if width > style.COLUMN:
-        room, look["loc"] = 1.25, "upper right"
+        room, look["loc"] = 1.35, "upper right"
     else:  # the names below the load in words
         room = 1.3 + 0.12 * -(-names // 2)
         look |= {"loc": "upper left", "bbox_to_anchor": (0.0, 0.9)}
