@@ -108,7 +108,7 @@ def answer_table(run: Run, answer: str) -> TextTable:
     head = ("quantity", "friction", answer, LABELS[reference_of(run)], "difference")
     head += ("uncertainty", "its own", "tolerance", "verdict")
     rows = tuple((label(name), *cells) for name, *cells in answer_rows(run, answer))
-    return TextTable("", head, rows)
+    return TextTable("", head, rows, "comparison")
 
 
 def _validation_table(measured: Series) -> TextTable:
