@@ -31,11 +31,30 @@ if TYPE_CHECKING:
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
+    from comparisons.studies.study import Run
 
 
 HERTZ = "hertz"  # nothing is solved
 BOTH = ",".join(HYPHENATED.values())
-Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
+Tolerance = Annotated[
+    str | None,
+    Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
+]
+UpTo = Annotated[
+    str | None,
+    Option(help=f"No model beyond {HERTZ}, {', '.join(UP_TO)}; nor the first that holds."),
+]
+Fields = Annotated[
+    Literal["auto", "vtu", "vtkhdf", "msh"],
+    Option(help="File format of the stress fields; auto is by their size."),
+]
+Workers = Annotated[
+    str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
+]
+Answers = Annotated[
+    list[str] | None,
+    Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
+]
 Details = Annotated[
     bool, Option("--details", help="Every compared quantity, where the models agree, too.")
 ]
@@ -46,25 +65,12 @@ def run(
     scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Models = BOTH,
-    tolerance: Annotated[
-        str | None,
-        Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
-    ] = None,
-    up_to: Annotated[
-        str | None,
-        Option(help=f"No model beyond {HERTZ}, {', '.join(UP_TO)}; nor the first that holds."),
-    ] = None,
-    fields: Annotated[
-        Fields, Option(help="File format of the stress fields; auto is by their size.")
-    ] = "auto",
+    tolerance: Tolerance = None,
+    up_to: UpTo = None,
+    fields: Fields = "auto",
     junit: Junit = None,
-    workers: Annotated[
-        str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
-    ] = None,
-    answer: Annotated[
-        list[str] | None,
-        Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
-    ] = None,
+    workers: Workers = None,
+    answer: Answers = None,
     plan: Annotated[
         bool, Option("--plan", help="Only say what would be solved, and how long it takes.")
     ] = False,
@@ -96,16 +102,7 @@ def run(
         _say_first_answer(asked, surface)
     with progress() as callback, _workers(workers) as opens:
         solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
-    from comparisons.output.result_json import content_of
-    from comparisons.output.terminal import summary
-
-    gone, content = None, content_of(solved) if as_json else {}
-    try:
-        show_either(as_json, content, lambda: summary(solved, details))
-        sys.stdout.flush()  # the answer, before the report is drawn
-    except (BrokenPipeError, SystemExit) as error:  # as rich has it; the files are for others
-        gone = error
-        drop(sys.stdout)
+    gone = _say_answer(solved, details, as_json)  # before the report is drawn
     _say_warnings(warnings_about_result(solved))
     with progress() as callback:
         finish(solved, callback, fields)
@@ -121,6 +118,22 @@ def run(
     if not as_json:
         print(f"written: {directory / 'report.html'}, result.json and the fields beside it")
     return solved.exit_status
+
+
+def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | None:
+    """Print the answer; the error where nobody reads it: the files are for others."""
+    from comparisons.output.result_json import content_of
+    from comparisons.output.terminal import summary
+
+    try:
+        show_either(
+            as_json, content_of(solved) if as_json else {}, lambda: summary(solved, details)
+        )
+        sys.stdout.flush()
+    except (BrokenPipeError, SystemExit) as error:  # as rich has it
+        drop(sys.stdout)
+        return error
+    return None
 
 
 def _read(scene: str, answers: Sequence[str], tolerance: str | None) -> "Scene":

@@ -20,9 +20,9 @@ from comparisons.common.numbers import with_unit
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Figure, is_decided
 from comparisons.figures.quantity import WHOLE
-from comparisons.models.finite_element.mesh import LONGER
 from comparisons.models.forecast import flow_seconds, time_with_flow
 from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import LONGER
 from comparisons.models.problem import Problem
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
