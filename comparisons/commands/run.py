@@ -28,9 +28,12 @@ from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
+    from rich.table import Table
+
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
+    from comparisons.studies.ladder.planned import PlannedRung
 
 
 HERTZ = "hertz"  # nothing is solved
@@ -154,15 +157,32 @@ def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) 
     from comparisons.output.terminal import PLAIN
     from comparisons.runs.run import posed
     from comparisons.studies.ladder.limits import limited
+    from comparisons.studies.ladder.planned import planned_rungs
 
     scene, models = limited(scene, models)
     problem, planned = posed(scene, surface, models)
     print(forecast(problem, planned).text.translate(PLAIN))
     for step in planned.skipped:
         print(f"skipped: {step.step}: {step.because}".translate(PLAIN))
-    if scene.budget.effects and planned.compares:
-        print("effects are chosen by estimates once both models are solved (budget.effects)")
+    if rungs := planned_rungs(problem, planned):
+        show(_table_of(rungs))
     return ExitStatus.DONE
+
+
+def _table_of(rungs: "Sequence[PlannedRung]") -> "Table":
+    from rich.table import Table
+
+    from comparisons.common.numbers import with_unit
+
+    table = Table(
+        title="Models, from the cheapest to the whole, by estimates", title_justify="left"
+    )
+    for column in ("model", "computed", "expected", "when, or why not"):
+        table.add_column(column)
+    for rung in rungs:
+        seconds = "" if rung.seconds is None else with_unit(rung.seconds, "s", 2)
+        table.add_row(rung.words, rung.computed, seconds, rung.why)
+    return table
 
 
 def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":

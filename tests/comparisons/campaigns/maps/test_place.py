@@ -62,8 +62,8 @@ def test_between_points_the_error_is_known_to_a_tenth(name):
     least, most = (1e-2, 0.4) if slab else (1e-3, 0.1)
     content = finished_map(name)
     error = differences(content, content["quantity"])
-    s = scaled(error)
-    guess = unscaled(0.25 * (s[1:-1, :-2] + s[1:-1, 2:] + s[:-2, 1:-1] + s[2:, 1:-1]))
+    s = scaled(error, content)
+    guess = unscaled(0.25 * (s[1:-1, :-2] + s[1:-1, 2:] + s[:-2, 1:-1] + s[2:, 1:-1]), content)
     off = np.abs(guess - error[1:-1, 1:-1]) / np.maximum(np.abs(error[1:-1, 1:-1]), least)
     assert np.nanquantile(off, 0.9) < most
 
@@ -73,7 +73,7 @@ def test_between_two_points_it_is_straight_on_the_scale():
     error = differences(content, "peak_pressure")
     x = [10.0 ** np.mean(places(content["x"])[2:4]), content["y"]["values"][5]]
     error_there = interpolated(content, "peak_pressure", *x)
-    assert error_there == pytest.approx(unscaled(np.mean(scaled(error[5, 2:4]))))
+    assert error_there == pytest.approx(unscaled(np.mean(scaled(error[5, 2:4], content)), content))
 
 
 def test_smooth_scenes_take_the_map_of_what_they_have():
