@@ -108,7 +108,8 @@ def _by_map(name: str, contact: CoarseContact) -> tuple[Place, list[Figure]] | N
     left, figures = contact.left(_effects_of(content)).values(), []
     for quantity, tolerance in tolerances.items():
         error, bound = place.errors[quantity], sum(sizes.get(quantity, 0.0) for sizes in left)
-        parts = {"map": known_to(content, quantity, *place.shown), "effects": bound}
+        grown = (1.0 + abs(error)) * bound / (1.0 - bound) if bound < 1.0 else np.inf
+        parts = {"map": known_to(content, quantity, *place.shown), "effects": grown}
         figures.append(
             Figure(
                 study=NAME,
