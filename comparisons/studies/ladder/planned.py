@@ -20,7 +20,6 @@ from comparisons.studies.ladder.estimated import sizes_of
 from comparisons.studies.ladder.operators import (
     carried,
     carried_deformed,
-    is_deformed,
     why_no_stresses,
     words_of,
 )
@@ -118,7 +117,7 @@ class _Planned:
         reasons = {
             "does not apply: it has nothing more that matters": not held,
             self._beyond(kind): self._beyond(kind),
-            FLOWS: self.flow.beyond_doubt or (is_deformed(held) and "plastic_flow" in effects),
+            FLOWS: self._is_refuted(kind),
             "the one on the deformed surface has more": kind == OPERATORS and is_better,
             why_no_stresses(problem, self.window): why_no_stresses(problem, self.window),
         }
@@ -127,12 +126,19 @@ class _Planned:
         factor = ON_DEFORMED if kind == DEFORMED else BY_OPERATOR
         return PlannedRung(words, factor * self.seconds, UNLESS_HELD)
 
+    def _is_refuted(self, kind: str) -> bool:
+        """Whether flow beyond doubt leaves no elastic model of a kind; a cap stands for some."""
+        flows = "plastic_flow" in self.effects
+        if kind == OPERATORS:
+            return bool(self.plan.compares and self.flow.beyond_doubt and not flows)
+        return bool(self.flow.beyond_doubt or (self.plan.compares and flows))
+
     def _finite_elements(self, selection: EffectSelection) -> Iterator[PlannedRung]:
         problem, contained = self.problem, selection.contained
         splits = [split_variants(problem, selection, mu) for mu in problem.scene.load.friction]
-        split, needed = splits[-1], NEEDED
+        split, needed, always = splits[-1], NEEDED, ALWAYS
         if self.up_to != WHOLE:
-            needed = f"{NEEDED}, or a cheaper model holds"
+            needed, always = f"{NEEDED}, or a cheaper model holds", "unless a cheaper model holds"
         rows = {kind: [] for kind in (LINEAR, FINITE, FLOW)}
         for name, (with_it, _) in split.pairs.items():
             if contained != {name} and with_it != split.whole:
@@ -145,7 +151,7 @@ class _Planned:
         own = self._of_levels(OTHER)
         if contained and contained != selection.whole:
             words = words_of_kind(contained)
-            rows[kind_of(contained)].append(PlannedRung(words, own, ALWAYS))
+            rows[kind_of(contained)].append(PlannedRung(words, own, always))
         linear = selection.whole - set(NONLINEAR) - {"deformed_gap", "rough_boundary"}
         if len(linear) > 1 and linear != selection.whole:
             words = words_of_kind(linear)
@@ -154,8 +160,12 @@ class _Planned:
         for kind, known in rows.items():
             yield from known or [PlannedRung(KINDS[kind], None, self._why_none(kind, selection))]
         more = dict.fromkeys(v for one in splits for v in one.wholes)
-        seconds = own + (self._of_variants(more) if selection.whole != contained else 0.0)
-        yield PlannedRung(f"whole model: {words_of_kind(selection.whole)}", seconds, needed)
+        words, is_own = (
+            f"whole model: {words_of_kind(selection.whole)}",
+            selection.whole == contained,
+        )
+        seconds = own + (0.0 if is_own else self._of_variants(more))
+        yield PlannedRung(words, seconds, always if is_own else needed)
 
     def _why_none(self, kind: str, selection: EffectSelection) -> str:
         """Why there is no model of a kind beside the whole."""
