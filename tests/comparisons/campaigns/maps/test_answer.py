@@ -57,10 +57,11 @@ def test_a_map_judges_a_scene_of_its_kind_and_corrects_its_figures():
 
 
 def test_a_map_judges_a_coated_scene():
-    """By the operator of the coating 1.125 GPa."""
+    """The coating's operator has 1.0376 GPa."""
     posed = of_a_map("modulus-coating", {"coating_modulus_ratio": 2.0, "coating_over_a": 0.4})
     [line] = first_answer(posed)
     assert line.startswith("by the map modulus-coating (Ec/E = 2.0, h/a = 0.40): FAILS, ")
+    assert "; peak pressure 1.039 ± 0.014 GPa (half-plane 1.000), contact length 344 ± 5" in line
 
 
 def test_what_flows_has_the_same_bounds_by_either_switch():
