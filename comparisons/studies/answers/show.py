@@ -18,7 +18,7 @@ from comparisons.drawing.blocks import (
     TextTable,
     compared_cells,
 )
-from comparisons.drawing.curves import over, panels
+from comparisons.drawing.curves import COINCIDE, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figure, Figures, Series, grouped
 from comparisons.figures.quantity import LABELS, QUANTITIES, label
@@ -170,7 +170,7 @@ def _curves(axes: "list[Axes]", run: Run, answer: Answer, look: dict) -> None:
 
 
 def _shear(run: Run, name: str, answer: Answer) -> style.Picture:
-    """An answer's field, its reference's, and the difference."""
+    """An answer's field, its reference's, and the difference; one alone where they coincide."""
     hertz, window, stress = run.problem.hertz, run.window, answer.stress
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     reference = run.runs[reference_of(run)].finest.stress(stress.friction)
@@ -179,8 +179,15 @@ def _shear(run: Run, name: str, answer: Answer) -> style.Picture:
     names = name, LABELS[reference_of(run)]
     shown = [FieldPanel(*panel) for panel in zip(names, fields, strict=True)]
     scale = ColourScale.over("τ₁/p₀", fields)
-    of_two = ColourScale.of_differences("Δτ₁/p₀", [fields[0] - fields[1]])
-    drawn, _ = draw_fields(x, z, shown, scale, difference=(" − ".join(names), of_two))
+    apart = fields[0] - fields[1]
+    difference: tuple[str, ColourScale] | None = None
+    if np.nanmax(np.abs(apart)) > COINCIDE * np.nanmax(np.abs(fields[1])):
+        difference = " − ".join(names), ColourScale.of_differences("Δτ₁/p₀", [apart])
+        said = "and their difference, striped where negative"
+    else:
+        shown = [FieldPanel(" = ".join(names), fields[1])]
+        said = f"which coincide within {significant(np.nanmax(np.abs(apart)), 2)} p₀"
+    drawn, _ = draw_fields(x, z, shown, scale, difference=difference)
     words = f"Principal shear stress τ₁ of {name} and of the {names[1]}, friction "
-    words += f"{plain(stress.friction)}, and their difference, striped where negative."
+    words += f"{plain(stress.friction)}, {said}."
     return style.picture(drawn, words, words, data=False)
