@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
+from comparisons.drawing.curves import distinct
 from comparisons.drawing.style import (
     LINES,
     REFERENCE,
@@ -15,6 +16,7 @@ from comparisons.drawing.style import (
     stacked,
     svg,
 )
+from comparisons.output.page.pictures.answer import judged_picture
 from comparisons.output.page.pictures.contact import TICKS, close_up_picture, pressure_picture
 from comparisons.output.page.pictures.problem import problem_picture
 from comparisons.output.page.tables.problem import problem_sheet
@@ -87,6 +89,23 @@ def test_numbers_along_the_top_are_whole_and_clear_of_the_axis_name(wavy_outcome
             box = label.get_window_extent()
             assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
             assert not box.overlaps(name.get_window_extent())
+
+
+def test_the_name_of_a_bar_and_its_error_stand_apart(wavy_outcome, drawn_by, with_scene):
+    """Where several friction coefficients make the names long."""
+    outcome = with_scene(wavy_outcome, {"load.friction": (0.05, 0.125)})
+    [figure], _ = drawn_by(judged_picture, outcome)
+    texts = [text for text in figure.axes[0].texts if text.get_text()]
+    assert len(texts) == 2 * len(outcome.model_errors)
+    for one, other in combinations(texts, 2):
+        assert not one.get_window_extent().overlaps(other.get_window_extent())
+
+
+def test_curves_apart_by_less_than_a_picture_shows_are_one_line():
+    x = np.linspace(0.0, 1.0, 9)
+    flat = {"half_plane": (x, 0.0 * x), "finite_element": (x, 1e-9 * np.cos(9.0 * x))}
+    assert [*distinct(flat, least=1.0)] == [("half_plane", "finite_element")]
+    assert [*distinct(flat)] == [("half_plane",), ("finite_element",)]  # seen in a close-up
 
 
 def test_models_and_signs_differ_in_grey():
