@@ -21,7 +21,7 @@ from comparisons.drawing.curves import (
     over,
     panels,
 )
-from comparisons.drawing.field import SMALLEST_POWER, SUPERSCRIPT
+from comparisons.drawing.field import SMALLEST_POWER
 from comparisons.figures.quantity import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import mean_height
@@ -182,7 +182,7 @@ def draw_difference(axes: "Axes", run: Run, across: tuple[float, float], unit: S
     largest = np.max(np.abs(difference[shown]), initial=0.0)
     if 0.0 < largest < 10.0**SMALLEST_POWER:
         power = -int(np.floor(np.log10(largest)))
-        name = f"10{str(power).translate(SUPERSCRIPT)} {name}"
+        name = f"{style.power_of_ten(power)} {name}"
     axes.plot(x[shown] / unit.factor, difference[shown] * 10.0**power, **style.DIFFERENCE)
     style.symmetric(axes, difference[shown] * 10.0**power)
     axes.set_ylabel(name)
