@@ -28,10 +28,16 @@ from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
+    from rich.table import Table
+
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
+<<<<<<< HEAD
     from comparisons.studies.study import Run
+=======
+    from comparisons.studies.ladder.planned import PlannedRung
+>>>>>>> 09b062ad919717e4e3d7cd7e4fd1a27644da7fab
 
 
 HERTZ = "hertz"  # nothing is solved
@@ -166,6 +172,7 @@ def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) 
     from comparisons.output.terminal import PLAIN
     from comparisons.runs.run import planned, posed
     from comparisons.studies.ladder.limits import limited
+    from comparisons.studies.ladder.planned import planned_rungs
     from comparisons.studies.study import unsolved
 
     scene, models = limited(scene, models)
@@ -174,9 +181,25 @@ def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) 
         print(line.translate(PLAIN))
     for step in plan.skipped:
         print(f"skipped: {step.step}: {step.because}".translate(PLAIN))
-    if scene.budget.effects and plan.compares:
-        print("effects are chosen by estimates once both models are solved (budget.effects)")
+    if rungs := planned_rungs(problem, plan):
+        show(_table_of(rungs))
     return ExitStatus.DONE
+
+
+def _table_of(rungs: "Sequence[PlannedRung]") -> "Table":
+    from rich.table import Table
+
+    from comparisons.common.numbers import with_unit
+
+    table = Table(
+        title="Models, from the cheapest to the whole, by estimates", title_justify="left"
+    )
+    for column in ("model", "computed", "expected", "when, or why not"):
+        table.add_column(column)
+    for rung in rungs:
+        seconds = "" if rung.seconds is None else with_unit(rung.seconds, "s", 2)
+        table.add_row(rung.words, rung.computed, seconds, rung.why)
+    return table
 
 
 def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":
