@@ -33,11 +33,8 @@ if TYPE_CHECKING:
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
-<<<<<<< HEAD
-    from comparisons.studies.study import Run
-=======
     from comparisons.studies.ladder.planned import PlannedRung
->>>>>>> 09b062ad919717e4e3d7cd7e4fd1a27644da7fab
+    from comparisons.studies.study import Run
 
 
 HERTZ = "hertz"  # nothing is solved
