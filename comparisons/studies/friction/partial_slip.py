@@ -48,6 +48,7 @@ from comparisons.studies.model_error.catalogue import (
     problem_with,
 )
 from comparisons.studies.study import CONVERGED, WHY_NOT, Solved
+from fem.solver.mumps import FemError
 
 NAME = "partial_slip"
 QUANTITIES = {
@@ -120,7 +121,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     at, models, said = {"friction": friction_of(problem)}, {}, []
     for name, solve_level in solvers(solved).items():
         tasks.callback(f"partial slip: {name.replace('_', ' ')}")
-        models[name] = _model_slip(solved, name, solve_level)
+        try:
+            models[name] = _model_slip(solved, name, solve_level)
+        except FemError as error:
+            said.append(Statement(WHY_NOT, f"there is no solution: {error}", name, at))
+            continue
         settled = all(s.converged for level in models[name].levels for s in level.states)
         said.append(Statement(CONVERGED, "yes" if settled else "no", name, at))
     why = why_not_on_finite_elements(problem)
@@ -129,7 +134,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     figures, series = list(_figures(solved, models)), []
     if wants_finite_strain(solved) and set(models) == set(MODELS):
         tasks.callback("partial slip: finite deformation")
-        figures += _errors_against_whole(solved, models, figures)
+        try:
+            figures += list(_errors_against_whole(solved, models, figures))
+        except FemError as error:
+            why = f"of finite deformation there is no solution: {error}"
+            said.append(Statement(WHY_NOT, why, "finite_element", at))
     for name, model in models.items():
         series += _series(
             name, model.finest, path, at, Figures(figures).of(source=name, against=None)
