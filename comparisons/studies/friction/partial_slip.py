@@ -329,6 +329,7 @@ def _series(
         "tangential_displacement": level.displacements.tolist(),
         "energy_lost": level.energies.tolist(),
     }
+    columns = {k: values for k, values in columns.items() if figures.one(quantity=k) is not None}
     table = zip(path, *columns.values(), strict=True)
     rows = [dict(zip(("load", *columns), row, strict=True)) for row in table]
     units = {key: QUANTITIES[key].unit for key in columns}
