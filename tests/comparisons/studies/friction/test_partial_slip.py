@@ -226,3 +226,13 @@ def test_without_friction_nothing_is_held():
 def test_the_library_has_a_fretting_cycle():
     slip = Scene.read("fretting").partial_slip
     assert slip.path[0] == slip.path[-1] == slip.largest
+
+
+def test_unlike_bodies_may_be_pressed_alone():
+    scene = changed(SMOOTH, body={"youngs_modulus": 70e9}, load={"friction": 0.1})
+    scene = scene | {"partial_slip": {"loads": [0], "increments": 2}}
+    scene.pop("stress")
+    outcome = run(resolved(scene), None, ("half_plane",))
+    known = values(outcome)
+    assert 0.0 < known["stick_ratio"] < 1.0 and "tangential_displacement" not in known
+    assert known["held_pressure"] > outcome.problem.hertz.peak_pressure
