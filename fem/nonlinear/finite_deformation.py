@@ -178,7 +178,7 @@ class FiniteContact:
         for _ in range(MOST_SETTINGS if np.isinf(hardness) else MOST_CAPS):
             problem, wanted = [(self.response, self.contact)], (asked, approach, cap)
             start = constant, self.weights, state
-            begun = self._begun(asked, approach, hardness)
+            begun = self.begun(asked, approach, hardness)
             solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
             state, deformed = solution.state, self.deformed(solution)
             moved, asked, is_settled = self.settled(state, load, asked)
@@ -246,7 +246,7 @@ class FiniteContact:
             pieces[place], aside = piece - (mean, 0.0), max(aside, abs(mean))
         return np.vstack(pieces), aside
 
-    def _begun(
+    def begun(
         self, load: float | None, approach: float | None, hardness: float
     ) -> Callable[[float], ContactState]:
         """The linear solution under any part of the load."""

@@ -152,10 +152,11 @@ class HeldContact:
         pressed = (load - before.load) / self._most
         pulled = self.friction * (share * load - before.share * before.load) / self._most
         moved = pressed * self._linear[0] + pulled * self._linear[1]
-        pressure = before.pressure
-        if not before.load:
-            pressure = pressed * self._contact.start
-        moved = before.displacement + moved
+        pressure, moved = before.pressure, before.displacement + moved
+        if not before.load:  # where linear bodies touch under so little
+            begun = self._contact.begun(self._most, None, np.inf)(pressed)
+            pressure = begun.pressure
+            moved = np.where(self._held, moved, begun.displacements[0])
         return replace(before, displacement=moved, pressure=pressure, load=load, share=share)
 
     def _at(self, state: HeldState) -> _Point:

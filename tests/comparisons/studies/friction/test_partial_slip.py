@@ -1,6 +1,7 @@
 """Partial slip from the scene to its files: both models, uncertainties, verdicts, wrong input."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from analytic.exact.partial_slip import SlippingContact
 from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
-from comparisons.figures.quantity import MODELS
+from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.output.flat_csv import rows_of
@@ -21,6 +22,7 @@ from comparisons.studies.friction.finite_elements import finite_element_slip
 from comparisons.studies.friction.half_planes import half_plane_slip
 from comparisons.studies.friction.partial_slip import (
     COMPARED,
+    solve,
     solvers,
     why_not_on_finite_elements,
 )
@@ -85,6 +87,32 @@ def test_models_agree_within_their_uncertainty(cycled):
     for figure in differences:
         print(figure)
         assert abs(figure.value) <= figure.numerical and figure.verdict == "agree"
+
+
+def test_finite_deformation_is_a_part_of_the_error_against_the_whole(cycled):
+    """By few increments on the coarsest elements: the whole is what a scene with it has."""
+    scene = changed(SMOOTH, budget={"effects": "all"}, load={"friction": 0.3})
+    scene["partial_slip"] = {"load": 0.5, "increments": 2}
+    del scene["stress"]
+    posed = problem(scene)
+    runs = {n: replace(r, levels=r.levels[:1]) for n, r in cycled.solved.runs.items()}
+    solved = replace(cycled.solved, problem=posed, runs=runs, window=None)
+    found = solve(solved, {}, SimpleNamespace(callback=lambda text: None)).figures
+    errors = {f.quantity: f for f in found if f.against == WHOLE}
+    assert list(errors) == [*COMPARED[:3], "slip_amplitude"]
+    strained = {"deformation": "finite", "roller_shape": "parabola"}
+    finite = problem(changed(scene, finite_element=strained))
+    level = cycled.runs["finite_element"].levels[0]
+    whole = finite_element_slip(finite, make_plan(finite, MODELS), None, level, 2)
+    for name, error in errors.items():
+        [half_plane] = [
+            f for f in found if (f.quantity, f.source, f.against) == (name, MODELS[0], None)
+        ]
+        value = whole.figures((0.5,))[name]
+        assert error.value == pytest.approx(half_plane.value / value - 1.0, abs=1e-6)
+        [part] = error.parts
+        assert 1e-4 < abs(part.value) < 0.1
+        assert error.verdict == "inconclusive"  # one level says nothing of its error
 
 
 def test_page_tables_and_files_have_it(cycled):
@@ -198,3 +226,13 @@ def test_without_friction_nothing_is_held():
 def test_the_library_has_a_fretting_cycle():
     slip = Scene.read("fretting").partial_slip
     assert slip.path[0] == slip.path[-1] == slip.largest
+
+
+def test_unlike_bodies_may_be_pressed_alone():
+    scene = changed(SMOOTH, body={"youngs_modulus": 70e9}, load={"friction": 0.1})
+    scene = scene | {"partial_slip": {"loads": [0], "increments": 2}}
+    scene.pop("stress")
+    outcome = run(resolved(scene), None, ("half_plane",))
+    known = values(outcome)
+    assert 0.0 < known["stick_ratio"] < 1.0 and "tangential_displacement" not in known
+    assert known["held_pressure"] > outcome.problem.hertz.peak_pressure
