@@ -14,7 +14,7 @@ from comparisons.runs.run import run
 from comparisons.studies.study import unsolved
 from comparisons.studies.subsurface.cycles.level import expected_seconds
 from comparisons.studies.subsurface.cycles.passes import CycledLevel, Passes
-from comparisons.studies.subsurface.cycles.study import LONGEST, needs, outcome
+from comparisons.studies.subsurface.cycles.study import LONGEST, needs, outcome, planned
 from comparisons.studies.subsurface.cycles.surfaces import FLATTENED, FRESH, LAST, ONCE
 
 ROLLED = {
@@ -49,6 +49,9 @@ def test_rolling_below_the_limit_is_told_to_shake_down(rolled):
     assert value(rolled, "passes_to_shakedown") == 2
     assert value(rolled, "shakedown_limit") == pytest.approx(4.0, rel=1e-4)
     assert value(rolled, "carried") < 4.0
+    assert value(rolled, "energy_balance") < 2e-3
+    loss = rolled.figures.of(study="cycles").one(quantity="loss_first")
+    assert 0.0 < loss.uncertainty.parts["increments"] < 0.05
     flow = rolled.figures.of(study="cycles").one(quantity="flow_first")
     one, other = flow.levels
     assert abs(one - other) < flow.numerical * flow.scale  # two levels: three times their change
@@ -60,6 +63,7 @@ def test_the_half_plane_bears_the_load_on_what_flow_leaves(pressed):
         reloaded = value(pressed, quantity, source=ONCE)
         assert reloaded == pytest.approx(value(pressed, last), rel=0.01)
     peaks = [value(pressed, "peak_reloaded", source=name) for name in (FRESH, ONCE, LAST)]
+    assert value(pressed, "energy_balance") < 1e-5
     hertz = pressed.problem.hertz.peak_pressure
     assert peaks[0] == pytest.approx(hertz, rel=0.01) and peaks[1] < 0.98 * hertz
     assert peaks[2] == pytest.approx(peaks[1], rel=0.01)
@@ -105,6 +109,8 @@ def test_a_trace_is_rolled_over_where_it_takes_no_longer_than_it_may():
     rough = changed(ROLLED | {"profile": ROUGH}, cycles={"passes": 200, "travel": "0.8 mm"})
     solved = unsolved(posed := problem(rough), make_plan(posed, MODELS))
     assert expected_seconds(posed) > LONGEST and "fewer cycles.passes" in needs(solved)
+    shorter = unsolved(problem(changed(rough, cycles={"passes": 2})), solved.plan)
+    assert planned(shorter).endswith("s more, 2 passes on 2 levels")
     half_plane = replace(solved, plan=make_plan(posed, MODELS[:1]))
     assert needs(half_plane) == "takes the finite elements"
     far = problem(changed(rough, cycles={"travel": "3.9 mm"}))

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 COARSEST = 4.0  # elements on a half-width, on level 1
 STEEPER = 0.3  # growth of the edges beyond what is refined, on level 1; 1/sqrt 2 of it on the next
 BESIDE = 1.0  # half-widths beside the contact that are refined
+# Times the usual block: its ends bear the friction, with a part of the energy near the limit, and
+# cells that grow fill the way to them.
+FARTHER = 5.0
 LEAST_PRESSURE = 1.0 + 0.5 * np.pi  # times k: mean that a flat punch bears; contact is no wider
 # Half-widths that are refined below it: P/(pi z), which the largest shear comes near to, is k at
 # z = p0/(2k) a; the deepest flow is a little above.
@@ -44,7 +47,7 @@ def lines_of(problem: Problem, number: int) -> tuple[np.ndarray, np.ndarray]:
     edges = COARSEST * 2.0 ** (number - 1)
     ratio = 1.0 + STEEPER * 0.5 ** (0.5 * (number - 1))
     edge, over = problem.hertz.half_width / edges, peak_over_shear(problem)
-    wide, deep = problem.unbounded
+    wide, deep = (FARTHER * size for size in problem.unbounded)
     depth = problem.scene.body.thickness or deep
     x = _graded(_reach(problem, edges), edge, ratio, 0.5 * wide)
     z = _graded(round(max(LEAST_DEEP, DEEP * over) * edges), edge, ratio, depth)
