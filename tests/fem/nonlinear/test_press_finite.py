@@ -88,16 +88,16 @@ def test_light_loads_are_those_of_small_strains(body):
 
 
 def energies(body, metal, contact):
-    """Elastic and plastic energies [J/m] by the strain's two parts, Voce's law integrated."""
-    strain, state = body.strain(contact.displacement), contact.state
-    shear, lame = METAL.shear_modulus, METAL.lame_constants[0]
-    xx, zz, xz = (strain * [1.0, 1.0, 0.5] - state.strain).T
-    yy = state.strain[:, 0] + state.strain[:, 1]
-    elastic = shear * (xx**2 + zz**2 + yy**2 + 2.0 * xz**2)
-    elastic += 0.5 * lame * (strain[:, 0] + strain[:, 1]) ** 2
+    """Elastic and plastic energies [J/m]: Hooke's of Kirchhoff's stress, Voce's law integrated."""
+    inside, across = body.stress(contact.displacement, contact.state)
+    volume = np.linalg.det(np.eye(2) + body.gradient(contact.displacement))
+    xx, zz, xz, yy = np.column_stack([inside, across]).T * volume
+    elastic = (1.0 + NU) * (xx**2 + zz**2 + yy**2 + 2.0 * xz**2) - NU * (xx + zz + yy) ** 2
+    elastic *= 0.5 / METAL.youngs_modulus
     line, weight = np.polynomial.legendre.leggauss(8)
-    k = state.equivalent[:, None] * 0.5 * (1.0 + line)
-    plastic = 0.5 * state.equivalent * (metal.hardening.stress(k) @ weight)
+    equivalent = contact.state.equivalent
+    k = equivalent[:, None] * 0.5 * (1.0 + line)
+    plastic = 0.5 * equivalent * (metal.hardening.stress(k) @ weight)
     area = body.areas.ravel()
     return area @ elastic, area @ plastic
 
