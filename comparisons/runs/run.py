@@ -110,8 +110,8 @@ def solve_scene(
     surface = known.surface or from_first(lambda: surface_of(scene))
     try:
         problem, plan = posed(scene, surface, models, known.levels, callback)
-        callback(forecast(problem, plan).text)
         scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
+        callback("; ".join(planned(scene_now)))
         return solve(scene_now, out, callback)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
@@ -143,6 +143,18 @@ def posed(
     with stages.stage("set-up", "finding the reach of the contact"):
         problem = _problem(scene, surface, models, levels, callback)
     return problem, make_plan(problem, models)
+
+
+def planned(scene: Solved) -> list[str]:
+    """What a run of a scene will do and what it takes, by the laws of cost: its levels; studies
+    that take as long, or why one is left out."""
+    said = [forecast(scene.problem, scene.plan).text]
+    for study in STUDIES:
+        if study.applies(scene):
+            why_not = study.needs(scene)
+            takes = study.planned(scene) if why_not is None else f"is left out: it {why_not}"
+            said += [f"{study.name} {takes}"] if takes else []
+    return said
 
 
 def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
