@@ -28,14 +28,39 @@ from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
+    from rich.table import Table
+
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
+<<<<<<< HEAD
+    from comparisons.studies.study import Run
+=======
+    from comparisons.studies.ladder.planned import PlannedRung
+>>>>>>> 09b062ad919717e4e3d7cd7e4fd1a27644da7fab
 
 
 HERTZ = "hertz"  # nothing is solved
 BOTH = ",".join(HYPHENATED.values())
-Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
+Tolerance = Annotated[
+    str | None,
+    Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
+]
+UpTo = Annotated[
+    str | None,
+    Option(help=f"No model beyond {HERTZ}, {', '.join(UP_TO)}; nor the first that holds."),
+]
+Fields = Annotated[
+    Literal["auto", "vtu", "vtkhdf", "msh"],
+    Option(help="File format of the stress fields; auto is by their size."),
+]
+Workers = Annotated[
+    str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
+]
+Answers = Annotated[
+    list[str] | None,
+    Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
+]
 Details = Annotated[
     bool, Option("--details", help="Every compared quantity, where the models agree, too.")
 ]
@@ -46,25 +71,12 @@ def run(
     scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Models = BOTH,
-    tolerance: Annotated[
-        str | None,
-        Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
-    ] = None,
-    up_to: Annotated[
-        str | None,
-        Option(help=f"No model beyond {HERTZ}, {', '.join(UP_TO)}; nor the first that holds."),
-    ] = None,
-    fields: Annotated[
-        Fields, Option(help="File format of the stress fields; auto is by their size.")
-    ] = "auto",
+    tolerance: Tolerance = None,
+    up_to: UpTo = None,
+    fields: Fields = "auto",
     junit: Junit = None,
-    workers: Annotated[
-        str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
-    ] = None,
-    answer: Annotated[
-        list[str] | None,
-        Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
-    ] = None,
+    workers: Workers = None,
+    answer: Answers = None,
     plan: Annotated[
         bool, Option("--plan", help="Only say what would be solved, and how long it takes.")
     ] = False,
@@ -96,16 +108,7 @@ def run(
         _say_first_answer(asked, surface)
     with progress() as callback, _workers(workers) as opens:
         solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
-    from comparisons.output.result_json import content_of
-    from comparisons.output.terminal import summary
-
-    gone, content = None, content_of(solved) if as_json else {}
-    try:
-        show_either(as_json, content, lambda: summary(solved, details))
-        sys.stdout.flush()  # the answer, before the report is drawn
-    except (BrokenPipeError, SystemExit) as error:  # as rich has it; the files are for others
-        gone = error
-        drop(sys.stdout)
+    gone = _say_answer(solved, details, as_json)  # before the report is drawn
     _say_warnings(warnings_about_result(solved))
     with progress() as callback:
         finish(solved, callback, fields)
@@ -121,6 +124,22 @@ def run(
     if not as_json:
         print(f"written: {directory / 'report.html'}, result.json and the fields beside it")
     return solved.exit_status
+
+
+def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | None:
+    """Print the answer; the error where nobody reads it: the files are for others."""
+    from comparisons.output.result_json import content_of
+    from comparisons.output.terminal import summary
+
+    try:
+        show_either(
+            as_json, content_of(solved) if as_json else {}, lambda: summary(solved, details)
+        )
+        sys.stdout.flush()
+    except (BrokenPipeError, SystemExit) as error:  # as rich has it
+        drop(sys.stdout)
+        return error
+    return None
 
 
 def _read(scene: str, answers: Sequence[str], tolerance: str | None) -> "Scene":
@@ -153,6 +172,7 @@ def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) 
     from comparisons.output.terminal import PLAIN
     from comparisons.runs.run import planned, posed
     from comparisons.studies.ladder.limits import limited
+    from comparisons.studies.ladder.planned import planned_rungs
     from comparisons.studies.study import unsolved
 
     scene, models = limited(scene, models)
@@ -161,9 +181,25 @@ def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) 
         print(line.translate(PLAIN))
     for step in plan.skipped:
         print(f"skipped: {step.step}: {step.because}".translate(PLAIN))
-    if scene.budget.effects and plan.compares:
-        print("effects are chosen by estimates once both models are solved (budget.effects)")
+    if rungs := planned_rungs(problem, plan):
+        show(_table_of(rungs))
     return ExitStatus.DONE
+
+
+def _table_of(rungs: "Sequence[PlannedRung]") -> "Table":
+    from rich.table import Table
+
+    from comparisons.common.numbers import with_unit
+
+    table = Table(
+        title="Models, from the cheapest to the whole, by estimates", title_justify="left"
+    )
+    for column in ("model", "computed", "expected", "when, or why not"):
+        table.add_column(column)
+    for rung in rungs:
+        seconds = "" if rung.seconds is None else with_unit(rung.seconds, "s", 2)
+        table.add_row(rung.words, rung.computed, seconds, rung.why)
+    return table
 
 
 def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":

@@ -2,14 +2,18 @@
 profile, `deck` hands one to another code."""
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
 from comparisons.commands.arguments import RESULTS, SceneName, job, json_option, out_option
 from comparisons.commands.output import show, show_json
 from comparisons.common.errors import ExitStatus
+
+if TYPE_CHECKING:
+    from comparisons.campaigns.init.show import FirstScene
 
 Code = Literal["calculix", "abaqus", "fenicsx"]
 
@@ -81,25 +85,30 @@ def init(
     if as_json:
         show_json(made.as_dict())
         return ExitStatus.DONE
+    _say_what_was_made(made, options)
+    return ExitStatus.DONE
+
+
+def _say_what_was_made(made: "FirstScene", options: Mapping[str, object]) -> None:
+    """What was seen in the profile, assumed beside the options, and the first answer."""
     from comparisons.campaigns.init.show import init_table
     from comparisons.campaigns.maps.answer import first_answer
     from comparisons.models.problem import problem_of
     from comparisons.output.terminal import PLAIN
 
-    unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(made))
     tables = made.scene.written
     examples = {
-        "roller.radius": radius is None and tables["roller"]["radius"],
-        "load.hertz_peak_pressure": (load, peak_pressure) == (None, None)
+        "roller.radius": options["radius"] is None and tables["roller"]["radius"],
+        "load.hertz_peak_pressure": options["load"] is options["peak_pressure"] is None
         and tables["load"]["hertz_peak_pressure"],
-        "youngs_modulus": youngs_modulus is None and tables["body"]["youngs_modulus"],
+        "youngs_modulus": options["youngs_modulus"] is None and tables["body"]["youngs_modulus"],
     }
     if assumed := [f"{name} = {value}" for name, value in examples.items() if value]:
         print(f"assumed as examples, put in yours: {', '.join(assumed)}")
+    unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     for line in first_answer(problem_of(made.scene)):
         print(line if unicode else line.translate(PLAIN))
-    return ExitStatus.DONE
 
 
 @job

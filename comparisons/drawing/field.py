@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from comparisons.drawing.style import COLUMN, figure, hatch, stacked
+from comparisons.drawing.style import COLUMN, figure, hatch, power_of_ten, stacked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,7 +25,6 @@ COVERED = 99.5  # per cent of a field's points that its scale covers at least
 NOTHING = 1e-12  # a largest value below it is none
 PIXELS = 220  # to the inch
 SMALLEST_POWER = -2  # of ten: smaller ticks are written with the power apart
-SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOST_TICKS = 9  # of a colour bar
 STRIPES = 0.045, 0.3  # inches from one to the next, and the share that each covers
 SHADE = 0.22  # of black, of a stripe
@@ -132,7 +131,7 @@ def colour_bar(
     ticks = apart * np.arange(np.ceil(bands[0] / apart), np.floor(bands[-1] / apart * 1.000001) + 1)
     power = int(np.floor(np.log10(ticks[-1])))
     if power < SMALLEST_POWER:
-        label = f"{label}\n× 10{str(power).translate(SUPERSCRIPT)}"
+        label = f"{label}\n× {power_of_ten(power)}"
     else:
         power = 0
     labels = [f"{tick * 10.0**-power:.4g}" for tick in ticks]

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from importlib import import_module
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -44,6 +45,8 @@ BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
 ROLLER = {"facecolor": "#cfdbe6", "edgecolor": "none"}
 OUTLINE = {"color": "#444444", "linewidth": 1.0}
 
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 _OUTLINE = re.compile(rb' d="([^"]*)"')
 _INVISIBLE = re.compile(rb"(?<=\.\d\d)\d+|\s+(?=[MLCQZz])|(?<=[MLCQZz])\s+")
 
@@ -62,6 +65,19 @@ class Picture:
 
 
 _COLLECTED: "ContextVar[list[Figure] | None]" = ContextVar("collected_figures", default=None)
+
+
+def load_matplotlib() -> None:
+    """Import what draws. Without the docstrings that matplotlib writes for its classes meanwhile,
+    where it is not loaded yet: they take a quarter of the time, and nobody reads them here."""
+    from matplotlib import artist
+
+    written, artist.kwdoc = artist.kwdoc, lambda of: ""
+    try:
+        for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
+            import_module(name)
+    finally:
+        artist.kwdoc = written
 
 
 @contextmanager
@@ -177,6 +193,11 @@ def hatch(axes: "Axes", patches: Sequence["Patch"], colour: object, width: float
     outlines = [p.get_patch_transform().transform_path(p.get_path()) for p in patches]
     lines.set_clip_path(Outline.make_compound_path(*outlines), axes.transData)
     axes.add_artist(lines)
+
+
+def power_of_ten(power: int) -> str:
+    """As text: matplotlib's own labels of powers are formulas, which it takes a parser for."""
+    return "10" + str(power).translate(SUPERSCRIPT)
 
 
 def symmetric(axes: "Axes", values: np.ndarray) -> None:

@@ -11,7 +11,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import expected_with
 from comparisons.models.level import ExpectedCost
 from comparisons.models.nearest_operator import nearest_operator, solve_on
-from comparisons.models.plan import Plan, make_plan
+from comparisons.models.plan import LONGER, Plan, make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, window_of
 
@@ -141,8 +141,6 @@ def expected_level(
 def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
     """Of flow on the first two levels and of the check of its increments, for every friction
     coefficient, by the laws of cost."""
-    from comparisons.models.finite_element.mesh import LONGER
-
     return _flow_seconds(problem, patches, ((0, 1), (1, 1), *((0, times) for times in LONGER)))
 
 

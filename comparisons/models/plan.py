@@ -10,6 +10,8 @@ from comparisons.models.finite_element.compliance_check import no_check
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene, sections_of
 
+LONGER = (4, 2)  # times as long increments of plastic flow, of their check
+
 
 @dataclass(frozen=True)
 class Skipped:

@@ -11,6 +11,7 @@ from comparisons.models.problem import Problem
 FIRST_DEPTH = 0.25  # of the third level's pitch: the layer next to the surface
 FINEST_SPACING = 1.0 / 16.0  # of the third level's pitch; finer points would show nothing new
 MOST_COLUMNS = 2**18  # of the coarsest pitch across a window: where extremes are searched
+NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-widths
 SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searched
 
 
@@ -30,6 +31,13 @@ class Window:
     def subdivisions(self, pitch: float) -> int:
         """Parts into which x divides a pitch [m], 1 where x is coarser."""
         return 2 ** max(0, -self._octaves(pitch))
+
+    def compared(self, half_width: float) -> dict[str, np.ndarray]:
+        """Which depths (m,) are those of the near and of the deep field, whose norms are compared.
+
+        half_width  [m] of the Hertz contact"""
+        depth = self.z / half_width
+        return {"near": depth < NEAR, "deep": depth > DEEP}
 
     def _octaves(self, pitch: float) -> int:
         return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))

@@ -1,6 +1,5 @@
 """The files of a finished run: curves, fields, mesh, result, record, report."""
 
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -10,15 +9,13 @@ from comparisons.common.files import RECORD, published
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
-from comparisons.common.tasks import Here
+from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.field_files import AUTOMATIC, field_of, scene_text, write_field
 from comparisons.output.result_json import content_of
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
-
-DRAWING = ("matplotlib.axes", "matplotlib.figure", "matplotlib.backends.backend_svg")
 
 
 def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATIC) -> None:
@@ -28,12 +25,11 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
     if not is_first():
         return
     callback(Step("writing results", 0.0))
-    from comparisons.output.page.page import render, report_tasks
+    from comparisons.output.page.page import render
     from comparisons.output.page.saved import FILE
 
-    for module in DRAWING:  # before processes that draw are copied from this one
-        import_module(module)
-    with published(outcome.directory) as folder, report_tasks(outcome) as tasks:
+    # copies of this process write the fields while it loads what draws
+    with published(outcome.directory) as folder, tasks_of_copies(outcome) as tasks:
         levels = _written(outcome)
         for name in sorted(levels, key=lambda name: levels[name].mesh is None):  # longest first
             (folder / name).mkdir(parents=True, exist_ok=True)
@@ -45,7 +41,7 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
                 _write_csv(folder / path, ",".join(columns), *columns.values())
         (folder / "result.json").write_text(as_json(content_of(outcome)), encoding="utf-8")
         callback("drawing the report")
-        (folder / "report.html").write_text(render(outcome, tasks), encoding="utf-8")
+        (folder / "report.html").write_text(render(outcome), encoding="utf-8")
         for key in (*(f"files of {name}" for name in levels), FILE):
             tasks.result(key)
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())

@@ -26,7 +26,6 @@ from comparisons.studies.study import Solved, Study
 NAME = "comparison"
 # Of the uncertainty that a difference may have: figures that are shown may have half as much again.
 SHOWN = 2.0 / 3.0
-NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-widths
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
@@ -145,10 +144,10 @@ def field_norms(
     tau1: np.ndarray, reference: np.ndarray, problem: Problem, window: Window
 ) -> dict[str, float]:
     """Relative L2 norms of the difference of two fields (m, k), by the window's depths."""
-    weights, depth = layer_thickness(window.z)[:, None], window.z / problem.hertz.half_width
+    weights = layer_thickness(window.z)[:, None]
     return {
         f"tau1_field_{name}": relative_l2(tau1[part], reference[part], weights[part])
-        for name, part in (("near", depth < NEAR), ("deep", depth > DEEP))
+        for name, part in window.compared(problem.hertz.half_width).items()
         if np.any(part)
     }
 

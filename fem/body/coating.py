@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.material import Material, ThermalMaterial
-from fem.body.surface import SAME_POINT
 from meshes.block import BlockMesh
 
 
@@ -25,6 +24,8 @@ def coated_triangles(mesh: BlockMesh, coating: Coating | None) -> np.ndarray:
     """(m,) whether a triangle belongs to the coating."""
     if coating is None:
         return np.zeros(len(mesh.triangles), dtype=bool)
+    from fem.body.surface import SAME_POINT
+
     height = mesh.points[mesh.triangles[:, :3], 1] - coating.thickness
     slack = SAME_POINT * mesh.spec.depth
     crossing = (height.min(axis=1) < -slack) & (height.max(axis=1) > slack)

@@ -7,6 +7,7 @@ Method, 5th ed., section 8.8). (r, s) are reference coordinates, J = d(x, z)/d(r
 """
 
 from functools import cache, cached_property
+from typing import ClassVar
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -125,9 +126,11 @@ class Locator:
     From the element with the nearest centre it walks across the edge behind which the point lies,
     rarely more than twice on a graded mesh. Newton's method inverts the map of `curved` ones."""
 
+    # mesh, points, and where these are, of the latest call: other bodies and loads repeat it
+    _last: ClassVar[tuple[tuple, tuple[np.ndarray, np.ndarray]] | None] = None
+
     def __init__(self, points: np.ndarray, triangles: np.ndarray, curved: bool) -> None:
         self.points, self.triangles, self.curved = points, triangles, curved
-        self._last: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
     @cached_property
     def _centres(self) -> cKDTree:
@@ -147,10 +150,11 @@ class Locator:
 
     def __call__(self, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Element (k,), -1 outside the body, and reference coordinates (k, 2) of points (k, 2).
-        The last ones are known: other loads ask for the same points."""
-        if self._last is None or not np.array_equal(self._last[0], where):
-            self._last = where, *self._located(where)
-        return self._last[1:]
+        The last ones are known."""
+        asked, last = (self.points, self.triangles, self.curved, where), Locator._last
+        if last is None or not all(map(np.array_equal, asked, last[0])):
+            Locator._last = last = asked, self._located(where)
+        return last[1]
 
     def _located(self, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         _, element = self._centres.query(where)

@@ -50,7 +50,9 @@ class CoarseContact:
 
     @classmethod
     def of(cls, problem: Problem) -> "CoarseContact":
-        friction = problem.scene.load.friction[0]
+        """Nothing that answers here flows, though the scene's finite elements may."""
+        scene, friction = problem.scene, problem.scene.load.friction[0]
+        problem = replace(problem, scene=scene.unchecked({"finite_element.plastic": False}))
         levels = [half_plane_level(problem, p, None, Stages()) for p in problem.pitches[-2:]]
         first, last = (values_of(level, problem, friction) for level in (levels[0], levels[-1]))
         unsure = {name: abs(first[name] / last[name] - 1.0) for name in CORRECTED}
@@ -63,13 +65,11 @@ class CoarseContact:
         return self.left(frozenset())
 
     def left(self, held: frozenset[str]) -> dict[str, Sizes]:
-        """Of what a model with the effects `held` leaves out. None of these models flows, though
-        the scene's finite elements may."""
-        peak, scene = float(self.pressure.max()), self.problem.scene
-        problem = replace(self.problem, scene=scene.unchecked({"finite_element.plastic": False}))
+        """Of what a model with the effects `held` leaves out."""
+        peak = float(self.pressure.max())
         mean = float(self.pressure @ self.pressure / self.pressure.sum())
-        known = estimates(problem, peak, mean, held)
-        applying = {name: of for name, of in known.items() if EFFECTS[name].applies(problem)}
+        known = estimates(self.problem, peak, mean, held)
+        applying = {name: of for name, of in known.items() if EFFECTS[name].applies(self.problem)}
         return {name: sizes for name, sizes in applying.items() if name not in held}
 
     def text(self, errors: Mapping[str, tuple[float, float]]) -> str:
@@ -108,7 +108,8 @@ def _by_map(name: str, contact: CoarseContact) -> tuple[Place, list[Figure]] | N
     left, figures = contact.left(_effects_of(content)).values(), []
     for quantity, tolerance in tolerances.items():
         error, bound = place.errors[quantity], sum(sizes.get(quantity, 0.0) for sizes in left)
-        parts = {"map": known_to(content, quantity, *place.shown), "effects": bound}
+        grown = (1.0 + abs(error)) * bound / (1.0 - bound) if bound < 1.0 else np.inf
+        parts = {"map": known_to(content, quantity, *place.shown), "effects": grown}
         figures.append(
             Figure(
                 study=NAME,
@@ -131,8 +132,11 @@ def _effects_of(content: dict) -> frozenset[str]:
     }
     if "finite_strain" in names:
         names.add("deformed_gap")
-    if {"a_over_thickness", "a_over_width"} & {content[axis]["group"] for axis in "xy"}:
+    groups = {content[axis]["group"] for axis in "xy"}
+    if {"a_over_thickness", "a_over_width"} & groups:
         names.add("finite_size")
+    if "coating_over_a" in groups:
+        names.add("coating")
     return frozenset(names)
 
 

@@ -5,12 +5,12 @@ In: the content of map.json, whose points lie row by row, y outside, x inside.""
 import numpy as np
 
 from comparisons.campaigns.grid import SOLVED
+from comparisons.campaigns.maps.groups import GROUPS
 from comparisons.campaigns.maps.point import TOLERANCES
 from comparisons.figures.figure import judge
 
 # What is known of the model error of the half-plane at a point.
 SIGNIFICANT, BELOW, INCONCLUSIVE = "significant", "below tolerance", "inconclusive"
-SMALLEST = 1e-3  # errors below are drawn, and interpolated, as if on a straight scale
 
 
 def significance(answer: dict, quantity: str) -> dict:
@@ -58,10 +58,15 @@ def places(axis: dict, *values: float) -> np.ndarray:
     return np.log10(values) if axis["logarithmic"] else values
 
 
-def scaled(error: np.ndarray | float) -> np.ndarray | float:
-    """Nearly logarithmic for either sign; `unscaled` takes it back."""
-    return np.arcsinh(np.asarray(error) / SMALLEST)
+def scaled(error: np.ndarray | float, content: dict) -> np.ndarray | float:
+    """As a map is drawn and interpolated: nearly logarithmic for either sign, straight up to what
+    its groups say; `unscaled` takes it back."""
+    return np.arcsinh(np.asarray(error) / _straight(content))
 
 
-def unscaled(value: np.ndarray | float) -> np.ndarray | float:
-    return SMALLEST * np.sinh(value)
+def unscaled(value: np.ndarray | float, content: dict) -> np.ndarray | float:
+    return _straight(content) * np.sinh(value)
+
+
+def _straight(content: dict) -> float:
+    return max(GROUPS[content[axis]["group"]].straight for axis in "xy")

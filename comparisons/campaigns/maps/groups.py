@@ -5,6 +5,7 @@
     mu      coefficient of friction                    H   hardness [Pa]
     beta    Dundurs' constant of body and roller       E   Young's moduli [Pa]
     V       speed of the body past the contact [m/s]   h   thickness of its coating [m]
+    E', Ec  modulus of roller, of coating [Pa]
     k, k'   conductivity [W/(m K)] of body and coating, kappa diffusivity of the body [m^2/s]
 
 Each group also says which of the half-plane's assumptions the finite elements drop for it. All
@@ -64,6 +65,8 @@ class Group:
     early: bool = False  # the group changes a
     vanishes: bool = True  # the effect goes to zero with the group
     material: bool = False  # a property of materials, no size of an effect
+    # up to which errors a map's scale is straight: larger where they change sign amid the map
+    straight: float = 1e-3
 
 
 # What maps may show beside the contact.
@@ -244,6 +247,23 @@ def _set_coating(scene: Scene, value: float) -> Changes:
     return {"coating.thickness": value * _half_width(scene)}
 
 
+def _coating(problem: Problem) -> float | None:
+    coating = problem.scene.coating
+    return None if coating is None else coating.thickness / problem.hertz.half_width
+
+
+def _coating_ratio(problem: Problem) -> float | None:
+    """Of the plane strain moduli, as `_modulus_ratio`."""
+    coating, body = problem.scene.coating, problem.scene.body.material
+    if coating is None:
+        return None
+    return coating.material.plane_strain_modulus / body.plane_strain_modulus
+
+
+def _set_coating_ratio(scene: Scene, value: float) -> Changes:
+    return {"coating.youngs_modulus": value * scene.body.youngs_modulus}
+
+
 def _ratio(problem: Problem) -> float:
     return problem.scene.body.poissons_ratio
 
@@ -271,7 +291,8 @@ FUNCTIONS = {  # set_to, value_of
     "peak_pressure_over_hardness": (_set_hardness, _none),
     "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, _ratio),
     "modulus_ratio": (_set_modulus_ratio, _modulus_ratio),
-    "coating_over_a": (_set_coating, _none),
+    "coating_over_a": (_set_coating, _coating),
+    "coating_modulus_ratio": (_set_coating_ratio, _coating_ratio),
 }
 FUNCTIONS |= {
     name: (partial(_set_by_study, set_to), value_of)

@@ -139,9 +139,9 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
             if np.nanmax(side * error, initial=-np.inf) <= tolerance:
                 continue
             drawn[tolerance] = style
-            values = np.ma.masked_invalid(scaled(side * error))
+            values = np.ma.masked_invalid(scaled(side * error, content))
             look = {"colors": "#D55E00", "linewidths": 1.3, "linestyles": [style]}
-            lines = axes.contour(x, y, values, levels=[scaled(tolerance)], **look)
+            lines = axes.contour(x, y, values, levels=[scaled(tolerance, content)], **look)
             lines.set(path_effects=[Stroke(linewidth=2.6, foreground="white"), Normal()])
     return drawn
 

@@ -104,13 +104,23 @@ def unlike(content: dict, problem: Problem) -> str:
     axes = {content["x"]["group"], content["y"]["group"]}
     rigid, nu = posed["roller"].get("rigid", False), body["poissons_ratio"]
     finite = content["finite_element"].get("deformation") == "finite"
-    reasons = {}
+    reasons, ratio_of = {}, GROUPS["modulus_ratio"].value_of
     if scene.roller.rigid != rigid:
         reasons["roller"] = f"has {'an elastic' if rigid else 'a rigid'} roller"
+    elif not rigid and abs(ratio_of(problem) / ratio_of(_smooth(content)) - 1.0) > SAME_RATIO:
+        reasons["roller"] = "has a roller of another stiffness"
     if "poissons_ratio" not in axes and abs(scene.body.poissons_ratio - nu) > SAME_RATIO:
         reasons["ratio"] = f"has Poisson's ratio {scene.body.poissons_ratio:g}, not {nu:g}"
     if scene.coating is not None and "coating_over_a" not in axes:
         reasons["coating"] = "has a coating"
+    elif scene.coating is not None and "coating" in posed:
+        its, value = posed["coating"]["poissons_ratio"], scene.coating.poissons_ratio
+        if abs(value - its) > SAME_RATIO:
+            reasons["coating"] = f"has a coating of Poisson's ratio {value:g}, not {its:g}"
+    stresses = any(QUANTITIES[name].needs_stress for name in scene.tolerances)
+    slides = any(scene.load.friction) and not any(posed["load"]["friction"])
+    if slides and stresses and "friction_dundurs" not in axes:
+        reasons["friction"] = "slides"
     if scene.body.width is not None and "a_over_width" not in axes:
         reasons["width"] = "has a width of its own"
     if scene.body.base not in (None, body.get("base") or "bonded"):
@@ -122,16 +132,15 @@ def unlike(content: dict, problem: Problem) -> str:
     if profile is not None:
         if scene.profile.kind != profile["kind"]:
             reasons["wave"] = f"is no {profile['kind']}"
-        its, value = _curvature_of(content), GROUPS["a_over_radius"].value_of(problem)
+        its, value = (GROUPS["a_over_radius"].value_of(p) for p in (_smooth(content), problem))
         if abs(value / its - 1.0) > SAME_CURVATURE:
             reasons["curvature"] = f"has a/R = {value:.2g}, not {its:.2g}"
     return ", ".join(reasons.values())
 
 
-def _curvature_of(content: dict) -> float:
-    """a/R of the map's own scene."""
-    scene = Scene.of(content["scene"], Origin("map"))
-    return smooth_problem(scene).hertz.half_width / scene.roller.radius
+def _smooth(content: dict) -> Problem:
+    """Of the map's own scene."""
+    return smooth_problem(Scene.of(content["scene"], Origin("map")))
 
 
 def known_to(content: dict, quantity: str, x: float, y: float) -> float:
@@ -142,13 +151,16 @@ def known_to(content: dict, quantity: str, x: float, y: float) -> float:
     axes = zip((up, across), at, strict=True)
     low = (min(max(int(np.searchsorted(a, p)) - 1, 0), len(a) - 2) for a, p in axes)
     cell = tuple(slice(k, k + 2) for k in low)
-    values, unsure = scaled(differences(content, quantity)), uncertainties(content, quantity)
+    values, unsure = (
+        scaled(differences(content, quantity), content),
+        uncertainties(content, quantity),
+    )
     bent = 0.0
     for along, ends in enumerate((((1, 1), (0, 0)), ((0, 0), (1, 1)))):
         second = np.pad(np.abs(np.diff(values, 2, axis=along)), ends, "edge")
         bent += second[cell].max()
-    middle = scaled(interpolated(content, quantity, x, y))
-    ends = unscaled(middle + STRAIGHT * bent * np.array([-1.0, 0.0, 1.0]))
+    middle = scaled(interpolated(content, quantity, x, y), content)
+    ends = unscaled(middle + STRAIGHT * bent * np.array([-1.0, 0.0, 1.0]), content)
     total = np.abs(np.diff(ends)).max() + unsure[cell].max()
     return float(total) if np.isfinite(total) else np.inf
 
@@ -156,9 +168,9 @@ def known_to(content: dict, quantity: str, x: float, y: float) -> float:
 def interpolated(content: dict, quantity: str, x: float, y: float) -> float:
     """Relative model error between a map's points; nan where a neighbour's is unknown."""
     across, up = content["x"], content["y"]
-    values = scaled(differences(content, quantity))
+    values = scaled(differences(content, quantity), content)
     between = RegularGridInterpolator([places(up), places(across)], values)
-    return float(unscaled(between([places(up, y)[0], places(across, x)[0]])[0]))
+    return float(unscaled(between([places(up, y)[0], places(across, x)[0]])[0], content))
 
 
 def is_of_materials(content: dict) -> bool:

@@ -60,6 +60,7 @@ class LevelOptions:
     approach: float | None = None  # [m] from first touch, prescribed in place of the load
     check: bool = False  # compare the bodies' compliance with the analytic one first
     fields: bool = True  # give the stresses at all points of the mesh, too
+    compared: bool = False  # give the field at the depths alone whose norms are compared
 
 
 def finite_element_level(
@@ -121,7 +122,11 @@ def _level(
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
         frictions, asperities = problem.scene.load.friction, problem.asperities
-        stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, options.fields)
+        depths = None
+        if options.compared:
+            depths = np.any([*window.compared(problem.hertz.half_width).values()], axis=0)
+        how = asperities, options.fields, depths
+        stresses, mesh_field = stresses_of(pressed, frictions, window, *how)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 
 

@@ -26,7 +26,6 @@ LAYER_EXTENT = 12.0  # thicknesses beyond the contact: a layer's displacements d
 # elements of the first level, four of the shortest waves; largest heights of the profile, which
 # keeps the fading's own slope below 0.4. Peak pressures change by less than 3e-6 from 10 to 160.
 FADE_HATS, FADE_HEIGHTS = 40.0, 5.0
-LONGER = (4, 2)  # times as long increments of plastic flow, of their check
 
 
 @dataclass(frozen=True)

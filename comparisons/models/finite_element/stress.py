@@ -7,7 +7,7 @@ import numpy as np
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.stress_state import von_mises
+from analytic.stress_state import StressState, von_mises
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
 from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
@@ -116,15 +116,19 @@ def stresses_of(
     window: Window,
     asperities: tuple[float, ...] = (),
     on_mesh: bool = True,
+    depths: np.ndarray | None = None,
 ) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     """Extremes and fields on the window, one set a friction coefficient, and all on the mesh.
 
     asperities  (k,) [m] where one ends and the next begins: each has its own largest stresses
     on_mesh     whether stresses at all of the mesh's points are wanted; else they are computed
                 only where the window needs them, or where they may be the largest
+    depths      (m,) which of the window's depths are wanted; NaN at others. None: all
     """
     nodal = pressed.stresses(frictions)
-    return from_first(lambda: _stresses_of(pressed, nodal, frictions, window, asperities, on_mesh))
+    depths = np.ones(len(window.z), dtype=bool) if depths is None else depths
+    wanted = frictions, window, asperities, on_mesh, depths
+    return from_first(lambda: _stresses_of(pressed, nodal, *wanted))
 
 
 def _stresses_of(
@@ -134,11 +138,12 @@ def _stresses_of(
     window: Window,
     asperities: tuple[float, ...],
     on_mesh: bool,
+    depths: np.ndarray,
 ) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     body, results = pressed.body, []
     bounds = (-window.extent, window.extent, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
-    shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
+    shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z[depths]))
     for friction, stresses, on_window in zip(frictions, nodal, shown, strict=True):
         samples = Samples(body, stresses)
         searched = bounds, asperities, samples
@@ -156,7 +161,9 @@ def _stresses_of(
                 bounds,
                 samples,
             )
-        results.append(StressResult(friction, extremes, on_window, highest_places))
+        on_all = np.full((3, len(depths), len(window.x)), np.nan)
+        on_all[:, depths] = on_window.sx, on_window.sz, on_window.txz
+        results.append(StressResult(friction, extremes, StressState(*on_all), highest_places))
     if not on_mesh:
         return tuple(results), None
     if pressed.moved is None:

@@ -3,14 +3,12 @@
 A loop over blocks: those that every run has, and those by which each study shows what it finds."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import nullcontext
 from dataclasses import replace
-from importlib import import_module
 
 from comparisons.common.processes import uncollected
-from comparisons.common.tasks import Here, Tasks, tasks_of_copies
+from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import Block, Box, Bullets, Heading, Names, Note, Pictures
-from comparisons.drawing.style import Picture, drawing
+from comparisons.drawing.style import Picture, drawing, load_matplotlib
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.models.forecast import forecast
@@ -47,10 +45,10 @@ FOLDED = ("problem", "convergence", "mesh", "cost", "checks", "skipped", "record
 NOTES = verification.WORDING["how_to_read"]
 
 
-def render(run: Run, tasks: Tasks | None = None) -> str:
-    """The page of a finished run, drawn by `report_tasks`; equal runs give equal text."""
+def render(run: Run) -> str:
+    """The page of a finished run; equal runs give equal text."""
     script, policy = inline("field_values.js")
-    explorer, pictures = field_explorer(run), draw(run, tasks)
+    explorer, pictures = field_explorer(run), draw(run)
     shown = [_shown(block, pictures) for block in sections(run, explorer)]
     [first, *others] = (HYPHENATED[name] for name in run.runs)
     return rendered(
@@ -91,23 +89,17 @@ def _listed(drawn: object) -> list[Picture]:
     return drawn if isinstance(drawn, list) else [] if drawn is None else [drawn]
 
 
-def report_tasks(run: Run) -> Tasks:
-    """For the pictures and files of a run, side by side; `Here.shared` is the run."""
-    for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
-        import_module(name)  # once for all copies
-    return tasks_of_copies(run)
-
-
-def draw(run: Run, tasks: Tasks | None = None) -> dict[str, object]:
-    """What each of PICTURES gives."""
-    with report_tasks(run) if tasks is None else nullcontext(tasks) as tasks:
+def draw(run: Run) -> dict[str, object]:
+    """What each of PICTURES gives, drawn side by side."""
+    load_matplotlib()  # with its settings, once for all copies
+    with drawing(), tasks_of_copies(run) as tasks:
         for name in PICTURES:
             tasks.add(name, _drawn, name)
         return {name: tasks.result(name) for name in PICTURES}
 
 
 def _drawn(here: Here, name: str) -> object:
-    with drawing(), uncollected():
+    with uncollected():
         return PICTURES[name](here.shared)
 
 

@@ -49,7 +49,7 @@ def estimated_rungs(
 ) -> list[Rung]:
     """From the cheapest on, as far as the scene's budget goes."""
     problem, half_plane = solved.problem, solved.runs[HALF_PLANE]
-    sizes = _sizes(solved, before)
+    sizes = sizes_of(solved, before)
     began = perf_counter()
     smooth, frictions = closed_form(problem) is not None, problem.scene.load.friction
     hertz = {mu: _hertz(solved, mu) for mu in frictions} if smooth else {}
@@ -115,7 +115,7 @@ def _peak(run: ModelRun) -> float:
     return float(run.finest.solution.pressure.max())
 
 
-def _sizes(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Sizes]:
+def sizes_of(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Sizes]:
     """Estimates of all that the half-plane leaves out, by effect and quantity."""
     problem, pressure = solved.problem, solved.runs[HALF_PLANE].finest.solution.pressure
     known = before.get(coupling.NAME)

@@ -194,13 +194,13 @@ class Ladder:
         contained, every = self.budget.selection.contained, self.budget.solutions
         if not contained or all(solutions.contains_all for solutions in every.values()):
             return None
-        kind = _kind_of(contained)
+        kind = kind_of(contained)
         errors = [
             solutions.of_variants(row.quantity, [level.of_scene for level in solutions.history])
             for friction, solutions in every.items()
             for row in self._rows(friction)
         ]
-        run, words = self.solved.runs[OTHER], _words_of(kind, contained)
+        run, words = self.solved.runs[OTHER], words_of_kind(contained)
         rung = _rung_of(run, OTHER, words, self._figures(OTHER, errors), kind)
         return replace(rung, effects=contained)
 
@@ -214,7 +214,7 @@ class Ladder:
                 numerical = row.numerical if uncertainty is None else uncertainty.total
                 errors.append(solutions.of_whole(row.quantity, numerical))
         effects = self.budget.selection.whole
-        inside = _words_of(_kind_of(effects), effects)
+        inside = words_of_kind(effects)
         rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors), WHOLE)
         seconds, memory = self.budget.took.get(WHOLE, (0.0, 0))
         cost = rung.seconds + seconds, max(rung.memory, memory)
@@ -309,14 +309,14 @@ def _is_whole(name: str, solutions: Solutions) -> bool:
     return all(level.pairs[name][0] is level.whole for level in levels if name in level.pairs)
 
 
-def _kind_of(effects: Iterable[str]) -> str:
+def kind_of(effects: Iterable[str]) -> str:
     kinds = {NONLINEAR.get(name, LINEAR) for name in effects}
     return next(kind for kind in (FLOW, FINITE, LINEAR) if kind in kinds or kind == LINEAR)
 
 
-def _words_of(kind: str, effects: Iterable[str]) -> str:
-    """A kind with the linear effects that it is given beside it."""
-    is_finite = "finite_strain" in effects
+def words_of_kind(effects: Iterable[str]) -> str:
+    """The kind of finite elements that have the effects, and the linear ones beside it."""
+    kind, is_finite = kind_of(effects), "finite_strain" in effects
     implied = {"plastic_flow", *(KINEMATIC if is_finite else ())}
     beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in implied]
     words = f"{KINDS[kind]} at finite deformation" if is_finite and kind == FLOW else KINDS[kind]

@@ -20,9 +20,9 @@ from comparisons.common.numbers import with_unit
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Figure, is_decided
 from comparisons.figures.quantity import WHOLE
-from comparisons.models.finite_element.mesh import LONGER
 from comparisons.models.forecast import flow_seconds, time_with_flow
 from comparisons.models.level import Level, ModelRun
+from comparisons.models.plan import LONGER
 from comparisons.models.problem import Problem
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
@@ -102,7 +102,7 @@ def error_budget(
     rows       the comparison of the solved models
     couplings  of the half-plane, one a friction coefficient"""
     problem, half_plane = solved.problem, solved.runs["half_plane"]
-    selection = _selected(solved, couplings)
+    selection = selected_effects(solved, couplings)
     is_frugal = problem.scene.budget.effects != "all"
     if (
         is_frugal
@@ -224,7 +224,7 @@ def announce_effects(
     levels. The whole will leave it open, too: its further level need not wait, and a process stays
     with the bodies of one level."""
     problem, half_plane = solved.problem, solved.runs["half_plane"]
-    selection, variants = _selected(solved, couplings), _variants(solved, tasks, None)
+    selection, variants = selected_effects(solved, couplings), _variants(solved, tasks, None)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.load.friction]
     variants.keep(split.whole for split in splits)
     wholes = [variant for split in splits for variant in split.wholes]
@@ -257,7 +257,7 @@ def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> Solved
     return SolvedVariants(solved.problem, solved.window, of_scene, tasks, patches)
 
 
-def _selected(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelection:
+def selected_effects(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelection:
     contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)
     pressure = max(contacts, key=np.max)
     mean = float(pressure @ pressure / pressure.sum())

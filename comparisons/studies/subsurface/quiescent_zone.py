@@ -40,8 +40,7 @@ from comparisons.figures.quantity import LABELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
-from comparisons.studies.comparison import DEEP
+from comparisons.models.window import DEEP, Window
 from comparisons.studies.contact import by_repetition
 from comparisons.studies.study import WHY_NOT, Run, Solved, Study
 

@@ -13,11 +13,13 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
 from comparisons.figures.quantity import MODELS
+from comparisons.models.plan import make_plan
 from comparisons.output.result_json import content_of
 from comparisons.runs.run import run
 from comparisons.studies.ladder import show
 from comparisons.studies.ladder.estimated import hertz_alone
 from comparisons.studies.ladder.limits import limited
+from comparisons.studies.ladder.planned import FLOWS, planned_rungs
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT
 
 STIFFER = 1.01
@@ -107,6 +109,38 @@ def test_estimates_say_what_holds_where_no_whole_is_solved(finish, smooth_tables
     [(_, line)] = show.lines(alone)
     assert line.endswith("by estimates") == (name is not None)
     assert (hertz_alone(alone.problem)[0]) == (name is not None)
+
+
+def planned(tables, models=MODELS):
+    posed = problem(tables)
+    return planned_rungs(posed, make_plan(posed, models))
+
+
+def test_what_is_computed_is_planned(wavy_outcome):
+    """Of the finished run every model by its name; the table of the plan begins with Hertz."""
+    rows = planned_rungs(wavy_outcome.problem, wavy_outcome.plan)
+    computed = {row.words for row in rows if row.computed != "no"}
+    solved = wavy_outcome.findings[LADDER].table(show.RUNGS).rows()
+    assert {row["model"] for row in solved} <= computed
+    assert (rows[0].words, rows[0].seconds) == ("Hertz's closed form", 0.0)
+    assert all((row.seconds is None) == (row.computed == "no") for row in rows)
+
+
+def test_a_plan_says_why_a_model_is_not_computed(smooth_tables, wavy_tables):
+    why = {row.words: row.why for row in planned(changed(smooth_tables, load={"per_length": 1e2}))}
+    assert why["half-plane with what an operator carries"].startswith("does not apply")
+    assert why["finite deformation"].startswith("does not apply: finite deformation is ")
+    limited_tables = changed(wavy_tables, budget={"up_to": "operators"})
+    rows = planned(limited_tables, MODELS[:1])
+    assert rows[-1].why == "beyond --up-to operators" == rows[3].why
+    layer = changed(smooth_tables, body={"thickness": 1e-3})
+    [row] = [row for row in planned(layer) if row.words == "half-plane with layer"]
+    assert row.computed == "if needed" and 0.0 < row.seconds < 1.0
+    soft = changed(smooth_tables, body={"yield_stress": 1e8}, budget={"up_to": "deformed"})
+    [row] = [row for row in planned(soft, MODELS[:1]) if "deformed" in row.words]
+    assert row.why == FLOWS and row.seconds is None
+    unjudged = make_plan(problem(layer), MODELS[1:])
+    assert planned_rungs(problem(layer), unjudged) == []
 
 
 def test_an_operator_refutes_a_half_plane_without_finite_elements(finish):

@@ -15,6 +15,7 @@ from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level, half_plane_on
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import problem_of
+from comparisons.models.smooth import closed_form
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies.ladder.operators import (
@@ -36,7 +37,7 @@ FIELD = {"stress": {"points": [60, 20]}}
 
 @pytest.mark.parametrize("case", CASES, ids=[f"{c['base']}-{c['a_over_t']}" for c in CASES])
 def test_exact_layers(case):
-    """The coarsest level and the one of half its elements: the peak of second order."""
+    """The coarsest level and the third: the peak of second order, and pressures on the way."""
     nu = 0.3 if case["nu"] == "any" else float(case["nu"])
     modulus = YOUNGS_MODULUS / (1.0 - nu**2)
     load = float(case["P_R_over_Eprime_t2"]) * modulus * THICKNESS**2 / RADIUS
@@ -52,6 +53,21 @@ def test_exact_layers(case):
         assert level.solution.converged
         assert level.solution.pressure.max() == pytest.approx(exact, rel=close)
         assert abs(0.5 * level.contact_length - half_width) < 0.1 * pitch
+        places, known = np.array([(float(x), float(p)) for x, p in case["profile"].items()]).T
+        pressure = np.interp(places * half_width, level.grid.x, level.solution.pressure)
+        assert pressure / exact == pytest.approx(known, abs=8.0 * close)
+
+
+@pytest.mark.parametrize("mean_pressure", [1e8, 3e8, 6e8], ids=["a third", "two thirds", "closed"])
+def test_westergaard_s_wave(mean_pressure):
+    """By the operator of a period, as the same rung of any other surface: of second order."""
+    posed = problem(Scene.read("periodic").tables | {"load": {"mean_pressure": mean_pressure}})
+    exact, off = closed_form(posed), []
+    for pitch in (posed.pitches[0], posed.pitches[2]):
+        level = OperatorModel(posed, (0.0,), 0.0).level(pitch, None)
+        off.append(level.solution.pressure.max() / exact.peak_pressure - 1.0)
+        assert abs(level.contact_length - exact.contact_length) < 0.2 * pitch
+    assert off[1] < 1.5e-4 and 12.0 < off[0] / off[1] < 22.0
 
 
 def test_a_coating_of_the_body_itself_is_a_half_plane():

@@ -1,6 +1,7 @@
 """How the solution was refined and what it took: errors of the judged figures over the size of the
 elements, each beside its formal order, and seconds by stage of every model."""
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -91,6 +92,9 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     axes.set_xscale("log")
     if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in axes.lines):
         axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(
+            lambda value, place: style.power_of_ten(round(math.log10(value)))
+        )
     else:
         axes.set_yticks([])
         axes.annotate("no change but rounding", (0.5, 0.5), xycoords="axes fraction", ha="center")

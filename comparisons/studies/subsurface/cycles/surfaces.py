@@ -16,7 +16,6 @@ from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.problem import Problem
 from comparisons.studies.model_error.estimates import TABOR
 from comparisons.studies.subsurface.cycles.passes import CycledLevel
-from fem.nonlinear.press_plastic import averaged_pressure
 
 FRESH, ONCE, LAST, FLATTENED = "fresh", "pressed_once", "after_all", "run_in"
 FLATTENINGS = 15  # places of the roller of running-in along a travel
@@ -34,6 +33,8 @@ class LeftSurface:
     @property
     def peak(self) -> float:
         """Largest pressure [Pa], mean over neighbouring hats."""
+        from fem.nonlinear.press_plastic import averaged_pressure
+
         return float(averaged_pressure(self.pressure).max())
 
 

@@ -60,7 +60,7 @@ def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
     posed, pairs = problem(TABLES), []
     plan = make_plan(posed, ("finite_element",))
 
-    def both(pressed, frictions, window, asperities, _):
+    def both(pressed, frictions, window, asperities, *_):
         known = replace(pressed, on_mesh=None)
         ways = (pressed, False), (pressed, True), (known, True)
         asked = frictions, window, asperities

@@ -14,9 +14,12 @@ from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
+from comparisons.models.window import window_of
 from comparisons.scenes.files import read_toml
+from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.catalogue import UNKNOWN
 from comparisons.studies.model_error.estimates import estimates
 from comparisons.studies.model_error.laws import open_laws
@@ -90,3 +93,24 @@ def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
     bound = estimates(plain, peaks[0], peaks[0])["law_of_elasticity"]["peak_pressure"]
     spread = [peak / peaks[0] - 1.0 for peak in peaks[1:]]
     assert 0.3 * bound < max(map(abs, spread)) < bound
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.2])
+def test_flow_without_a_cap_is_within_its_estimate(friction):
+    """A smooth contact at p0 = 3 Y, perfectly plastic: neither exceeded nor four times as large."""
+    body, load = STEEL | {"yield_stress": 1e9}, {"hertz_peak_pressure": 3e9, "friction": friction}
+    tables = {"roller": {"radius": 8e-3, "rigid": True}, "body": body, "load": load}
+    tables |= {"stress": {"points": [60, 20]}, "resolution": {"elements": 8}}
+    posed = problem(tables)
+    flowing = problem(tables | {"finite_element": {"plastic": True, "coupled": True}})
+    window, pitch = window_of(posed), posed.pitches[0]
+    elastic = half_plane_level(posed, pitch, window, Stages())
+    plastic = finite_element_level(
+        flowing, make_plan(flowing, MODELS), Refinement(pitch), window, Stages()
+    )
+    values = [values_of(level, posed, friction) for level in (elastic, plastic)]
+    peak = posed.hertz.peak_pressure
+    bounds = estimates(posed, peak, peak)["plastic_flow"]
+    for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
+        moved = abs(values[0][name] / values[1][name] - 1.0)
+        assert moved <= bounds[name] <= 4.0 * moved, name
