@@ -11,7 +11,8 @@ miss of the true path is in `plastic_work`, which along that path belongs to the
     sum_q w_q (integral Y dk + H'/3 ep : ep),
 
 the `flowed` energy. The two differ by what a trapezoid misses, of second order in the increments.
-At finite strains F turns with the surface, and the work misses as much.
+At finite strains F turns with the surface, and the work misses as much; so does the plastic work by
+the change of ln Up, where that turns.
 
 Nomenclature: F nodal forces [N/m], u displacement [m], s stress conjugate to the strain [Pa], W
 elastic energy [J/m]; ep, k, Y, H', w as of `fem.nonlinear.plasticity`."""
@@ -54,10 +55,8 @@ class EnergyAccount:
         """An increment to a displacement (n, 2) [m] under nodal forces (n, 2) [N/m] on the body,
         those of a support that moves among them."""
         body = self._body
-        strain = body.strain(displacement)
-        stress = np.column_stack(body.conjugate_stress(strain, body.state))
+        elastic, stress = body.balance(displacement)
         plastic = plastic_parts(body.state)
-        elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
         mean, flow = 0.5 * (self._stress + stress), plastic - self._plastic
         way = displacement - self._moved
         self.now = Energies(

@@ -1,12 +1,23 @@
-"""A metal that flows at finite strains and rotations: by the logarithmic strain.
+"""A metal that flows at finite strains and rotations: F = Fe Fp, and logarithmic elastic strain.
 
-The strain E = 1/2 ln C has an additive plastic part; yield function, return mapping, hardening and
-state are those of `fem.nonlinear.plasticity`, with E in place of the small strain (Miehe, Apel and
-Lambrecht 2002, see `fem.nonlinear.log_strain`). Without flow this is Hencky's law. Flow keeps the
-volume exactly, since tr E = ln J. The flow stress bounds Kirchhoff's stress, J times Cauchy's.
+    E = 1/2 ln (Q'CQ),   Q = exp(-dev ep),   ep = ln Up, dev in the plane
+
+Up is the stretch of Fp, all that a metal without directions remembers of its flow. F Q is Fe but
+for the stretch across the plane, which is left in the plastic strain before a step. From there the
+return mapping, hardening and stress are those of `fem.nonlinear.plasticity`, with E in place of the
+small strain; a step that adds dep to the plastic strain ends with Up = |exp(dep) Q^-1| (Eterovic
+and Bathe 1990, Int. J. Numer. Methods Eng. 30, 1099-1114; Simo 1992, Comput. Methods Appl. Mech.
+Eng. 99, 61-112). Without flow this is Hencky's law. Flow keeps the volume exactly, since tr E =
+ln J. The flow stress bounds Kirchhoff's stress, J times Cauchy's, however far the metal flows.
+
+With Q = I, where 1/2 ln C itself is a sum of both parts (Miehe, Apel and Lambrecht 2002), the shear
+that a metal without hardening bears falls by a fifth until a plastic strain of 1 and by a half
+until 2. Kinematic hardening, whose back stress needs the sum, is still mapped so.
 
 All terms are integrated at the three points of flow: quadratic triangles then do not lock at
 finite strains either. Plastic strains are in the axes of the undeformed body."""
+
+from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import bsr_matrix, csr_matrix
@@ -14,7 +25,14 @@ from scipy.sparse import bsr_matrix, csr_matrix
 from fem.body.elasticity import ElasticBody
 from fem.body.sums import nodal_sums
 from fem.nonlinear.log_strain import LogStrain
-from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState, PlasticStep
+from fem.nonlinear.plasticity import (
+    ElasticPlastic,
+    PlasticBody,
+    PlasticState,
+    PlasticStep,
+    return_mapping,
+    stress_of,
+)
 
 CHUNK = 8192  # elements whose tangents are formed at once
 
@@ -23,7 +41,7 @@ class FinitePlasticBody(PlasticBody):
     """As `PlasticBody`, at finite strains: displacements (n, 2) [m] of any size that invert no
     element. FemError where one is inverted.
 
-    state   plastic part of the logarithmic strain at the points, xx, zz, xz"""
+    state   logarithmic plastic strain ep at the points, xx, zz, xz"""
 
     def __init__(self, body: ElasticBody, metal: ElasticPlastic) -> None:
         super().__init__(body, metal)
@@ -43,41 +61,85 @@ class FinitePlasticBody(PlasticBody):
         """Logarithmic Exx, Ezz, 2 Exz (3m, 3) of a displacement (n, 2) [m]."""
         return LogStrain(self.gradient(displacement)).strain
 
+    def step(self, displacement: np.ndarray) -> PlasticStep:
+        """The step from the accepted state to a displacement (n, 2) [m]."""
+        _, step, _, unflowed = self._at(displacement)
+        strain = step.state.strain
+        if unflowed is not None:
+            strain = _in_turn(self.state.strain, strain)
+        return replace(step, state=replace(step.state, strain=strain))
+
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal force (n, 2) [N/m] and its derivative (2n, 2n) [Pa] at a displacement (n, 2).
         For the step from the accepted state; rows of held components are as all others."""
-        strain, step, conjugate = self._at(displacement)
-        return self._balanced(strain, conjugate), self._tangent(strain, step, conjugate)
+        strain, step, conjugate, unflowed = self._at(displacement)
+        slopes = self._slopes_of(unflowed)
+        force = self._balanced(slopes, strain, conjugate)
+        return force, self._tangent(slopes, strain, step, conjugate)
 
     def force(self, displacement: np.ndarray) -> np.ndarray:
         """The internal force alone."""
-        strain, _, conjugate = self._at(displacement)
-        return self._balanced(strain, conjugate)
+        strain, _, conjugate, unflowed = self._at(displacement)
+        return self._balanced(self._slopes_of(unflowed), strain, conjugate)
 
     def stress(
         self, displacement: np.ndarray, state: PlasticState
     ) -> tuple[np.ndarray, np.ndarray]:
         """Cauchy's sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m]."""
-        strain = LogStrain(self.gradient(displacement))
-        conjugate, across = self.conjugate_stress(strain.strain, state)
+        unflowed, left = self._unflowed(state)
+        strain = self._strain(displacement, unflowed)
+        conjugate, across = stress_of(self._shear, self._ratio, strain.strain, left)
         first, _ = _first_piola(strain, conjugate)
         cauchy = first @ strain.deformed.transpose(0, 2, 1) / strain.volume[:, None, None]
         inside = np.column_stack([cauchy[:, 0, 0], cauchy[:, 1, 1], cauchy[:, 0, 1]])
         return inside, across / strain.volume
 
-    def _at(self, displacement: np.ndarray) -> tuple[LogStrain, PlasticStep, np.ndarray]:
-        """The strain, the step from the accepted state, and the stress conjugate to the strain."""
-        strain = LogStrain(self.gradient(displacement))
-        step = self._mapped(strain.strain)
-        return strain, step, self.conjugate_stress(strain.strain, step.state)[0]
+    def balance(self, displacement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Logarithmic elastic strain and the stress conjugate to it, as of `PlasticBody`."""
+        unflowed, left = self._unflowed(self.state)
+        return self._balance(self._strain(displacement, unflowed).strain, left)
 
-    def _balanced(self, strain: LogStrain, conjugate: np.ndarray) -> np.ndarray:
+    def _unflowed(self, state: PlasticState) -> tuple[np.ndarray | None, PlasticState]:
+        """Q (3m, 2, 2), None for I, and the state with the plastic strain that is not in it."""
+        if self.metal.hardening.kinematic or not state.strain.any():
+            return None, state
+        mean = 0.5 * (state.strain[:, 0] + state.strain[:, 1])
+        left = np.column_stack([mean, mean, np.zeros_like(mean)])
+        return np.eye(2) + _exponential(-state.strain), replace(state, strain=left)
+
+    def _strain(self, displacement: np.ndarray, unflowed: np.ndarray | None) -> LogStrain:
+        gradient = self.gradient(displacement)
+        if unflowed is not None:
+            gradient = gradient @ unflowed + (unflowed - np.eye(2))
+        return LogStrain(gradient)
+
+    def _slopes_of(self, unflowed: np.ndarray | None) -> np.ndarray:
+        """Slopes (m, 3, 6, 2) [1/m] of the shape functions along the axes of F Q."""
+        if unflowed is None:
+            return self._slopes
+        return self._slopes @ unflowed.reshape(-1, 3, 2, 2)
+
+    def _at(
+        self, displacement: np.ndarray
+    ) -> tuple[LogStrain, PlasticStep, np.ndarray, np.ndarray | None]:
+        """The strain E, the step from the accepted state in its axes, the stress conjugate to it,
+        and Q."""
+        unflowed, left = self._unflowed(self.state)
+        strain = self._strain(displacement, unflowed)
+        metal = np.where(self._coated[:, None], 0.0, strain.strain)
+        step = return_mapping(self.metal, metal, left)
+        conjugate, _ = stress_of(self._shear, self._ratio, strain.strain, step.state)
+        return strain, step, conjugate, unflowed
+
+    def _balanced(self, slopes: np.ndarray, strain: LogStrain, conjugate: np.ndarray) -> np.ndarray:
         first, _ = _first_piola(strain, conjugate)
         weighted = (first * self.areas.reshape(-1, 1, 1)).reshape(-1, 3, 2, 2)
-        nodal = (self._slopes @ weighted.transpose(0, 1, 3, 2)).sum(axis=1)
+        nodal = (slopes @ weighted.transpose(0, 1, 3, 2)).sum(axis=1)
         return nodal_sums(self.body.elements, nodal, len(self.body.nodes))
 
-    def _tangent(self, strain: LogStrain, step: PlasticStep, conjugate: np.ndarray) -> csr_matrix:
+    def _tangent(
+        self, slopes: np.ndarray, strain: LogStrain, step: PlasticStep, conjugate: np.ndarray
+    ) -> csr_matrix:
         inner = self._elastic[self._coated.astype(int)]
         inner[step.yields] -= step.softening
         material = strain.tangent(conjugate, inner) * self.areas.reshape(-1, 1, 1)
@@ -89,12 +151,30 @@ class FinitePlasticBody(PlasticBody):
             some = slice(begin, min(begin + CHUNK, count))
             points = slice(3 * some.start, 3 * some.stop)
             blocks[some] = _element_tangents(
-                *(self._slopes[some], strain.deformed[points], material[points], piola[points])
+                *(slopes[some], strain.deformed[points], material[points], piola[points])
             )
         blocks = blocks.reshape(-1, 4)
         total = [np.bincount(self._place, one, len(self._column)) for one in blocks.T]
         data = np.stack(total, axis=-1).reshape(-1, 2, 2)
         return bsr_matrix((data, self._column, self._start), self._stiffness.shape).tocsr()
+
+
+def _exponential(strain: np.ndarray) -> np.ndarray:
+    """exp(dev) - I (k, 2, 2) of strains (k, 3) xx, zz, xz without their mean in the plane."""
+    apart, shear = 0.5 * (strain[:, 0] - strain[:, 1]), strain[:, 2]
+    size = np.hypot(apart, shear)
+    part = np.sinh(size) / np.where(size > 0.0, size, 1.0)
+    grown = 2.0 * np.sinh(0.5 * size) ** 2
+    rows = grown + part * apart, part * shear, part * shear, grown - part * apart
+    return np.stack(rows, axis=-1).reshape(-1, 2, 2)
+
+
+def _in_turn(before: np.ndarray, more: np.ndarray) -> np.ndarray:
+    """Plastic strain (k, 3) that ends a step from `before`, of which `more` has what it adds in the
+    axes after `before`, and the whole mean in the plane."""
+    first, second = _exponential(before), _exponential(more)
+    both = LogStrain(first + second + second @ first).strain * [1.0, 1.0, 0.5]
+    return both + (0.5 * (more[:, 0] + more[:, 1]))[:, None] * [1.0, 1.0, 0.0]
 
 
 def _first_piola(strain: LogStrain, conjugate: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

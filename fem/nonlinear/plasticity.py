@@ -189,13 +189,17 @@ class PlasticBody:
         self, displacement: np.ndarray, state: PlasticState
     ) -> tuple[np.ndarray, np.ndarray]:
         """sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m] in a state."""
-        return self.conjugate_stress(self.strain(displacement), state)
+        return stress_of(self._shear, self._ratio, self.strain(displacement), state)
 
-    def conjugate_stress(
-        self, strain: np.ndarray, state: PlasticState
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """xx, zz, xz (3m, 3) and yy (3m,) [Pa] of the stress that works on strains (3m, 3)."""
-        return stress_of(self._shear, self._ratio, strain, state)
+    def balance(self, displacement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Elastic strain exx, ezz, gxz, eyy (3m, 4) in the accepted state and the stress xx, zz,
+        xz, yy (3m, 4) [Pa] that works on it."""
+        return self._balance(self.strain(displacement), self.state)
+
+    def _balance(self, strain: np.ndarray, state: PlasticState) -> tuple[np.ndarray, np.ndarray]:
+        across = state.strain[:, 0] + state.strain[:, 1]
+        elastic = np.column_stack([strain - [1.0, 1.0, 2.0] * state.strain, across])
+        return elastic, np.column_stack(stress_of(self._shear, self._ratio, strain, state))
 
     def force_of(self, stress: np.ndarray) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] in balance with sx, sz, txz (3m, 3) [Pa]."""

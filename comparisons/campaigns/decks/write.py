@@ -29,6 +29,9 @@ AXES = ((0, "X"), (1, "Y"))
 # CalculiX: pressure over penetration, in E over an edge, so that finer meshes penetrate less. Of
 # Hertz's peak pressure it takes 1e-4 at twenty edges to a half-width.
 STIFFNESS = 50.0
+# Of a body that flows, which keeps the mark of every jag that a stiffer contact has; and with
+# friction at finite strains Newton's method stalls on it.
+STIFFNESS_OF_FLOW = 5.0
 STICK = 0.1  # of that: tangential stiffness before the surfaces slide
 SLIDE = 12.0  # mu P / E: bodies with 400 half-widths to their far boundaries shear by less
 # What a code has for the laws of elasticity at finite strain.
@@ -87,10 +90,10 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
     """job.inp and mesh.inp of "calculix" or "abaqus". SceneError for a law that the code lacks."""
     scene = deck.problem.scene
     modulus = max(material.youngs_modulus for material in deck.rough.materials) * MPA
-    stiffness = STIFFNESS * modulus / deck.edge
-    held = _held(deck)
+    flow, held = _flow(deck), _held(deck)
+    stiffness = (STIFFNESS_OF_FLOW if flow else STIFFNESS) * modulus / deck.edge
     unlike = held and deck.problem.dundurs_beta != 0.0
-    flow, slides = _flow(deck), (mu for mu in scene.load.friction if mu and not held)
+    slides = (mu for mu in scene.load.friction if mu and not held)
     distances = [(mu, SLIDE * mu * deck.load / modulus) for mu in slides]
     job = rendered(
         TEMPLATES / "job.inp.j2",

@@ -1,5 +1,7 @@
 """The metal at finite strains: Hencky's law until it flows, its tangent, rotations, volume."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import logm
@@ -92,19 +94,20 @@ def test_below_yield_it_is_henckys_law(structured_block, monkeypatch, height):
     np.testing.assert_allclose(np.column_stack([inside, across]), stress, atol=1e-11)
 
 
-METAL = ElasticPlastic(HENCKY, Hardening(0.5, voce=(0.9, 30.0), kinematic=8.0))
+VOCE = Hardening(0.5, voce=(0.9, 30.0))
 
 
-def flowing(structured_block):
+def flowing(structured_block, hardening=VOCE):
     body = made(structured_block)
-    plastic = FinitePlasticBody(body, METAL)
+    plastic = FinitePlasticBody(body, ElasticPlastic(HENCKY, hardening))
     plastic.accept(moved(body, 0.03, 1))
     assert 0.02 < plastic.state.equivalent.max() < 0.5
     return plastic
 
 
-def test_tangent_is_the_derivative_of_the_force(structured_block):
-    plastic = flowing(structured_block)
+@pytest.mark.parametrize("kinematic", [0.0, 8.0])
+def test_tangent_is_the_derivative_of_the_force(structured_block, kinematic):
+    plastic = flowing(structured_block, replace(VOCE, kinematic=kinematic))
     at, way, h = moved(plastic.body, 0.05, 4), moved(plastic.body, 0.01, 5), 1e-5
     _, tangent = plastic.linearised(at)
     assert plastic.step(at).yields.all()
@@ -129,7 +132,24 @@ def test_it_is_objective_and_keeps_the_volume(structured_block):
     inside, across = plastic.stress(at, state)
     volume = LogStrain(plastic.gradient(at)).volume
     mean = (inside[:, 0] + inside[:, 1] + across) / 3.0 * volume
+    force, _ = plastic.linearised(at)
+    plastic.accept(at)  # what the step ends with bears the same
+    np.testing.assert_allclose(plastic.force(at), force, atol=1e-12 * scale)
     np.testing.assert_allclose(mean, HENCKY.bulk_modulus * np.log(volume), atol=1e-11)
+
+
+def test_shear_bears_the_yield_stress_however_far_it_goes(structured_block):
+    """Simple shear g of a nearly rigid metal without hardening: Y / sqrt 3, over a plastic strain
+    of g / sqrt 3, in turned axes as well."""
+    body, turn = made(structured_block), np.array([[0.6, -0.8], [0.8, 0.6]])
+    plastic = FinitePlasticBody(body, ElasticPlastic(HENCKY, Hardening(0.02)))
+    for sheared in np.linspace(0.0, 3.0, 151)[1:]:
+        gradient = turn @ [[0.0, sheared], [0.0, 0.0]] @ turn.T
+        plastic.accept(body.nodes @ gradient.T)
+    inside, _ = plastic.stress(body.nodes @ gradient.T, plastic.state)
+    shear = turn[:, 0] @ inside[:, [[0, 2], [2, 1]]] @ turn[:, 1]
+    np.testing.assert_allclose(shear, 0.02 / np.sqrt(3.0), rtol=2e-4)
+    np.testing.assert_allclose(plastic.state.equivalent, np.sqrt(3.0), rtol=1e-3)
 
 
 def test_small_strains_are_the_small_strain_body(structured_block):
