@@ -44,6 +44,12 @@ class Forecast:
     finite_flow: float | None = None
 
     @property
+    def seconds(self) -> float:
+        """Of all that may be solved, one after the other."""
+        beside = 0.0 if self.leaves_out_flow else (self.flow or 0.0) + (self.finite_flow or 0.0)
+        return sum(level.seconds for level in self.levels) + beside
+
+    @property
     def text(self) -> str:
         """In one line."""
         begin = self.levels[: self.asked]

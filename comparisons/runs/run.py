@@ -33,6 +33,7 @@ from comparisons.models.problem import Levels, Problem, problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.field_files import AUTOMATIC
 from comparisons.output.record import record_of
+from comparisons.runs.long import recorded
 from comparisons.runs.refinement import refined
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
@@ -110,7 +111,10 @@ def solve_scene(
     surface = known.surface or from_first(lambda: surface_of(scene))
     try:
         problem, plan = posed(scene, surface, models, known.levels, callback)
-        callback(forecast(problem, plan).text)
+        planned = forecast(problem, plan)
+        callback(planned.text)
+        kept = None if out is None else unfinished(out, "run")
+        callback = recorded(kept, planned, callback)
         scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
         return solve(scene_now, out, callback)
     except (ContactError, MeshError) as error:
