@@ -150,17 +150,18 @@ def _relative(text: str) -> float:
 
 def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) -> int:
     """What a run would do, by the laws of cost: levels, and steps with what makes them needless."""
-    from comparisons.models.forecast import forecast
     from comparisons.output.terminal import PLAIN
-    from comparisons.runs.run import posed
+    from comparisons.runs.run import planned, posed
     from comparisons.studies.ladder.limits import limited
+    from comparisons.studies.study import unsolved
 
     scene, models = limited(scene, models)
-    problem, planned = posed(scene, surface, models)
-    print(forecast(problem, planned).text.translate(PLAIN))
-    for step in planned.skipped:
+    problem, plan = posed(scene, surface, models)
+    for line in planned(unsolved(problem, plan)):
+        print(line.translate(PLAIN))
+    for step in plan.skipped:
         print(f"skipped: {step.step}: {step.because}".translate(PLAIN))
-    if scene.budget.effects and planned.compares:
+    if scene.budget.effects and plan.compares:
         print("effects are chosen by estimates once both models are solved (budget.effects)")
     return ExitStatus.DONE
 

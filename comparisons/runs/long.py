@@ -15,10 +15,10 @@ PROGRESS = "progress.txt"
 
 
 def recorded(
-    folder: Path | None, planned: Forecast, callback: ProgressCallback
+    folder: Path | None, planned: Forecast, said: str, callback: ProgressCallback
 ) -> ProgressCallback:
-    """The callback, which also writes to `progress.txt` in the folder when the run began, what each
-    level is expected to take, and each stage with its time and the share that is done as it
+    """The callback, which also writes to `progress.txt` in the folder when the run began, what is
+    said of it, what each level is expected to take, and each stage with its time and the share that is done as it
     begins. Of a run that is expected to be short, and without a folder, `callback` itself."""
     if planned.seconds < LONG:
         return callback
@@ -35,7 +35,7 @@ def recorded(
     callback(Lasting(f"{began}; {expected}; what is done is in {path}"))
     folder.mkdir(parents=True, exist_ok=True)
     solved = ", ".join(sorted(kept.stem for kept in folder.glob("*.npz"))) or "nothing"
-    write_whole(path, f"{began}\n{planned.text}\n{expected}\nsolved before: {solved}\n")
+    write_whole(path, f"{began}\n{said}\n{expected}\nsolved before: {solved}\n")
 
     def tell(stage: str) -> None:
         callback(stage)

@@ -26,7 +26,7 @@ from comparisons.common.provenance import (
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
 from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import MODELS
-from comparisons.models.forecast import forecast
+from comparisons.models.forecast import Forecast, forecast
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem, problem_of
@@ -111,11 +111,12 @@ def solve_scene(
     surface = known.surface or from_first(lambda: surface_of(scene))
     try:
         problem, plan = posed(scene, surface, models, known.levels, callback)
-        planned = forecast(problem, plan)
-        callback(planned.text)
-        kept = None if out is None else unfinished(out, "run")
-        callback = recorded(kept, planned, callback)
         scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
+        levels = forecast(problem, plan)
+        said = "; ".join(planned(scene_now, levels))
+        callback(said)
+        kept = None if out is None else unfinished(out, "run")
+        callback = recorded(kept, levels, said, callback)
         return solve(scene_now, out, callback)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
@@ -147,6 +148,18 @@ def posed(
     with stages.stage("set-up", "finding the reach of the contact"):
         problem = _problem(scene, surface, models, levels, callback)
     return problem, make_plan(problem, models)
+
+
+def planned(scene: Solved, levels: Forecast | None = None) -> list[str]:
+    """What a run of a scene will do and what it takes, by the laws of cost: its levels; studies
+    that take as long, or why one is left out."""
+    said = [(levels or forecast(scene.problem, scene.plan)).text]
+    for study in STUDIES:
+        if study.applies(scene):
+            why_not = study.needs(scene)
+            takes = study.planned(scene) if why_not is None else f"is left out: it {why_not}"
+            said += [f"{study.name} {takes}"] if takes else []
+    return said
 
 
 def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:

@@ -169,6 +169,8 @@ class Study:
     applies: Callable[[Solved], bool] = lambda solved: True
     # why it cannot be done, though asked for
     needs: Callable[[Solved], str | None] = lambda solved: None
+    # what it takes beside the levels, said before anything is solved
+    planned: Callable[[Solved], str | None] = lambda solved: None
     # makes known to the tasks what `solve` will ask for; again once more is solved, and known tasks
     # stay as they are
     begin: "Callable[[Solved, Tasks], None]" = lambda solved, tasks: None

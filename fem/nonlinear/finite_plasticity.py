@@ -14,13 +14,7 @@ from scipy.sparse import bsr_matrix, csr_matrix
 from fem.body.elasticity import ElasticBody
 from fem.body.sums import nodal_sums
 from fem.nonlinear.log_strain import LogStrain
-from fem.nonlinear.plasticity import (
-    ElasticPlastic,
-    PlasticBody,
-    PlasticState,
-    PlasticStep,
-    stress_of,
-)
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState, PlasticStep
 
 CHUNK = 8192  # elements whose tangents are formed at once
 
@@ -65,7 +59,7 @@ class FinitePlasticBody(PlasticBody):
     ) -> tuple[np.ndarray, np.ndarray]:
         """Cauchy's sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m]."""
         strain = LogStrain(self.gradient(displacement))
-        conjugate, across = stress_of(self._shear, self._ratio, strain.strain, state)
+        conjugate, across = self.conjugate_stress(strain.strain, state)
         first, _ = _first_piola(strain, conjugate)
         cauchy = first @ strain.deformed.transpose(0, 2, 1) / strain.volume[:, None, None]
         inside = np.column_stack([cauchy[:, 0, 0], cauchy[:, 1, 1], cauchy[:, 0, 1]])
@@ -75,7 +69,7 @@ class FinitePlasticBody(PlasticBody):
         """The strain, the step from the accepted state, and the stress conjugate to the strain."""
         strain = LogStrain(self.gradient(displacement))
         step = self._mapped(strain.strain)
-        return strain, step, stress_of(self._shear, self._ratio, strain.strain, step.state)[0]
+        return strain, step, self.conjugate_stress(strain.strain, step.state)[0]
 
     def _balanced(self, strain: LogStrain, conjugate: np.ndarray) -> np.ndarray:
         first, _ = _first_piola(strain, conjugate)

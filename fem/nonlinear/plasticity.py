@@ -189,7 +189,13 @@ class PlasticBody:
         self, displacement: np.ndarray, state: PlasticState
     ) -> tuple[np.ndarray, np.ndarray]:
         """sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m] in a state."""
-        return stress_of(self._shear, self._ratio, self.strain(displacement), state)
+        return self.conjugate_stress(self.strain(displacement), state)
+
+    def conjugate_stress(
+        self, strain: np.ndarray, state: PlasticState
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """xx, zz, xz (3m, 3) and yy (3m,) [Pa] of the stress that works on strains (3m, 3)."""
+        return stress_of(self._shear, self._ratio, strain, state)
 
     def force_of(self, stress: np.ndarray) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] in balance with sx, sz, txz (3m, 3) [Pa]."""

@@ -96,6 +96,7 @@ class _FiniteHistory(LoadHistory):
         scale = np.abs(self._contact.contact.loaded(both, state.pressure)[1]).max()
         free = unloaded(self.body, displacement - linear, scale)
         self.state = replace(state, displacements=(np.vstack([free, other]),))
+        self._book(np.zeros_like(state.pressure))
 
     def _solved(
         self,
@@ -153,7 +154,15 @@ class _FiniteHistory(LoadHistory):
         self._former, self._last = (self.state.load, self.body.state), self.state
         self._response.accept(state.displacements[0])
         self.state = state
+        self._book(state.pressure)
         linear = self._linear(state.pressure, self.body.state)
         self._beyond = state.displacements[0] - state.aside - linear
         gap, _ = self._contact.contact.loaded(state.displacements[0], state.pressure)
         self._gap = gap - self._nearly.flexible @ state.pressure
+
+    def _book(self, pressure: np.ndarray) -> None:
+        [both], count = self.state.displacements, len(self.body.held)
+        force = self._contact.contact.loaded(both, pressure)[1].reshape(-1, 2)[:count]
+        inside = self.body.force(both[:count])
+        # the support moves along x, and a far field
+        self._account.add(np.where(self.body.held, inside, force), both[:count])

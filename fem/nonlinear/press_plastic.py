@@ -30,6 +30,7 @@ from fem.contact.nonlinear import ContactState
 from fem.contact.system import ReusedFactor
 from fem.contact.terms import LinearContact
 from fem.nonlinear.condensed import Condensed, ElasticContact, ShiftInvariant
+from fem.nonlinear.energy import Energies, EnergyAccount
 from fem.nonlinear.newton import ACCURACY, RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
@@ -82,6 +83,7 @@ class PlasticContact:
     displacement: np.ndarray  # (n, 2) [m] of the body's nodes
     state: PlasticState  # of the metal at the body's 3m points
     iterations: int  # linear contacts solved since the load before
+    energies: Energies  # [J/m] of the body since it was virgin
 
 
 def press_plastically(
@@ -133,6 +135,7 @@ class LoadHistory:
         self._compliance, self._gap, self._weights = compliance, gap, weights
         self._friction, self._travel = friction, travel
         self.body = self.kind(compliance.body, metal)
+        self._account = EnergyAccount(self.body)
         alone = both = Condensed(partial(compliance.columns, friction=friction), len(weights))
         self._flexible = None
         if roller is not None:
@@ -169,7 +172,10 @@ class LoadHistory:
         """What was reached by linear contacts, under a load or without the roller."""
         pressure = self.state.pressure if load else np.zeros_like(self.state.pressure)
         displacement, state = self.state.displacements[0], self.body.state
-        return PlasticContact(load, pressure, self.state.approach, displacement, state, iterations)
+        now, energies = self.state, self._account.now
+        return PlasticContact(
+            load, pressure, now.approach, displacement, state, iterations, energies
+        )
 
     def to(self, target: float) -> int:
         """Linear contacts that lead to a load [N/m]."""
@@ -257,6 +263,7 @@ class LoadHistory:
         _, *others = self.state.displacements
         free = _released(self.body, self.state.displacements[0])
         self.state = replace(self.state, displacements=(free, *others))
+        self._book(np.zeros_like(self.state.pressure))
 
     def _elastically(self, target: float) -> int:
         """Elastic contacts that lead towards a load [N/m] as far as nothing flows: the way there
@@ -367,6 +374,12 @@ class LoadHistory:
         self._offset -= self._nearly.flexible @ state.pressure
         if self._flexible is not None:
             self._offset += self._flexible @ state.pressure
+        self._book(state.pressure)
+
+    def _book(self, pressure: np.ndarray) -> None:
+        """Enter into the account what led to the state, whose pressures (count,) [Pa] are these."""
+        force = self._compliance.load(pressure, self._friction)
+        self._account.add(force, self.state.displacements[0])
 
 
 def edge_travel(before: np.ndarray, after: np.ndarray) -> float:

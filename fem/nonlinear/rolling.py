@@ -7,12 +7,17 @@ far behind. With ep the plastic strain on all these lines,
     ep = march(e(ep)),    e(ep) strain of the elastic bodies in contact with plastic strain ep,
 
 where `march` integrates the flow along each line, point by point of the elements. The iteration is
-accelerated by Anderson's method (Dang Van and Maitournam 1993, J. Mech. Phys. Solids 41, 1691-1710,
-solve steady rolling along lines, too). There are no increments: the mesh's error is all.
+accelerated by Anderson's method. There are no increments: the mesh's error is all.
 
 What the passes before have left is the same all along the surface, and so are residual stresses,
 
     sx = -E/(1 - nu^2) (ep_xx + nu ep_yy),   sy the same with xx and yy exchanged,   sz = txz = 0.
+
+Where the cells of the mesh are as wide as a hat, h, fields that move on by h are fields of the same
+mesh. Work of the contact is that of its mean pressures over such a step, plastic work that of mean
+stresses at points h apart, as `fem.nonlinear.energy` has them of an increment. They balance but for
+the coarser cells, and under friction for the ends of the block, which bear its force: there the
+stored energy is not that of the residual stresses alone.
 
 Nomenclature as of `fem.contact.nonlinear`. The roller goes towards +x."""
 
@@ -21,7 +26,9 @@ from functools import cached_property
 
 import numpy as np
 
-from fem.nonlinear.cycles import SETTLED, Anderson, plastic_parts
+from fem.contact.nonlinear import ContactState
+from fem.nonlinear.cycles import SETTLED, Anderson
+from fem.nonlinear.energy import Energies, flow_energy, plastic_parts
 from fem.nonlinear.plasticity import PlasticBody, PlasticState, return_mapping
 from fem.nonlinear.plasticity import stress as stress_of
 from fem.nonlinear.press_plastic import LoadHistory
@@ -29,6 +36,9 @@ from fem.solver.mumps import FemError
 
 MOST_ITERATIONS = 300
 ROUNDING = 1e-9  # of the body's depth: points of one line
+# Of the way to the block's ends: beyond, nothing flows. An end that is held does not let a surface
+# pass that flow has moved on, and coarse cells there would yield.
+FAR = 0.5
 
 
 class EndlessBody(PlasticBody):
@@ -58,10 +68,12 @@ class EndlessBody(PlasticBody):
     def march(self, strain: np.ndarray) -> PlasticState:
         """The state at all points that strains (3m, 3) lead to, met along the lines."""
         plastic, equivalent = self.state.strain.copy(), self.state.equivalent.copy()
+        far = np.abs(self.points[:, 0]) > FAR * self.points[:, 0].max()
         for lines in self.lines:
             now = PlasticState(plastic[lines[:, 0]], equivalent[lines[:, 0]])
             for at in lines.T:
-                now = return_mapping(self.metal, strain[at], now).state
+                if not far[at[0]]:
+                    now = return_mapping(self.metal, strain[at], now).state
                 plastic[at], equivalent[at] = now.strain, now.equivalent
         return PlasticState(plastic, equivalent)
 
@@ -90,9 +102,7 @@ class RollingPass:
     equivalent: np.ndarray  # of all passes
     sx: np.ndarray  # [Pa] that is left
     sy: np.ndarray  # [Pa]
-    plastic_work: float  # [J/m^2] over the length travelled
-    dragged: float  # [J/m^2] of the friction's tractions on the body
-    stored: float  # [J/m^2] elastic energy that is left more than before
+    energies: Energies  # [J/m^2] over the length travelled
 
 
 class RolledBody(LoadHistory):
@@ -121,20 +131,8 @@ class RolledBody(LoadHistory):
         if self._flexible is not None:
             moved = moved + self._flexible @ end.pressure
         opening = (self._gap + moved) / self._weights - end.approach
-        work, stored, dragged = self._plastic_work(strain, now), self._stored(), 0.0
-        if self._friction:  # as the roller moves on, what it drags meets ux of x - its place
-            surface = end.displacements[0][self._compliance.body.surface.point].ravel()
-            along = np.gradient(self._compliance.tangential.T @ surface) / self._weights
-            dragged = -self._friction * float(end.pressure @ along)
-        body.spread(now)
-        return RollingPass(
-            pressure=end.pressure,
-            opening=opening,
-            **self._profiles(before),
-            plastic_work=work,
-            dragged=dragged,
-            stored=self._stored() - stored,
-        )
+        energies = self._spread(end, strain, now)
+        return RollingPass(end.pressure, opening, **self._profiles(before), energies=energies)
 
     @cached_property
     def _profile(self) -> tuple[np.ndarray, np.ndarray]:
@@ -152,22 +150,34 @@ class RolledBody(LoadHistory):
         strain = self.body.strain(np.zeros_like(self.body.body.nodes))[at]
         return np.column_stack(stress_of(self.body.metal, strain, state))
 
+    def _spread(self, end: ContactState, strain: np.ndarray, now: PlasticState) -> Energies:
+        """Leave all along the surface what the pass leaves at its end; its energies [J/m^2]."""
+        body, pressure = self.body, end.pressure
+        cells = min(lines.shape[1] for lines in body.lines)
+        stress, plastic = np.column_stack(stress_of(body.metal, strain, now)), plastic_parts(now)
+        flowed, taken, spent = flow_energy(body.metal, now), 0.0, 0.0
+        for lines in body.lines:
+            step = lines.shape[1] // cells  # to the same point of the next cell
+            area = body.areas.ravel()[lines].sum(axis=1) / np.ptp(body.body.nodes[:, 0])
+            mean = 0.5 * (stress[lines[:, step:]] + stress[lines[:, :-step]])
+            flow = plastic[lines[:, step:]] - plastic[lines[:, :-step]]
+            taken += float(area @ (mean * flow).sum(axis=(1, 2))) / step
+            spent += float(area @ (flowed[lines[:, -1]] - flowed[lines[:, 0]]))
+        # as the roller goes on by a hat, each hat gets the pressure and the place of the one behind
+        surface = end.displacements[0][self._compliance.body.surface.point].ravel()
+        moved = self._compliance.weighted(end.displacements[0])
+        if self._friction:
+            moved = moved + self._friction * (self._compliance.tangential.T @ surface)
+        mean = 0.5 * (pressure[1:] + pressure[:-1]) / self._weights[:-1]
+        stored = self._stored()
+        body.spread(now)
+        return Energies(-float(mean @ np.diff(moved)), self._stored() - stored, taken, spent)
+
     def _stored(self) -> float:
         """Elastic energy [J/m^2] of the stresses that are left."""
         sx, _, _, sy = self._rest().T
         nu, modulus = self.body.metal.elastic.poissons_ratio, self.body.metal.elastic.youngs_modulus
         return float(self._profile[1] @ (sx**2 + sy**2 - 2.0 * nu * sx * sy)) / (2.0 * modulus)
-
-    def _plastic_work(self, strain: np.ndarray, now: PlasticState) -> float:
-        """[J/m^2] along the lines, by mean stresses of neighbouring points."""
-        body, total, span = self.body, 0.0, np.ptp(self.body.body.nodes[:, 0])
-        stress, parts = np.column_stack(stress_of(body.metal, strain, now)), plastic_parts(now)
-        for lines in body.lines:
-            thickness = body.areas.ravel()[lines].sum(axis=1) / span
-            mean = 0.5 * (stress[lines[:, 1:]] + stress[lines[:, :-1]])
-            flow = np.diff(parts[lines], axis=1)
-            total += float(thickness @ (mean * flow).sum(axis=(1, 2)))
-        return total
 
     def _profiles(self, before: PlasticState) -> dict[str, np.ndarray]:
         """Of a pass from a plastic state on, by their names in `RollingPass`."""

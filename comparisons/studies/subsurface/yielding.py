@@ -3,8 +3,9 @@
 In: the half-plane's levels, or the finite elements' without it. Out: figures by friction, against
 first flow, and what an elastic body exceeds beyond doubt.
 
-Nomenclature: Y yield stress in tension, k in shear (Tresca: Y/2), H hardness, tau1 principal shear
-in the plane, mu friction coefficient, G shear modulus, E* combined modulus."""
+Nomenclature: Y yield stress in tension, k in shear (Y/sqrt 3 by von Mises, Y/2 by Tresca), H
+hardness, tau1 principal shear in the plane, mu friction coefficient, G shear modulus, E* combined
+modulus."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -49,7 +50,7 @@ QUANTITIES = {
     "over_first_flow_tresca": Quantity("over first flow, Tresca"),
     "over_first_flow_von_mises": Quantity("over first flow, von Mises"),
     "share_at_hardness": Quantity("contact at the hardness or above"),
-    "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/2"),
+    "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/√3"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
     PLASTIC_STRAIN: Quantity("largest equivalent plastic strain"),
     STRAIN_BY_SLOPE: Quantity("the same times the slope"),
@@ -61,8 +62,8 @@ OF_FIRST_FLOW += ("peak_pressure_over_shear_yield", "shakedown_limit")
 BY_THE_PEAK = "by the peak: those below Hertz's contact of the same peak pressure"
 OF_A_YIELD_STRESS = """First flow: τ₁ = Y/2 (Tresca, in the plane), or von Mises' stress = Y; a
 hardness stands for Y = H/3, a yield stress for H = 3 Y (Tabor). Elastic shakedown: the largest peak
-pressure over k of a line contact that may roll and slide over the body again and again without
-flowing on (Melan; Johnson and Jefferis 1963)."""
+pressure over k = Y/√3 (von Mises, as finite elements flow) of a line contact that may roll and
+slide over the body again and again without flowing on (Melan; Johnson and Jefferis 1963)."""
 OF_A_TRACE = """Plasticity index: (E*/H) times √(σκ) of the trace's summits (Greenwood and
 Williamson 1966), or times its rms slope (Mikic 1974); well below 1 most of the contact is
 elastic."""
@@ -132,7 +133,12 @@ class FlowAssessment:
     def is_certain(self) -> bool:
         """Whether the body flows at its yield stress by both criteria, less the uncertainty."""
         # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
-        return self.yield_stress is not None and self._least > self.yield_stress / 3.0**0.5
+        return self.yield_stress is not None and self._least > self.yield_in_shear
+
+    @property
+    def yield_in_shear(self) -> float:
+        """k [Pa] by von Mises, of a yield stress that is known."""
+        return self.yield_stress / 3.0**0.5
 
     @property
     def _least(self) -> float:
@@ -150,8 +156,8 @@ class FlowAssessment:
         if self.exceeded == self.ideal_strength:
             strength = with_unit(self.ideal_strength, "Pa", 2)
             return f"{said} ideal strength of a crystal, G/2π = {strength}"
-        flow = with_unit(0.5 * self.yield_stress, "Pa", 2)
-        return f"{said} shear yield stress, Y/2 = {flow}"
+        flow = with_unit(self.yield_in_shear, "Pa", 2)
+        return f"{said} shear yield stress, Y/√3 = {flow}"
 
     @property
     def exceeded(self) -> float | None:
@@ -159,7 +165,7 @@ class FlowAssessment:
         if self.flow != "elastic":
             return None
         if self.is_certain:
-            return self.yield_stress / 3.0**0.5
+            return self.yield_in_shear
         return self.ideal_strength if self._least > self.ideal_strength else None
 
 
@@ -186,7 +192,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         if flow.yield_stress is not None:
             tresca, mises = check.over_first_flow(flow.yield_stress)
             values |= {"over_first_flow_tresca": tresca, "over_first_flow_von_mises": mises}
-            values["peak_pressure_over_shear_yield"] = 2.0 * check.peak / flow.yield_stress
+            values["peak_pressure_over_shear_yield"] = check.peak / flow.yield_in_shear
         values["share_at_hardness"] = check.at_hardness
         for figure in figures_of(NAME, source, values, unsure, at):
             if figure.quantity == "share_at_hardness":
@@ -364,8 +370,8 @@ def lines(run: Run) -> list[tuple[str, str]]:
     flow = run.data(NAME)
     if flow.ratio is None:
         return []
-    pressure = significant(2.0 * flow.worst.peak / flow.yield_stress, 3)
-    limit = f"elastic shakedown up to {flow.worst.shakedown:.3g} k, k = Y/2"
+    pressure = significant(flow.worst.peak / flow.yield_in_shear, 3)
+    limit = f"elastic shakedown up to {flow.worst.shakedown:.3g} k, k = Y/√3"
     text = f"peak pressure {pressure} k, {limit}"
     indices = {"summits": flow.summit_index, "slope": flow.slope_index}
     known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]

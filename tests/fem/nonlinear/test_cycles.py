@@ -29,9 +29,9 @@ def block(graded):
     """By elements on the half-width."""
 
     @cache
-    def made(edges: int, reach: float = 2.0) -> ElasticBody:
+    def made(edges: int, reach: float = 2.0, end: float = 60.0) -> ElasticBody:
         fine = np.arange(round(reach * edges) + 1) / edges
-        x = np.append(fine, fine[-1] + graded(60.0, 1.0 / edges, 1.5)[1:])
+        x = np.append(fine, fine[-1] + graded(end, 1.0 / edges, 1.5)[1:])
         deep = np.arange(round(1.5 * edges) + 1) / edges
         z = np.append(deep, deep[-1] + graded(120.0, 1.0 / edges, 1.5)[1:])
         mesh = structured(np.concatenate([-x[:0:-1], x]), z)
@@ -40,7 +40,9 @@ def block(graded):
     return made
 
 
-def posed(kind, body: ElasticBody, edges: int, hardening: Hardening, reach=2.0, friction=0.0):
+def posed(
+    kind, body: ElasticBody, edges: int, hardening: Hardening, reach=2.0, friction=0.0, travel=1.0
+):
     """The roller in the middle, and its weighted gap at a place."""
     pitch = 1.0 / edges
     x = pitch * np.arange(-round(reach * edges) + 1, round(reach * edges))
@@ -51,7 +53,7 @@ def posed(kind, body: ElasticBody, edges: int, hardening: Hardening, reach=2.0, 
 
     metal, weights = ElasticPlastic(STEEL, hardening), np.full(len(x), pitch)
     guess = HERTZ.pressure(x)
-    made = kind(compliance, metal, gap(0.0), weights, guess, friction, None, 1.0)
+    made = kind(compliance, metal, gap(0.0), weights, guess, friction, None, travel)
     return made, gap, x
 
 
@@ -117,13 +119,32 @@ def test_the_limit_is_johnsons(rolled):
     assert 3.94 < carried < 4.0  # by Melan's theorem no more
 
 
-def test_what_holds_the_roller_back_is_lost_in_the_metal(rolled, block):
-    done = rolled(4.2, "perfect", 4)[-1]
-    count = len(done.pressure)
-    x = 0.25 * (np.arange(count) - count // 2)
-    resistance = float(done.pressure @ x) * 0.25 / HERTZ.radius
-    assert resistance == pytest.approx(done.plastic_work + done.stored, rel=0.12)
-    assert done.stored < 0.02 * done.plastic_work  # the same is left by every pass
+def test_what_holds_the_roller_back_is_lost_in_the_metal(rolled):
+    """The moment of its pressures on its slope is the work; work is lost or stored; what a step
+    over an element misses of the loss is of second order, on coarse elements of less."""
+    off = []
+    for edges in (4, 8):
+        done = rolled(4.4, "perfect", 1, edges)[-1]
+        count, energies = len(done.pressure), done.energies
+        x = (np.arange(count) - count // 2) / edges
+        resistance = float(done.pressure @ x) / edges / HERTZ.radius
+        loss = energies.plastic_work / energies.flowed
+        off.append([resistance / energies.work - 1.0, loss - 1.0])
+        print(off[-1], energies.left / energies.plastic_work)
+        assert abs(energies.left) < 2e-3 * energies.plastic_work
+        assert energies.stored > 0.05 * energies.plastic_work
+    (moment, loss), (finer_moment, finer_loss) = np.abs(off)
+    assert moment < 0.06 and finer_moment < 0.01
+    assert 1.2 < np.log2(loss / finer_loss) < 2.2 and finer_loss < 0.015
+
+
+def test_rolling_with_friction_balances_and_nothing_flows_far_behind(block):
+    """Beyond the limit each pass drags the surface on; an end that is held does not let it pass."""
+    body, *_ = posed(RolledBody, block(4, 2.0, 240.0), 4, Hardening(3**0.5 / 4.4), 2.0, 0.2)
+    for _ in range(2):
+        energies = body.roll(HERTZ.load_per_length).energies
+        print(energies.left / energies.plastic_work)
+        assert abs(energies.left) < 2e-3 * energies.plastic_work
 
 
 def test_what_is_alike_along_the_surface_needs_no_force(block):
@@ -149,9 +170,12 @@ def test_a_travelling_roller_leaves_what_a_steady_pass_does(block):
     done = travelling.press(HERTZ.load_per_length, [gap(place) for place in places])
     points, state = travelling.body.points, done.released.state
     flow = state.equivalent[np.abs(points[:, 0]) < 0.75].max()
-    print(flow / wanted.added.max(), done.plastic_work / 5.0 / wanted.plastic_work)
+    energies, steadily = done.energies, wanted.energies
+    print(flow / wanted.added.max(), energies, steadily)
     assert flow == pytest.approx(wanted.added.max(), rel=0.2)
-    assert done.plastic_work / 5.0 == pytest.approx(wanted.plastic_work, rel=0.25)
+    assert energies.plastic_work / 5.0 == pytest.approx(steadily.plastic_work, rel=0.1)
+    assert abs(energies.left) < 1e-5 * energies.plastic_work
+    assert energies.plastic_work == pytest.approx(energies.flowed, rel=0.15)  # steps of a half
 
 
 @pytest.mark.parametrize("over, friction", [(5.0, 0.0), (4.4, 0.2)])
@@ -164,9 +188,7 @@ def test_a_press_that_is_repeated_is_elastic(block, over, friction):
     flow = first.released.state.equivalent.max()
     again = (second.released.state.equivalent - first.released.state.equivalent).max()
     assert flow > 0.2 and again <= 1e-9 * flow
-    left = first.work - first.plastic_work - first.stored
-    print(left / first.plastic_work)
-    assert abs(left) < 0.015 * first.plastic_work
+    assert abs(first.energies.left) < 1e-5 * first.energies.plastic_work
     # what is left holds itself: the sides bear next to nothing of the sum of sx over depth
     metal, released = body.body, first.released
     stress, _ = metal.stress(released.displacement, released.state)
@@ -175,3 +197,16 @@ def test_a_press_that_is_repeated_is_elastic(block, over, friction):
     pressed = np.abs(metal.points[:, 0]) < 0.1
     squeezed = metal.areas.ravel()[pressed] @ np.abs(stress[pressed, 0]) / 0.2
     assert abs(force[right, 0].sum()) < 0.03 * squeezed
+
+
+def test_what_increments_miss_of_the_plastic_work_is_of_second_order(block):
+    """Work balances whatever they are; the flow stress says what the plastic work is."""
+    law, off = Hardening(3**0.5 / 4.4, modulus=0.1, kinematic=0.05), []
+    for travel in (1.0, 0.25):
+        body, _, _ = posed(CycledBody, block(6, 1.5), 6, law, 1.5, 0.2, travel)
+        energies = body.press(HERTZ.load_per_length).energies
+        assert abs(energies.left) < 1e-5 * energies.plastic_work
+        off.append(energies.plastic_work / energies.flowed - 1.0)
+    print(off)
+    assert 1.7 < 0.5 * np.log2(off[0] / off[1]) < 2.5
+    assert abs(off[1]) < 2e-3

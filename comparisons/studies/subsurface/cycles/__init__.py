@@ -8,6 +8,7 @@ from comparisons.studies.subsurface.cycles.study import (
     CycleStudy,
     begin,
     needs,
+    planned,
     solve,
 )
 
@@ -17,6 +18,7 @@ CYCLES = Study(
     solve=solve,
     applies=lambda solved: solved.problem.scene.cycles is not None,
     needs=needs,
+    planned=planned,
     begin=begin,
     data=CycleStudy,
     blocks=show.blocks,

@@ -86,7 +86,7 @@ def rolled(problem: Problem, number: int, begin: Callable[[int], None]) -> Cycle
     for count in range(1, problem.scene.cycles.passes + 1):
         begin(count)
         done.append(body.roll(problem.hertz.load_per_length))
-        rows.append(_row(problem, grid, done[-1], done[-2].plastic if count > 1 else 0.0))
+        rows.append(_row(grid, done[-1], done[-2].plastic if count > 1 else 0.0))
     ends, z = (done[0], done[-1]), done[-1].depth
     shown = z <= max(LEAST_DEEP, DEEP * peak_over_shear(problem)) * problem.hertz.half_width
     stresses = [np.column_stack([one.sx, one.sy])[shown] for one in ends]
@@ -129,24 +129,17 @@ def _body(problem: Problem, grid: HatGrid, number: int) -> "RolledBody":
     return RolledBody(compliance, metal, gap, grid.weights, guess, friction, roller, TRAVEL)
 
 
-def _row(
-    problem: Problem, grid: HatGrid, done: "RollingPass", before: np.ndarray | float
-) -> dict[str, float]:
+def _row(grid: HatGrid, done: "RollingPass", before: np.ndarray | float) -> dict[str, float]:
     """What is read of a pass, from plastic strains (n, 4) on."""
-    from comparisons.models.finite_element.contact import roller_of
-    from fem.nonlinear.cycles import equivalent_of
+    from fem.nonlinear.energy import equivalent_of
     from fem.nonlinear.press_plastic import averaged_pressure
 
     lowest = done.sx.argmin()
     patches = contact_patches(grid.x, done.pressure, done.opening)
-    # what holds the roller back: its pressures on its own slope, and what friction drags
-    slope = roller_of(problem)(grid.x)[1]
     return {
         "flow": done.added.max(),
         "net": equivalent_of(done.plastic - before).max(),
-        "work": float((done.pressure * grid.weights) @ slope) + done.dragged,
-        "plastic_work": done.plastic_work,
-        "stored": done.stored,
+        **vars(done.energies),
         "residual": done.sx[lowest],
         "residual_depth": done.depth[lowest],
         "peak": averaged_pressure(done.pressure).max(),

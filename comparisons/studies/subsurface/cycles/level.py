@@ -180,7 +180,7 @@ class _Reader:
 
     def read(self, before: "PlasticState", done: "CyclePass") -> None:
         """A pass from a plastic state on."""
-        from fem.nonlinear.cycles import equivalent_of, plastic_parts
+        from fem.nonlinear.energy import equivalent_of, plastic_parts
         from fem.nonlinear.press_plastic import averaged_pressure
 
         now, inside, left = done.released.state, self.inside, done.released
@@ -194,9 +194,7 @@ class _Reader:
             {
                 "flow": (now.equivalent - before.equivalent)[inside].max(),
                 "net": net[inside].max(),
-                "work": done.work,
-                "plastic_work": done.plastic_work,
-                "stored": done.stored,
+                **vars(done.energies),
                 "residual": sx[lowest],
                 "residual_depth": self.depth[lowest],
                 "peak": pressure.max(),

@@ -12,11 +12,12 @@ class Passes:
 
     flow: np.ndarray  # largest equivalent plastic strain that a pass adds, to and fro
     net: np.ndarray  # largest equivalent of the change of plastic strain by a pass
-    # of the contact on the body, what flow takes, and elastic energy that is left more [J/m]; of an
-    # endless body over the length travelled [J/m^2]
+    # energies of a pass as of `fem.nonlinear.energy` [J/m]; of an endless body over the length
+    # travelled [J/m^2]
     work: np.ndarray
-    plastic_work: np.ndarray
     stored: np.ndarray
+    plastic_work: np.ndarray
+    flowed: np.ndarray
     residual: np.ndarray  # [Pa] largest compression sx without the roller, negative
     residual_depth: np.ndarray  # [m]
     peak: np.ndarray  # [Pa] largest pressure, mean over neighbouring hats
@@ -29,8 +30,7 @@ class Passes:
     @property
     def balance(self) -> np.ndarray:
         """Work less what flow took and what is stored, over the plastic work of the first pass."""
-        left = self.work - self.plastic_work - self.stored
-        return left / (self.plastic_work[0] or 1.0)
+        return (self.work - self.stored - self.plastic_work) / (self.plastic_work[0] or 1.0)
 
 
 @dataclass(frozen=True)

@@ -88,6 +88,12 @@ def needs(solved: Solved) -> str | None:
     return None
 
 
+def planned(solved: Solved) -> str:
+    cycles = solved.problem.scene.cycles
+    seconds = with_unit(expected_seconds(solved.problem), "s", 2)
+    return f"take about {seconds} more, {cycles.passes} passes on {cycles.levels} levels"
+
+
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Make the levels known, before anything is solved."""
     if solved.runs:
@@ -95,7 +101,6 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     problem = solved.problem
     numbers = range(1, problem.scene.cycles.levels + 1)
     seconds = expected_seconds(problem)
-    tasks.callback(f"planned: cycles, about {with_unit(seconds, 's', 2)}")
     for number in numbers:
         share = 4.0**number / sum(4.0**earlier for earlier in numbers)
         tasks.add(
@@ -171,12 +176,15 @@ def _figure(
     at: Mapping[str, float],
     source: str = SOURCE,
     place: tuple[float, ...] | None = None,
+    increments: float = 0.0,
 ) -> Figure:
-    """Of values by level; of one level alone the uncertainty is not known."""
+    """Of values by level, and what increments leave of the last; of one level alone the
+    uncertainty is not known."""
     scale, stated = abs(values[-1]) or 1.0, None
     if len(values) > 1:
         refined = grid_convergence(values, 1.0)
-        stated = Uncertainty({"discretisation": refined.uncertainty / scale}, refined)
+        parts = {"discretisation": refined.uncertainty, "increments": increments}
+        stated = Uncertainty({name: part / scale for name, part in parts.items() if part}, refined)
     return Figure(
         study=NAME,
         quantity=quantity,
@@ -195,6 +203,8 @@ def _of_passes(
 ) -> Iterator[Figure]:
     work = "loss" if is_endless(solved.problem) else "plastic_work"
     finest = levels[-1].passes
+    off = np.abs(finest.plastic_work - finest.flowed)
+    off = {f"{work}_first": off[0], f"{work}_last": off[-1]}
     read = {
         "flow_first": lambda passes: passes.flow[0],
         "flow_last": lambda passes: passes.flow[-1],
@@ -208,7 +218,8 @@ def _of_passes(
     }
     for name, value in read.items():
         place = (float(finest.residual_depth[-1]),) if name == "residual_stress" else None
-        yield _figure(name, [value(level.passes) for level in levels], at, place=place)
+        values = [value(level.passes) for level in levels]
+        yield _figure(name, values, at, place=place, increments=off.get(name, 0.0))
     share = solved.problem.scene.cycles.share
     reached = [outcome(level, share) for level in levels]
     counts = [float(count) for what, count in reached if what == "shakes down"]
