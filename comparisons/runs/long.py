@@ -17,9 +17,10 @@ PROGRESS = "progress.txt"
 def recorded(
     folder: Path | None, planned: Forecast, said: str, callback: ProgressCallback
 ) -> ProgressCallback:
-    """The callback, which also writes to `progress.txt` in the folder when the run began, what is
-    said of it, what each level is expected to take, and each stage with its time and the share that is done as it
-    begins. Of a run that is expected to be short, and without a folder, `callback` itself."""
+    """The callback, which also writes to `progress.txt` in the folder: when the run began, what is
+    said of it, what each level is expected to take, and each stage as it begins, with its time and
+    the share that is done. Of a run that is expected to be short, and without a folder, `callback`
+    itself."""
     if planned.seconds < LONG:
         return callback
     levels = ", ".join(
