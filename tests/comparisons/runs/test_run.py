@@ -255,11 +255,11 @@ def test_a_long_run_says_what_it_will_take_and_writes_what_it_does(tmp_path, mon
         raise KeyboardInterrupt
 
     monkeypatch.setattr(finite_element, "finite_element_level", stopped)
-    for solved in ("nothing", "half_plane-1, half_plane-2"):
+    for solved in ("nothing", "half_plane-1, half_plane-2, half_plane-3"):
         with pytest.raises(KeyboardInterrupt):
             run(resolved(QUICK), tmp_path / "out", MODELS, said.append)
         began, planned, expected, before, *_ = path.read_text().splitlines()
-        assert began.startswith("started 20") and planned.startswith("planned: 2 levels")
+        assert began.startswith("started 20") and planned.startswith("planned: 3 levels")
         assert "level 1 " in expected and "level 2 " in expected
         assert before == f"solved before: {solved}"
     line = next(line for line in said if isinstance(line, Lasting))

@@ -84,7 +84,8 @@ def test_expected_increments_follow_the_edges_of_patches():
     assert increments(80, 1.0, travel=2.0) == pytest.approx(20.0)
     assert increments(80, 100.0) == pytest.approx(80.0)
     assert increments(80, 1e-3) == 4.0
-    assert flow_increments(posed, Refinement(a / 40), patches) == pytest.approx(40.0)
+    both = 40.0 * 2.0**0.25  # the widest at most Hertz's contact, and the other cut to that
+    assert flow_increments(posed, Refinement(a / 40), patches) == pytest.approx(both)
     equal = np.array([[-1.0, 0.0], [0.0, 1.0]]) * a
     assert flow_increments(posed, Refinement(a / 40), equal) == pytest.approx(20.0 * 2.0**0.25)
 
