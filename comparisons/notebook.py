@@ -126,10 +126,11 @@ class FinishedRun(Printed):
             ]
         else:
             rows = [
-                f"{SHORT[name]:14}  {friction:6}  {value}  {of_hertz} ± {unsure}"
+                f"{SHORT[name]:14}  {friction:6}  {value:>9}  {of_hertz:>11} ± {unsure}"
                 for name, friction, value, of_hertz, unsure in figure_rows(run)
             ]
-        more = [f"… {len(rows) - SHOWN} more figures"] if len(rows) > SHOWN else []
+        left = len(rows) - SHOWN
+        more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
         ends = f"{said.kind.upper()}  {said.sentence}", f"Next:  {said.next}"
         lines = run.problem.scene.title, *rows[:SHOWN], *more, *ends
         return "\n".join(part for line in lines for part in wrap(line, COLUMNS))

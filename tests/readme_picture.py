@@ -8,9 +8,10 @@ from tempfile import TemporaryDirectory
 
 from comparisons.drawing.style import collected_figures
 from comparisons.figures.quantity import MODELS
-from comparisons.output.page.pictures.answer import overview_picture
+from comparisons.output.page.pictures.answer import overview
 
 PICTURE = Path(__file__).parents[1] / "comparisons/docs/ground-unrun.png"
+WIDTH = 8.35  # inches
 PIXELS = 192  # to the inch: twice what 800 pixels across need
 
 
@@ -22,7 +23,7 @@ def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:
     with TemporaryDirectory() as folder:
         outcome = run(Scene.read(scene), Path(folder) / "out", MODELS)
     with collected_figures() as drawn:
-        overview_picture(outcome)
+        overview(outcome, WIDTH)
     drawn[0].savefig(path, dpi=PIXELS, pil_kwargs={"optimize": True})
 
 

@@ -8,6 +8,7 @@ import ast
 import io
 import re
 import shlex
+import shutil
 import tomllib
 from contextlib import redirect_stdout
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import readme_picture as overview
+import readme_picture
 
 from comparisons.cli import main
 from comparisons.commands.arguments import RESULTS
@@ -27,7 +28,7 @@ from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
-from comparisons.output.page.pictures.answer import REACH, overview_picture
+from comparisons.output.page.pictures.answer import REACH, overview
 from comparisons.output.terminal import SHORT
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
@@ -128,6 +129,16 @@ def unrun() -> dict[float, dict[str, float]]:
     problem = problem_of(Scene.read("ground-unrun"))
     level = half_plane_level(problem, problem.pitches[-1] / 2.0, window_of(problem), Stages())
     return {mu: values_of(level, problem, mu) for mu in problem.scene.load.friction}
+
+
+def test_init_is_the_door_that_it_says(folder, tmp_path):
+    """How rough, what error to expect, and a scene that is read as it was written."""
+    [command] = re.findall(r"`\./crosscheck (init [^`]+)`", README)
+    shutil.copy(folder / "trace.csv", tmp_path)
+    made = call(shlex.split(command), tmp_path)
+    assert made.status == ExitStatus.DONE
+    assert "Rq" in made.printed and "model error" in made.printed
+    assert Scene.read(tmp_path / "trace.toml").profile is not None
 
 
 def test_commands_are_the_two_and_the_one_for_a_profile():
@@ -369,23 +380,23 @@ def size_of(picture: Path) -> tuple[int, int]:
 class TestPicture:
     def test_is_the_readmes_and_twice_800_pixels_across(self):
         [link] = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", README)
-        assert (PROJECT / link).samefile(overview.PICTURE)
-        assert size_of(overview.PICTURE)[0] == pytest.approx(1600, abs=10)
+        assert (PROJECT / link).samefile(readme_picture.PICTURE)
+        assert size_of(readme_picture.PICTURE)[0] == pytest.approx(1600, abs=10)
 
     def test_is_made_anew_by_one_call(self, mine, folder, monkeypatch, tmp_path):
         asked = []
         monkeypatch.setattr(
             run_module, "run", lambda scene, *_: asked.append(scene.name) or mine.outcome
         )
-        overview.remake(str(folder / "mine.toml"), tmp_path / "new.png")
+        readme_picture.remake(str(folder / "mine.toml"), tmp_path / "new.png")
         assert asked == ["mine"]
-        assert size_of(tmp_path / "new.png") == size_of(overview.PICTURE)
+        assert size_of(tmp_path / "new.png") == size_of(readme_picture.PICTURE)
 
     def test_holds_the_figures_of_the_run(self, mine):
         outcome = mine.outcome
         hertz, window, friction = outcome.problem.hertz, outcome.window, outcome.deciding_friction
         with collected_figures() as figures:
-            overview_picture(outcome)
+            overview(outcome, readme_picture.WIDTH)
         pressures, differences, surfaces, shear, _ = figures[0].axes
         drawn = {line.get_label(): line.get_xydata() for line in pressures.lines}
         levels = outcome.levels(friction)

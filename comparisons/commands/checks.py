@@ -16,7 +16,7 @@ def stability(
     junit: Junit = None,
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> int:
-    """Solve the stiff and extreme cases; end with 0 only if every one holds."""
+    """Solve stiff and extreme cases. Ends with 0 only if every one holds."""
     from comparisons.campaigns.cases import carry_out
     from comparisons.campaigns.robustness import all_cases
 
@@ -42,7 +42,7 @@ def verify(
     ] = False,
     as_json: Annotated[bool, json_option("verify.json, or benchmarks.json")] = False,
 ) -> int:
-    """Hold both models to exact solutions, and stated uncertainties to true errors."""
+    """Hold both models to exact solutions. Stated uncertainties are held to true errors."""
     others = benchmarks or out or junit
     if sum(option is not None for option in (export, answers, others or None)) > 1:
         raise InputError(

@@ -56,7 +56,7 @@ def report(
     pdf: Annotated[bool, Option("--pdf", help="Print each report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
 ) -> int:
-    """Draw reports again from result files, without solving; sum many runs up on one page."""
+    """Draw reports again without solving. Of many runs a page sums them up, too."""
     from comparisons.output.page.redraw import draw_again, reports_content, reports_table
 
     draws = summary is None
@@ -77,7 +77,7 @@ def rerun(
     out: Annotated[Path | None, Option(help="Folder that keeps the repetition.")] = None,
     as_json: Annotated[bool, json_option("what moved, as JSON,")] = False,
 ) -> int:
-    """Repeat a recorded run from its own record; report every figure that moved."""
+    """Repeat a recorded run, from its own record. Shows every figure that moved."""
     from comparisons.runs.rerun import rerun as repeat
     from comparisons.runs.rerun import rerun_summary
 
@@ -99,7 +99,7 @@ def table(
     raw: Annotated[bool, Option("--csv", help="Print all columns as CSV.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print the rows as JSON.")] = False,
 ) -> int:
-    """Put the figures of many runs into one table: a row a run, friction and quantity."""
+    """Put the figures of many runs into one table. A row a run, friction and quantity."""
     from comparisons.output import flat_csv as flat
 
     if out is not None:

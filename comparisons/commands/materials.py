@@ -23,7 +23,7 @@ def materials(
     ] = None,
     as_json: Annotated[bool, json_option("the solids as JSON")] = False,
 ) -> int:
-    """List the solids that a scene may name, or show one with its sources."""
+    """List the solids that a scene may name. Of one, its numbers with their sources."""
     from comparisons.scenes.materials import solids
 
     listed = [solid_or_error(name)] if name is not None else list(solids().values())

@@ -112,7 +112,7 @@ def deck(
     ] = 1,
     as_json: Annotated[bool, json_option("folder, files and sizes as JSON")] = False,
 ) -> int:
-    """Write a scene as a complete input of another code, and how to bring its answer back."""
+    """Write a scene as input of another code. A page says how to bring its answer back."""
     from comparisons.campaigns.decks.write import account_of, write_deck
     from comparisons.scenes.scene import Scene
 

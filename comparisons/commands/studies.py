@@ -44,7 +44,7 @@ def cost(
     ] = False,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
-    """Measure error against time of every method; name the cheapest for each tolerance."""
+    """Measure error against time of every method. Names the cheapest for each tolerance."""
     from comparisons.campaigns.cost.cost import cost as measured_cost
     from comparisons.campaigns.cost.show import cost_table
     from comparisons.scenes.scene import Scene
@@ -132,7 +132,7 @@ def sweep(
     out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
-    """Solve a scene at many values of its fields: one placement is not a surface."""
+    """Solve a scene at many places, loads or other values."""
     from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request, sweep_table
     from comparisons.figures.quantity import models_named
     from comparisons.scenes.scene import Scene
@@ -156,7 +156,7 @@ def paper(
     ] = False,
     as_json: Annotated[bool, json_option("paper.json")] = False,
 ) -> int:
-    """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""
+    """Compute Bailey and Sayles' (1991) figures anew. Judges each claim by its number."""
     from comparisons.campaigns.paper.page import paper_table
     from comparisons.campaigns.paper.reproduce import paper as reproduced
 

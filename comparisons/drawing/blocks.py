@@ -7,8 +7,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from comparisons.common.numbers import percent, percent_as_written, scale_of, significant
-from comparisons.figures.figure import Figure
+from comparisons.common.numbers import (
+    percent,
+    percent_as_written,
+    scale_of,
+    significant,
+    with_unit,
+)
+from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.quantity import LABELS, MODELS
 
 
 @dataclass(frozen=True)
@@ -97,6 +104,24 @@ def judged_cells(difference: Figure, is_norm: bool = False) -> tuple[str, str, s
         "" if difference.bounds is None else percent_as_written(difference.tolerance),
         difference.verdict or "",
     )
+
+
+def model_cells(known: Figures, quantity: str, unit: str) -> tuple[str, ...]:
+    """Both models' values of a study's figure, each in the unit that suits it, and `judged_cells`;
+    of one model alone its uncertainty."""
+    values = [known.one(quantity=quantity, source=name, against=None) for name in MODELS]
+    texts = (with_unit(figure and figure.value, unit) for figure in values)
+    difference = known.one(quantity=quantity, source=MODELS[0], against=MODELS[1])
+    if difference is None:
+        [only] = filter(None, values)
+        return *texts, "", percent(only.numerical), "", "not compared"
+    return *texts, *judged_cells(difference)
+
+
+def model_table(rows: Sequence[tuple[str, ...]]) -> TextTable:
+    """Rows of a name and `model_cells`."""
+    head = ("", *map(LABELS.get, MODELS), "difference", "uncertainty", "tolerance", "verdict")
+    return TextTable("", head, tuple(rows), "comparison")
 
 
 def stated(figure: Figure | None, unit: float = 1.0, digits: int = 3) -> str:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COINCIDE = 1e-2  # of the reach of all curves: what is nearer is one line
+NAMES_ABREAST, NAMES_ROW = 4, 0.17  # of a legend above a panel; inches
 LEFT, FOOT = 0.8, 0.46  # inches: left of the panels, below the last
 
 
@@ -50,14 +51,26 @@ def columns(
     ]
 
 
+def names_above(width: float, names: int) -> tuple[int, float]:
+    """Columns of a legend above a panel in a figure `width` inches wide, and its height."""
+    abreast = NAMES_ABREAST if width > 0.75 * style.WIDE else 2
+    return min(abreast, names), NAMES_ROW * (1 + -(-names // abreast))
+
+
+def legend_above(panel: "Axes", columns: int) -> None:
+    """The curves' names above a panel, where no curve is."""
+    panel.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, borderaxespad=0.1)
+
+
 Curve = tuple[np.ndarray, np.ndarray]  # x ascending, y
 
 
-def distinct(curves: Mapping[str, Curve]) -> dict[tuple[str, ...], Curve]:
+def distinct(curves: Mapping[str, Curve], least: float = 0.0) -> dict[tuple[str, ...], Curve]:
     """Curves by the names of all that coincide with them: one line over another would be a third
-    colour, and hide it. The reach of y decides how near that is."""
+    colour, and hide it. The reach of y, or `least` if that is more, decides how near that is."""
     apart: dict[tuple[str, ...], Curve] = {}
     reach = max((np.ptp(y) for _, y in curves.values()), default=0.0)
+    reach = max(reach, least)
     for name, (x, y) in curves.items():
         for names, (place, known) in apart.items():
             if np.allclose(np.interp(place, x, y), known, rtol=0.0, atol=COINCIDE * reach):

@@ -36,6 +36,7 @@ LINES = {
     "finite_element": {"color": "#D55E00", "linestyle": (0, (4, 1.6)), "linewidth": 1.1},
     "whole": {"color": "#009E73", "linestyle": (0, (7, 1.2, 1.4, 1.2)), "linewidth": 1.3},
 }
+DASHES = [look["linestyle"] for look in LINES.values()] + [(0, (1, 1.3))]  # for other curves
 REFERENCE = {"color": "#222222", "linestyle": (0, (1, 1.3)), "linewidth": 1.3}
 DIFFERENCE = {"color": "#222222", "linestyle": "-", "linewidth": 0.9}
 BAND = {"color": "#0072B2", "alpha": 0.18, "linewidth": 0.0, "label": "inputs, 95 %"}
@@ -143,6 +144,21 @@ def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
     axes.set_yticks(places, names)
     axes.tick_params(axis="y", length=0.0)
     axes.grid(False, axis="y")
+
+
+def beside_bar(axes: "Axes", x: float, y: float, text: str, **look: object) -> None:
+    """Words to the right of a bar's end."""
+    behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
+    beside = {"textcoords": "offset points", "va": "center", "bbox": behind}
+    axes.annotate(text, (x, y), (3, 0), **beside, **look)
+
+
+def whisker(
+    axes: "Axes", x: float, y: float, reach: tuple[float, float], thick: float = 1.4, cap: float = 3
+) -> None:
+    """What may be wrong with a bar's end, so far to the left and to the right."""
+    look = {"elinewidth": thick, "capsize": cap, "color": "#000000", "fmt": "none"}
+    axes.errorbar(x, y, xerr=[[reach[0]], [reach[1]]], **look)
 
 
 def hatch(axes: "Axes", patches: Sequence["Patch"], colour: object, width: float = 0.8) -> None:

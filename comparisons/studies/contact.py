@@ -42,6 +42,7 @@ QUANTITIES = COMPARED | {
     "approach": Quantity("approach from first touch", "m"),
 }
 MARKERS = {"half_plane": "o", "finite_element": "x", "whole": "d"}  # of nodes
+MOST_MARKED = 150  # nodes of a close-up: more would be a band
 AT_HARDNESS = 1.0 - 1e-9  # times the hardness: a pressure held there
 # What is read of the same field or patches is as uncertain.
 AS_UNCERTAIN = {"von_mises_max": "tau1_max", "contact_ratio_extent": "contact_length"}
@@ -259,7 +260,7 @@ def draw_pressures(
     """Every model's pressures and Hertz's over `across` [m], x in `unit`, with the load in words
     and what uncertain inputs do; at the friction coefficient that decides.
 
-    nodes  whether the nodes of the pressures are marked"""
+    nodes  whether the nodes of the pressures are marked, where they stand apart"""
     hertz, friction = run.problem.hertz, run.deciding_friction
     several = len(run.problem.scene.load.friction) > 1
     sliding = f", μ = {plain(friction)}" if several else ""
@@ -273,7 +274,7 @@ def draw_pressures(
             x,
             pressure,
             label=joint_label(names, sliding if WHOLE in names else ""),
-            marker=MARKERS[names[0]] if nodes else None,
+            marker=MARKERS[names[0]] if nodes and len(x) <= MOST_MARKED else None,
             markersize=3.2,
             markerfacecolor="none",
             **style.LINES[names[0]],

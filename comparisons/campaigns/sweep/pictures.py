@@ -138,6 +138,7 @@ def _draw_lines(axes: "Axes", lines: dict[str, list], name: str, sample: bool) -
     for number, (label, line) in enumerate(lines.items()):
         x, y = np.array(sorted(line)).T
         look = {"marker": MARKERS[number % len(MARKERS)], "markersize": 3.2, "linewidth": 1.0}
+        look["linestyle"] = style.DASHES[number % len(style.DASHES)]
         [drawn] = axes.plot(x, y / scale.factor, label=label, **look)
         if sample and number == 0:
             mean, spread = np.mean(y) / scale.factor, np.std(y, ddof=1) / scale.factor
@@ -159,6 +160,7 @@ def bulge_figure(content: dict) -> "Figure":
             depth = [e[DEPTH] for e in rows]
             value, bar = ([e[which] / e[unit] for e in rows] for which in (name, unsure))
             look = {"marker": MARKERS[k % len(MARKERS)], "markersize": 3.0, "capsize": 2.0}
+            look["linestyle"] = style.DASHES[k % len(style.DASHES)]
             axes.errorbar(depth, value, bar, label=f"friction {plain(friction)}", **look)
         axes.set(xscale="log", ylabel=words)
     over(stack, "h/R", (0.9 * entries[0][DEPTH], 1.1 * entries[-1][DEPTH]))

@@ -148,10 +148,12 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
     if run.window is None:
         return
     frictions = run.problem.scene.load.friction
-    fields = (
+    fields: list = [
         Pictures(("fields",), f"Friction {friction:g}", True, slice(k, None, len(frictions)))
         for k, friction in enumerate(frictions)
-    )
+    ]
+    deciding = frictions.index(run.deciding_friction)
+    fields.insert(0, Box("deciding", (fields.pop(deciding),)))  # large on paper, too
     near = Pictures(("near",), "Next to the surface", abreast=True)
     down = Heading("Sections over depth"), Pictures(("sections",), abreast=True)
     items = Note(NOTES["fields"]), *fields, near, explorer, *down

@@ -29,6 +29,7 @@ from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawn
 
 PANELS = ((0.3, 2.4), (0.2, 1.0))  # inches above each panel, and its height: pressures, differences
 MARKED = 100  # points: fewer are marked on the curve
@@ -107,7 +108,7 @@ def answer_table(run: Run, answer: str) -> TextTable:
     head = ("quantity", "friction", answer, LABELS[reference_of(run)], "difference")
     head += ("uncertainty", "its own", "tolerance", "verdict")
     rows = tuple((label(name), *cells) for name, *cells in answer_rows(run, answer))
-    return TextTable("", head, rows)
+    return TextTable("", head, rows, "comparison")
 
 
 def _validation_table(measured: Series) -> TextTable:
@@ -134,21 +135,27 @@ def answer_pictures(run: Run) -> list[style.Picture]:
 
 
 def _pressures(run: Run, answers: Mapping[str, Answer]) -> style.Picture:
+    words = f"Contact pressures of the models and of {', '.join(answers)}"
+    caption = f"{words}; below, what these differ from the {LABELS[reference_of(run)]} by."
+    return style.picture(lambda width: _drawn(run, answers, width), words, caption)
+
+
+def _drawn(run: Run, answers: Mapping[str, Answer], width: float) -> "Drawn":
     half_width = run.problem.hertz.half_width
-    drawn, axes = panels(style.WIDE, PANELS)
+    drawn, axes = panels(width, PANELS)
     ends = np.concatenate([np.array(run.problem.extent), [-1.1 * half_width, 1.1 * half_width]])
     across, unit = (float(ends.min()), float(ends.max())), Scale(half_width, "a")
     contact.draw_pressures(axes[0], run, across, unit)
     for number, (name, answer) in enumerate(answers.items()):
         look = {"color": COLOURS[number % len(COLOURS)], "linewidth": 1.0, "label": name}
         _curves(axes, run, answer, look)
-    axes[0].set_ylim(0.0, 1.25 * axes[0].dataLim.y1)
-    axes[0].legend(loc="upper right", ncols=4)
+    wide = width > 0.75 * style.WIDE
+    axes[0].set_ylim(0.0, (1.25 if wide else 1.7) * axes[0].dataLim.y1)
+    corner = (1.0, 1.0) if wide else (1.0, 0.92)  # below the load in words
+    axes[0].legend(loc="upper right", bbox_to_anchor=corner, ncols=4 if wide else 2)
     axes[1].set_ylabel("Δp/p₀")
     over(axes, "x/a", [end / half_width for end in across])
-    words = f"Contact pressures of the models and of {', '.join(answers)}"
-    caption = f"{words}; below, what these differ from the {LABELS[reference_of(run)]} by."
-    return style.picture(drawn, words, caption, wide=True)
+    return drawn
 
 
 def _curves(axes: "list[Axes]", run: Run, answer: Answer, look: dict) -> None:

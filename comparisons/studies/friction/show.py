@@ -3,16 +3,37 @@
 In: a run with [partial_slip]. Out: a table, facts, pictures of the tractions and of the loop, a
 line."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from comparisons.common.numbers import percent, plain, scale_of, with_unit
+from comparisons.common.numbers import listed, percent, plain, scale_of, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable, judged_cells
-from comparisons.drawing.curves import over, panels
+from comparisons.drawing.blocks import (
+    Block,
+    Names,
+    Note,
+    Pictures,
+    TextTable,
+    judged_cells,
+    model_cells,
+    model_table,
+)
+from comparisons.drawing.curves import (
+    distinct,
+    joint_label,
+    legend_above,
+    names_above,
+    over,
+    panels,
+)
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.studies.friction.half_planes import friction_of, last_visit
 from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES
 from comparisons.studies.study import WHY_NOT, Run
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NOTE = """Tractions at the end of the path of loads, at the scene's largest friction coefficient:
 where the surfaces stick |q| < μp, where they slip |q| = μp. Of alike half-planes q is the
@@ -43,29 +64,18 @@ def blocks(run: Run) -> list[Block]:
 def slip_table(run: Run) -> TextTable:
     """A row for each figure that both models may have."""
     known, rows = run.figures.of(study=NAME), []
-    for quantity in COMPARED:
-        values = [known.one(quantity=quantity, source=name, against=None) for name in MODELS]
-        if not any(values):
-            continue
-        unit = QUANTITIES[quantity].unit
-        texts = [with_unit(figure and figure.value, unit) for figure in values]
-        difference = known.one(quantity=quantity, source=MODELS[0], against=MODELS[1])
-        if difference is None:
-            [only] = filter(None, values)
-            judged = ("", percent(only.numerical), "", "not compared")
-        else:
-            judged = judged_cells(difference)
-        rows.append((QUANTITIES[quantity].label, *texts, *judged))
-    numbers = ("difference", "uncertainty", "tolerance")
-    return TextTable("", ("", *map(LABELS.get, MODELS), *numbers, "verdict"), tuple(rows))
+    for name in COMPARED:
+        if any(figure.source in MODELS for figure in known.of(quantity=name, against=None)):
+            asked = QUANTITIES[name]
+            rows.append((asked.label, *model_cells(known, name, asked.unit)))
+    return model_table(rows)
 
 
 def slip_facts(run: Run) -> list[tuple[str, str]]:
     """The path of loads, what sticks, and what is not modelled."""
     scene, known = run.problem.scene, run.figures.of(study=NAME)
     slip, facts = scene.partial_slip, []
-    path = ", ".join(f"{load:g}" for load in slip.path)
-    facts.append(("tangential load over that of sliding", path))
+    facts.append(("tangential load over that of sliding", listed(slip.path)))
     facts.append(("friction", plain(friction_of(run.problem))))
     if slip.bulk_stress:
         facts.append(("bulk stress at the largest load", with_unit(slip.bulk_stress, "Pa")))
@@ -107,8 +117,8 @@ def lines(run: Run) -> list[tuple[str, str]]:
         judged = known.of(source=MODELS[0], against=MODELS[1])
         others = [f for f in judged if f.verdict != "agree" and f != figure]
         if others:
-            listed = ", ".join(f"{QUANTITIES[f.quantity].label} {f.verdict}" for f in others)
-            text += f"; {listed}"
+            said = (f"{QUANTITIES[f.quantity].label} {f.verdict}" for f in others)
+            text += f"; {', '.join(said)}"
         text += next_step(run)
     if (why := run.findings[NAME].said(WHY_NOT)) is not None:
         text += f"; of the finite elements {why}"
@@ -138,49 +148,63 @@ def tractions_picture(run: Run) -> style.Picture | None:
     """Tractions at the end between their limits, and the zones that stick."""
     if run.data(NAME) is None:
         return None
-    drawn, [panel] = panels(style.WIDE, [(0.22, 2.6)])
-    curves = run.data(NAME).curves
-    unit = scale_of(next(iter(curves.values())).x, "m")
-    for row, (name, one) in enumerate(curves.items()):
-        x, look = one.x / unit.factor, style.LINES[name]
-        thin = {**look, "linewidth": 0.5 * look["linewidth"]}
-        panel.plot(x, one.traction[-1] / 1e6, label=f"traction, {LABELS[name]}", **look)
-        for sign in (1.0, -1.0):
-            label = f"± μp, {LABELS[name]}" if sign > 0.0 else None
-            panel.plot(x, sign * one.limit[-1] / 1e6, label=label, **thin)
-        bottom = (-1.08 - 0.05 * row) * one.limit[-1].max() / 1e6
-        for start, stop in one.zones[-1] / unit.factor:
-            panel.plot([start, stop], [bottom, bottom], color=look["color"], linewidth=3.0)
-    panel.set_ylabel("traction [MPa]")
-    over([panel], f"x [{unit.name}]", x)
-    panel.legend(loc="upper right")
     share = f"{run.problem.scene.partial_slip.path[-1]:g}"
     caption = (
         f"Traction on the body under {share} of the load that makes it slide, between the limits "
-        "that friction sets, thin. Bars below: the zones that stick."
+        "that friction sets, thin. Bars below: the zones that stick, a row for each model."
     )
-    return style.picture(drawn, caption, caption, wide=True)
+    return style.picture(lambda width: _tractions(run, width), caption, caption)
+
+
+def _tractions(run: Run, width: float) -> "Figure":
+    curves = run.data(NAME).curves
+    abreast, room = names_above(width, 2 * len(curves))
+    drawn, [panel] = panels(width, [(room, 2.6)])
+    unit = scale_of(next(iter(curves.values())).x, "m")
+    tractions = {n: (one.x / unit.factor, one.traction[-1] / 1e6) for n, one in curves.items()}
+    limits = {n: (one.x / unit.factor, one.limit[-1] / 1e6) for n, one in curves.items()}
+    for names, (x, traction) in distinct(tractions).items():
+        panel.plot(x, traction, label=joint_label(names, ", traction"), **style.LINES[names[0]])
+    for names, (x, limit) in distinct(limits).items():
+        thin = {**style.LINES[names[0]], "linewidth": 0.6}
+        panel.plot(x, limit, label=joint_label(names, ", ± μp"), **thin)
+        panel.plot(x, -limit, **thin)
+    for row, (name, one) in enumerate(curves.items()):
+        bottom = (-1.08 - 0.05 * row) * one.limit[-1].max() / 1e6
+        for start, stop in one.zones[-1] / unit.factor:
+            look = {"color": style.LINES[name]["color"], "linewidth": 3.0}
+            panel.plot([start, stop], [bottom, bottom], **look)
+    panel.set_ylabel("traction [MPa]")
+    over([panel], f"x [{unit.name}]", x)
+    legend_above(panel, abreast)
+    return drawn
 
 
 def loop_picture(run: Run) -> style.Picture | None:
     """Tangential load over displacement along the path."""
     if run.data(NAME) is None or len(run.problem.scene.partial_slip.path) < 2:
         return None
-    drawn, [panel] = panels(style.WIDE, [(0.22, 2.4)])
-    path = (0.0, *run.problem.scene.partial_slip.path)
-    curves = run.data(NAME).curves
-    unit = scale_of(next(iter(curves.values())).displacement, "m")
-    for name, one in curves.items():
-        moved = np.concatenate([[0.0], one.displacement]) / unit.factor
-        panel.plot(moved, path, label=LABELS[name], marker="o", markersize=3, **style.LINES[name])
-    panel.set_ylabel("Q / μP")
-    panel.set_xlabel(f"displacement of the roller [{unit.name}]")
-    panel.legend(loc="upper left")
     caption = (
         "Tangential load over that of sliding along the path, against the roller's displacement. "
         "Between two loads the line is straight; what is lost is computed from slip."
     )
-    return style.picture(drawn, caption, caption, wide=True)
+    return style.picture(lambda width: _loop(run, width), caption, caption)
+
+
+def _loop(run: Run, width: float) -> "Figure":
+    curves, path = run.data(NAME).curves, (0.0, *run.problem.scene.partial_slip.path)
+    abreast, room = names_above(width, len(curves))
+    drawn, [panel] = panels(width, [(room, 2.4)])
+    unit = scale_of(next(iter(curves.values())).displacement, "m")
+    moved = {n: np.append(0.0, one.displacement) / unit.factor for n, one in curves.items()}
+    steps = np.arange(len(path))
+    for names, (_, along) in distinct({n: (steps, m) for n, m in moved.items()}).items():
+        look = {"marker": "o", "markersize": 3, **style.LINES[names[0]]}
+        panel.plot(along, path, label=joint_label(names), **look)
+    panel.set_ylabel("Q / μP")
+    panel.set_xlabel(f"displacement of the roller [{unit.name}]")
+    legend_above(panel, abreast)
+    return drawn
 
 
 PICTURES = {"slip_tractions": tractions_picture, "slip_loop": loop_picture}

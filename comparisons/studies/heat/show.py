@@ -2,12 +2,30 @@
 
 In: a run with [heat]. Out: a table, facts, pictures of both surfaces and below, lines."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from comparisons.common.numbers import percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Names, Note, Pictures, TextTable, judged_cells
-from comparisons.drawing.curves import over, panels
+from comparisons.drawing.blocks import (
+    Block,
+    Names,
+    Note,
+    Pictures,
+    TextTable,
+    model_cells,
+    model_table,
+)
+from comparisons.drawing.curves import (
+    Curve,
+    distinct,
+    joint_label,
+    legend_above,
+    names_above,
+    over,
+    panels,
+)
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
@@ -21,6 +39,10 @@ from comparisons.studies.heat.study import (
     WITHOUT,
 )
 from comparisons.studies.study import Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 HEIGHT = 1.9  # inches, of a field
 RULES = {
@@ -68,24 +90,18 @@ def heat_table(run: Run) -> TextTable:
     for rule, words in RULES.items():
         rise, share = (known.one(source=rule, quantity=name).value for name in OF_RULES)
         rises, enters = f"{significant(rise)} K", f"{percent(share)} enter the body"
-        rows.append((words, rises, "", "", "", "", enters))
-    numbers = ("difference", "uncertainty", "tolerance")
-    return TextTable("", ("", *map(LABELS.get, MODELS), *numbers, "verdict"), tuple(rows))
+        rows.append((f"{words}\n{enters}", rises, "", "", "", "", ""))
+    return model_table(rows)
 
 
 def _cells(known: Figures, quantity: str) -> tuple[str, ...]:
-    """Both models' values, their difference, its uncertainty, tolerance and verdict."""
-    unit, texts = QUANTITIES[quantity].unit, []
-    values = [known.one(quantity=quantity, source=name, against=None) for name in MODELS]
-    for name, figure in zip(MODELS, values, strict=True):
-        texts.append(with_unit(figure and figure.value, unit))
+    """Of both models, a stress also without heat."""
+    unit = QUANTITIES[quantity].unit
+    cells = list(model_cells(known, quantity, unit))
+    for place, name in enumerate(MODELS):
         if (cold := known.one(quantity=f"{quantity}{WITHOUT}", source=name)) is not None:
-            texts[-1] += f" ({with_unit(cold.value, unit)} without)"
-    difference = known.one(quantity=quantity, against=MODELS[1])
-    if difference is None:
-        [only] = filter(None, values)
-        return *texts, "", percent(only.numerical), "", "not compared"
-    return *texts, *judged_cells(difference)
+            cells[place] += f" ({with_unit(cold.value, unit)} without)"
+    return tuple(cells)
 
 
 def heat_facts(run: Run) -> list[tuple[str, str]]:
@@ -140,23 +156,6 @@ def surfaces_picture(run: Run) -> style.Picture | None:
     if run.data(NAME) is None:
         return None
     contacts, stresses = run.data(NAME).contacts, run.data(NAME).stresses
-    rows = [(0.22, 2.2), (0.2, 0.82), (0.2, 1.5)][: 3 if stresses else 2]
-    drawn, axes = panels(style.WIDE, rows)
-    above, below, *along = axes
-    unit = scale_of(next(iter(contacts.values())).x, "m")
-    for name, contact in contacts.items():
-        x, look = contact.x / unit.factor, style.LINES[name]
-        thin = {**look, "linewidth": 0.5 * look["linewidth"]}
-        above.plot(x, contact.body, label=f"body, {LABELS[name]}", **look)
-        above.plot(x, contact.roller, label=f"roller, {LABELS[name]}", **thin)
-        below.plot(x, contact.heat / 1e6, label=f"all, {LABELS[name]}", **thin)
-        below.plot(x, contact.into_body / 1e6, label=f"into the body, {LABELS[name]}", **look)
-        for sx, line in zip(stresses[name].sx if stresses else (), (look, thin), strict=False):
-            along[0].plot(stresses[name].x / unit.factor, sx / 1e6, **line)
-    for panel, name in zip(axes, ("rise [K]", "heat [W/mm²]", "σx [MPa]"), strict=False):
-        panel.set_ylabel(name)
-    over(axes, f"x [{unit.name}]", x)
-    above.legend(loc="upper right")
     largest = "; ".join(
         f"{LABELS[name]} {significant(contact.figures['flash_temperature'])} K"
         for name, contact in contacts.items()
@@ -167,7 +166,37 @@ def surfaces_picture(run: Run) -> style.Picture | None:
     )
     caption += " Last, σx of the body's surface, thin without heat." * bool(stresses)
     words = f"Rise of both surfaces' temperatures over x. Largest: {largest}."
-    return style.picture(drawn, words, caption, wide=True)
+    return style.picture(lambda width: _surfaces(run, width), words, caption)
+
+
+def _surfaces(run: Run, width: float) -> "Figure":
+    """Rise, heat and stresses; thin: of the roller, all heat, without heat."""
+    contacts, stresses = run.data(NAME).contacts, run.data(NAME).stresses
+    abreast, room = names_above(width, 2 * len(contacts))
+    drawn, axes = panels(width, [(room, 2.2), (0.2, 0.98), (0.2, 1.5)][: 3 if stresses else 2])
+    unit = scale_of(next(iter(contacts.values())).x, "m")
+
+    def plot(panel: "Axes", part: str, values: dict[str, Curve], share: float) -> None:
+        for names, (x, y) in distinct(values).items():
+            look = style.LINES[names[0]]
+            thick = {**look, "linewidth": share * look["linewidth"]}
+            panel.plot(x / unit.factor, y, label=joint_label(names, part), **thick)
+
+    for panel, part, name, share, scale in (
+        (axes[0], ", body", "body", 1.0, 1.0),
+        (axes[0], ", roller", "roller", 0.5, 1.0),
+        (axes[1], ", all", "heat", 0.5, 1e6),
+        (axes[1], ", into the body", "into_body", 1.0, 1e6),
+    ):
+        curves = {m: (c.x, getattr(c, name) / scale) for m, c in contacts.items()}
+        plot(panel, part, curves, share)
+    for case, share in enumerate((1.0, 0.5) if stresses else ()):
+        plot(axes[2], "", {m: (s.x, s.sx[case] / 1e6) for m, s in stresses.items()}, share)
+    for panel, name in zip(axes, ("rise [K]", "heat [W/mm²]", "σx [MPa]"), strict=False):
+        panel.set_ylabel(name)
+    over(axes, f"x [{unit.name}]", next(iter(contacts.values())).x / unit.factor)
+    legend_above(axes[0], abreast)
+    return drawn
 
 
 def below_pictures(run: Run) -> list[style.Picture]:

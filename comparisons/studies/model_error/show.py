@@ -421,7 +421,7 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
             [bar] = axes.barh(y, start - begin, left=begin, **look)
             hatched += [bar] * (sign is False)
             text = error_text(panel.quantity, size, panel.uncertainty)
-            _beside(axes, max(begin, start), y, text)
+            style.beside_bar(axes, max(begin, start), y, text, fontsize=7.5)
         if not panel.is_norm:
             # past a step that does not apply
             top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
@@ -436,12 +436,11 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     estimate = min(100.0 * panel.not_modelled, most)  # more would hide the steps
     bars = (certain, 1.4, 3.0), (certain + estimate, 0.6, 2.0 * (estimate < most))
     for reach, thick, caps in bars:
-        look = {"elinewidth": thick, "capsize": caps, "color": "#000000", "fmt": "none"}
         low = min(reach, value) if panel.is_norm else reach
-        axes.errorbar(value, y, xerr=[[low], [reach]], **look)
+        style.whisker(axes, value, y, (low, reach), thick, caps)
         ends += [value - low, value + reach]
     text = error_text(panel.quantity, panel.error, panel.uncertainty)
-    _beside(axes, max(ends[-1], value, 0.0), y, text)
+    style.beside_bar(axes, max(ends[-1], value, 0.0), y, text, fontsize=7.5)
     for side in ((1.0,) if panel.is_norm else (-1.0, 1.0)) if panel.tolerance else ():
         axes.axvline(side * at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
         ends.append(side * at)
@@ -452,10 +451,3 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     axes.locator_params(axis="x", nbins=6)
     axes.set_title("\n".join(wrap(panel.name, int(TITLE_LETTERS * across))))
     axes.set_xlabel("per cent")
-
-
-def _beside(axes: "Axes", x: float, y: float, text: str) -> None:
-    """Words to the right of a bar's end."""
-    behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
-    beside = {"textcoords": "offset points", "va": "center", "fontsize": 7.5, "bbox": behind}
-    axes.annotate(text, (x, y), (3, 0), **beside)

@@ -2,16 +2,22 @@
 
 In: a run with [statistics]. Out: tables and pictures for the page, lines for the terminal."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from comparisons.common.numbers import percent, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
-from comparisons.drawing.curves import over, panels
+from comparisons.drawing.curves import legend_above, names_above, over, panels
 from comparisons.figures.figure import Findings, Series
 from comparisons.figures.quantity import LABELS
+from comparisons.models.problem import Problem
 from comparisons.studies.statistics.study import FIGURES, NAME, PRESSURE
 from comparisons.studies.study import Run
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 KINDS = {"elastic": "#0072B2", "plastic": "#E69F00", "cutting": "#D55E00"}
 FLOWS = 1e-6  # equivalent plastic strain
@@ -27,8 +33,8 @@ POINTS, ALONG = 4000, 20  # of the profile, of each patch
 SUMMITS = ("", "bandwidth", "rms slope", "peaks a mm", "radius", "deviation")
 SUMMITS += ("summits a mm²", "radius of summits", "deviation of summits")
 PRESSURES = ("load", "patches", "theory, by moments", "by peaks", "Persson, ridges")
-PRESSURES += ("as many ridges, Hertz", "random traces", "the trace", "theory over random")
-PRESSURES += ("as the product of", "half-width over a: theory", "random", "the trace")
+PRESSURES += ("as many ridges, Hertz", "random traces", "the trace")
+WIDTHS = ("half-width over a: theory", "random traces", "the trace")
 THEORIES = [f"figures.{source}.{PRESSURE}" for source in ("moments", "peaks")]
 THEORIES += ["persson.ridges", "even"]
 STRAIN = "plastic_strain"
@@ -57,7 +63,7 @@ def blocks(run: Run) -> list[Block]:
     items = (
         Pictures(("statistics",)),
         TextTable("Summits, by moments / by peaks", SUMMITS, summits),
-        _pressures(findings.table("loads")),
+        *_by_load(findings.table("loads")),
         TextTable(asperities, kinds, tuple(_kinds(findings, kind) for kind in KINDS)),
         Note(ON_THEORY),
         Note(
@@ -77,10 +83,11 @@ def lines(run: Run) -> list[tuple[str, str]]:
     row = loads.rows()[0]
     theory = with_unit(row[f"figures.moments.{PRESSURE}"], "Pa", 3)
     solved = f"solved {_random(loads)[0]} under random traces"
+    causes = ", ".join(map(" ".join, _causes(row).items()))
     exact = patches.columns["kinds.exact"].values
     kinds = ", ".join(f"{exact.count(kind)} {kind}" for kind in KINDS)
     return [
-        ("statistics", f"mean real pressure {theory} by theory, {solved}: {_causes(row)}"),
+        ("statistics", f"mean real pressure {theory} by theory, {solved}: {causes}"),
         ("asperities", f"by h/R {kinds} ({LABELS[patches.source]})"),
     ]
 
@@ -90,9 +97,10 @@ def _patches(findings: Findings) -> list[Series]:
     return [series for series in findings.series if series.name == "patches"]
 
 
-def _causes(row: dict) -> str:
+def _causes(row: dict) -> dict[str, str]:
+    """The factors of theory over solved."""
     factors = {name.removeprefix("causes."): row[name] for name in row if "causes." in name}
-    return ", ".join(f"{name} ×{significant(value, 3)}" for name, value in factors.items())
+    return {name: f"×{significant(value, 3)}" for name, value in factors.items()}
 
 
 def _random(loads: Series) -> list[str]:
@@ -118,22 +126,24 @@ def _summits(row: dict) -> tuple[str, ...]:
     return tuple(cells)
 
 
-def _pressures(loads: Series) -> TextTable:
-    rows, differences = [], loads.columns["difference"].sizes
+def _by_load(loads: Series) -> tuple[TextTable, TextTable]:
+    """Pressures; and how far the theory is off, why, and the widths."""
+    pressures, factors, differences = [], [], loads.columns["difference"].sizes
     for row, random, uncertainty in zip(loads.rows(), _random(loads), differences, strict=True):
-        before = [row[name] for name in THEORIES]
         widths = (row[f"figures.{n}.{FIGURES[2]}"] for n in ("moments", "random", "trace"))
-        rows.append(
-            (
-                *(with_unit(row["load"], "N/m", 3), significant(row["patches"], 2)),
-                *(with_unit(value, "Pa", 3) for value in before),
-                *(random, with_unit(row[f"figures.trace.{PRESSURE}"], "Pa", 3)),
-                f"{percent(row['difference'], signed=True)} ± {percent(uncertainty, digits=1)}",
-                _causes(row),
-                *(significant(width / row["half_width"], 3) for width in widths),
-            )
-        )
-    return TextTable("Mean real pressure, load over real length", PRESSURES, tuple(rows))
+        load, excess = with_unit(row["load"], "N/m", 3), percent(row["difference"], signed=True)
+        trace = with_unit(row[f"figures.trace.{PRESSURE}"], "Pa", 3)
+        before = (with_unit(row[name], "Pa", 3) for name in THEORIES)
+        pressures.append((load, significant(row["patches"], 2), *before, random, trace))
+        excess += f" ± {percent(uncertainty, digits=1)}"
+        widths = (significant(width / row["half_width"], 3) for width in widths)
+        factors.append((load, excess, *_causes(row).values(), *widths))
+    head = ("load", "theory over random", *_causes(loads.rows()[0]), *WIDTHS)
+    title = "Mean real pressure, load over real length"
+    return (
+        TextTable(title, PRESSURES, tuple(pressures)),
+        TextTable("Theory over solved, and half-widths", head, tuple(factors)),
+    )
 
 
 def _kinds(findings: Findings, kind: str) -> tuple[str, ...]:
@@ -188,25 +198,34 @@ def _over_load(run: Run) -> style.Picture:
 
 def _asperities(run: Run) -> style.Picture:
     """The profile, its patches of contact in the colour of their kind."""
-    (*_, patches), problem = _patches(run.findings[NAME]), run.problem
-    x, spline = np.linspace(*problem.extent, POINTS), problem.surface.profile.spline()
-    along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
-    drawn, [axes] = panels(style.WIDE, [(0.35, 2.34)], foot=0.51)
-    axes.plot(x / along.factor, spline(x) / up.factor, **{**style.OUTLINE, "linewidth": 0.7})
-    counts = []
-    for kind, colour in KINDS.items():
-        ends = [(p["start"], p["stop"]) for p in patches.rows() if p["kinds.exact"] == kind]
-        counts.append(f"{len(ends)} {kind}")
-        places = [np.append(np.linspace(*pair, ALONG), np.nan) for pair in ends]
-        place = np.concatenate([*places, [np.nan]])
-        look = {"color": colour, "linewidth": 3.0, "label": counts[-1]}
-        axes.plot(place / along.factor, spline(place) / up.factor, **look)
-    axes.set_ylabel(f"height [{up.name}]")
-    over([axes], f"x [{along.name}]", x / along.factor)
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=3)
-    wanted = problem.scene.statistics
+    (*_, patches), wanted = _patches(run.findings[NAME]), run.problem.scene.statistics
+    kinds = patches.columns["kinds.exact"].values
+    counts = [f"{kinds.count(kind)} {kind}" for kind in KINDS]
     rule = f"{wanted.metal}, {'lubricated' if wanted.lubricated else 'dry'}"
     said = f"by relative penetration, {rule}: {', '.join(counts)}"
     caption = f"Patches of contact ({LABELS[patches.source]}) {said}."
     alternative = f"The profile and its patches of contact, {said}."
-    return style.picture(drawn, alternative, caption, data=False, wide=True)
+    return style.picture(
+        lambda width: _kinds_along(run.problem, patches, counts, width),
+        alternative,
+        caption,
+        data=False,
+    )
+
+
+def _kinds_along(problem: Problem, patches: Series, counts: list[str], width: float) -> "Figure":
+    x, spline = np.linspace(*problem.extent, POINTS), problem.surface.profile.spline()
+    along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
+    abreast, room = names_above(width, len(KINDS))
+    drawn, [axes] = panels(width, [(room, 2.34)], foot=0.51)
+    axes.plot(x / along.factor, spline(x) / up.factor, **{**style.OUTLINE, "linewidth": 0.7})
+    for (kind, colour), label in zip(KINDS.items(), counts, strict=True):
+        ends = [(p["start"], p["stop"]) for p in patches.rows() if p["kinds.exact"] == kind]
+        places = [np.append(np.linspace(*pair, ALONG), np.nan) for pair in ends]
+        place = np.concatenate([*places, [np.nan]])
+        look = {"color": colour, "linewidth": 3.0, "label": label}
+        axes.plot(place / along.factor, spline(place) / up.factor, **look)
+    axes.set_ylabel(f"height [{up.name}]")
+    over([axes], f"x [{along.name}]", x / along.factor)
+    legend_above(axes, abreast)
+    return drawn

@@ -398,10 +398,11 @@ def bulge_picture(run: Run) -> style.Picture | None:
     h = a**2 / run.problem.scene.roller.radius
     drawn = style.figure(style.COLUMN, 2.6)
     [axes] = style.stacked(drawn, [(0.35, 1.75)], 0.75)
-    for bulge in bulges:
+    for number, bulge in enumerate(bulges):
         s = np.array(bulge.curve.columns["distance"].values) / a
         rise = np.array(bulge.curve.columns["rise"].values)
         look = {"label": f"friction {plain(bulge.friction)}", "linewidth": 1.3}
+        look["linestyle"] = style.DASHES[number % len(style.DASHES)]
         axes.plot(s[s <= FARTHEST], rise[s <= FARTHEST] / h, **look)
         step = bulge.value("half_plane")
         ends = np.array([step, step + bulge.value("height")]) / h

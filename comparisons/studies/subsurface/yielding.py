@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
-FOUND = {FIELD: "in the field", PEAK: "by the peak"}
+STRESSES_FROM = {FIELD: "the field", PEAK: "the peak pressure"}
 BEYOND_DOUBT = "beyond doubt"  # name of what is said of flow
 PLASTIC_STRAIN, STRAIN_BY_SLOPE = "plastic_strain", "plastic_strain_by_slope"
 QUANTITIES = {
@@ -59,7 +59,7 @@ QUANTITIES = {
 INDICES = "plasticity_index_summits", "plasticity_index_slope"
 OF_FIRST_FLOW = ("over_first_flow_tresca", "over_first_flow_von_mises", "share_at_hardness")
 OF_FIRST_FLOW += ("peak_pressure_over_shear_yield", "shakedown_limit")
-BY_THE_PEAK = "by the peak: those below Hertz's contact of the same peak pressure"
+BY_THE_PEAK = "from the peak pressure: those below Hertz's contact of the same peak pressure"
 OF_A_YIELD_STRESS = """First flow: τ₁ = Y/2 (Tresca, in the plane), or von Mises' stress = Y; a
 hardness stands for Y = H/3, a yield stress for H = 3 Y (Tabor). Elastic shakedown: the largest peak
 pressure over k = Y/√3 (von Mises, as finite elements flow) of a line contact that may roll and
@@ -340,7 +340,11 @@ def flow_table(run: Run) -> TextTable:
         return meaning.label, *texts
 
     read = (run.findings[NAME].said("read", friction=friction) for friction in frictions)
-    rows = [row("tau1_max"), row("von_mises_max"), ("found", *(FOUND[text] for text in read))]
+    rows = [
+        row("tau1_max"),
+        row("von_mises_max"),
+        ("stresses from", *(STRESSES_FROM[text] for text in read)),
+    ]
     if known.one(quantity="yield_stress") is not None:
         rows += map(row, OF_FIRST_FLOW)
     if known.one(quantity="plasticity_index_slope") is not None:

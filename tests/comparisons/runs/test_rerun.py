@@ -6,7 +6,9 @@ import io
 import json
 import operator
 import re
+import shlex
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,6 +21,8 @@ from comparisons.common.progress import no_progress
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
 from comparisons.output.page.redraw import draw_again
+from comparisons.output.page.saved import read_run
+from comparisons.output.page.tables.verification import commands
 from comparisons.output.record import read_result
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
@@ -120,6 +124,18 @@ def test_scratch_does_not_stay(half_plane, tmp_path, monkeypatch):
 def test_the_recorded_folder_is_not_written_to(half_plane, out):
     with pytest.raises(InputError, match=r"--out: .* is in the recorded folder"):
         rerun(half_plane, half_plane / out)
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_the_lines_of_a_report_work_in_its_folder(spoilable, monkeypatch, capsys, place):
+    """Those that repeat the run and that draw the page again, as they stand."""
+    words, line = commands(read_run(spoilable))[place]
+    assert "folder" in words
+    program, *arguments = shlex.split(line)
+    assert Path(program).is_file()
+    monkeypatch.chdir(spoilable)
+    assert main(arguments) == 0
+    assert ["same", "report.html"][place] in capsys.readouterr().out
 
 
 def test_a_tampered_figure_is_found(spoilable, capsys):

@@ -18,11 +18,12 @@ from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawn
 
-WIDTH, LEFT, RIGHT = 8.35, 0.72, 0.12  # inches
+LEFT, RIGHT = 0.72, 0.12  # inches
 # Inches above a panel, and of the panel.
-PRESSURES, DIFFERENCES, SURFACES = (0.08, 2.1), (0.32, 0.55), (0.14, 1.0)
-SHEAR, BAR = (0.32, 2.0), (0.44, 0.1)
+PRESSURES, DIFFERENCES, SURFACES = (0.08, 1.75), (0.3, 0.5), (0.14, 0.8)
+SHEAR, BAR = (0.3, 1.35), (0.44, 0.1)
 FOOT = 0.26  # inches
 REACH = 1.15  # half-widths to either side
 
@@ -30,42 +31,58 @@ ROW, TOP, BOTTOM = 0.56, 0.34, 0.5  # inches: of a bar and its words, and the sp
 THICK = 0.34  # of a row
 FARTHEST = 6.0  # tolerances: what is beyond is cut off
 COLOURS = {"holds": "#0b5c8f", "fails": "#a8410a", "inconclusive": "#8a9199"}
+WORDS = COLOURS | {"inconclusive": "#565c63"}  # in a darker grey
 
 
 def overview_picture(run: Run) -> style.Picture:
     """Pressures, the difference of models, surfaces under load, and the shear below."""
+    said, friction = "Pressures over Hertz's", run.deciding_friction
+    caption = (
+        "Over the same x: pressures over Hertz's, how far models are apart, surfaces under load"
+    )
+    if len(run.runs) > 1:
+        said += f", {_norm(run, friction)}"
+    said += "; surfaces under load"
+    if run.window is not None:
+        said += f"; {_largest(run)}"
+        caption += " with heights stretched, principal shear stress τ₁ below"
+    drawn = overview(run, style.COLUMN)
+    return style.picture(drawn, f"The run in one picture. {said}.", f"{caption}.", data=False)
+
+
+def overview(run: Run, width: float) -> "Drawn":
+    """The picture, so many inches wide."""
     hertz, friction = run.problem.hertz, run.deciding_friction
     compares, window = len(run.runs) > 1, run.window
     rows = [PRESSURES, *[DIFFERENCES] * compares, SURFACES, *[SHEAR, BAR] * (window is not None)]
     foot = FOOT if window is not None else style.LABEL + 0.15
-    drawn = style.figure(WIDTH, foot + sum(map(sum, rows)))
+    drawn = style.figure(width, foot + sum(map(sum, rows)))
     panels = style.stacked(drawn, rows, LEFT, RIGHT)
     bar = panels.pop() if window is not None else None
     what = run, (-REACH * hertz.half_width, REACH * hertz.half_width), Scale(hertz.half_width, "a")
     draw_pressures(panels[0], *what)
-    panels[0].set_ylim(0.0, 1.25 * panels[0].dataLim.y1)
     look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
-    panels[0].legend(loc="upper right", ncols=2, **look)
-    said = "Pressures over Hertz's"
+    names = len(panels[0].get_legend_handles_labels()[1])
+    if width > style.COLUMN:
+        room, look["loc"] = 1.35, "upper right"
+    else:  # the names below the load in words
+        room = 1.3 + 0.12 * -(-names // 2)
+        look |= {"loc": "upper left", "bbox_to_anchor": (0.0, 0.9)}
+    panels[0].set_ylim(0.0, room * panels[0].dataLim.y1)
+    panels[0].legend(ncols=2, **look)
     if compares:
         draw_difference(panels[1], *what)
-        said += f", {_norm(run, friction)}"
         panels[1].set_title(_norm(run, friction))
     draw_surfaces(panels[1 + compares], *what)
     if window is not None:
-        largest = _shear(panels[-1], bar, run)
+        _shear(panels[-1], bar, run)
         panels[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
     for panel in panels:
         panel.set_xlim(-REACH, REACH)
-        panel.yaxis.set_label_coords(-0.8 * LEFT / (WIDTH - LEFT - RIGHT), 0.5)
+        panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel("x/a")
-    said += "; surfaces under load" + (f"; {largest}" if window is not None else "")
-    caption = (
-        "Over the same x: pressures over Hertz's, how far models are apart, surfaces under load"
-    )
-    caption += " with heights stretched, stresses below." if window is not None else "."
-    return style.picture(drawn, f"The run in one picture. {said}.", caption, data=False)
+    return drawn
 
 
 def _norm(run: Run, friction: float) -> str:
@@ -74,31 +91,34 @@ def _norm(run: Run, friction: float) -> str:
     error = run.figures.one(study=MODEL_ERROR, quantity="pressure_l2", friction=friction)
     if error is None:
         return models
-    moved = "".join(f", {text} on average" for text in moved_text(run, friction))
-    return f"{models}: {percent(error.value)} (relative L2 norm){moved}"
+    moved = "".join(f", {text}" for text in moved_text(run, friction))
+    return f"{models}: {percent(error.value)} (L2){moved}"
 
 
-def _shear(axes: "Axes", bar: "Axes", run: Run) -> str:
-    """The last model's principal shear; what is said of its largest."""
+def _shear(axes: "Axes", bar: "Axes", run: Run) -> None:
+    """The last model's principal shear."""
     hertz, window, friction = run.problem.hertz, run.window, run.deciding_friction
-    stresses = {name: level.stress(friction) for name, level in run.levels(friction).items()}
-    [*others, last] = stresses
-    field = COMPONENTS[0].of(stresses[last].field) / hertz.peak_pressure
+    [*_, last] = run.levels(friction).values()
+    field = COMPONENTS[0].of(last.stress(friction).field) / hertz.peak_pressure
     bands = round_bands([field], signed=False)
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     shown = fill(axes, x, z, field, bands, "viridis", False)
-    place = stresses[last].extremes["tau1"]
+    place = last.stress(friction).extremes["tau1"]
     cross(axes, place.x / hertz.half_width, place.z / hertz.half_width)
-    largest = {
-        name: significant(stress.extremes["tau1"].value / hertz.peak_pressure, 3)
-        for name, stress in stresses.items()
-    }
-    beside = f" ({LABELS[others[0]]} {largest[others[0]]} p₀)" if others else ""
-    said = f"principal shear τ₁, {LABELS[last]}, friction {plain(friction)}: largest "
-    said += f"{largest[last]} p₀ at +{beside}"
-    axes.set_title(said)
+    axes.set_title(_largest(run))
     colour_bar(axes.figure, bar, shown, "τ₁/p₀", bands)
-    return said
+
+
+def _largest(run: Run) -> str:
+    """Whose principal shear is drawn, and how large it is by the first model and by it."""
+    friction, p0 = run.deciding_friction, run.problem.hertz.peak_pressure
+    largest = {
+        name: significant(level.stress(friction).extremes["tau1"].value / p0, 3)
+        for name, level in run.levels(friction).items()
+    }
+    [*others, last] = largest
+    beside = f" ({LABELS[others[0]]} {largest[others[0]]} p₀)" if others else ""
+    return f"τ₁, {LABELS[last]}, μ = {plain(friction)}: largest {largest[last]} p₀ at +{beside}"
 
 
 def judged_picture(run: Run) -> style.Picture | None:
@@ -153,10 +173,10 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
         style.hatch(axes, [beyond], "#555555", width=0.5)
     axes.barh(y, np.clip(at, -limit, limit), height=THICK, color=colour, linewidth=0.0)
     if np.isfinite(certain):
-        look = {"elinewidth": 1.4, "capsize": 3.0, "color": "#000000", "fmt": "none"}
-        axes.errorbar(at, y, xerr=certain, **look)
-    sliding = f", friction {plain(error.friction)}" if several else ""
+        style.whisker(axes, at, y, (certain, certain))
+    sliding = f", μ = {plain(error.friction)}" if several else ""
     above = {"va": "bottom", "fontsize": 8.5}
-    axes.text(axes.get_xlim()[0], y + 0.56 * THICK, label(error.quantity) + sliding, **above)
-    text = {"ha": "right", "color": colour, "weight": "bold", **above}
+    name = label(error.quantity).replace("principal shear stress ", "")  # room for the error
+    axes.text(axes.get_xlim()[0], y + 0.56 * THICK, name + sliding, **above)
+    text = {"ha": "right", "color": WORDS[error.verdict], "weight": "bold", **above}
     axes.text(limit, y + 0.56 * THICK, _said(error), **text)

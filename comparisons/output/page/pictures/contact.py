@@ -12,7 +12,16 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.curves import FOOT, LEFT, distinct, joint_label, over, panels
+from comparisons.drawing.curves import (
+    COINCIDE,
+    FOOT,
+    LEFT,
+    distinct,
+    joint_label,
+    over,
+    panels,
+)
+from comparisons.drawing.field import SMALLEST_POWER, SUPERSCRIPT
 from comparisons.figures.quantity import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import mean_height
@@ -82,7 +91,7 @@ def close_up_picture(run: Run) -> style.Picture:
     return style.picture(
         drawn,
         f"Pressures of the models around {place}, {at}.",
-        f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
+        f"Around {place}, {at}: the pressures are piecewise linear between nodes "
         f"{with_unit(pitch, 'm', 3)} apart ({LABELS[name]}).",
     )
 
@@ -169,9 +178,14 @@ def draw_difference(axes: "Axes", run: Run, across: tuple[float, float], unit: S
     difference = np.interp(x, *closed(one)) - reference
     difference /= run.problem.hertz.peak_pressure
     shown = style.near(x, across, other.grid.pitch)
-    axes.plot(x[shown] / unit.factor, difference[shown], **style.DIFFERENCE)
-    style.symmetric(axes, difference[shown])
-    axes.set_ylabel("Δp/p₀")
+    power, name = 0, "Δp/p₀"
+    largest = np.max(np.abs(difference[shown]), initial=0.0)
+    if 0.0 < largest < 10.0**SMALLEST_POWER:
+        power = -int(np.floor(np.log10(largest)))
+        name = f"10{str(power).translate(SUPERSCRIPT)} {name}"
+    axes.plot(x[shown] / unit.factor, difference[shown] * 10.0**power, **style.DIFFERENCE)
+    style.symmetric(axes, difference[shown] * 10.0**power)
+    axes.set_ylabel(name)
 
 
 def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Scale) -> None:
@@ -187,8 +201,10 @@ def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Sca
         drawn[name] = x, body, body + level.solution.gap[shown]
     x, body, roller = next(iter(drawn.values()))
     low, high = body.min(), roller.max()
-    middle, high = 0.5 * (low + high), high + 0.25 * (high - low or 1.0)
-    low -= 0.35 * (high - low)
+    # a flat contact enlarged is no picture of its rounding
+    least = COINCIDE * np.ptp(deformed_height(run.problem, level))
+    middle, span = 0.5 * (low + high), max(high - low, least) or 1.0
+    low, high = middle - 0.9 * span, middle + 0.9 * span
     up = scale_of([high - low], "m")
 
     def scaled(height: np.ndarray) -> np.ndarray:
@@ -199,7 +215,7 @@ def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Sca
     style.fill_bodies(axes, x, scaled(body[few]), scaled(roller[few]), scaled(low), scaled(high))
     for surface in (1, 0):
         curves = {name: (drawn[name][0], drawn[name][1 + surface]) for name in reversed(drawn)}
-        for names, (place, heights) in distinct(curves).items():
+        for names, (place, heights) in distinct(curves, least).items():
             look = style.LINES[names[0]] if len(drawn) > 1 else style.OUTLINE
             line = {**look, "linewidth": 0.7 * look["linewidth"]}
             axes.plot(place / unit.factor, scaled(heights), **line)

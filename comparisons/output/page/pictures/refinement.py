@@ -122,8 +122,7 @@ def cost_picture(run: Run) -> style.Picture:
     look = {"color": filled, "edgecolor": colours, "linewidth": 0.9}
     bars = axes.barh(place, shown - first, left=first, height=0.72, **look)
     for y, width, (_, _, time) in zip(place, shown, rows, strict=True):
-        beside = {"xytext": (4, 0), "textcoords": "offset points", "va": "center"}
-        axes.annotate(with_unit(time, "s", 3), (width, y), **beside)
+        style.beside_bar(axes, width, y, with_unit(time, "s", 3))
     hatched = [bar for bar, row in zip(bars, rows, strict=True) if row[0] == "finite_element"]
     style.hatch(axes, hatched, style.LINES["finite_element"]["color"])
     axes.set_xscale("log")

@@ -13,7 +13,7 @@ import numpy as np
 from analytic.stress_state import StressState
 from comparisons.common.numbers import decimal, percent_as_written, plain, significant
 from comparisons.drawing import style
-from comparisons.drawing.curves import COINCIDE, columns, distinct, joint_label
+from comparisons.drawing.curves import COINCIDE, columns, distinct, joint_label, names_above
 from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.models.smooth import closed_form
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 NEAR = 0.1  # half-widths: depth of what is enlarged next to the surface
 STRETCHED = 1.25  # inches: height of fields next to the surface
 FEWEST_ROWS = 4
-TOP, TITLE, TALL, FOOT = 0.62, 0.3, 1.85, 0.46  # inches, of sections
+TITLE, TALL, FOOT = 0.3, 1.85, 0.46  # inches, of sections
 LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
 
 
@@ -206,11 +206,15 @@ def section_pictures(run: Run) -> list[style.Picture]:
 
 def _section_picture(run: Run, column: int, words: str) -> style.Picture:
     frictions, hertz = run.problem.scene.load.friction, run.problem.hertz
-    drawn = style.figure(style.COLUMN, TOP + FOOT + (TITLE + TALL) * len(frictions))
+    models = {
+        n: (run.window.z, _tau1(run, n, frictions[0], column)) for n in run.levels(frictions[0])
+    }
+    abreast, top = names_above(style.COLUMN, len(distinct(models)) + 2)
+    drawn = style.figure(style.COLUMN, top + FOOT + (TITLE + TALL) * len(frictions))
     depths = [run.window.z[-1] / hertz.half_width]
     if run.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
         depths.append(NEAR)
-    rows = [(TITLE + TOP * (place == 0), TALL) for place in range(len(frictions))]
+    rows = [(TITLE + top * (place == 0), TALL) for place in range(len(frictions))]
     sides = columns(drawn, [rows] * len(depths), LEFT, ROOM, BETWEEN)
     for friction, panels in zip(frictions, zip(*sides, strict=True), strict=True):
         for panel, depth in zip(panels, depths, strict=True):
@@ -226,7 +230,7 @@ def _section_picture(run: Run, column: int, words: str) -> style.Picture:
     for axes in drawn.axes:
         lines, labels = axes.get_legend_handles_labels()
         entries |= dict(zip(labels, lines, strict=True))
-    room = {"ncols": 2, "borderaxespad": 0.1, "columnspacing": 1.2}
+    room = {"ncols": abreast, "borderaxespad": 0.1, "columnspacing": 1.2}
     drawn.legend(entries.values(), entries, loc="upper left", bbox_to_anchor=(0.1, 1.0), **room)
     at = decimal(run.window.x[column] / hertz.half_width)
     largest = "; ".join(

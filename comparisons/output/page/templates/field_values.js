@@ -5,6 +5,7 @@
 const NOTHING = -32768;
 const MODELS = { "half-plane": "#0072B2", "finite elements": "#D55E00", "whole model": "#009E73" };
 const DASHES = { "finite elements": "6 3", "whole model": "9 2 2 2" };
+const COINCIDE = 0.01; // of the largest value: what is nearer is one line
 const MARGIN = { left: 62, right: 12, top: 24, bottom: 40 };
 
 function numbers(text, scale) {
@@ -155,8 +156,13 @@ function look(fields) {
       Array.from(values.subarray(row * fields.x.length, (row + 1) * fields.x.length)),
     ];
     const lines = Object.entries(all).map(cut);
-    const models = lines.filter(([name]) => name !== "difference");
+    let models = lines.filter(([name]) => name !== "difference");
     const difference = lines.filter(([name]) => name === "difference");
+    // curves that coincide are one line
+    const most = (values) => Math.max(...values.filter(Number.isFinite).map(Math.abs), 0);
+    const coincide = difference.length && most(difference[0][1]) <= COINCIDE * most(models[0][1]);
+    const legend = coincide ? models.map(([name]) => name).join(" = ") : null;
+    if (coincide) models = [models[0]];
     const symbol = fields.components[Number(component.value)].symbol;
     chart.replaceChildren();
     const last = "x/a";
@@ -167,7 +173,7 @@ function look(fields) {
       const style = { stroke: MODELS[name], "stroke-width": 2 };
       const dashes = DASHES[name] ?? "none";
       add(chart, "line", { x1: x, x2: x + 24, y1: 12, y2: 12, ...style, "stroke-dasharray": dashes });
-      add(chart, "text", { x: x + 30, y: 16 }, name);
+      add(chart, "text", { x: x + 30, y: 16 }, legend ?? name);
       x += 118;
     }
     depth.nextElementSibling.value = `z = ${written(fields.z[row], 3)} a`;

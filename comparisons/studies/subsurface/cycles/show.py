@@ -3,16 +3,27 @@
 In: a run with [cycles]. Out: a line, tables of passes and of surfaces, pictures of the plastic
 strain by pass, of residual stresses over depth, and of the surfaces with their pressures."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from comparisons.common.numbers import percent, percent_as_written, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
-from comparisons.drawing.curves import over, panels
+from comparisons.drawing.curves import distinct, legend_above, names_above, over, panels
 from comparisons.figures.figure import Figure
 from comparisons.studies.study import WHY_NOT, Run
 from comparisons.studies.subsurface.cycles.study import NAME, QUANTITIES, SOURCE, VERDICT
-from comparisons.studies.subsurface.cycles.surfaces import FLATTENED, FRESH, LAST, ONCE
+from comparisons.studies.subsurface.cycles.surfaces import (
+    FLATTENED,
+    FRESH,
+    LAST,
+    ONCE,
+    LeftSurfaces,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawn
 
 WORDS = {FRESH: "fresh", ONCE: "pressed once", LAST: "after all passes", FLATTENED: "run in"}
 COLOURS = {FRESH: "#222222", ONCE: "#0072B2", LAST: "#D55E00", FLATTENED: "#009E73"}
@@ -130,7 +141,8 @@ def passes_picture(run: Run) -> style.Picture | None:
     data = run.data(NAME)
     if data is None:
         return None
-    drawn, [panel] = panels(style.COLUMN, [(0.22, 2.4)])
+    abreast, room = names_above(style.COLUMN, 4)
+    drawn, [panel] = panels(style.COLUMN, [(room, 2.4)])
     for level, colour in zip(data.levels[::-1], COLOURS.values(), strict=False):
         numbers = np.arange(1, len(level.passes.flow) + 1)
         flow = np.where(level.passes.flow > 0.0, level.passes.flow, np.nan)
@@ -145,7 +157,7 @@ def passes_picture(run: Run) -> style.Picture | None:
     panel.set_ylabel("plastic strain added")
     panel.set_xlabel("pass")
     panel.xaxis.get_major_locator().set_params(integer=True)
-    panel.legend(loc="best")
+    legend_above(panel, abreast)
     caption = "Largest equivalent plastic strain that each pass adds, to and fro."
     return style.picture(drawn, caption, caption)
 
@@ -156,17 +168,20 @@ def stress_picture(run: Run) -> style.Picture | None:
     if data is None:
         return None
     finest = data.levels[-1]
-    drawn, [panel] = panels(style.COLUMN, [(0.22, 2.4)])
+    abreast, room = names_above(style.COLUMN, 4)
+    drawn, [panel] = panels(style.COLUMN, [(room, 2.4)])
     unit = scale_of(finest.z, "m")
-    for words, profile, name in zip(("first", "last"), finest.profile, (ONCE, LAST), strict=True):
-        for part, axis, width in zip(profile.T, "xy", (1.5, 0.7), strict=True):
-            label = f"σ{axis} after the {words} pass"
-            look = {"color": COLOURS[name], "linestyle": DASHES[name], "linewidth": width}
-            panel.plot(finest.z / unit.factor, part / 1e6, label=label, **look)
+    first, last = (profile.T for profile in finest.profile)
+    for axis, width, *parts in zip("xy", (1.5, 0.7), first, last, strict=True):
+        curves = {n: (finest.z, p / 1e6) for n, p in zip((ONCE, LAST), parts, strict=True)}
+        for names, (z, stress) in distinct(curves).items():
+            words = " = ".join("first" if name == ONCE else "last" for name in names)
+            look = {"color": COLOURS[names[0]], "linestyle": DASHES[names[0]], "linewidth": width}
+            panel.plot(z / unit.factor, stress, label=f"σ{axis}, {words} pass", **look)
     panel.axhline(0.0, **style.OUTLINE)
     panel.set_ylabel("residual stress [MPa]")
     over([panel], f"z [{unit.name}]", finest.z / unit.factor)
-    panel.legend(loc="best")
+    legend_above(panel, abreast)
     place = "anywhere" if data.left is None else "below the largest pressure"
     caption = f"Residual stresses without the roller over depth, {place}."
     return style.picture(drawn, caption, caption)
@@ -177,8 +192,16 @@ def surface_picture(run: Run) -> style.Picture | None:
     data = run.data(NAME)
     if data is None or data.left is None:
         return None
-    drawn, [top, below] = panels(style.WIDE, [(0.3, 2.0), (0.14, 2.0)])
-    left = data.left
+    caption = (
+        "Surfaces about their mean height, heights stretched, and the pressures of an elastic "
+        "half-plane that bears the load on each."
+    )
+    return style.picture(lambda width: _surfaces(data.left, width), caption, caption)
+
+
+def _surfaces(left: LeftSurfaces, width: float) -> "Drawn":
+    abreast, room = names_above(width, len(left.by_name))
+    drawn, [top, below] = panels(width, [(room, 2.0), (0.14, 2.0)])
     aside = 0.1 * (left.stretch[1] - left.stretch[0])
     shown = (left.x >= left.stretch[0] - aside) & (left.x <= left.stretch[1] + aside)
     unit = scale_of(left.x, "m")
@@ -192,12 +215,8 @@ def surface_picture(run: Run) -> style.Picture | None:
     top.set_ylabel(f"height [{heights.name}]")
     below.set_ylabel("pressure [GPa]")
     over([top, below], f"x [{unit.name}]", x)
-    top.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=4)
-    caption = (
-        "Surfaces about their mean height, heights stretched, and the pressures of an elastic "
-        "half-plane that bears the load on each."
-    )
-    return style.picture(drawn, caption, caption, wide=True)
+    legend_above(top, abreast)
+    return drawn
 
 
 PICTURES = {
