@@ -12,7 +12,7 @@ from time import monotonic
 
 from comparisons.common.errors import tell
 from comparisons.common.mpi import is_first, is_several
-from comparisons.common.progress import ProgressCallback, Step, no_progress
+from comparisons.common.progress import Lasting, ProgressCallback, Step, no_progress
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 SILENCE = 60.0  # seconds between lines of progress where no terminal shows it
@@ -21,7 +21,7 @@ SILENCE = 60.0  # seconds between lines of progress where no terminal shows it
 @contextmanager
 def progress() -> Iterator[ProgressCallback]:
     """A callback that shows the stage at work and the time left, if standard error is a terminal;
-    nothing stays there. Elsewhere a line tells a stage every SILENCE seconds."""
+    of them nothing stays there. Elsewhere a line tells a stage every SILENCE seconds."""
     if not sys.stderr.isatty():
         yield _lines() if is_first() else no_progress
         return
@@ -44,6 +44,9 @@ def progress() -> Iterator[ProgressCallback]:
         task = shown.add_task("", total=None)
 
         def callback(stage: str) -> None:
+            if isinstance(stage, Lasting):
+                shown.console.print(stage, markup=False, highlight=False, soft_wrap=True)
+                return
             if isinstance(stage, Step):
                 shown.update(task, total=1.0, completed=stage.done)
             shown.update(task, description=str(stage), refresh=True)
@@ -58,7 +61,9 @@ def _lines() -> ProgressCallback:
 
     def callback(stage: str) -> None:
         nonlocal last
-        if (now := monotonic()) - last >= SILENCE:
+        if isinstance(stage, Lasting):
+            tell(stage)
+        elif (now := monotonic()) - last >= SILENCE:
             last = now
             tell(f"after {now - began:.0f} s: {stage}")
 

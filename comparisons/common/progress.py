@@ -57,6 +57,10 @@ class Step(str):
         return step
 
 
+class Lasting(str):
+    """A line that is to stay where stages come and go."""
+
+
 def within(callback: ProgressCallback, start: float, stop: float) -> ProgressCallback:
     """The callback of a part of a task that takes the task from the share `start` to `stop`."""
 

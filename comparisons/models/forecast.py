@@ -44,6 +44,12 @@ class Forecast:
     finite_flow: float | None = None
 
     @property
+    def seconds(self) -> float:
+        """Of all that may be solved, one after the other."""
+        beside = 0.0 if self.leaves_out_flow else (self.flow or 0.0) + (self.finite_flow or 0.0)
+        return sum(level.seconds for level in self.levels) + beside
+
+    @property
     def text(self) -> str:
         """In one line."""
         begin = self.levels[: self.asked]
@@ -70,8 +76,9 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     were all over the stretch of pressures, which it never exceeds."""
     scene, levels, total, ends = problem.scene, [], 0.0, ""
     window = window_of(problem) if plan.stress else None
-    everywhere = np.array([problem.extent])
-    patches = _flowing_contact(problem) if scene.finite_element.plastic else everywhere
+    may_flow = scene.finite_element.plastic or problem.flows
+    flowing = flowing_contact(problem) if may_flow else None
+    patches = flowing if scene.finite_element.plastic else np.array([problem.extent])
     for number in range(problem.most_levels):
         pitch = problem.pitches[0] / 2.0**number
         elements = problem.grid(pitch).count
@@ -92,9 +99,9 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     per_wave = None if wave is None or np.isinf(wave) else float(wave / levels[-1].pitch)
     asked, settings, flow, finite_flow = len(problem.pitches), scene.finite_element, None, None
     if problem.flows and plan.effects and not settings.plastic:
-        flow = flow_seconds(problem, everywhere)
+        flow = flow_seconds(problem, flowing)
     if plan.effects and (flow or (settings.plastic and settings.deformation == "linear")):
-        finite_flow = finite_flow_seconds(problem, everywhere)
+        finite_flow = finite_flow_seconds(problem, flowing)
     return Forecast(
         levels=tuple(levels),
         asked=asked,
@@ -102,19 +109,25 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
         ends=ends or f"{len(levels)} levels are the most",
         flow=flow,
         finite_flow=finite_flow,
-        leaves_out_flow=flow is not None
-        and time_with_flow(problem, plan, everywhere) > problem.time,
+        leaves_out_flow=flow is not None and time_with_flow(problem, plan, flowing) > problem.time,
     )
 
 
-def _flowing_contact(problem: Problem) -> np.ndarray:
-    """Patches (k, 2) [m] of the nearest analytic operator on the first level, which increments of
-    flow follow."""
+def flowing_contact(problem: Problem) -> np.ndarray:
+    """Patches (k, 2) [m] of the nearest analytic operator on the first level, as wide as flow may
+    make them, which increments of flow follow. Where elastic ones have met they are parted in the
+    middle: so far their edges travel."""
     grid = problem.grid(problem.pitches[0])
     gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
     operator = nearest_operator(problem.scene, grid)
-    guess = solve_on(operator, gap, grid.weights, problem.widest)
-    return contact_patches(grid.x, guess.pressure, guess.gap)
+    wide = solve_on(operator, gap, grid.weights, problem.widest)
+    patches = contact_patches(grid.x, wide.pressure, wide.gap)
+    elastic = solve_on(operator, gap, grid.weights, problem.constraints())
+    first = contact_patches(grid.x, elastic.pressure, elastic.gap)
+    parted = 0.5 * (first[1:, 0] + first[:-1, 1])
+    inside = ((parted[:, None] > patches[:, 0]) & (parted[:, None] < patches[:, 1])).any(axis=1)
+    ends = [*patches[:, 0], *parted[inside]], [*patches[:, 1], *parted[inside]]
+    return np.sort(ends, axis=1).T
 
 
 def expected_level(

@@ -12,7 +12,7 @@ import numpy as np
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages, machine_memory, no_progress
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
-from comparisons.models.forecast import expected_level
+from comparisons.models.forecast import expected_level, flowing_contact
 from comparisons.models.level import ExpectedCost, Level, ModelRun, refuse_too_large
 from comparisons.models.plan import LONGER, Plan
 from comparisons.models.problem import Problem
@@ -153,6 +153,8 @@ class _Levels:
                 self.add(task)
             self.wait(1, ["half_plane"])
             self.patches = self.levels["half_plane"][0].patches
+            if self.problem.scene.finite_element.plastic:
+                self.patches = flowing_contact(self.problem)
         if "finite_element" in self.levels:
             for number in reversed(self.affordable(asked)):  # idle processes begin with the longest
                 self.add(self.task("finite_element", number))

@@ -26,13 +26,14 @@ from comparisons.common.provenance import (
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
 from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import MODELS
-from comparisons.models.forecast import forecast
+from comparisons.models.forecast import Forecast, forecast
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem, problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.field_files import AUTOMATIC
 from comparisons.output.record import record_of
+from comparisons.runs.long import recorded
 from comparisons.runs.refinement import refined
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
@@ -111,7 +112,11 @@ def solve_scene(
     try:
         problem, plan = posed(scene, surface, models, known.levels, callback)
         scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
-        callback("; ".join(planned(scene_now)))
+        levels = forecast(problem, plan)
+        said = "; ".join(planned(scene_now, levels))
+        callback(said)
+        kept = None if out is None else unfinished(out, "run")
+        callback = recorded(kept, levels, said, callback)
         return solve(scene_now, out, callback)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
@@ -145,10 +150,10 @@ def posed(
     return problem, make_plan(problem, models)
 
 
-def planned(scene: Solved) -> list[str]:
+def planned(scene: Solved, levels: Forecast | None = None) -> list[str]:
     """What a run of a scene will do and what it takes, by the laws of cost: its levels; studies
     that take as long, or why one is left out."""
-    said = [forecast(scene.problem, scene.plan).text]
+    said = [(levels or forecast(scene.problem, scene.plan)).text]
     for study in STUDIES:
         if study.applies(scene):
             why_not = study.needs(scene)

@@ -14,10 +14,11 @@ stiffness k [Pa]. Where the approach is prescribed the last row and column are m
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse import bmat, csr_matrix
 
 from fem.contact.terms import ContactTerms
@@ -139,7 +140,8 @@ class _Bordered:
         matrix = system.matrix()
         if is_symmetric and not system.symmetric:
             matrix = 0.5 * (matrix + matrix.T)
-        self._factor, self.loaded = Factor(matrix.tocsr(), is_symmetric), system.loaded
+        kind = partial(Factor, symmetric=is_symmetric) if system.bodies else DenseFactor
+        self._factor, self.loaded = kind(matrix.tocsr()), system.loaded
         self._system = system
         self._columns: dict[int, np.ndarray] = {}  # M^-1 of the border of each changed hat
 
@@ -178,15 +180,26 @@ class _Bordered:
     def _borders(self, join: np.ndarray, leave: np.ndarray) -> np.ndarray:
         """M^-1 (size, m) of the borders of hats that have joined, then of those that have left."""
         base = self._system
-        unknown = np.array([hat for hat in join if hat not in self._columns], dtype=int)
-        for hat, column in zip(unknown, base.of_pressures(unknown).T, strict=True):
-            self._columns[hat] = self._factor.solve(column)
-        for hat in leave:
-            if hat not in self._columns:
-                one = np.zeros(base.size)
-                one[base.moving + np.searchsorted(base.hats, hat)] = 1.0
-                self._columns[hat] = self._factor.solve(one)
+        joined = np.array([hat for hat in join if hat not in self._columns], dtype=int)
+        left = np.array([hat for hat in leave if hat not in self._columns], dtype=int)
+        if len(joined) + len(left):
+            ones = np.zeros((base.size, len(left)))
+            ones[base.moving + np.searchsorted(base.hats, left), np.arange(len(left))] = 1.0
+            borders = np.hstack([base.of_pressures(joined), ones])
+            columns = self._factor.solve(borders).T
+            self._columns.update(zip((*joined, *left), columns, strict=True))
         return np.column_stack([self._columns[hat] for hat in (*join, *leave)])
+
+
+class DenseFactor:
+    """LU of a matrix without bodies, which has no zeros."""
+
+    def __init__(self, matrix: csr_matrix) -> None:
+        self._factor = lu_factor(matrix.toarray(), overwrite_a=True, check_finite=False)
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        """x (n,) or (n, m) of matrix x = right."""
+        return lu_solve(self._factor, right, check_finite=False)
 
 
 class ReusedFactor:

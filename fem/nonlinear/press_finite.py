@@ -21,7 +21,6 @@ from fem.nonlinear.finite_plasticity import FinitePlasticBody
 from fem.nonlinear.newton import RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticState
 from fem.nonlinear.press_plastic import TRAVEL, LoadHistory, PlasticContact, unloaded
-from fem.solver.mumps import FemError
 
 # On the way to a load surfaces may slip and friction bear so many times more than under it.
 LOOSER = 50.0
@@ -99,24 +98,6 @@ class _FiniteHistory(LoadHistory):
         self.state = replace(state, displacements=(np.vstack([free, other]),))
         self._book(np.zeros_like(state.pressure))
 
-    def _to_elastic(self, load: float) -> bool:
-        """Whether nothing flows up to a load [N/m], and then that load."""
-        start = self._frozen(load, self.body.state)
-        if start is None or self._flows(start):
-            return False
-        try:
-            end, _ = self._solved(start, load)
-        except FemError:
-            return False
-        if self._flows(end):
-            return False
-        self._accept(end)
-        return True
-
-    def _flows(self, state: ContactState) -> bool:
-        displacement = state.displacements[0][: len(self.body.held)]
-        return bool(self.body.step(displacement).yields.any())
-
     def _solved(
         self,
         start: "_Start",
@@ -158,10 +139,10 @@ class _FiniteHistory(LoadHistory):
             return displacement
         return np.vstack([displacement, self._opposite.displacement(pressure, -self._friction)])
 
-    def _frozen(self, load: float, plastic: PlasticState) -> "_Start | None":
+    def _near(self, load: float, plastic: PlasticState) -> "_Start | None":
         [there] = self.state.displacements if self.state.load else [self._contact.linear]
         pressing = self._contact.pressing(load, there, self.state.pressure)
-        linear = super()._frozen(pressing, plastic)
+        linear = super()._near(pressing, plastic)
         if linear is None:
             return None
         moved = self._linear(linear.pressure, plastic)
@@ -177,9 +158,7 @@ class _FiniteHistory(LoadHistory):
         linear = self._linear(state.pressure, self.body.state)
         self._beyond = state.displacements[0] - state.aside - linear
         gap, _ = self._contact.contact.loaded(state.displacements[0], state.pressure)
-        self._gap = gap - self._elastic.flexible @ state.pressure
-        flowed = self.body.body.solve(self.body.plastic_force(self.body.state))
-        self._gap -= self._contact.compliance.weighted(flowed)
+        self._gap = gap - self._nearly.flexible @ state.pressure
 
     def _book(self, pressure: np.ndarray) -> None:
         [both], count = self.state.displacements, len(self.body.held)

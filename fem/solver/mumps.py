@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 if TYPE_CHECKING:
-    from petsc4py.PETSc import KSP, Mat, Object
+    from petsc4py.PETSc import KSP, Comm, Mat, Object
 
 # Extra room for fill that pivoting and unsymmetric trees need, per cent (MUMPS ICNTL(14), default
 # 20, too little for graded meshes of high contrast); each failure doubles it.
@@ -77,25 +77,30 @@ class SymmetricFactor:
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """This process's rows of the solution for its rows of the load: (n,) or (n, m)."""
+        self.solves += 1 if load.ndim == 1 else load.shape[1]
         if load.ndim == 1:
             self._right.setArray(load)
             self._factor.solve(self._right, self._left)
-            self.solves += 1
             return self._left.getArray().copy()
-        from petsc4py import PETSc
+        return _solutions(self._factor, self._sizes, self._comm, load)
 
-        shape, comm = (self._sizes[0], (PETSc.DECIDE, load.shape[1])), self._comm
-        right = PETSc.Mat().createDense(shape, array=np.asfortranarray(load), comm=comm)
-        right.assemble()
-        left = PETSc.Mat().createDense(shape, comm=comm)
-        left.setUp()
-        left.assemble()
-        self._factor.matSolve(right, left)
-        self.solves += load.shape[1]
-        solution = left.getDenseArray().copy()
-        right.destroy()
-        left.destroy()
-        return solution
+
+def _solutions(factor: "Mat", sizes: tuple, comm: "Comm", right: np.ndarray) -> np.ndarray:
+    """This process's rows of the solutions (n, m) of m right sides at once, which read the factor
+    less often than one after the other."""
+    from petsc4py import PETSc
+
+    shape = sizes[0], (PETSc.DECIDE, right.shape[1])
+    rights = PETSc.Mat().createDense(shape, array=np.asfortranarray(right), comm=comm)
+    rights.assemble()
+    left = PETSc.Mat().createDense(shape, comm=comm)
+    left.setUp()
+    left.assemble()
+    factor.matSolve(rights, left)
+    solution = left.getDenseArray().copy()
+    rights.destroy()
+    left.destroy()
+    return solution
 
 
 def factorised(matrix: "Mat", symmetric: bool = True) -> "tuple[KSP, Mat]":
@@ -158,15 +163,19 @@ class Factor:
         if symmetric:
             system.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self._right, self._left = system.createVecs()
-        self._ksp, factor = factorised(system, symmetric)
-        used = factor, self._ksp.getPC(), self._ksp, self._right, self._left, system
+        self._ksp, self._factor = factorised(system, symmetric)
+        self._sizes = system.getSizes()
+        used = self._factor, self._ksp.getPC(), self._ksp, self._right, self._left, system
         release_with(self, *used)
 
     def solve(self, right: np.ndarray) -> np.ndarray:
-        """x (n,) of matrix x = right. Raises FemError if it is not finite."""
-        self._right.setArray(right)
-        self._ksp.solve(self._right, self._left)
-        solution = self._left.getArray().copy()
+        """x (n,) or (n, m) of matrix x = right. Raises FemError if it is not finite."""
+        if right.ndim == 1:
+            self._right.setArray(right)
+            self._ksp.solve(self._right, self._left)
+            solution = self._left.getArray().copy()
+        else:
+            solution = _solutions(self._factor, self._sizes, self._ksp.comm, right)
         if not np.isfinite(solution).all():
             raise FemError(f"the system of {len(right)} unknowns is singular")
         return solution

@@ -3,16 +3,18 @@
 from dataclasses import replace
 
 import pytest
-from scenes import STEEL, changed, problem
+from scenes import PROJECT, STEEL, changed, problem
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Levels
+from comparisons.models.problem import Levels, problem_of
 from comparisons.runs.refinement import refined
+from comparisons.scenes.scene import Scene
 from comparisons.studies.study import Solved
 
+DOCS = PROJECT / "comparisons" / "docs"
 TABLES = {
     "roller": {"radius": 8e-3, **STEEL},
     "body": dict(STEEL),
@@ -73,3 +75,20 @@ def test_a_smooth_body_has_no_waves():
     assert cast.per_wave is None and "wave" not in cast.text
     limited = forecast(replace(posed, levels=Levels(3)), plan)
     assert limited.ends == "3 levels are the most"
+
+
+@pytest.mark.parametrize(
+    ("name", "seconds"),
+    [("flow-turned", (3.3, 15.1)), ("flow-flank", (2.4, 8.4)), ("ground-unrun", (63.0, 353.0))],
+)
+def test_flow_on_rough_metals_takes_half_to_twice_as_long(name, seconds):
+    """As measured (comparisons/docs/figures.md), in processor seconds of a busy machine."""
+    if name == "ground-unrun":
+        scene = Scene.read(name).changed("body.yield_stress", 2e9).changed("load.friction", 0.1)
+        scene = scene.changed("finite_element.plastic", True)
+    else:
+        scene = Scene.read(DOCS / f"{name}.toml")
+    posed = problem_of(scene, levels=Levels(2))
+    levels = forecast(posed, make_plan(posed, MODELS)).levels
+    for level, took in zip(levels, seconds, strict=True):
+        assert 0.5 < level.seconds / took < 2.0

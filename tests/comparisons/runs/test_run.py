@@ -12,6 +12,7 @@ from scenes import QUICK, changed, problem, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
+from comparisons.common.progress import Lasting
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.plan import make_plan
@@ -243,6 +244,27 @@ def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smoot
     assert len(calls) == 3 + 2
     assert figures(outcome) == figures(smooth)
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
+
+
+def test_a_long_run_says_what_it_will_take_and_writes_what_it_does(tmp_path, monkeypatch):
+    """On the terminal before it begins, and into the folder where its finished levels are kept."""
+    monkeypatch.setattr("comparisons.runs.long.LONG", 0.0)
+    said, path = [], tmp_path / ".out.unfinished" / "run" / "progress.txt"
+
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(finite_element, "finite_element_level", stopped)
+    for solved in ("nothing", "half_plane-1, half_plane-2, half_plane-3"):
+        with pytest.raises(KeyboardInterrupt):
+            run(resolved(QUICK), tmp_path / "out", MODELS, said.append)
+        began, planned, expected, before, *_ = path.read_text().splitlines()
+        assert began.startswith("started 20") and planned.startswith("planned: 3 levels")
+        assert "level 1 " in expected and "level 2 " in expected
+        assert before == f"solved before: {solved}"
+    line = next(line for line in said if isinstance(line, Lasting))
+    assert line.startswith("started ") and line.endswith(str(path))
+    assert any("half-plane: contact, level 1" in line for line in said)
 
 
 def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):

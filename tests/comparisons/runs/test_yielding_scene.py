@@ -12,7 +12,7 @@ from comparisons.figures.uncertainty import LENGTHS, length_resolution
 from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.finite_element.nonlinear import _refuse_cut_off
+from comparisons.models.finite_element.nonlinear import refuse_cut_off
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
@@ -69,8 +69,9 @@ def test_what_is_left_is_small_and_not_nothing(mesh):
     assert np.abs(mesh.point_data["residual_sz"][surface]).max() < 0.1 * YIELD_STRESS
 
 
-def test_expected_increments_follow_the_edges_of_the_widest_patch():
-    """But no further than Hertz's contact; an edge comes from the middle of its patch."""
+def test_expected_increments_follow_the_edges_of_patches():
+    """But no further than Hertz's contact; an edge comes from the middle of its patch. Those of
+    equal patches take turns."""
     posed = problem(TABLES)
     a, patches = posed.hertz.half_width, np.array([[-9.0, -8.0], [-0.1, 0.1]])
 
@@ -83,7 +84,10 @@ def test_expected_increments_follow_the_edges_of_the_widest_patch():
     assert increments(80, 1.0, travel=2.0) == pytest.approx(20.0)
     assert increments(80, 100.0) == pytest.approx(80.0)
     assert increments(80, 1e-3) == 4.0
-    assert flow_increments(posed, Refinement(a / 40), patches) == pytest.approx(40.0)
+    both = 40.0 * 2.0**0.25  # the widest at most Hertz's contact, and the other cut to that
+    assert flow_increments(posed, Refinement(a / 40), patches) == pytest.approx(both)
+    equal = np.array([[-1.0, 0.0], [0.0, 1.0]]) * a
+    assert flow_increments(posed, Refinement(a / 40), equal) == pytest.approx(20.0 * 2.0**0.25)
 
 
 def test_increments_have_an_uncertainty_of_their_own(outcome):
@@ -153,9 +157,9 @@ def test_contact_that_leaves_the_grid_is_refused(outcome):
     it, and a change that did would be said."""
     level = outcome.runs["finite_element"].finest
     placed = outcome.problem, level.grid
-    _refuse_cut_off(*placed, level.solution.pressure, level.solution, "here")
+    refuse_cut_off(*placed, level.solution.pressure, level.solution.pressure, "here")
     with pytest.raises(FemError, match="contact here reaches beyond the pressure elements"):
-        _refuse_cut_off(*placed, level.solution.pressure + 1.0, level.solution, "here")
+        refuse_cut_off(*placed, level.solution.pressure + 1.0, level.solution.pressure, "here")
 
 
 def test_the_shipped_scene_is_solved_below_its_elastic_roller():

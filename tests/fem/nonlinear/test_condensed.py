@@ -10,7 +10,7 @@ from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear import condensed
-from fem.nonlinear.condensed import ElasticContact
+from fem.nonlinear.condensed import ElasticContact, ShiftInvariant
 from fem.nonlinear.newton import newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
 from fem.solver.mumps import FemError
@@ -40,6 +40,17 @@ def test_contact_is_the_one_of_the_compliance_from_any_start(compliance, dense, 
     np.testing.assert_allclose(pressure, expected, atol=1e-10 * expected.max())
     assert approach == pytest.approx(at, rel=1e-10)
     assert 0 < np.count_nonzero(pressure) < len(X)
+
+
+def test_shifted_columns_are_those_of_any_compliance_that_does_not_depend_on_the_place():
+    count, far = 40, np.arange(-39.0, 40.0)
+    place = np.arange(count)
+    exact = (np.exp(-(far**2) / 50.0) + 0.1 * np.arctan(far))[place[:, None] - place + count - 1]
+    shifted = ShiftInvariant(lambda hats: exact[:, hats], count, place[10:30])
+    pressure = np.random.default_rng(1).uniform(size=count)
+    np.testing.assert_allclose(shifted @ pressure, exact @ pressure, rtol=1e-12)
+    block = np.ix_(place[3:9], place[20:])
+    np.testing.assert_allclose(shifted[block], exact[block], rtol=1e-12)
 
 
 def test_a_contact_that_does_not_settle_is_an_error(compliance, monkeypatch):
