@@ -45,6 +45,7 @@ Solve = Callable[[np.ndarray, np.ndarray, Constraints, np.ndarray | None], Conta
 
 SETTLED = 1e-8  # of the largest pressure: what the last turn of both problems moves
 MOST_TURNS = 60
+ROUNDING = 1e-6  # of the limit: tractions nearer to it slip
 
 
 @dataclass(frozen=True)
@@ -215,7 +216,9 @@ def pressed_in(load: float, steps: int) -> tuple[Loads, ...]:
 def stick_zones(x: np.ndarray, state: SlipState, friction: float) -> np.ndarray:
     """Zones (k, 2) [m] that stick in a state's step, ascending; x (n,) [m] uniform. Their ends are
     those of contact patches: slip opens beside them as a gap does, and may end at one."""
-    reserve = np.maximum(friction * state.normal.pressure - np.abs(state.traction), 0.0)
+    limit = friction * state.normal.pressure
+    reserve = limit - np.abs(state.traction)
+    reserve[reserve <= ROUNDING * limit] = 0.0  # what slips, too, may miss its limit by rounding
     touching = state.normal.pressure > 0.0
     opening = np.where(touching, np.abs(state.slip), friction * state.normal.gap)
     return contact_patches(x, reserve, opening)

@@ -32,7 +32,7 @@ from fem.body.sums import matrix_of
 from fem.body.surface import along_edges, hat_points, place_on
 from fem.body.triangle import edge_shapes, edge_slopes
 from fem.contact.rigid_roller import HatsOnSurface
-from fem.contact.terms import ContactTerms, Response
+from fem.contact.terms import ContactTerms, Drag, Response
 from fem.solver.mumps import FemError
 
 
@@ -138,7 +138,9 @@ class PairContact:
             )
         return gap[1:-1], force.ravel()
 
-    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+    def at(
+        self, displacement: np.ndarray, pressure: np.ndarray, traction: np.ndarray | None = None
+    ) -> ContactTerms:
         """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
         surface, on, x, place = self._under_hats(displacement)
         rise, slope, bend = surface(x)
@@ -149,22 +151,29 @@ class PairContact:
         at_x, at_z = self._of_roller(node, edge_shapes(t))
         along, down = on.x - at_x, on.z + at_z
         force = gradient = (along.T @ diags(slope) @ weighted + down.T @ weighted).tocsr()
-        if not self.frictionless:
-            sliding = along.T @ weighted - down.T @ diags(slope) @ weighted
-            force = (gradient + self._friction * sliding).tocsr()
-
         value = edge_slopes(t)
-        value /= (value * surface.x[node]).sum(axis=1)[:, None]  # dM/dx
-        turn_x, turn_z = self._of_roller(node, value)
+        turn = value / (value * surface.x[node]).sum(axis=1)[:, None]  # dM/dx
+        turn_x, turn_z = self._of_roller(node, turn)
         load = diags(on.weight * (on.hats @ pressure))
         turning = turn_z - diags(slope) @ turn_x
         mixed = turning.T @ load @ along
-        stiffness = along.T @ (load @ diags(bend)) @ along + mixed + mixed.T
-        if not self.frictionless:
-            slides = turn_x.T @ load @ along + turn_z.T @ (load @ diags(slope)) @ along
-            slides = slides + down.T @ load @ (turning + diags(bend) @ along)
-            stiffness = stiffness - self._friction * slides
-        return ContactTerms(gap, gradient, force, stiffness.tocsr())
+        stiffness, drag = along.T @ (load @ diags(bend)) @ along + mixed + mixed.T, None
+        if traction is not None or not self.frictionless:
+            sliding = (along.T @ weighted - down.T @ diags(slope) @ weighted).tocsr()
+            factor, pull = (self._friction, pressure) if traction is None else (1.0, traction)
+            if traction is None:
+                force = gradient + factor * sliding
+            else:
+                undeformed = self._roller.surface.x[node]
+                part = (turn * undeformed).sum(axis=1)  # dY/dx
+                where = weighted.T @ (edge_shapes(t) * undeformed).sum(axis=1)
+                lever = weighted.T @ ((1.0 + slope**2) / part)
+                drag = Drag(sliding, where, (along.T @ diags(part) @ weighted).tocsr(), lever)
+            pull = diags(on.weight * (on.hats @ pull))
+            slides = turn_x.T @ pull @ along + turn_z.T @ (pull @ diags(slope)) @ along
+            slides = slides + down.T @ pull @ (turning + diags(bend) @ along)
+            stiffness = stiffness - factor * slides
+        return ContactTerms(gap, gradient, force.tocsr(), stiffness.tocsr(), drag)
 
     def _under_hats(
         self, displacement: np.ndarray

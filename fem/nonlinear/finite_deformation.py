@@ -67,6 +67,7 @@ class FiniteDeformation:
     solution: NonlinearSolution
     initial_gap: np.ndarray  # (count,) [m] that of the undeformed bodies, the approach apart
     load: float
+    traction: np.ndarray | None = None  # (count,) [Pa] beside that of friction, as `pressure`
 
     def __post_init__(self) -> None:
         state = self.solution.state
@@ -99,11 +100,15 @@ class FiniteDeformation:
             now = x + np.interp(x, self.body.top.x, self._moved[:, 0])
             return self.roller(now)[1], np.ones_like(x)
 
-        load = SurfaceLoad(self.body, self.hats, self.pressure, self.friction, direction)
-        nodal = np.concatenate([[0.0], self.pressure, [0.0]])
+        load = SurfaceLoad(
+            self.body, self.hats, self.pressure, self.friction, direction, traction=self.traction
+        )
         x = self.body.top.x
-        pressure = np.interp(x, self.hats, nodal) / self._stretched(x)
-        return CauchyRecovery(self.body, self.displacement, load, pressure)
+        pressure = np.interp(x, self.hats, np.pad(self.pressure, 1)) / self._stretched(x)
+        shear = self.friction * pressure
+        if self.traction is not None:
+            shear = shear + np.interp(x, self.hats, np.pad(self.traction, 1)) / self._stretched(x)
+        return CauchyRecovery(self.body, self.displacement, load, pressure, shear)
 
     @cached_property
     def _moved(self) -> np.ndarray:

@@ -111,14 +111,19 @@ class CauchyRecovery(Recovery):
 
     The recovered linear stress of the same displacement, plus its difference from Cauchy's stress,
     of second order and averaged over the elements around a point. `load` is that of the linear
-    theory. `pressure` (t,) [Pa] on the deformed surface at the points of `body.top` and its sliding
-    traction give the stresses across the surface.
+    theory. `pressure` and `shear` (t,) [Pa] on the deformed surface at the points of `body.top`
+    are the stresses across the surface.
 
     estimate  sx, sz, txz (k, 3) [Pa] at all nodes: means of the elements around them
     across    stress across the plane (k,) [Pa] at the nodes, of these means"""
 
     def __init__(
-        self, body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray
+        self,
+        body: ElasticBody,
+        displacement: np.ndarray,
+        load: SurfaceLoad,
+        pressure: np.ndarray,
+        shear: np.ndarray,
     ) -> None:
         gradient = gradients(
             body.points[body.mesh.triangles], displacement[body.elements], reference_nodes(2)
@@ -134,15 +139,16 @@ class CauchyRecovery(Recovery):
         top = body.top.point
         along = along_surface(body.top.x, body.points[top] + body.at_points(displacement)[top])
         self._tangent = along / np.linalg.norm(along, axis=1)[:, None]
-        self._pressure, self._shear = pressure, load.friction * pressure
+        self._pressure, self._shear = pressure, shear
         nodes = stress_nodes(body)
         node = nodes.at_surface(top)
         self._place = np.full(len(nodes.point), -1)  # of the nodes on the surface, along it
         self._place[node] = np.arange(len(top))
         surface_stress = Recovery(body, displacement).at(node) + self._second_order[node]
         known = self._on_surface(np.arange(len(top)), surface_stress) - self._second_order[node]
-        tractions = (load.pressure, load.friction, load.direction)
-        super().__init__(body, displacement, _MatchedLoad(body, load.hats, *tractions, known))
+        forces = load.pressure, load.friction, load.direction
+        matched = _MatchedLoad(body, load.hats, *forces, known, traction=load.traction)
+        super().__init__(body, displacement, matched)
 
     @property
     def nodal(self) -> NodalStress:

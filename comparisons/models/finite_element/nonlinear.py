@@ -60,7 +60,7 @@ def pressed_finitely(
     no solution, and where contact reaches the grid's ends only at finite deformation."""
     rough = operator.rough
     finite = finite_contact(problem, operator, linear, constraints, model)
-    _refuse_cut_off(problem, grid, finite.pressure, linear, "at finite deformation")
+    refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "at finite deformation")
     counts = {
         "increments": len(finite.solution.residuals),
         "newton_steps": finite.solution.iterations,
@@ -112,18 +112,28 @@ def _deformed(
     )
 
 
-def _refuse_cut_off(
-    problem: Problem, grid: HatGrid, pressure: np.ndarray, linear: ContactSolution, how: str
+def refuse_cut_off(
+    problem: Problem, grid: HatGrid, pressure: np.ndarray, linear: np.ndarray, how: str
 ) -> None:
     """Raise FemError where pressures (count,) [Pa] reach the grid's ends, and the linear ones do
     not: on few elements these may."""
     x, ends, profile = grid.x, [0, -1], problem.surface.profile
-    if np.any(pressure[ends] * (linear.pressure[ends] == 0.0)):
+    if np.any(pressure[ends] * (linear[ends] == 0.0)):
         ended = profile is not None and (
             x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
         )
         beyond = "the trace: take a longer one" if ended else "the pressure elements"
         raise FemError(f"the contact {how} reaches beyond {beyond}")
+
+
+def unpressed_contact(
+    problem: Problem, operator: MutualCompliance, start: np.ndarray, friction: float
+) -> FiniteContact:
+    """Both bodies at finite strains; `start` (count,) [Pa] is the linear pressure of the load."""
+    rough, is_rigid = operator.rough, problem.scene.roller.rigid
+    roller = roller_of(problem) if is_rigid else operator.parts[1].compliance
+    bodies = rough.body, rough.hats, roller
+    return FiniteContact(*bodies, start, friction, rough.far, is_disc(problem))
 
 
 def finite_contact(
@@ -135,12 +145,8 @@ def finite_contact(
 ) -> FiniteDeformation:
     """The contact by the linear model and the linear bodies' own factors; where the strains are too
     large for that, by Newton's method. Raises FemError where that finds none either."""
-    rough, roller = operator.rough, roller_of(problem)
-    if not problem.scene.roller.rigid:
-        roller = operator.parts[1].compliance
     friction, start = problem.scene.load.friction[0], linear.pressure
-    disc = is_disc(problem)
-    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far, disc)
+    contact = unpressed_contact(problem, operator, start, friction)
     if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
         return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
     bodies, load = FiniteCompliance(contact), constraints.load
@@ -190,7 +196,7 @@ def pressed_plastically(
     if scene.stress is not None and scene.stress.bulge and scene.profile is not None:
         _, [twin] = press_plastically(*pressed, loads[:1], start, 0.0, roller, travel)
         still = twin.displacement
-    _refuse_cut_off(problem, grid, loaded.pressure, linear, "of the flowing body")
+    refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
     moved = rough.weighted(loaded.displacement)
     both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
     counts = {
@@ -230,15 +236,12 @@ def pressed_plastically_finitely(
     elastic part follows Hencky's law. Pressures are as of `pressed_finitely`, where it flows as of
     `pressed_plastically`. Raises FemError as both."""
     scene, rough = problem.scene, operator.rough
-    roller = roller_of(problem) if scene.roller.rigid else operator.parts[1].compliance
-    friction, start = scene.load.friction[0], linear.pressure
-    disc = is_disc(problem)
-    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far, disc)
+    contact = unpressed_contact(problem, operator, linear.pressure, scene.load.friction[0])
     metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
     loads = constraints.load, 0.0
     body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel)
     finite = pressed.deformed
-    _refuse_cut_off(problem, grid, finite.pressure, linear, "of the flowing body")
+    refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
     counts = {
         "linear_contacts": pressed.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},

@@ -29,13 +29,13 @@ class PartialSlipSection(SceneSection):
 
     @property
     def largest(self) -> float:
-        """Amount of the largest load."""
-        return max(map(abs, self.path))
+        """Amount of the largest load; 1 where the bodies are pressed alone."""
+        return max(map(abs, self.path)) or 1.0
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from self.unless_one_of(("load", "loads"), " and ")
-        if self.loads is not None and not any(self.loads):
-            yield "loads", "is 0 throughout; allowed with a load that is not"
+        if self.bulk_stress and not any(self.path):
+            yield "bulk_stress", "is given without a load that it goes with; allowed beside one"
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         if not any(scene.load.friction):

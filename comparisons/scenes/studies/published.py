@@ -17,9 +17,12 @@ from comparisons.scenes.fields import (
 
 DIGITS = 5  # of ours
 LOWERING = "lowering"  # of the body's surface under the roller's centre, against its base
-PRESSURES = "peak_pressure", "tau1_max", "txz_max_abs", "edge_tension"
-LENGTHS = "contact_length", "tau1_max_depth", "stick_length", "tangential_displacement", LOWERING
-DIMENSIONS = dict.fromkeys(PRESSURES, PRESSURE) | dict.fromkeys(LENGTHS, LENGTH)
+# The same and the largest pressure, held by friction, at the end of the path of [partial_slip]
+HELD_LOWERING, HELD_PRESSURE = "held_lowering", "held_pressure"
+PRESSURES = "peak_pressure", "tau1_max", "txz_max_abs", "edge_tension", HELD_PRESSURE
+LENGTHS = "contact_length", "tau1_max_depth", "stick_length", "tangential_displacement"
+LOWERINGS = LOWERING, HELD_LOWERING
+DIMENSIONS = dict.fromkeys(PRESSURES, PRESSURE) | dict.fromkeys((*LENGTHS, *LOWERINGS), LENGTH)
 
 
 class PublishedSection(SceneSection):

@@ -24,6 +24,7 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import (
     SlippedLevel,
@@ -45,6 +46,8 @@ QUANTITIES = {
     "ruiz": Quantity("Ruiz' parameter σx q δ, largest", "Pa^2 m"),
     "smith_watson_topper": Quantity("Smith, Watson and Topper's parameter, largest", "Pa"),
     "stick_ratio": Quantity("share of the contact that sticks"),
+    HELD_PRESSURE: Quantity("largest pressure that friction leaves", "Pa", formal_order=2.0),
+    HELD_LOWERING: Quantity("lowering that friction leaves", "m", formal_order=2.0),
     "traction_l2": Quantity("tractions, relative L2 difference", of_pair=True),
 }
 COMPARED = tuple(QUANTITIES)[:9]  # judged where both models have them
@@ -57,8 +60,6 @@ AT_AN_END = {
     "ruiz": 1.0,
     "smith_watson_topper": 2.0,
 }  # by which power of that stress
-NONLINEAR = """small strains and elastic bodies alone are modelled: at finite deformation, and of a
-body that yields, what sticks is not known"""
 Solve = Callable[[Level, int], SlippedLevel]  # of a level, by so many increments
 
 
@@ -106,8 +107,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         models[name] = _model_slip(solved, name, solve_level)
         settled = all(s.converged for level in models[name].levels for s in level.states)
         said.append(Statement(CONVERGED, "yes" if settled else "no", name, at))
-    if "finite_element" in solved.runs and "finite_element" not in models:
-        said.append(Statement(WHY_NOT, " ".join(NONLINEAR.split()), "finite_element", at))
+    why = why_not_on_finite_elements(problem)
+    if "finite_element" in solved.runs and why is not None:
+        said.append(Statement(WHY_NOT, why, "finite_element", at))
     figures, series = list(_figures(solved, models)), []
     for name, model in models.items():
         series += _series(
@@ -126,15 +128,29 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
 
 def solvers(solved: Solved) -> dict[str, Solve]:
     """What loads a level of each model that was run, and can be."""
-    problem, window, settings = solved.problem, solved.window, solved.problem.scene.finite_element
+    problem, window = solved.problem, solved.window
     solvers: dict[str, Solve] = {}
     if "half_plane" in solved.runs:
         solvers["half_plane"] = lambda level, count: half_plane_slip(problem, level, window, count)
-    if "finite_element" in solved.runs and not settings.nonlinear:
+    if "finite_element" in solved.runs and why_not_on_finite_elements(problem) is None:
         from comparisons.studies.friction.finite_elements import finite_element_slip
 
         solvers["finite_element"] = partial(finite_element_slip, problem, solved.plan, window)
     return solvers
+
+
+def why_not_on_finite_elements(problem: Problem) -> str | None:
+    """Why they have no partial slip of a scene; None: they have."""
+    scene = problem.scene
+    if scene.finite_element.plastic:
+        return "of a body that flows what sticks is not known: remove plastic"
+    if scene.finite_element.deformation == "linear":
+        return None
+    if scene.partial_slip.bulk_stress:
+        return "a bulk stress is of small strains: remove bulk_stress, or deformation"
+    if scene.body.hardness is not None:
+        return "a hardness caps pressures at small strains alone: remove hardness, or deformation"
+    return None
 
 
 def _model_slip(solved: Solved, name: str, solve_level: Solve) -> ModelSlip:
@@ -254,7 +270,7 @@ def _series(
 def _curves(problem: Problem, level: SlippedLevel) -> SlipCurves:
     friction = friction_of(problem)
     return SlipCurves(
-        x=level.grid.x,
+        x=level.now,
         limit=np.array([friction * state.normal.pressure for state in level.states]),
         traction=np.array([state.traction for state in level.states]),
         slip=np.array([state.slip for state in level.states]),

@@ -19,7 +19,11 @@ from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 from comparisons.studies.friction.finite_elements import finite_element_slip
 from comparisons.studies.friction.half_planes import half_plane_slip
-from comparisons.studies.friction.partial_slip import COMPARED, solvers
+from comparisons.studies.friction.partial_slip import (
+    COMPARED,
+    solvers,
+    why_not_on_finite_elements,
+)
 from comparisons.studies.friction.show import slip_facts
 from comparisons.studies.study import unsolved
 
@@ -147,16 +151,24 @@ def test_an_answer_from_outside_may_have_tractions(tmp_path, factor, verdict):
 
 
 @pytest.mark.parametrize(
-    "settings, models",
-    [({}, MODELS), ({"deformation": "finite"}, MODELS[:1]), ({"plastic": True}, MODELS[:1])],
+    "settings, body, slip, why",
+    [
+        ({}, {}, {}, None),
+        ({"deformation": "finite"}, {}, {}, None),
+        ({"plastic": True}, {"yield_stress": 2e9}, {}, "remove plastic"),
+        ({"deformation": "finite"}, {}, {"bulk_stress": BULK}, "remove bulk_stress"),
+        ({"deformation": "finite"}, {"hardness": 2e9}, {}, "remove hardness"),
+    ],
     ids=str,
 )
-def test_finite_elements_are_loaded_where_they_are_linear(settings, models):
+def test_what_has_no_solution_says_what_to_remove(settings, body, slip, why):
     scene = changed(SMOOTH, finite_element=settings, load={"friction": 0.3})
-    if settings.get("plastic"):
-        scene = changed(scene, body={"yield_stress": 2e9})
+    scene = changed(scene, body=body, partial_slip=slip)
     solved = unsolved(posed := problem(scene), make_plan(posed, MODELS))
-    assert tuple(solvers(replace(solved, runs=dict.fromkeys(MODELS)))) == models
+    expected = MODELS if why is None else MODELS[:1]
+    assert tuple(solvers(replace(solved, runs=dict.fromkeys(MODELS)))) == expected
+    said = why_not_on_finite_elements(posed)
+    assert said is why or (why in said and "\n" not in said)
 
 
 @pytest.mark.parametrize(
@@ -165,7 +177,7 @@ def test_finite_elements_are_loaded_where_they_are_linear(settings, models):
         ({"load": 1.0}, "partial_slip.load: is 1.0; allowed is a number .* above 0 and below 1"),
         ({"loads": [0.5, -1.0]}, "partial_slip.loads: is -1"),
         ({"loads": []}, "partial_slip.loads: is an empty list"),
-        ({"loads": [0.0, 0]}, "partial_slip.loads: is 0 throughout"),
+        ({"loads": [0], "bulk_stress": BULK}, "partial_slip.bulk_stress: is given without a load"),
         ({"load": 0.5, "loads": [0.5]}, "partial_slip.loads: is given beside load"),
         ({}, "partial_slip.load: is missing"),
         ({"load": 0.5, "bulk_stress": "2 m"}, "partial_slip.bulk_stress: "),
