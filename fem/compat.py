@@ -1,4 +1,4 @@
-"""The only module that depends on the version of dolfinx: 0.5, 0.9 or 0.11.
+"""The only module that depends on the version of dolfinx: 0.5, 0.9, 0.10 or 0.11.
 
 Each function hides one difference and names it."""
 
@@ -160,6 +160,7 @@ def input_points(mesh: "Mesh") -> np.ndarray:
 
 def form_cache() -> Path:
     """Folder of the compiled forms. 0.5 calls its settings parameters, later ones options."""
+    import_module("mpi4py.MPI")  # of a wheel's dolfinx, which may not be loaded yet
     from dolfinx import jit
 
     settings = jit.get_options if hasattr(jit, "get_options") else jit.get_parameters
@@ -215,6 +216,12 @@ def petsc_matrix(bilinear: "Form", conditions: list) -> "Mat":
     matrix = assemble_matrix(bilinear, bcs=conditions)
     matrix.assemble()
     return matrix
+
+
+def petsc() -> ModuleType:
+    """petsc4py's PETSc. A wheel's, of 0.11, takes the MPI that mpi4py has loaded."""
+    import_module("mpi4py.MPI")
+    return import_module("petsc4py.PETSc")
 
 
 def real_number(value: float) -> np.floating:

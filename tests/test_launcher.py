@@ -1,4 +1,4 @@
-"""The launcher's promises, held with stand-ins for Debian's python, apt-get, dpkg-query and sudo.
+"""The launcher's promises, held with stand-ins for Debian's python, apt's programs and sudo.
 
 Each test has a checkout of its own, in a folder with a space in its name, that holds the real
 `crosscheck` with only the path of the interpreter exchanged. The stand-ins write what they were
@@ -42,7 +42,7 @@ case "$1 ${2-}" in
         exit "${PIP_STATUS:-0}" ;;
     "-m pytest") echo "threads=$OMP_NUM_THREADS folder=$PWD arguments=$*"; exit "${STATUS:-0}" ;;
     "- "*) cat >/dev/null; [ $# = 1 ] && echo numpy==1.24.2 ;;
-    "-c import dolfinx"*) [ "${MISSING-}" != python3-dolfinx ] || [ -e "$INSTALLED" ] ;;
+    "-c import mpi4py"*) [ "${MISSING-}" != python3-dolfinx ] || [ -e "$INSTALLED" ] ;;
 esac
 """
 DPKG_QUERY = r"""#!/bin/bash
@@ -55,6 +55,9 @@ if [ -n "${APT_LOCK-}" ] && mkdir "$APT_LOCK" 2>/dev/null; then
     exit 100
 fi
 if [ "$1" = install ]; then touch "$INSTALLED"; fi
+"""
+APT_CACHE = r"""#!/bin/bash
+[ "$2" = "${UNLISTED-}" ] || echo "$2 | 1 | an archive"
 """
 SUDO = r"""#!/bin/bash
 [ "$1" = -n ] && shift
@@ -78,6 +81,8 @@ class Checkout:
             "python3": PYTHON,
             "dpkg-query": DPKG_QUERY,
             "apt-get": APT_GET,
+            "apt-cache": APT_CACHE,
+            "uname": "#!/bin/bash\necho x86_64\n",
             "sudo": SUDO,
         }.items():
             (tools / name).write_text(text)
@@ -334,6 +339,19 @@ def test_ordinary_user_without_sudo_is_told_the_line_to_type(checkout):
     assert checkout.set_ups() == 0
 
 
+@pytest.mark.parametrize("sudo", ["", "yes"])
+def test_a_system_without_a_package_of_dolfinx_has_a_line_for_its_wheel(checkout, sudo):
+    user = ordinary_user(checkout)
+    unlisted = {"MISSING": "python3-dolfinx", "UNLISTED": "python3-dolfinx"}
+    done = checkout.call("a", before=user, SUDO_WORKS=sudo, **unlisted)
+    assert (done.returncode, done.stdout, checkout.set_ups()) == (2, "", 0)
+    reason, way = done.stderr.splitlines()
+    assert "has no package of dolfinx" in reason
+    assert f"sudo sh -c 'apt-get update && {INSTALL} gcc python3-dev' && " in way
+    assert "/pip install dolfinx-solver-real && CROSSCHECK_PYTHON=" in way
+    assert checkout.calls("apt-get") == ["apt-get update"] * bool(sudo)
+
+
 def test_ordinary_user_with_sudo_has_what_is_missing_installed_when_no_other_apt_get_runs(checkout):
     nap = checkout.base / "tools" / "sleep"
     nap.write_text('#!/bin/bash\necho "sleep $*" >>"$CALLS"\n')
@@ -352,8 +370,8 @@ def another_python(checkout: Checkout, prefix: str, imports: bool) -> Path:
     python = checkout.base / prefix / "bin" / "python"
     python.parent.mkdir(parents=True)
     missing = "" if imports else 'echo "No module named dolfinx" >&2; exit 1'
-    case = f'"-c import dolfinx"*) {missing} ;;'
-    text = "\n".join(line for line in PYTHON.splitlines() if "-c import dolfinx" not in line)
+    case = f'"-c import mpi4py"*) {missing} ;;'
+    text = "\n".join(line for line in PYTHON.splitlines() if "-c import mpi4py" not in line)
     python.write_text(text.replace("esac", f"{case}\nesac").replace("python $*", f"{prefix} $*"))
     python.chmod(0o755)
     return python
@@ -366,9 +384,9 @@ def test_the_first_python_that_imports_dolfinx_is_taken(checkout):
     done = checkout.call("a", MISSING="python3-dolfinx", **prefixes)
     assert (done.returncode, done.stdout) == (0, "<a>")
     assert len(checkout.calls("conda -m venv")) == 1 and not checkout.calls("apt-get")
-    # what is set up stays as long as its Python is there
-    assert checkout.call("b", **prefixes).stdout == "<b>"
-    assert checkout.set_ups() == 0
+    # what is set up stays as long as its Python is there, active or not
+    assert checkout.call("b").stdout == "<b>"
+    assert len(checkout.calls("conda -m venv")) == 1 and checkout.set_ups() == 0
     # a Python that is named is taken, whatever else is active
     named = str(another_python(checkout, "named", imports=True))
     assert checkout.call("c", CROSSCHECK_PYTHON=named, **prefixes).stdout == "<c>"

@@ -18,6 +18,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
 PACKAGES = ("crosscheck", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh", "meshio")
 PACKAGES += ("pyvista", "pydantic", "pint", "matplotlib")
+OTHER_NAMES = {"fenics-dolfinx": "dolfinx-solver-real"}  # of a wheel
 _version = cache(metadata.version)
 
 
@@ -25,10 +26,10 @@ def versions() -> dict[str, str | None]:
     """Version of Python and of every package that shapes a figure; None where it is absent."""
     numbers: dict[str, str | None] = {"python": platform.python_version()}
     for name in PACKAGES:
-        try:
-            numbers[name] = _version(name)
-        except metadata.PackageNotFoundError:
-            numbers[name] = None
+        numbers[name] = None
+        for distribution in (OTHER_NAMES.get(name, name), name):
+            with suppress(metadata.PackageNotFoundError):
+                numbers[name] = _version(distribution)
     return numbers
 
 

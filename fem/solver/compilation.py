@@ -59,10 +59,10 @@ def uninterrupted() -> Iterator[None]:
 
 @cache
 def load_dolfinx() -> None:
-    """Import dolfinx and the compiled packages below it."""
+    """Import dolfinx and the compiled packages below it. Its wheel needs MPI in the process."""
     see_to_cache()
     with uninterrupted(), compat.quick_versions():
-        for name in ("dolfinx.mesh", "dolfinx.fem.petsc"):
+        for name in ("mpi4py.MPI", "dolfinx.mesh", "dolfinx.fem.petsc"):
             importlib.import_module(name)
 
 

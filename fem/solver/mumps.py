@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from fem import compat
+
 if TYPE_CHECKING:
     from petsc4py.PETSc import KSP, Comm, Mat, Object
 
@@ -155,8 +157,7 @@ class Factor:
     FemError if MUMPS cannot factor it."""
 
     def __init__(self, matrix: csr_matrix, symmetric: bool = False) -> None:
-        from petsc4py import PETSc
-
+        PETSc = compat.petsc()
         matrix.sort_indices()
         csr = (matrix.indptr, matrix.indices, matrix.data)
         system = PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)

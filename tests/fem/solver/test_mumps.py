@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scipy.sparse import diags, kronsum
 
+from fem import compat
 from fem.solver import mumps
 from fem.solver.mumps import FemError, SymmetricFactor, factorisation_seconds, solve_once
 
 
 def petsc(dense):
-    from petsc4py import PETSc
-
+    PETSc = compat.petsc()
     matrix = PETSc.Mat().createDense(dense.shape, array=dense, comm=PETSc.COMM_SELF)
     return matrix.convert("aij")
 
