@@ -40,7 +40,7 @@ PLACES = ("--out", "--summary", "--junit", "--export", "--answers")
 # Of finite elements, which no wheel brings along.
 FINITE_ELEMENT_LIBRARIES = ("dolfinx", "basix", "ufl", "petsc4py", "mpi4py")
 NO_FINITE_ELEMENTS = (
-    "finite elements take {0}, which {1} does not have; allowed is --models half-plane, or: "
+    "finite elements take {0}, which {1} does not have; allowed is run --models half-plane, or: "
     "conda install -c conda-forge fenics-dolfinx (on Debian and Ubuntu ./crosscheck of a checkout)"
 )
 FINISHED = (

@@ -9,6 +9,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING
@@ -304,10 +305,13 @@ def carry_out(
     concluded: Callable[[str, tuple[Row, ...], float], Campaign] = Campaign,
 ) -> Campaign:
     """Carry out all cases of a command, and leave <command>.json, and .html where there is a page,
-    in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written.
+    in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written, and
+    ModuleNotFoundError where there is no dolfinx for cases that take it.
 
     concluded  makes the finished campaign of the command, its rows and the seconds"""
     check_places(command, out, junit)
+    if any(case.model in ("finite_element", "both") for case in cases) and not find_spec("dolfinx"):
+        raise ModuleNotFoundError(f"{command}: takes dolfinx", name="dolfinx")
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     if is_first():

@@ -394,11 +394,13 @@ def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(
         "from comparisons.cli import main; sys.exit(main({!r}))"
     )
     out = str(tmp_path / "out")
-    done = python(code.format(["run", "smooth", "--out", out]), check=False)
-    assert (done.returncode, done.stdout) == (ExitStatus.BAD_INPUT, "")
-    (line,) = done.stderr.splitlines()
-    assert "finite elements take dolfinx" in line and "allowed is --models half-plane" in line
-    assert not (tmp_path / "out").exists()
+    for command in (["run", "smooth"], ["verify"]):
+        done = python(code.format([*command, "--out", out]), check=False)
+        assert (done.returncode, done.stdout) == (ExitStatus.BAD_INPUT, "")
+        (line,) = done.stderr.splitlines()
+        assert "finite elements take dolfinx" in line
+        assert "allowed is run --models half-plane" in line
+        assert not (tmp_path / "out").exists()
     done = python(code.format(["run", "smooth", "--models", "half-plane", "--out", out]))
     assert "peak pressure    0  4.150 GPa" in done.stdout
 

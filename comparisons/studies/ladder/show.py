@@ -16,9 +16,10 @@ RUNGS = "rungs"  # series: what each rung took
 SUFFICES, BY, NONE, ESCALATE_TO, NEXT = "suffices", "by", "none", "escalate to", "next"
 ESTIMATES = "estimates"  # of all that a model leaves out
 NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
-figure that is nearest to its tolerance or farthest beyond, with its uncertainty. A model holds
-where every judged figure does. The last row is what is not known of the whole model itself. Time is
-that of all levels, of finite elements summed over cores; memory is the largest of the process."""
+figure that is nearest to its tolerance or surely farthest beyond, with its uncertainty. A model
+holds where every judged figure does. The last row is what is not known of the whole model itself.
+Time is that of all levels, of finite elements summed over cores; memory is the largest of the
+process."""
 
 
 def blocks(run: Run) -> list[Block]:
@@ -57,8 +58,11 @@ def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
 
 
 def _nearest(errors: Sequence[Figure]) -> Figure:
-    """The one farthest outside, or nearest to, its tolerance, uncertainty included."""
-    return max(errors, key=lambda error: (abs(error.value) + error.total) / error.tolerance)
+    """Of those that fail the one that surely is the farthest outside its tolerance, else the one
+    that may be, uncertainty included."""
+    failing = [error for error in errors if error.verdict == "fails"]
+    side = -1.0 if failing else 1.0
+    return max(failing or errors, key=lambda e: (abs(e.value) + side * e.total) / e.tolerance)
 
 
 def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:

@@ -98,6 +98,18 @@ def test_a_table_of_the_page_has_every_rung(wavy_outcome):
     assert wavy_outcome.findings[MODEL_ERROR].data.solutions
 
 
+def test_a_model_that_fails_is_shown_by_an_error_that_fails(wavy_outcome):
+    """Not by one whose uncertainty reaches farther."""
+    vague = tuple(
+        replace(error, unknown={"finite_strain": 9.0}) if error.verdict != "fails" else error
+        for error in wavy_outcome.figures.of(study=LADDER)
+    )
+    [block] = show.blocks(refound(wavy_outcome, LADDER, figures=vague))
+    rows = block.items[0].rows
+    assert (rows[0][4], rows[1][4]) == ("fails", "inconclusive")
+    assert float(rows[0][3].split()[0]) < 10.0 < float(rows[1][3].split()[0])
+
+
 @pytest.mark.parametrize(
     ("load", "name"), [(1e3, "hertz"), (1e6, None)], ids=["light load", "heavy load"]
 )
