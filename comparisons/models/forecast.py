@@ -46,8 +46,16 @@ class Forecast:
     @property
     def seconds(self) -> float:
         """Of all that may be solved, one after the other."""
-        beside = 0.0 if self.leaves_out_flow else (self.flow or 0.0) + (self.finite_flow or 0.0)
-        return sum(level.seconds for level in self.levels) + beside
+        return sum(level.seconds for level in self.levels) + self._beside
+
+    @property
+    def seconds_asked(self) -> float:
+        """The same of the levels to begin with."""
+        return sum(level.seconds for level in self.levels[: self.asked]) + self._beside
+
+    @property
+    def _beside(self) -> float:
+        return 0.0 if self.leaves_out_flow else (self.flow or 0.0) + (self.finite_flow or 0.0)
 
     @property
     def text(self) -> str:

@@ -31,7 +31,7 @@ STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
-PLAIN |= {ord("±"): "+-", ord("σ"): "s"}
+PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt"}
 
 
 def summary(run: Run, details: bool = False) -> "RenderableType":

@@ -53,7 +53,7 @@ class TestTelling:
     def test_result_without_running_in(self, wavy_outcome: Run):
         assert "running_in" not in wavy_outcome.findings
         assert picture(wavy_outcome) is None
-        assert "running-in" not in render(wavy_outcome)
+        assert 'id="running-in"' not in render(wavy_outcome)
 
     def test_plan_and_assumptions(self, outcome: Run):
         [said] = [text for text in outcome.plan.assumptions if text.startswith("running-in")]

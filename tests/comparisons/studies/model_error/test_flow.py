@@ -111,7 +111,8 @@ def test_finite_strain_is_chosen_where_it_decides(beside, finite):
 
 
 def test_flow_at_finite_strain_is_the_scene_with_both_switches(finite):
-    both = outcome_of(finite_element={"plastic": True, "deformation": "finite"})
+    switches = {"plastic": True, "deformation": "finite"}
+    both = outcome_of(finite_element=switches, budget={"time": finite.problem.scene.budget.time})
     for error in finite.model_errors:
         known = both.model_errors.one(quantity=error.quantity)
         assert error.scale == pytest.approx(known.scale, rel=1e-9)
