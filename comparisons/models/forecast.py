@@ -46,15 +46,16 @@ class Forecast:
     @property
     def seconds(self) -> float:
         """Of all that may be solved, one after the other."""
-        return sum(level.seconds for level in self.levels) + self._beside
+        return sum(level.seconds for level in self.levels) + self.seconds_of_flow
 
     @property
     def seconds_asked(self) -> float:
         """The same of the levels to begin with."""
-        return sum(level.seconds for level in self.levels[: self.asked]) + self._beside
+        return sum(level.seconds for level in self.levels[: self.asked]) + self.seconds_of_flow
 
     @property
-    def _beside(self) -> float:
+    def seconds_of_flow(self) -> float:
+        """Beside finite elements that have none."""
         return 0.0 if self.leaves_out_flow else (self.flow or 0.0) + (self.finite_flow or 0.0)
 
     @property

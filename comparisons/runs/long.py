@@ -18,15 +18,17 @@ def recorded(
     folder: Path | None, planned: Forecast, said: str, callback: ProgressCallback
 ) -> ProgressCallback:
     """The callback, which also writes to `progress.txt` in the folder: when the run began, what is
-    said of it, what each of the levels to begin with is expected to take, and each stage as it
-    begins, with its time and the share that is done. Of a run that is expected to be short, and
-    without a folder, `callback` itself."""
+    said of it, what each of the levels to begin with is expected to take, and flow, and each stage
+    as it begins, with its time and the share that is done. Of a run that is expected to be short,
+    and without a folder, `callback` itself."""
     if planned.seconds_asked < LONG:
         return callback
     levels = ", ".join(
         f"level {number} {with_unit(level.seconds, 's', 2)}"
         for number, level in enumerate(planned.levels[: planned.asked], 1)
     )
+    if planned.seconds_of_flow:
+        levels += f", flow {with_unit(planned.seconds_of_flow, 's', 2)}"
     began = f"started {datetime.now():%Y-%m-%d %H:%M:%S}"
     expected = f"expected of one process: {levels}"
     if folder is None or not is_first():
