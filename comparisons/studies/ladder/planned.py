@@ -160,10 +160,8 @@ class _Planned:
         for kind, known in rows.items():
             yield from known or [PlannedRung(KINDS[kind], None, self._why_none(kind, selection))]
         more = dict.fromkeys(v for one in splits for v in one.wholes)
-        words, is_own = (
-            f"whole model: {words_of_kind(selection.whole)}",
-            selection.whole == contained,
-        )
+        words = f"whole model: {words_of_kind(selection.whole)}"
+        is_own = selection.whole == contained
         seconds = own + (0.0 if is_own else self._of_variants(more))
         yield PlannedRung(words, seconds, always if is_own else needed)
 
@@ -183,11 +181,11 @@ class _Planned:
 
     def _of_levels(self, model: str) -> float:
         """Seconds of a model on the levels asked for."""
-        how = self.plan, self.patches, self.window
-        return sum(
-            expected_level(model, self.problem, how[0], pitch, *how[1:]).seconds
+        costs = (
+            expected_level(model, self.problem, self.plan, pitch, self.patches, self.window)
             for pitch in self.problem.pitches
         )
+        return sum(cost.seconds for cost in costs)
 
     def _of_variants(self, variants: dict) -> float:
         """The same of finite elements with other effects, on the least levels."""
