@@ -151,10 +151,8 @@ def known_to(content: dict, quantity: str, x: float, y: float) -> float:
     axes = zip((up, across), at, strict=True)
     low = (min(max(int(np.searchsorted(a, p)) - 1, 0), len(a) - 2) for a, p in axes)
     cell = tuple(slice(k, k + 2) for k in low)
-    values, unsure = (
-        scaled(differences(content, quantity), content),
-        uncertainties(content, quantity),
-    )
+    values = scaled(differences(content, quantity), content)
+    unsure = uncertainties(content, quantity)
     bent = 0.0
     for along, ends in enumerate((((1, 1), (0, 0)), ((0, 0), (1, 1)))):
         second = np.pad(np.abs(np.diff(values, 2, axis=along)), ends, "edge")
