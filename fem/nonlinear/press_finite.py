@@ -32,7 +32,7 @@ from fem.solver.mumps import FemError
 # Residual on the way to a load, in which gaps count, too: it moves pressures under it by 2e-7.
 ON_THE_WAY = 5e-4
 # Forces left of the roller over the contact's: as a part of the change of the pressures, and least.
-FOLLOWS, CLOSEST = 0.01, 1e-10
+FOLLOWS, CLOSEST = 0.03, 1e-10
 ROUNDED = 1e-6  # of forces on large elements, which hardly move the surface
 MOST_CORRECTIONS = 25
 
@@ -238,10 +238,13 @@ class _FiniteHistory(LoadHistory):
     ) -> tuple[np.ndarray, np.ndarray]:
         """Displacements (n, 2), (m, 2) [m] of both bodies at small strains, held nodes included;
         `near` is that of the body where no far field moves these."""
-        displacement = near
-        if near is None or self._contact.compliance.far is not None:
-            displacement = self._contact.compliance.displacement(pressure, self._friction)
+        compliance, displacement = self._contact.compliance, near
+        if compliance.far is not None:
+            displacement = compliance.displacement(pressure, self._friction)
             displacement = displacement + self.body.body.solve(self.body.plastic_force(plastic))
+        elif near is None:
+            force = compliance.load(pressure, self._friction) + self.body.plastic_force(plastic)
+            displacement = self.body.body.solve(force)
         if self._opposite is None:
             return displacement, self._still[1]
         return displacement, self._opposite.displacement(pressure, -self._friction)
@@ -276,7 +279,9 @@ class _FiniteHistory(LoadHistory):
 
     def _book(self, pressure: np.ndarray) -> None:
         [moved] = self.state.displacements
-        force = self._force(replace(self.state, pressure=pressure)) if pressure.any() else 0.0
-        # a far field moves the support
-        force = np.where(self.body.held, self.body.force(moved), force)
+        force = np.zeros_like(moved)
+        if pressure.any():
+            force = self._force(self.state)
+        if self._contact.compliance.far is not None:  # it moves the support
+            force = np.where(self.body.held, self.body.force(moved), force)
         self._account.add(force, moved)
