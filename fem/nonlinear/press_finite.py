@@ -7,6 +7,10 @@ strains, and contact and friction are on the deformed surfaces (`FiniteContact` 
 are reached by the same increments. Each starts from the last contact, changed as that of small
 strains on the linear compliances changes.
 
+Newton's systems have the unknowns of small strains: the body's, and the condensed compliance of the
+linear roller. What the roller does beyond that is of the order of its strains, and follows from
+step to step; the contact that is left is right to the residual.
+
 Nomenclature as of `fem.contact.nonlinear`."""
 
 from collections.abc import Sequence
