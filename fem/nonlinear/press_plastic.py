@@ -8,7 +8,9 @@ last one, and is solved by `fem.nonlinear.newton`.
 The increments follow the contact's edges. Where an edge jumps over several hats in one increment,
 the metal below has flowed to the pressure that ended there, and keeps its mark: a peak of pressure
 stays at the edge's former place. The next load is therefore the one at which, in the contact that
-the increment starts from, no edge of a patch travels further than allowed, one hat by default.
+the increment starts from, the edges of patches travel as far as allowed, one hat by default. Of
+many edges that is the mean: those that run ahead close gaps of small slope, and their marks are
+small.
 
 Within one hat an edge cannot be seen. Its last hat carries what lies beyond it until the next one
 touches, the metal flows to that, too, and a sawtooth of one hat's width stays in the pressures,
@@ -45,8 +47,6 @@ ON_THE_WAY = 1e-4
 # 15 times the load of first yield, of a turned surface, and of a roller just beyond first yield are
 # 5, 4 and 0.4 % high with 4 hats, 1, 2 and 0.3 % with 2, and 0.3, 0.4 and 0.1 % with 1.
 TRAVEL = 1.0
-# Order of the mean over the edges: one of a hundred may run 3.2 hats ahead.
-AHEAD = 4
 # An increment is at most this part of the way to the next load for each hat of travel: contact that
 # recedes leaves no marks, but what it leaves may flow back.
 PART_OF_WAY = 0.25
@@ -54,6 +54,7 @@ LEAST_INCREMENT = 1e-3  # of the larger of the loads between which it lies; the 
 # body, which flows at once, and no increment is shortened further
 ROUNDING = 1e-9
 LONGER = 2.0  # factor on the next increment, at most
+SHORTER = 0.25, 0.9  # factors on an increment in which edges would travel too far
 MOST_FAILURES = 3  # increments on the way to a load that are halved as Newton's method fails;
 # then those of the approach are, so many times one after the other, of so many
 MOST_HALVINGS, MOST_SINKING = 6, 200
@@ -256,7 +257,7 @@ class LoadHistory:
             moved = edge_travel(self.state.pressure, start.pressure) if here else 0.0
             if step <= least or moved <= max(1.0, self._travel):
                 return load, start
-            step = max(least, 0.5 * step)
+            step = max(least, step * float(np.clip(self._travel / moved, *SHORTER)))
 
     def release(self) -> None:
         """Without the roller."""
@@ -383,18 +384,15 @@ class LoadHistory:
 
 
 def edge_travel(before: np.ndarray, after: np.ndarray) -> float:
-    """Hats by which the edges of patches advance from a pressure (count,) to another: the longest
-    run of hats that join beside a patch, shared by the two patches that it unites. Of many edges
-    few may run ahead: it is the power mean of all of them, the largest where all advance alike. A
-    patch that appears has no edge before."""
+    """Hats by which the edges of patches advance from a pressure (count,) to another, in the mean:
+    the hats that join beside patches, over the patches' edges. A patch that appears has no edge
+    before, and edges that recede count as none."""
+    edges = np.count_nonzero(np.diff(np.pad(before > 0.0, 1).astype(int)))
     joins = (after > 0.0) & ~(before > 0.0)
     stays = np.pad((after > 0.0) & (before > 0.0), 1)
     start, stop = np.flatnonzero(np.diff(np.pad(joins, 1).astype(int))).reshape(-1, 2).T
-    sides = stays[start].astype(int) + stays[stop + 1]
-    beside = sides > 0
-    edges = max(1, np.count_nonzero(np.diff(np.pad(before > 0.0, 1).astype(int))))
-    run, sides = (stop - start)[beside], sides[beside]
-    return float((sides * (run / sides) ** AHEAD).sum() / edges) ** (1.0 / AHEAD)
+    beside = stays[start] | stays[stop + 1]
+    return float((stop - start)[beside].sum() / max(1, edges))
 
 
 def averaged_pressure(pressure: np.ndarray) -> np.ndarray:

@@ -79,7 +79,7 @@ def test_a_smooth_body_has_no_waves():
 
 @pytest.mark.parametrize(
     ("name", "seconds"),
-    [("flow-turned", (3.3, 15.1)), ("flow-flank", (2.4, 8.4)), ("ground-unrun", (63.0, 353.0))],
+    [("flow-turned", (2.8, 10.7)), ("flow-flank", (1.8, 6.5)), ("ground-unrun", (35.8, 209.0))],
 )
 def test_flow_on_rough_metals_takes_half_to_twice_as_long(name, seconds):
     """As measured (comparisons/docs/figures.md), in processor seconds of a busy machine."""

@@ -70,24 +70,24 @@ def test_what_is_left_is_small_and_not_nothing(mesh):
 
 
 def test_expected_increments_follow_the_edges_of_patches():
-    """But no further than Hertz's contact; an edge comes from the middle of its patch. Those of
-    equal patches take turns."""
+    """But no further than Hertz's contact; an edge comes from the middle of its patch, early
+    those of the widest alone."""
     posed = problem(TABLES)
-    a, patches = posed.hertz.half_width, np.array([[-9.0, -8.0], [-0.1, 0.1]])
+    a = posed.hertz.half_width
 
     def increments(hats, width, travel=1.0):
         refinement = Refinement(a / hats, travel=travel)
-        return flow_increments(posed, refinement, width * a * patches[1:] / 0.2)
+        return flow_increments(posed, refinement, width * a * np.array([[-0.5, 0.5]]))
 
     assert increments(40, 1.0) == pytest.approx(20.0)
     assert increments(80, 1.0) == pytest.approx(40.0)
     assert increments(80, 1.0, travel=2.0) == pytest.approx(20.0)
     assert increments(80, 100.0) == pytest.approx(80.0)
     assert increments(80, 1e-3) == 4.0
-    both = 40.0 * 2.0**0.25  # the widest at most Hertz's contact, and the other cut to that
-    assert flow_increments(posed, Refinement(a / 40), patches) == pytest.approx(both)
+    narrow = np.array([[-9.0, -8.0], [-0.1, 0.1]]) * a  # 20 hats from the middle, and 4
+    assert flow_increments(posed, Refinement(a / 40), narrow) == pytest.approx(0.5 * (20.0 + 12.0))
     equal = np.array([[-1.0, 0.0], [0.0, 1.0]]) * a
-    assert flow_increments(posed, Refinement(a / 40), equal) == pytest.approx(20.0 * 2.0**0.25)
+    assert flow_increments(posed, Refinement(a / 40), equal) == pytest.approx(20.0)
 
 
 def test_increments_have_an_uncertainty_of_their_own(outcome):
