@@ -15,7 +15,13 @@ from analytic.stress.periodic import ImageStress, PeriodicRest, held_along
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
-from comparisons.models.level import ExpectedCost, Level, StressResult, under_each
+from comparisons.models.level import (
+    ExpectedCost,
+    Level,
+    StressResult,
+    stress_result,
+    under_each,
+)
 from comparisons.models.problem import (
     Problem,
     ends_of,
@@ -23,7 +29,7 @@ from comparisons.models.problem import (
     patches_of,
     pressed_on,
 )
-from comparisons.models.window import Window, search_window
+from comparisons.models.window import FieldPoints, Window, search_window
 
 # Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.
 SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
@@ -52,9 +58,13 @@ def expected_with(problem: Problem, pitch: float, window: Window | None) -> Expe
 
 
 def half_plane_level(
-    problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
+    problem: Problem,
+    pitch: float,
+    window: Window | None,
+    stages: Stages,
+    fields: FieldPoints = "all",
 ) -> Level:
-    """Solve one level: contact, and stresses in a window; without `fields` their maxima alone."""
+    """Solve one level: contact, and in a window the largest stresses and `fields`."""
     grid = problem.grid(pitch)
 
     def solve(problem: Problem) -> Level:
@@ -71,7 +81,7 @@ def half_plane_on(
     frictions: tuple[float, ...],
     window: Window | None,
     stages: Stages,
-    fields: bool = True,
+    fields: FieldPoints = "all",
 ) -> Level:
     """The half-plane on any pressure elements.
 
@@ -99,21 +109,26 @@ def half_plane_on(
 
 
 def _stresses(
-    problem: Problem, frictions: tuple[float, ...], level: Level, window: Window, fields: bool
+    problem: Problem,
+    frictions: tuple[float, ...],
+    level: Level,
+    window: Window,
+    fields: FieldPoints,
 ) -> tuple[StressResult, ...]:
     """Extremes off the grid and, where asked for, `fields` on the window, one set a friction."""
     x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)
     ends = beside_hats(problem, level)
-    points = *([window] if fields else []), search_window(problem, window)
-    *shown, searched = (field_on(level, window, ends) for window in points)
+    searched = field_on(level, search_window(problem, window), ends)
+    at = {"all": window, "sparse": window.sparse, "none": None}[fields]
+    shown = None if at is None else field_on(level, at, ends)
     nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
         how = {"beside": ends.at(friction), "cells": problem.asperities}
         largest = stress_maxima(x, pressure, friction, searched.at(friction), nu, **how)
         extremes = {"tau1": largest.tau1, "txz": largest.txz_abs, "von_mises": largest.von_mises}
         maxima = {"tau1": largest.cells["tau1"], "txz": largest.cells["txz_abs"]}
-        field = shown[0].at(friction).stress if shown else None
-        results.append(StressResult(friction, extremes, field, maxima))
+        field = None if shown is None else shown.at(friction).stress
+        results.append(stress_result(friction, extremes, field, maxima, window))
     return tuple(results)
 
 

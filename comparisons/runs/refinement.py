@@ -18,6 +18,7 @@ from comparisons.models.plan import LONGER, Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import discretisations
+from comparisons.studies.model_error.solutions import LEAST_LEVELS
 from comparisons.studies.study import Solved
 from fem.solver.mumps import FemError
 
@@ -71,6 +72,7 @@ class _LevelTask:
     number: int  # from 1, coarse to fine
     half_block: bool = False
     times: int = 1
+    sparse: bool = False  # whether stresses are wanted at the window's sparse points alone
 
     @property
     def pitch(self) -> float:
@@ -100,9 +102,8 @@ class _LevelTask:
         if self.name == "half_plane":
             from comparisons.models.half_plane import half_plane_level
 
-            return from_first(
-                lambda: half_plane_level(self.problem, self.pitch, self.window, stages)
-            )
+            how = self.problem, self.pitch, self.window, stages, "sparse" if self.sparse else "all"
+            return from_first(lambda: half_plane_level(*how))
         from comparisons.models.finite_element.bodies import BodyCache
         from comparisons.models.finite_element.level import LevelOptions, finite_element_level
         from comparisons.models.finite_element.mesh import Refinement
@@ -122,7 +123,7 @@ class _LevelTask:
             self.window,
             stages,
             here.held("bodies", self.pitch, BodyCache),
-            LevelOptions(check=not is_check, fields=not self.half_block),
+            LevelOptions(check=not is_check, fields=not self.half_block, sparse=self.sparse),
         )
 
 
@@ -132,7 +133,12 @@ class _Levels:
     def __init__(self, scene: Solved, tasks: Tasks) -> None:
         self.scene, self.problem, self.plan, self.tasks = scene, scene.problem, scene.plan, tasks
         self.task = partial(_LevelTask, scene.problem, scene.plan, scene.window)
-        check = partial(self.task, "finite_element", 1)
+        stress, levels = scene.problem.scene.stress, scene.problem.levels
+        bulge = stress is not None and stress.bulge
+        self.all_points = bulge or (levels is not None and levels.all_points)  # of every level
+        # the finest level, unless more turn out to be needed
+        self.last = len(scene.problem.pitches) if levels is None else levels.models
+        check = partial(self.task, "finite_element", 1, sparse=not self.all_points)
         self.checks = [check(half_block=True)] if self.plan.domain_check else []
         if self.plan.increments_check:
             self.checks += [check(times=times) for times in LONGER]
@@ -146,7 +152,7 @@ class _Levels:
         others will take."""
         asked = range(1, len(self.problem.pitches) + 1)
         if "half_plane" in self.levels:  # first, while nothing else is in memory
-            for task in (self.task("half_plane", number) for number in asked):
+            for task in (self.numbered("half_plane", number) for number in asked):
                 refuse_too_large(
                     self.problem, task.expected(self.patches), "half-plane pressures", task.pitch
                 )
@@ -156,10 +162,19 @@ class _Levels:
             if self.problem.scene.finite_element.plastic:
                 self.patches = flowing_contact(self.problem)
         if "finite_element" in self.levels:
-            for number in reversed(self.affordable(asked)):  # idle processes begin with the longest
-                self.add(self.task("finite_element", number))
+            affordable = self.affordable(asked)
+            self.last = min(self.last, max(affordable, default=1))
+            for number in reversed(affordable):  # idle processes begin with the longest
+                self.add(self.numbered("finite_element", number))
             for task in self.checks:
                 self.add(task)
+
+    def numbered(self, name: str, number: int) -> _LevelTask:
+        """A level of a model, with stresses at all points where it may be the finest, or be shown
+        beside the finest one of the effects."""
+        both = name == "half_plane" and self.plan.compares
+        shown = min(self.last, LEAST_LEVELS) if both else self.last
+        return self.task(name, number, sparse=number < shown and not self.all_points)
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)
@@ -175,7 +190,7 @@ class _Levels:
     def wait(self, number: int, models: Iterable[str]) -> None:
         """Have the levels of the models up to a number."""
         missing = [
-            self.task(name, level)
+            self.numbered(name, level)
             for name in models
             for level in range(len(self.levels[name]) + 1, number + 1)
         ]
@@ -203,13 +218,23 @@ class _Levels:
 
     def checked(self, solved: Solved, why: str) -> Solved:
         """With the far boundary at half the distance, longer increments, and why that is all."""
-        again, runs = [*filter(None, map(self._check, self.checks))], dict(solved.runs)
+        again = [*filter(None, map(self._check, self.checks))]
+        runs = {name: self._with_fields(run) for name, run in solved.runs.items()}
         if again:
             far = again.pop(0) if self.plan.domain_check else None
             runs["finite_element"] = replace(
                 runs["finite_element"], far_boundary_check=far, longer_increments=tuple(again)
             )
         return replace(solved, runs=runs, refinement=why)
+
+    def _with_fields(self, run: ModelRun) -> ModelRun:
+        """With stresses at all points of the finest level, solved again where a finer one had been
+        expected."""
+        if all(stress.field is not None for stress in run.finest.stresses):
+            return run
+        task = self.task(run.name, len(run.levels))
+        self.tasks.add(f"{task.key}-fields", task.solve)
+        return replace(run, levels=(*run.levels[:-1], self.tasks.result(f"{task.key}-fields")))
 
     def _check(self, task: _LevelTask) -> Level | None:
         """A check; None of the longest increments, which Newton's method may not bear."""

@@ -120,7 +120,7 @@ def norms(
     stresses = [known.stress(friction) for known in (level, reference)]
     return pair_norms(
         (level.solution.pressure, reference.solution.pressure),
-        tuple(None if stress is None else stress.tau1 for stress in stresses),
+        tuple(None if stress is None else stress.sparse_tau1 for stress in stresses),
         problem,
         window,
     )
@@ -132,8 +132,8 @@ def pair_norms(
     problem: Problem,
     window: Window | None,
 ) -> dict[str, float]:
-    """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k)
-    on the window, None without one; the second of each is the reference."""
+    """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k) at
+    the window's sparse points, None without one; the second of each is the reference."""
     sizes = {"pressure_l2": relative_l2(*pressures)}
     if all(field is not None for field in tau1):
         sizes |= field_norms(*tau1, problem, window)
@@ -143,11 +143,13 @@ def pair_norms(
 def field_norms(
     tau1: np.ndarray, reference: np.ndarray, problem: Problem, window: Window
 ) -> dict[str, float]:
-    """Relative L2 norms of the difference of two fields (m, k), by the window's depths."""
-    weights = layer_thickness(window.z)[:, None]
+    """Relative L2 norms of the difference of two fields (m, k) at the window's sparse points, by
+    their depths."""
+    at = window.sparse
+    weights = layer_thickness(at.z)[:, None]
     return {
         f"tau1_field_{name}": relative_l2(tau1[part], reference[part], weights[part])
-        for name, part in window.compared(problem.hertz.half_width).items()
+        for name, part in at.compared(problem.hertz.half_width).items()
         if np.any(part)
     }
 

@@ -37,9 +37,10 @@ from fem.solver.mumps import FemError
 from fem.stress.surface_load import SurfaceLoad
 
 # Of `FiniteCompliance`: forces left over the contact's, at least and at most, and as a part of the
-# change of the pressures; secants, and what one must differ from the others.
+# change of the pressures; secants, and what one must differ from the others: from less than 0.02 on
+# small last steps mislead those under a changed load.
 RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 3e-3, 0.1
-SECANTS, SECANT_RANK = 10, 1e-3
+SECANTS, SECANT_RANK = 10, 0.05
 MOST_CORRECTIONS = 25
 # Of Newton's method: mean slip of the surfaces that is left, of a hat, and solutions to get there.
 ASIDE, MOST_SETTINGS = 1e-3, 6
@@ -309,6 +310,8 @@ class FiniteCompliance:
         wanted, contact = MOST_LEFT, self._contact
         if self._last is not None:
             change = np.linalg.norm(pressure - self._last) / np.linalg.norm(pressure)
+            if change == 0.0:  # as accurate as it was asked for
+                return contact.contact.loaded(self.displacement, pressure)[0] - contact.gap
             wanted = float(np.clip(SETTLED * change, RESIDUAL, MOST_LEFT))
         self._last, moved, before = pressure, self.displacement, None
         soft, free = contact.response.softness, ~contact.response.held.ravel()

@@ -18,7 +18,7 @@ from analytic.stress_state import StressState
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.level import Level, StressResult
+from comparisons.models.level import Level, StressResult, stress_result
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, search_window
@@ -206,7 +206,7 @@ def _stresses(problem: Problem, level: Level, window: Window) -> tuple[StressRes
         parts = (field.sx, field.sz, field.txz)
         unknown = np.full_like(field.sx[:1], np.nan)  # at the surface
         field = StressState(*(np.vstack([unknown, part]) for part in parts))
-        results.append(StressResult(friction, extremes, field))
+        results.append(stress_result(friction, extremes, field, {}, window))
     return tuple(results)
 
 

@@ -42,7 +42,8 @@ class Reference:
     # x, pressure: (n,) [m], [Pa] nodes of the pressure
     x: np.ndarray
     pressure: np.ndarray
-    tau1: tuple[np.ndarray, ...]  # (m, k) [Pa] on the window, one a friction coefficient
+    # (m, k) [Pa] at the window's sparse points, one a friction coefficient
+    tau1: tuple[np.ndarray, ...]
     row: CostRow | None = None  # that it is, None where it is exact
 
 
@@ -115,7 +116,7 @@ def _norms(level: Level, reference: Reference) -> dict[str, float]:
     pressure = np.interp(reference.x, *_curve(level), left=0.0, right=0.0)
     fields = [(None, None)]
     if level.stresses and len(level.stresses) == len(reference.tau1):
-        tau1 = (stress.field.tau1 for stress in level.stresses)
+        tau1 = (stress.sparse_tau1 for stress in level.stresses)
         fields = list(zip(tau1, reference.tau1, strict=True))
     pressures = pressure, reference.pressure
     norms = [pair_norms(pressures, pair, reference.problem, reference.window) for pair in fields]
@@ -145,8 +146,8 @@ def _exact(problem: Problem, window: Window | None) -> Reference:
             }
             for extremes in known
         )
-        z = window.z[:, None]
-        tau1 = tuple(hertz_stress(hertz, window.x, z, friction).tau1 for friction in frictions)
+        at = window.sparse.x, window.sparse.z[:, None]
+        tau1 = tuple(hertz_stress(hertz, *at, friction).tau1 for friction in frictions)
         norms |= field_norms(tau1[0], tau1[0], problem, window).keys()
     floors = {name: FLOOR for name in QUANTITIES if name in values[0] or name in norms}
     x = np.linspace(*problem.extent, EXACT_POINTS)
@@ -162,7 +163,7 @@ def _finest(problem: Problem, rows: list[CostRow], window: Window | None) -> Ref
     stated = [uncertainties(run, problem, friction) for friction in problem.scene.load.friction]
     values = row.measured.values
     floors = {name: float(max(by_name[name].total for by_name in stated)) for name in values[0]}
-    tau1 = tuple(stress.field.tau1 for stress in run.finest.stresses)
+    tau1 = tuple(stress.sparse_tau1 for stress in run.finest.stresses)
     source, curve = f"{row.method.name} at {row.label}", _curve(run.finest)
     reference = Reference(source, problem, window, floors, values, *curve, tau1, row)
     # norms are of first order: the finest row errs by its distance from the one before

@@ -105,10 +105,11 @@ def _refined(
 
     def solved(pitch: float, half_block: bool = False) -> Level:
         if same_pressures:
-            return half_plane_level(problem, pitch, window, Stages())
+            return half_plane_level(problem, pitch, window, Stages(), "sparse")
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
+        options = LevelOptions(fields=False, sparse=True)
         return finite_element_level(
-            problem, plan, refinement, window, Stages(), body_cache, LevelOptions(fields=False)
+            problem, plan, refinement, window, Stages(), body_cache, options
         )
 
     @lru_cache(maxsize=1)  # the latest pitch's alone: the far-boundary check is on its mesh
@@ -127,7 +128,7 @@ def _refined(
             if number <= least:
                 raise
             break  # what is finer than the scene asks for need not be possible
-        half_plane.append(half_plane_level(problem, pitch, window, Stages()))
+        half_plane.append(half_plane_level(problem, pitch, window, Stages(), "sparse"))
         if number >= least:
             yield {
                 "half_plane": ModelRun("half_plane", tuple(half_plane)),

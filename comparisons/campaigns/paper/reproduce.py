@@ -123,7 +123,7 @@ def solve_surfaces(
         scene = Scene.read(name).changed({"load.friction": FRICTIONS, **fields})
         part = within(callback, number / count, (number + 1) / count)
         try:
-            problem = problem_of(scene, levels=Levels(LEVELS))
+            problem = problem_of(scene, levels=Levels(LEVELS, all_points=True))
             plan = replace(make_plan(problem, MODELS), effects=effects)
             prefixed = _prefixed(part, f"{number + 1} of {count}, {name}")
             run = solve(unsolved(problem, plan), None, prefixed)

@@ -60,7 +60,7 @@ class LevelOptions:
     approach: float | None = None  # [m] from first touch, prescribed in place of the load
     check: bool = False  # compare the bodies' compliance with the analytic one first
     fields: bool = True  # give the stresses at all points of the mesh, too
-    compared: bool = False  # give the field at the depths alone whose norms are compared
+    sparse: bool = False  # give the field at the window's sparse points alone
 
 
 def finite_element_level(
@@ -122,10 +122,7 @@ def _level(
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
         frictions, asperities = problem.scene.load.friction, problem.asperities
-        depths = None
-        if options.compared:
-            depths = np.any([*window.compared(problem.hertz.half_width).values()], axis=0)
-        how = asperities, options.fields, depths
+        how = asperities, options.fields, options.sparse
         stresses, mesh_field = stresses_of(pressed, frictions, window, *how)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 

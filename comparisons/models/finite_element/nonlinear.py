@@ -41,6 +41,8 @@ from fem.stress.stress import at_nodes
 FLOW_TOLERANCE = 1e-6
 # Residuals of a contact at finite deformation, over the displacements; 1e-6 moves figures by 5e-5.
 FINITE_TOLERANCE = 1e-7
+# The same under friction until its share of the load is known, by which the pressures still change.
+FIRST_TOLERANCE = 1e-5
 ENDS = 3.0  # pitches from the pressures' outermost nodes to the end of the trace that bounds them
 
 
@@ -153,14 +155,17 @@ def finite_contact(
     asked = replace(constraints, load=load and contact.pressing(load, contact.linear, start))
     solver = solve_coupled if operator.coupled else solve_contact
     try:
-        for _ in range(MOST_SETTINGS):
+        for number in range(MOST_SETTINGS):
             settings = bodies, model, contact.gap, contact.weights, asked, start
-            solution = solve_with_model(*settings, FINITE_TOLERANCE, solver, nearer=True)
+            is_first = number == 0 and friction != 0.0 and load is not None
+            tolerance = FIRST_TOLERANCE if is_first else FINITE_TOLERANCE
+            solution = solve_with_model(*settings, tolerance, solver, nearer=True)
             if not solution.converged:
                 break
             start = solution.pressure
             pressing = load and contact.pressing(load, bodies.displacement, start)
-            if load is None or abs(pressing - asked.load) <= LEANING * load:
+            is_settled = load is None or abs(pressing - asked.load) <= LEANING * load
+            if is_settled and not is_first:
                 return contact.deformed(bodies.solution(start, solution.approach))
             asked = replace(asked, load=pressing)
     except FemError:

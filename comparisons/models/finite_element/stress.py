@@ -7,10 +7,16 @@ import numpy as np
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.stress_state import StressState, von_mises
+from analytic.stress_state import von_mises
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
-from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
+from comparisons.models.level import (
+    MeshField,
+    RecoverableField,
+    StressResult,
+    highest,
+    stress_result,
+)
 from comparisons.models.problem import Problem, ends_of, mean_height, patches_of
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
@@ -116,18 +122,17 @@ def stresses_of(
     window: Window,
     asperities: tuple[float, ...] = (),
     on_mesh: bool = True,
-    depths: np.ndarray | None = None,
+    sparse: bool = False,
 ) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     """Extremes and fields on the window, one set a friction coefficient, and all on the mesh.
 
     asperities  (k,) [m] where one ends and the next begins: each has its own largest stresses
     on_mesh     whether stresses at all of the mesh's points are wanted; else they are computed
                 only where the window needs them, or where they may be the largest
-    depths      (m,) which of the window's depths are wanted; NaN at others. None: all
+    sparse      whether the field is wanted at the window's `sparse` points alone
     """
     nodal = pressed.stresses(frictions)
-    depths = np.ones(len(window.z), dtype=bool) if depths is None else depths
-    wanted = frictions, window, asperities, on_mesh, depths
+    wanted = frictions, window, asperities, on_mesh, sparse
     return from_first(lambda: _stresses_of(pressed, nodal, *wanted))
 
 
@@ -138,12 +143,13 @@ def _stresses_of(
     window: Window,
     asperities: tuple[float, ...],
     on_mesh: bool,
-    depths: np.ndarray,
+    sparse: bool,
 ) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     body, results = pressed.body, []
     bounds = (-window.extent, window.extent, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
-    shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z[depths]))
+    at = window.sparse if sparse else window
+    shown = evaluate_all(body, nodal, *np.meshgrid(at.x, at.z))
     for friction, stresses, on_window in zip(frictions, nodal, shown, strict=True):
         samples = Samples(body, stresses)
         searched = bounds, asperities, samples
@@ -161,9 +167,7 @@ def _stresses_of(
                 bounds,
                 samples,
             )
-        on_all = np.full((3, len(depths), len(window.x)), np.nan)
-        on_all[:, depths] = on_window.sx, on_window.sz, on_window.txz
-        results.append(StressResult(friction, extremes, StressState(*on_all), highest_places))
+        results.append(stress_result(friction, extremes, on_window, highest_places, window))
     if not on_mesh:
         return tuple(results), None
     if pressed.moved is None:

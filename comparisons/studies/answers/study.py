@@ -256,11 +256,11 @@ def _differences(
     stress, other = answer.stress, level.stress(friction)
     tau1 = None
     if stress is not None and stress.friction == friction and other is not None:
-        tau1 = stress.field.tau1
+        tau1 = window.sparsely(stress.field.tau1)
         tau1 = tau1 if np.isfinite(tau1).mean() >= COVERED else None
     differences = pair_norms(
         (answer.on(level.grid.x), level.solution.pressure),
-        (tau1, None if other is None else other.field.tau1),
+        (tau1, None if other is None else other.sparse_tau1),
         problem,
         window,
     )

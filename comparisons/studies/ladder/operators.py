@@ -27,7 +27,7 @@ from analytic.stress.maxima import StressMaxima, stress_maxima
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.half_plane import field_on
-from comparisons.models.level import Level, StressResult, highest
+from comparisons.models.level import Level, StressResult, highest, stress_result
 from comparisons.models.nearest_operator import is_layered, nearest_operator, solve_on
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
@@ -119,7 +119,8 @@ class OperatorModel:
     deformed: bool = False  # contact on the deformed surfaces of half-planes
 
     def level(self, pitch: float, window: Window | None, fields: bool = True) -> Level:
-        """Solved on pressure elements of a pitch [m]; without `fields` of stresses their maxima."""
+        """Solved on pressure elements of a pitch [m], with the largest stresses and, for `fields`,
+        those at the window's sparse points."""
         stages, problem, grid = Stages(), self.problem, self.problem.grid(pitch)
         with stages.stage("contact"):
             operator = operator_of(problem, grid, self.coupling)
@@ -189,7 +190,7 @@ class _Side:
     added: AddedStress | None
     below: bool
     ends: EndStress
-    shown: Window  # points of the common field on this side
+    shown: Window  # sparse points of the common field on this side
     searched: Window  # from which extremes are searched
 
     @property
@@ -237,7 +238,7 @@ def _stresses(
         extremes = {name: highest(cells) for name, cells in maxima.items()}
         extremes["von_mises"] = max((one.von_mises for one in largest), key=lambda e: e.value)
         state = _on_window(sides, level, friction) if fields else None
-        yield StressResult(friction, extremes, state, maxima)
+        yield stress_result(friction, extremes, state, maxima, window)
 
 
 def _on_window(sides: list[_Side], level: Level, friction: float) -> StressState:
@@ -252,15 +253,16 @@ def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
     body, searched = layered_body(problem.scene), search_window(problem, window)
     ends = ends_of(problem, level.grid, level.solution)
     if body is None:
-        return [_Side(problem.scene.body.material, None, False, ends, window, searched)]
+        return [_Side(problem.scene.body.material, None, False, ends, window.sparse, searched)]
     reach = min(window.x[0], searched.x[0]), max(window.x[-1], searched.x[-1])
     added, thickness = (
         AddedStress.of(body, level.grid.x, level.solution.pressure, reach),
         body.thickness,
     )
+    both = window.sparse, searched
     inside, below = (
-        [replace(points, z=z) for points, z in zip((window, searched), depths, strict=True)]
-        for depths in zip(*(_split(part.z, thickness) for part in (window, searched)), strict=True)
+        [replace(points, z=z) for points, z in zip(both, depths, strict=True)]
+        for depths in zip(*(_split(part.z, thickness) for part in both), strict=True)
     )
     goes_on = not body.rigid and len(below[1].z) > 0
     if goes_on:  # both sides of the interface are searched

@@ -283,7 +283,8 @@ def hertz_quantities(
         values |= {"tau1_max": largest["tau1"].value, "tau1_max_depth": largest["tau1"].z}
         values["txz_max_abs"] = abs(largest["txz"].value)
         if has_norms(problem):
-            tau1 = smooth.stress(window.x, window.z[:, None], friction).tau1
+            at = window.sparse
+            tau1 = smooth.stress(at.x, at.z[:, None], friction).tau1
     figures = {name: np.array([value]) for name, value in values.items()}
     return [QuantitiesOfInterest(figures, smooth.pressure(x), tau1) for x in grids]
 

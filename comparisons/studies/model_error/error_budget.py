@@ -50,11 +50,11 @@ from comparisons.studies.model_error.selection import (
     EffectSelection,
     select_effects,
 )
-from comparisons.studies.model_error.solutions import SolvedVariants
+from comparisons.studies.model_error.solutions import LEAST_LEVELS, SolvedVariants
 from comparisons.studies.study import Solved
 from comparisons.studies.subsurface.yielding import flow_assessment
 
-LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
+MOST_LEVELS = 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
 ASKED = 'budget.effects = "all" computes it'
 GROWTH_OF_TIME = 3.2  # from one level to the next, at most

@@ -33,7 +33,7 @@ class QuantitiesOfInterest:
     # by compared quantity, SI: (k,) one an asperity, (1,) where it is no largest value
     figures: dict[str, np.ndarray]
     pressure: np.ndarray  # (n,) [Pa] at the nodes of the level's pressure elements
-    tau1: np.ndarray | None  # (m, k) [Pa] on the common window, None without [stress]
+    tau1: np.ndarray | None  # (m, k) [Pa] at the window's sparse points, None without [stress]
     # of a model: x [m] of its largest values, undeformed, as `figures`
     places: dict[str, np.ndarray] = field(default_factory=dict)
 
@@ -83,7 +83,7 @@ def quantities_of(level: Level, problem: Problem, friction: float) -> Quantities
             if name == "tau1_max":
                 rise = boundary_rise(problem, level, places[name])
                 figures["tau1_max_depth"] = depth + rise
-    tau1 = None if stress is None else stress.tau1
+    tau1 = None if stress is None else stress.sparse_tau1
     return QuantitiesOfInterest(figures, pressure, tau1, places)
 
 

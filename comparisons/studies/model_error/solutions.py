@@ -34,6 +34,7 @@ from comparisons.studies.model_error.selection import NONLINEAR
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
+LEAST_LEVELS = 2  # of the effects
 CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
 
 
@@ -133,7 +134,8 @@ class SolvedVariants:
         key = f"{'whole' if whole else 'part'}-{variant.name}-{number}"
         problem, plan, pitch, cost = self._posed(variant, number)
         self.expected.setdefault((variant, number), cost.seconds)
-        work = partial(_solved, problem=problem, plan=plan, window=self.window, fields=whole)
+        shown = whole and number >= LEAST_LEVELS  # it may be the finest
+        work = partial(_solved, problem=problem, plan=plan, window=self.window, fields=shown)
         size = {"seconds": cost.seconds, "memory": cost.memory}
         self.tasks.add(key, work, variant, number, **size, urgency=urgency, shares=pitch)
         return key
@@ -171,7 +173,7 @@ def _solved(
     fields: bool,
 ) -> Level:
     """A variant's `problem` on a level, with its `fields` on window and mesh where asked, else at
-    the depths alone whose norms are compared; raises NotComputedError."""
+    the window's sparse points alone; raises NotComputedError."""
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
@@ -182,7 +184,7 @@ def _solved(
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
     refinement, stages = Refinement(pitch, travel=variant.times * TRAVEL), Stages()
-    options = LevelOptions(fields=fields, compared=not fields)
+    options = LevelOptions(fields=fields, sparse=not fields)
     try:
         level = finite_element_level(problem, plan, refinement, window, stages, body_cache, options)
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:

@@ -234,7 +234,7 @@ def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarra
     scene = problem.scene
     window = None if scene.stress is None else window_of(problem)
     stages = Stages(no_progress)
-    level = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
+    level = half_plane_level(problem, problem.pitches[0], window, stages, fields="none")
     figures = {friction: values_of(level, problem, friction) for friction in scene.load.friction}
     return figures, level.solution.pressure
 

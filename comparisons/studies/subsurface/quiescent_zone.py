@@ -135,6 +135,12 @@ def zone_of(
     return shear_dip(window.z[::every], shear, DEEP * problem.hertz.half_width)
 
 
+def sparse_zone_of(problem: Problem, level: Level, window: Window, friction: float) -> ShearDip:
+    """The same at the window's sparse points, which every level has."""
+    shear = mean_shear(problem, window.sparse, level.stress(friction).sparse_tau1)
+    return shear_dip(window.sparse.z, shear, DEEP * problem.hertz.half_width)
+
+
 def asperity_rows(
     problem: Problem, level: Level, window: Window, friction: float
 ) -> list[dict[str, object]]:
@@ -168,27 +174,28 @@ def zone_figures(
     """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
     boundary, iteration, and what reading every second row and column of the window changes."""
 
-    def read(level: Level, every: int = 1) -> dict[str, float]:
-        dip = zone_of(problem, level, window, friction, every)
+    def read(level: Level) -> dict[str, float]:
+        dip = sparse_zone_of(problem, level, window, friction)
         return {name: getattr(dip, name) for name in QUANTITIES}
 
     run = run.under(friction)
     levels, repeated = [read(level) for level in run.levels], by_repetition(run, read)
-    coarse, figures = read(run.finest, every=2), []
-    for name, value in levels[-1].items():
-        values = tuple(level[name] for level in levels)
+    dip, coarse = (zone_of(problem, run.finest, window, friction, every) for every in (1, 2))
+    figures = []
+    for name in QUANTITIES:
+        values, value = tuple(level[name] for level in levels), getattr(dip, name)
         size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else inf
-        size += iteration(run.finest) * abs(value) + abs(coarse[name] - value)
+        size += iteration(run.finest) * abs(value) + abs(getattr(coarse, name) - value)
         size = float(size + sum(repeated[name]))
         if isfinite(value):
             scale = abs(value) or 1.0
             unsure = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
             named = NAME, name, run.name, value, {"friction": friction}
+            values = tuple(value + (level - values[-1]) for level in values)
             figures.append(Figure(*named, scale=scale, uncertainty=unsure, levels=values))
         if name == "ratio":
             is_unclear = abs(value - QUIET) <= size
-    status = zone_of(problem, run.finest, window, friction).status
-    return tuple(figures), UNCLEAR if is_unclear else status
+    return tuple(figures), UNCLEAR if is_unclear else dip.status
 
 
 def needs(solved: Solved) -> str | None:
