@@ -130,6 +130,12 @@ class Tasks:
             worker.kill()
         self._workers, self._running = {}, {}
 
+    def prepare(self) -> None:
+        """Let workers begin that have something to prepare, before anything is known to do."""
+        if self.opens is not None and self.there and self.worth == WORTH_A_FORK:
+            self._has_begun = True
+            self._open(self.at_once)
+
     def add(
         self,
         key: str,
