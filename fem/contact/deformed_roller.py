@@ -116,11 +116,7 @@ class PairContact:
         self, displacement: np.ndarray, pressure: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """The gap (count,) [m^2] and the nodal forces (2n,) [N/m] of `at` alone: cheaper."""
-        surface, cuts, deformed = self._surfaces(displacement)
-        under = hat_points(self._body.surface, self._hats, cuts)
-        x, z = ((under.shape * c[under.node][..., None]).sum(0) for c in (deformed.x, deformed.z))
-        edge, t = surface.edge(x.ravel())
-        rise, slope, _ = (array.reshape(x.shape) for array in surface(x.ravel(), (edge, t)))
+        under, (_, z), (edge, t), (rise, slope, _), deformed, surface = self._met(displacement)
         node, part = 2 * edge + np.arange(3)[:, None], edge_shapes(t).T
 
         column, hat = under.column + 1, under.hat * under.weight  # with the feet, which bear none
@@ -137,6 +133,28 @@ class PairContact:
                 node.ravel(), (part * back.ravel()).ravel(), len(surface.x)
             )
         return gap[1:-1], force.ravel()
+
+    def on_body(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+        """Of `at` the rows and columns of the rough body: as if the roller stayed as it is."""
+        under, (_, z), _, (rise, slope, bend), _, _ = self._met(displacement)
+        count, size, one = len(self._hats), 2 * self._first, np.ones_like(slope)
+        column, hat = under.column + 1, under.hat * under.weight
+        gap = np.bincount(column.ravel(), (hat * (z + rise)).sum(-1).ravel(), count)[1:-1]
+        node = self._body.surface.point[under.node]
+        row = 2 * node[:, None, None] + np.arange(2)[:, None, None]
+
+        def forces(*along: np.ndarray) -> csr_matrix:
+            value = np.einsum("aeg,ceg,heg->ache", under.shape, np.stack(along), hat)
+            return matrix_of(value, row, column, (size, count))[:, 1:-1]
+
+        gradient = force = forces(slope, one)
+        if not self.frictionless:
+            force = forces(slope + self._friction, one - self._friction * slope)
+        load = (np.pad(pressure, 1)[column][..., None] * hat).sum(0) * bend
+        turning = np.einsum("aeg,eg,beg->abe", under.shape, load, under.shape)[:, None]
+        turning = turning * np.array([1.0, -self._friction])[:, None, None]
+        stiffness = matrix_of(turning, row, 2 * node, (size, size))
+        return ContactTerms(gap, gradient, force, stiffness)
 
     def at(
         self, displacement: np.ndarray, pressure: np.ndarray, traction: np.ndarray | None = None
@@ -174,6 +192,16 @@ class PairContact:
             slides = slides + down.T @ pull @ (turning + diags(bend) @ along)
             stiffness = stiffness - factor * slides
         return ContactTerms(gap, gradient, force.tocsr(), stiffness.tocsr(), drag)
+
+    def _met(self, displacement: np.ndarray) -> tuple:
+        """Points under hats, their x and z [m], where on the roller's edges they are, its height,
+        slope and bend there; the surfaces of both."""
+        surface, cuts, deformed = self._surfaces(displacement)
+        under = hat_points(self._body.surface, self._hats, cuts)
+        x, z = ((under.shape * c[under.node][..., None]).sum(0) for c in (deformed.x, deformed.z))
+        on = surface.edge(x.ravel())
+        opposite = [array.reshape(x.shape) for array in surface(x.ravel(), on)]
+        return under, (x, z), on, opposite, deformed, surface
 
     def _under_hats(
         self, displacement: np.ndarray

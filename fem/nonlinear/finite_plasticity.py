@@ -35,6 +35,7 @@ from fem.nonlinear.plasticity import (
 )
 
 CHUNK = 8192  # elements whose tangents are formed at once
+UNCHANGED = 1e-3  # change of F that leaves an elastic element its tangent: a part of the stiffness
 
 
 class FinitePlasticBody(PlasticBody):
@@ -51,11 +52,16 @@ class FinitePlasticBody(PlasticBody):
             lame, shear = material.lame_constants
             matrix += shear * np.diag([2.0, 2.0, 1.0])
             matrix[:2, :2] += lame
+        self._known: tuple = (None, None, None)  # accepted state, displacement and the last `_at`
         elements, count = body.elements, len(body.nodes)
         pair = elements[:, :, None].astype(np.int64) * count + elements[:, None, :]
         pairs, self._place = np.unique(pair, return_inverse=True)
         self._place, self._column = self._place.ravel(), pairs % count
         self._start = np.searchsorted(pairs // count, np.arange(count + 1))
+        # tangents of the elements, where they were formed, and of which it flowed then
+        self._blocks = np.empty((len(elements), 6, 6, 4))
+        self._linearised_at = np.full((len(self.points), 2, 2), np.inf)
+        self._flowed = np.zeros(len(elements), dtype=bool)
 
     def strain(self, displacement: np.ndarray) -> np.ndarray:
         """Logarithmic Exx, Ezz, 2 Exz (3m, 3) of a displacement (n, 2) [m]."""
@@ -124,12 +130,15 @@ class FinitePlasticBody(PlasticBody):
     ) -> tuple[LogStrain, PlasticStep, np.ndarray, np.ndarray | None]:
         """The strain E, the step from the accepted state in its axes, the stress conjugate to it,
         and Q."""
+        if self._known[0] is self.state and np.array_equal(self._known[1], displacement):
+            return self._known[2]
         unflowed, left = self._unflowed(self.state)
         strain = self._strain(displacement, unflowed)
         metal = np.where(self._coated[:, None], 0.0, strain.strain)
         step = return_mapping(self.metal, metal, left)
         conjugate, _ = stress_of(self._shear, self._ratio, strain.strain, step.state)
-        return strain, step, conjugate, unflowed
+        self._known = self.state, displacement, (strain, step, conjugate, unflowed)
+        return self._known[2]
 
     def _balanced(self, slopes: np.ndarray, strain: LogStrain, conjugate: np.ndarray) -> np.ndarray:
         first, _ = _first_piola(strain, conjugate)
@@ -140,20 +149,24 @@ class FinitePlasticBody(PlasticBody):
     def _tangent(
         self, slopes: np.ndarray, strain: LogStrain, step: PlasticStep, conjugate: np.ndarray
     ) -> csr_matrix:
-        inner = self._elastic[self._coated.astype(int)]
-        inner[step.yields] -= step.softening
-        material = strain.tangent(conjugate, inner) * self.areas.reshape(-1, 1, 1)
-        _, piola = _first_piola(strain, conjugate)
-        piola *= self.areas.reshape(-1, 1, 1)
-        count = len(self.body.elements)
-        blocks = np.empty((count, 6, 6, 4))
-        for begin in range(0, count, CHUNK):
-            some = slice(begin, min(begin + CHUNK, count))
-            points = slice(3 * some.start, 3 * some.stop)
-            blocks[some] = _element_tangents(
-                *(slopes[some], strain.deformed[points], material[points], piola[points])
-            )
-        blocks = blocks.reshape(-1, 4)
+        """Elements that do not flow keep theirs until they have deformed further."""
+        flows = step.yields.reshape(-1, 3).any(axis=1)
+        further = np.abs(strain.deformed - self._linearised_at).reshape(len(flows), -1).max(axis=1)
+        renewed = np.flatnonzero(flows | self._flowed | (further > UNCHANGED))
+        self._flowed = flows
+        softening = np.zeros((len(flows), 3, 3, 3))
+        softening.reshape(-1, 3, 3)[step.yields] = step.softening
+        for begin in range(0, len(renewed), CHUNK):
+            some = renewed[begin : begin + CHUNK]
+            points = (3 * some[:, None] + np.arange(3)).ravel()
+            near, area = strain.at(points), self.areas[some].reshape(-1, 1, 1)
+            inner = self._elastic[self._coated[points].astype(int)]
+            inner -= softening[some].reshape(-1, 3, 3)
+            material = near.tangent(conjugate[points], inner) * area
+            piola = _first_piola(near, conjugate[points])[1] * area
+            self._blocks[some] = _element_tangents(slopes[some], near.deformed, material, piola)
+            self._linearised_at[points] = near.deformed
+        blocks = self._blocks.reshape(-1, 4)
         total = [np.bincount(self._place, one, len(self._column)) for one in blocks.T]
         data = np.stack(total, axis=-1).reshape(-1, 2, 2)
         return bsr_matrix((data, self._column, self._start), self._stiffness.shape).tocsr()

@@ -14,6 +14,8 @@ r / t^2 small, h and they are power series in y.
 Nomenclature: H displacement gradient, F = I + H, C = F'F, J = det F, S Piola and Kirchhoff's second
 stress [Pa], Green's strain (C - I)/2 as (xx, zz, 2 xz)."""
 
+from copy import copy
+
 import numpy as np
 
 from fem.nonlinear.laws import SERIES_TO
@@ -46,6 +48,18 @@ class LogStrain:
         self._h = self._derivatives_of_h()
         half, h = 0.5 * np.log1p(rise), self._h[0]
         self.strain = np.column_stack([half + h * self._d, half - h * self._d, 2.0 * h * self._c])
+
+    def at(self, some: np.ndarray) -> "LogStrain":
+        """That of some of the k."""
+        part = copy(self)
+        part.deformed, part.volume, part.strain, part._t, part._d, part._c, part._r, *part._h = (
+            array[some]
+            for array in (
+                *(self.deformed, self.volume, self.strain),
+                *(self._t, self._d, self._c, self._r, *self._h),
+            )
+        )
+        return part
 
     def _derivatives_of_h(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """h, dh/dr and d2h/dr2 at fixed t."""

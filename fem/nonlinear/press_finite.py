@@ -7,6 +7,10 @@ strains, and contact and friction are on the deformed surfaces (`FiniteContact` 
 are reached by the same increments. Each starts from the last contact, changed as that of small
 strains on the linear compliances changes.
 
+Newton's systems have the unknowns of small strains: the body's, and the condensed compliance of the
+linear roller. What the roller does beyond that is of the order of its strains, and follows from
+step to step; the contact that is left is right to the residual.
+
 Nomenclature as of `fem.contact.nonlinear`."""
 
 from collections.abc import Sequence
@@ -14,16 +18,27 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fem.contact.deformed_roller import TwoBodies
 from fem.contact.nonlinear import ContactState, NonlinearSolution
-from fem.nonlinear.finite_deformation import MOST_SETTINGS, FiniteContact, FiniteDeformation
+from fem.contact.terms import ContactTerms
+from fem.nonlinear.condensed import Condensed
+from fem.nonlinear.finite_deformation import (
+    LEANING,
+    MOST_SETTINGS,
+    FiniteContact,
+    FiniteDeformation,
+)
 from fem.nonlinear.finite_plasticity import FinitePlasticBody
 from fem.nonlinear.newton import RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticState
 from fem.nonlinear.press_plastic import TRAVEL, LoadHistory, PlasticContact, unloaded
+from fem.solver.mumps import FemError
 
-# On the way to a load surfaces may slip and friction bear so many times more than under it.
-LOOSER = 50.0
+# Residual on the way to a load, in which gaps count, too: it moves pressures under it by 2e-7.
+ON_THE_WAY = 5e-4
+# Forces left of the roller over the contact's: as a part of the change of the pressures, and least.
+FOLLOWS, CLOSEST = 0.03, 1e-10
+ROUNDED = 1e-6  # of forces on large elements, which hardly move the surface
+MOST_CORRECTIONS = 25
 
 
 @dataclass(frozen=True)
@@ -53,9 +68,85 @@ def press_plastically_finitely(
     return way.body, way.through(loads)
 
 
+class _Surfaces:
+    """The contact on deformed surfaces as one of the body alone (`fem.contact.terms.Contact`): an
+    elastic roller is in equilibrium with the pressures, by corrections on its linear factor,
+
+        v <- v + K^-1 (T(u, v) p - F(v)).
+
+    What it gives way to the pressures, C p on the undeformed surfaces, is left out of the gap: the
+    condensed compliance adds it, as that of small strains. Bodies are moved back along x.
+
+    roller  displacement v (m, 2) [m] of its nodes, none of a rigid one"""
+
+    def __init__(self, contact: FiniteContact, flexible: Condensed | None) -> None:
+        self.frictionless, self._contact, self._flexible = not contact.friction, contact, flexible
+        self._count = len(contact.body.nodes)
+        self.roller = np.zeros((len(contact.linear) - self._count, 2))
+        pair = contact.contact
+        self._terms = pair.at if flexible is None else pair.on_body
+        self.begin(self.roller)
+
+    def begin(self, roller: np.ndarray) -> None:
+        """From another displacement (m, 2) [m] of the roller."""
+        self.roller, self._last_terms = roller, None
+        self._there: tuple[np.ndarray, np.ndarray] | None = None  # where it has followed to
+
+    def placed(self, displacement: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+        """Displacements (n + m, 2) [m] of both bodies, moved back along x."""
+        both = np.vstack([displacement, self.roller])
+        return self._contact.set_back(both, pressure)[0]
+
+    def loaded(
+        self, displacement: np.ndarray, pressure: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """As of `fem.contact.terms.Contact`. The roller follows where the body has moved."""
+        terms = self._last_terms
+        if terms is not None and np.array_equal(self._there[0], displacement):
+            return self._stiff(terms.gap, pressure), terms.force @ pressure
+        gap, force = self._followed(displacement, pressure)
+        return self._stiff(gap, pressure), force
+
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+        """As of `fem.contact.terms.Contact`."""
+        self._followed(displacement, pressure)
+        self._last_terms = self._terms(self.placed(displacement, pressure), pressure)
+        return replace(self._last_terms, gap=self._stiff(self._last_terms.gap, pressure))
+
+    def _stiff(self, gap: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+        return gap if self._flexible is None else gap - self._flexible @ pressure
+
+    def _followed(
+        self, displacement: np.ndarray, pressure: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The gap (count,) [m^2] and the forces (2n,) [N/m] on the body, where the roller has
+        followed. Raises FemError where it finds no equilibrium."""
+        there, wanted, before = (displacement, pressure), FOLLOWS, np.inf
+        if self._there is not None:
+            if all(map(np.array_equal, self._there, there)):
+                return self._met
+            change = np.linalg.norm(pressure - self._there[1]) / np.linalg.norm(pressure)
+            wanted = float(np.clip(FOLLOWS * change, CLOSEST, FOLLOWS))
+        self._there, self._last_terms = there, None
+        for _ in range(MOST_CORRECTIONS):
+            both = self.placed(*there)
+            gap, force = self._contact.contact.loaded(both, pressure)
+            self._met = gap, force[: 2 * self._count]
+            if self._flexible is None:
+                return self._met
+            roller, applied = self._contact.response.parts[1], force[2 * self._count :]
+            left = applied.reshape(-1, 2) - roller.force(self.roller)
+            left = np.where(roller.held, 0.0, left)
+            rest = np.linalg.norm(left) / np.linalg.norm(applied)
+            if rest <= wanted or (rest > 0.5 * before and rest < ROUNDED):
+                return self._met
+            self.roller, before = self.roller + self._contact.elastic[1].solve(left), rest
+        raise FemError(f"forces of {rest:.1e} are left on the roller")
+
+
 @dataclass(frozen=True)
 class _Start(ContactState):
-    aside: np.ndarray | float = 0.0  # by which all bodies' nodes (n, 2) [m] are moved back
+    roller: np.ndarray | float = 0.0  # displacement (m, 2) [m] of an elastic one
 
 
 class _FiniteHistory(LoadHistory):
@@ -71,32 +162,42 @@ class _FiniteHistory(LoadHistory):
             contact.compliance, metal, gap, contact.weights, start, friction, roller, travel
         )
         self._contact, self._opposite = contact, roller
-        response = self.body
-        if roller is not None:
-            moduli = tuple(body.material.youngs_modulus for body in contact.elastic)
-            response = TwoBodies(self.body, contact.response.parts[1], moduli)
-        self._response, self._bodies = response, [(response, contact.contact)]
-        self._beyond = np.zeros_like(contact.linear)  # displacements that are not linear
-        self.state = self._last = _Start((np.zeros_like(contact.linear),), start, approach=0.0)
+        self._surfaces = _Surfaces(contact, self._flexible)
+        self._bodies = [(self.body, self._surfaces)]
+        self._still = np.zeros(self.body.held.shape), self._surfaces.roller
+        self._beyond = self._still  # displacements of both bodies that are not linear
+        self.state = self._last = _Start(
+            (self._still[0],), start, approach=0.0, roller=self._still[1]
+        )
 
     def contact(self, load: float, iterations: int) -> FinitePlasticContact:
         common = dict(vars(super().contact(load, iterations)))
-        both, weights = self.state.displacements, self._weights
-        common["displacement"] = both[0][: len(self.body.held)]
-        opening = self._contact.contact.loaded(both[0], self.state.pressure)[0] / weights
-        state = replace(self.state, pressure=common["pressure"])
-        solution = NonlinearSolution(state, opening - self.state.approach, (), 0)
+        state, weights = self.state, self._weights
+        both = self._both(state)
+        common["displacement"] = both[: len(self.body.held)]
+        opening = self._contact.contact.loaded(both, state.pressure)[0] / weights
+        state = replace(state, displacements=(both,), pressure=common["pressure"])
+        solution = NonlinearSolution(state, opening - state.approach, (), 0)
         return FinitePlasticContact(**common, deformed=self._contact.deformed(solution))
 
     def release(self) -> None:
         """Without the roller: from the last touch, unloaded elastically."""
-        both, state = self.state.displacements[0], self.state
-        displacement, other = np.split(both, [len(self.body.held)])
+        state, [displacement] = self.state, self.state.displacements
         linear = self._contact.compliance.displacement(state.pressure, self._friction)
-        scale = np.abs(self._contact.contact.loaded(both, state.pressure)[1]).max()
+        scale = np.abs(self._force(state)).max()
         free = unloaded(self.body, displacement - linear, scale)
-        self.state = replace(state, displacements=(np.vstack([free, other]),))
+        self.state = replace(state, displacements=(free,))
         self._book(np.zeros_like(state.pressure))
+
+    def _both(self, state: "_Start") -> np.ndarray:
+        """Displacements (n + m, 2) [m] of both bodies, moved back along x."""
+        both = np.vstack([state.displacements[0], state.roller])
+        return self._contact.set_back(both, state.pressure)[0]
+
+    def _force(self, state: "_Start") -> np.ndarray:
+        """Nodal forces (n, 2) [N/m] of the contact on the body."""
+        force = self._contact.contact.loaded(self._both(state), state.pressure)[1]
+        return force.reshape(-1, 2)[: len(self.body.held)]
 
     def _solved(
         self,
@@ -105,64 +206,86 @@ class _FiniteHistory(LoadHistory):
         approach: float | None = None,
         residual: float = RESIDUAL,
     ) -> tuple["_Start", int]:
-        """As of small strains, `FiniteContact.settled`."""
-        contact, looser = self._contact, 1.0 if residual == RESIDUAL else LOOSER
-        contacts, asked = 0, load and contact.pressing(load, *start.displacements, start.pressure)
+        """As of small strains; pressures bear what their friction leaves of the load. Both are made
+        more accurate in turn."""
+        contacts, asked, left = 0, None, 1.0
+        goal = residual if residual == RESIDUAL else ON_THE_WAY
+        if load is not None:
+            asked = self._contact.pressing(load, self._both(start), start.pressure)
         for _ in range(MOST_SETTINGS):
+            left = max(goal, ON_THE_WAY * left)
+            self._surfaces.begin(start.roller)
             end, residuals = newton_by_contacts(
                 *(self._bodies, np.zeros_like(self._gap), self._weights, start, asked, approach),
-                residual=residual,
+                residual=left,
+                flexible=self._flexible,
+                factor=self._factor,
             )
             contacts += len(residuals)
-            borne = load or contact.borne(*end.displacements, end.pressure)
-            end = _Start(end.displacements, end.pressure, end.approach, borne, start.aside)
-            moved, asked, is_settled = contact.settled(end, load, asked, looser)
-            if is_settled:
+            start = _Start(
+                end.displacements, end.pressure, end.approach, load, self._surfaces.roller
+            )
+            borne, off = self._contact.borne(self._both(start), start.pressure), 0.0
+            if load is not None:
+                off, asked = abs(borne / load - 1.0), asked * load / borne
+            if left == goal and off <= max(goal, LEANING):
                 break
-            start = self._set_back(end, moved)
-        return end, contacts
+        return replace(start, load=load or borne), contacts
 
     def _onward(self, way: float) -> "_Start":
-        onward, part = super()._onward(way), way / (self.state.approach - self._last.approach)
-        aside = self.state.aside + part * (self.state.aside - self._last.aside)
-        return replace(onward, aside=aside)
+        part = way / (self.state.approach - self._last.approach)
+        roller = self.state.roller + part * (self.state.roller - self._last.roller)
+        return replace(super()._onward(way), roller=roller)
 
-    def _set_back(self, state: "_Start", to: np.ndarray) -> "_Start":
-        """The state with its bodies moved back along x, to displacements (n, 2) [m]."""
-        return replace(state, displacements=(to,), aside=state.aside + to - state.displacements[0])
-
-    def _linear(self, pressure: np.ndarray, plastic: PlasticState) -> np.ndarray:
-        """Displacement (n, 2) [m] of all nodes at small strains, held ones included."""
-        displacement = self._contact.compliance.displacement(pressure, self._friction)
-        displacement = displacement + self.body.body.solve(self.body.plastic_force(plastic))
+    def _linear(
+        self, pressure: np.ndarray, plastic: PlasticState, near: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Displacements (n, 2), (m, 2) [m] of both bodies at small strains, held nodes included;
+        `near` is that of the body where no far field moves these."""
+        compliance, displacement = self._contact.compliance, near
+        if compliance.far is not None:
+            displacement = compliance.displacement(pressure, self._friction)
+            displacement = displacement + self.body.body.solve(self.body.plastic_force(plastic))
+        elif near is None:
+            force = compliance.load(pressure, self._friction) + self.body.plastic_force(plastic)
+            displacement = self.body.body.solve(force)
         if self._opposite is None:
-            return displacement
-        return np.vstack([displacement, self._opposite.displacement(pressure, -self._friction)])
+            return displacement, self._still[1]
+        return displacement, self._opposite.displacement(pressure, -self._friction)
 
     def _near(self, load: float, plastic: PlasticState) -> "_Start | None":
-        [there] = self.state.displacements if self.state.load else [self._contact.linear]
-        pressing = self._contact.pressing(load, there, self.state.pressure)
+        state = self.state
+        if not state.load:
+            both = np.split(self._contact.linear, [len(self.body.held)])
+            state = replace(state, displacements=(both[0],), roller=both[1])
+        pressing = self._contact.pressing(load, self._both(state), state.pressure)
         linear = super()._near(pressing, plastic)
         if linear is None:
             return None
-        moved = self._linear(linear.pressure, plastic)
-        moved = moved + np.where(self._response.held, 0.0, self._beyond)
-        back, _ = self._contact.set_back(moved, linear.pressure)
-        return self._set_back(_Start((moved,), linear.pressure, linear.approach, load), back)
+        moved = self._linear(linear.pressure, plastic, linear.displacements[0])
+        held = self.body.held, self._opposite and self._opposite.body.held
+        pairs = zip(moved, self._beyond, held, strict=True)
+        body, roller = (u if h is None else u + np.where(h, 0.0, more) for u, more, h in pairs)
+        return _Start((body,), linear.pressure, linear.approach, load, roller)
 
     def _accept(self, state: "_Start") -> None:
         self._former, self._last = (self.state.load, self.body.state), self.state
-        self._response.accept(state.displacements[0])
+        self.body.accept(state.displacements[0])
+        if self._opposite is not None:
+            self._contact.response.parts[1].accept(state.roller)
         self.state = state
         self._book(state.pressure)
         linear = self._linear(state.pressure, self.body.state)
-        self._beyond = state.displacements[0] - state.aside - linear
-        gap, _ = self._contact.contact.loaded(state.displacements[0], state.pressure)
+        both = state.displacements[0], state.roller
+        self._beyond = [u - v for u, v in zip(both, linear, strict=True)]
+        gap, _ = self._contact.contact.loaded(self._both(state), state.pressure)
         self._gap = gap - self._nearly.flexible @ state.pressure
 
     def _book(self, pressure: np.ndarray) -> None:
-        [both], count = self.state.displacements, len(self.body.held)
-        force = self._contact.contact.loaded(both, pressure)[1].reshape(-1, 2)[:count]
-        inside = self.body.force(both[:count])
-        # the support moves along x, and a far field
-        self._account.add(np.where(self.body.held, inside, force), both[:count])
+        [moved] = self.state.displacements
+        force = np.zeros_like(moved)
+        if pressure.any():
+            force = self._force(self.state)
+        if self._contact.compliance.far is not None:  # it moves the support
+            force = np.where(self.body.held, self.body.force(moved), force)
+        self._account.add(force, moved)

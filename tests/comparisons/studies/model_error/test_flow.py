@@ -45,7 +45,7 @@ OPEN = {"peak_pressure": 0.365, "contact_length": 0.5}
 
 @pytest.fixture(scope="module")
 def short():
-    return outcome_of(tolerance=OPEN, budget={"time": 4.5})
+    return outcome_of(tolerance=OPEN, budget={"time": 3.0})
 
 
 @pytest.fixture(scope="module")
