@@ -131,9 +131,9 @@ class Tasks:
         self._workers, self._running = {}, {}
 
     def prepare(self) -> None:
-        """Let workers begin that have something to prepare, before anything is known to do."""
-        if self.opens is not None and self.there and self.worth == WORTH_A_FORK:
-            self._has_begun = True
+        """Let workers begin that have something to prepare and are worth it by that alone."""
+        if self.there:
+            self._begin()
             self._open(self.at_once)
 
     def add(
