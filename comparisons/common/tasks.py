@@ -130,6 +130,12 @@ class Tasks:
             worker.kill()
         self._workers, self._running = {}, {}
 
+    def prepare(self) -> None:
+        """Let workers begin that have something to prepare and are worth it by that alone."""
+        if self.there:
+            self._begin()
+            self._open(self.at_once)
+
     def add(
         self,
         key: str,
@@ -139,9 +145,11 @@ class Tasks:
         memory: float = 0.0,
         urgency: int = NEEDED,
         shares: object = None,
+        by_itself: bool = False,
     ) -> None:
-        """Make a task known: `work(here, *args)`, of expected seconds and bytes. The most urgent
-        begins first. Of equally urgent ones a process takes the longest, but
+        """Make a task known: `work(here, *args)`, of expected seconds and bytes; this process does
+        it `by_itself`, at once. The most urgent begins first. Of equally urgent ones a process
+        takes the longest, but
 
         - first those whose `shares` is that of its last one, while these take longer in all;
         - last those whose `shares` is that of another process's last one.
@@ -153,6 +161,9 @@ class Tasks:
             kept = self.kept.load(key)
             if kept is not None:
                 self._answer(key, True, kept)
+            elif by_itself:
+                self._answer(key, *_answered(work, self._here, *args))
+                self._keep(key)
             elif self.worth is None:
                 self._begin()
             self._hand_out()

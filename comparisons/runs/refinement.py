@@ -23,6 +23,7 @@ from comparisons.studies.study import Solved
 from fem.solver.mumps import FemError
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
+SHORT = 0.05  # seconds of a level that this process solves itself while others load libraries
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 
 
@@ -185,6 +186,7 @@ class _Levels:
             memory=cost.memory,
             urgency=task.urgency,
             shares=None if task.name == "half_plane" else task.pitch,
+            by_itself=task.name == "half_plane" and cost.seconds < SHORT,
         )
 
     def wait(self, number: int, models: Iterable[str]) -> None:

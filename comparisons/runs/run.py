@@ -2,7 +2,7 @@
 
 In: a scene. Out: a finished run, and its folder."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
@@ -23,7 +23,7 @@ from comparisons.common.provenance import (
     revision,
     versions,
 )
-from comparisons.common.tasks import Opens, Preparation, ProcessEnded, tasks_here
+from comparisons.common.tasks import Opens, Preparation, ProcessEnded, Tasks, tasks_here
 from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import Forecast, forecast
@@ -110,14 +110,16 @@ def solve_scene(
     _check_libraries(models)
     surface = known.surface or from_first(lambda: surface_of(scene))
     try:
-        problem, plan = posed(scene, surface, models, known.levels, callback)
-        scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
-        levels = forecast(problem, plan)
-        said = "; ".join(planned(scene_now, levels))
-        callback(said)
-        kept = None if out is None else unfinished(out, "run")
-        callback = recorded(kept, levels, said, callback)
-        return solve(scene_now, out, callback)
+        with _tasks_of(scene, models) as tasks:
+            tasks.prepare()
+            problem, plan = posed(scene, surface, models, known.levels, callback)
+            scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
+            levels = forecast(problem, plan)
+            said = "; ".join(planned(scene_now, levels))
+            callback(said)
+            kept = None if out is None else unfinished(out, "run")
+            callback = recorded(kept, levels, said, callback)
+            return _solve(scene_now, out, callback, tasks)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
@@ -206,21 +208,30 @@ def _problem(
 
 def solve(scene: Solved, out: Path | None, callback: ProgressCallback = no_progress) -> Run:
     """Solve a scene by its plan and answer its studies, as `solve_scene`; nothing is solved yet."""
+    with _tasks_of(scene.problem.scene, scene.plan.models) as tasks:
+        return _solve(scene, out, callback, tasks)
+
+
+def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
+    there = _for_finite_elements() if "finite_element" in models else ()
+    here = [revision, *(partial(import_module, name) for name in ANSWER)]
+    return tasks_here(memory=scene.budget.memory, here=here, there=there)
+
+
+def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
     problem, plan = scene.problem, scene.plan
     cache = level_cache(out, problem, plan)
+    tasks.kept, tasks.callback = cache, callback
     chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
-    there = _for_finite_elements() if "finite_element" in plan.models else ()
-    here = [revision, *(partial(import_module, name) for name in ANSWER)]
+
+    def begin(solved: Solved) -> None:
+        for study in chosen:
+            study.begin(solved, tasks)
+
     try:
-        with tasks_here(callback, problem.scene.budget.memory, cache, here, there) as tasks:
-
-            def begin(solved: Solved) -> None:
-                for study in chosen:
-                    study.begin(solved, tasks)
-
-            begin(scene)
-            solved = refined(scene, tasks, begin)
-            findings = studied(STUDIES, solved, {}, tasks)
+        begin(scene)
+        solved = refined(scene, tasks, begin)
+        findings = studied(STUDIES, solved, {}, tasks)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):

@@ -1,5 +1,6 @@
 """The files of a finished run: curves, fields, mesh, result, record, report."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -31,10 +32,12 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
     # copies of this process write the fields while it loads what draws
     with published(outcome.directory) as folder, tasks_of_copies(outcome) as tasks:
         levels = _written(outcome)
-        for name in sorted(levels, key=lambda name: levels[name].mesh is None):  # longest first
+        first, *others = sorted(levels, key=lambda name: levels[name].mesh is None)  # longest first
+        for name in levels:
             (folder / name).mkdir(parents=True, exist_ok=True)
-            tasks.add(f"files of {name}", _write_level, folder, name, fields)
-        tasks.add(FILE, _save_shown, folder / FILE)
+        # two lots: nobody hands out a third while this process draws
+        tasks.add(first, _write_level, folder, first, fields)
+        tasks.add(FILE, _write_others, folder, others, fields)
         for study in STUDIES:
             files = study.files(outcome) if study.name in outcome.findings else {}
             for path, columns in files.items():
@@ -42,17 +45,19 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
         (folder / "result.json").write_text(as_json(content_of(outcome)), encoding="utf-8")
         callback("drawing the report")
         (folder / "report.html").write_text(render(outcome), encoding="utf-8")
-        for key in (*(f"files of {name}" for name in levels), FILE):
+        for key in (first, FILE):
             tasks.result(key)
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
         record = outcome.record | {"files": [*files, RECORD]}
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
 
 
-def _save_shown(here: Here, path: Path) -> None:
-    from comparisons.output.page.saved import save_shown
+def _write_others(here: Here, folder: Path, names: Sequence[str], fields: str) -> None:
+    from comparisons.output.page.saved import FILE, save_shown
 
-    save_shown(path, here.shared)
+    for name in names:
+        _write_level(here, folder, name, fields)
+    save_shown(folder / FILE, here.shared)
 
 
 def _written(outcome: Run) -> dict[str, Level]:

@@ -26,8 +26,9 @@ Window = tuple[float, float, float]
 # by the rough estimate: that is off by 0.25 where five elements make a wave, by 0.02 on finer.
 DOUBT = 0.5
 FEW, MANY = 32, 512  # highest nodes and elements of a cell, by the estimate, that are looked at
-COARSE, FINE = 4, 32  # samples along an element's edge: of promising elements, of the best ones
-BEST = 16  # elements sampled finely, but for those that cannot reach the highest sample:
+# samples along an element's edge: of promising elements, of the better, and of the best ones
+COARSE, MEDIUM, FINE = 4, 8, 32
+BEST = 16  # elements sampled more finely, but for those that cannot reach the highest sample:
 RISE = 0.25  # between coarse samples, of what an element's differ by; twice a parabola's
 NEAR = 0.7  # of the largest value: cells whose own are below it are not sampled between the nodes
 # Samples on a point that elements share differ by rounding, which must not choose the elements of
@@ -160,15 +161,11 @@ def _between_nodes(
             for mine, window in zip(np.split(which, ends), windows, strict=True)
         ]
 
-    promising, best = _promising(points, triangles, rough, windows), []
-    for elements, (value, _) in zip(promising, sampled(promising, COARSE), strict=True):
-        highest = value.max(axis=1)
-        lowest = value.min(axis=1, where=value > -np.inf, initial=np.inf)
-        able = np.argsort(highest)[-BEST:]
-        if highest.max() > -np.inf:
-            rise = RISE * (highest - lowest)[able]
-            able = able[~(highest[able] + rise < highest.max())]
-        best.append(np.sort(elements[able]))
+    best = _promising(points, triangles, rough, windows)
+    for count in (COARSE, MEDIUM):
+        rise = RISE * (COARSE / count) ** 2
+        values = (value for value, _ in sampled(best, count))
+        best = [_able(*pair, rise) for pair in zip(best, values, strict=True)]
     fine = sampled(best, FINE)
     on_surface = np.zeros(len(body.points), dtype=bool)
     on_surface[body.top.point] = True
@@ -177,6 +174,17 @@ def _between_nodes(
         _top(body, nodal, quantity, window, points, surface, elements, *values)
         for window, elements, values in zip(windows, best, fine, strict=True)
     ]
+
+
+def _able(elements: np.ndarray, value: np.ndarray, rise: float) -> np.ndarray:
+    """Those of the elements (r,) that may hold the largest value by samples (r, q), at most BEST;
+    `rise` is between samples, of what an element's differ by."""
+    highest = value.max(axis=1)
+    lowest = value.min(axis=1, where=value > -np.inf, initial=np.inf)
+    able = np.argsort(highest)[-BEST:]
+    if highest.max() > -np.inf:
+        able = able[~(highest[able] + rise * (highest - lowest)[able] < highest.max())]
+    return np.sort(elements[able])
 
 
 def _promising(

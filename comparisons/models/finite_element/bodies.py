@@ -3,6 +3,7 @@
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, fields
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -13,12 +14,14 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.mesh import (
     Refinement,
     block_spec,
+    is_rough,
     rough_key,
     rough_mesh,
 )
 from comparisons.models.finite_element.roller import (
     disc_support,
     is_disc,
+    is_shaped,
     roller_key,
     roller_mesh,
     roller_spec,
@@ -87,7 +90,7 @@ def bodies_of(
     scene, settings = problem.scene, problem.scene.finite_element
 
     def body(
-        mesh: BlockMesh,
+        shaped: Callable[[], BlockMesh],
         shape: Hashable,
         material: Material,
         support: Support,
@@ -96,6 +99,8 @@ def bodies_of(
         """Factored."""
 
         def make() -> ElasticBody:
+            with stages.stage("mesh", "finite elements: mesh"):
+                mesh = shaped()
             with stages.stage("assembly", "finite elements: assembly"):
                 made = elastic_body(mesh, material, support, degree=degree, coating=coating)
             with stages.stage("factorisation", "finite elements: factorisation"):
@@ -110,10 +115,10 @@ def bodies_of(
     support = rough_support(problem, spec, beyond)
     with stages.stage("mesh", "finite elements: mesh"):
         flat = body_cache.mesh(spec)
-        mesh = rough_mesh(problem, flat)
-    shape = _key(spec) if mesh is flat else (_key(spec), rough_key(problem))
+    shape = (_key(spec), rough_key(problem)) if is_rough(problem) else _key(spec)
     coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
-    rough = body(mesh, shape, scene.body.material, support, coating)
+    shaped = partial(rough_mesh, problem, flat)
+    rough = body(shaped, shape, scene.body.material, support, coating)
     if scene.roller.rigid:
         return BodyPair(rough, None, 0.0)
     if plan.shared_factor:
@@ -122,15 +127,14 @@ def bodies_of(
     wanted = roller_spec(problem, spec)
     with stages.stage("mesh", "finite elements: mesh of the roller"):
         flat = body_cache.mesh(wanted)
-        mesh = roller_mesh(problem, flat)
     # flat, it is that of a flat rough body, if they are alike
-    shape = _key(wanted) if mesh is flat else (_key(wanted), roller_key(problem))
+    shape = (_key(wanted), roller_key(problem)) if is_shaped(problem) else _key(wanted)
     aside = beyond if problem.period is None else np.inf
     within = aside * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", _sides(problem), within)
     if is_disc(problem):
         support = disc_support(problem)
-    roller = body(mesh, shape, scene.roller.material, support)
+    roller = body(partial(roller_mesh, problem, flat), shape, scene.roller.material, support)
     return BodyPair(rough, roller, 0.0)
 
 

@@ -76,10 +76,15 @@ def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     if is_disc(problem):
         shaped = bent if roller.support is None else ring if roller.support.hub else disc
         return shaped(flat, roller.radius)
-    if settings.deformation == "linear":
+    if not is_shaped(problem):
         return flat
     shape = circle if settings.roller_shape == "circle" else parabola
     return roughen(flat, levelled(shape(roller.radius), np.abs(problem.extent).max()))
+
+
+def is_shaped(problem: Problem) -> bool:
+    """Whether the roller's mesh is another one than that of its flat."""
+    return is_disc(problem) or problem.scene.finite_element.deformation != "linear"
 
 
 def disc_support(problem: Problem) -> Support:

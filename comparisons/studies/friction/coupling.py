@@ -146,7 +146,7 @@ def _coupling(
     more = int(np.ceil(0.5 * abs(size) * level.grid.count))
     while True:
         grid = _stretched(problem, level.grid, more)
-        other = half_plane_on(problem, grid, other_size, (friction,), window, stages)
+        other = half_plane_on(problem, grid, other_size, (friction,), window, stages, "sparse")
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             break

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from math import inf
 from time import perf_counter
 
+from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Figure, Findings
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
@@ -45,7 +46,7 @@ Values = dict[float, dict[str, float]]  # [SI] by friction coefficient and quant
 
 
 def estimated_rungs(
-    solved: Solved, before: Mapping[str, Findings], flow: FlowAssessment
+    solved: Solved, before: Mapping[str, Findings], flow: FlowAssessment, tasks: Tasks
 ) -> list[Rung]:
     """From the cheapest on, as far as the scene's budget goes."""
     problem, half_plane = solved.problem, solved.runs[HALF_PLANE]
@@ -59,7 +60,7 @@ def estimated_rungs(
     figures = _figures(solved, HALF_PLANE, values, (runs, values), left)
     rungs, (rung, held) = [], _better(solved, sizes, flow)
     if held and verdict_of(figures) != "holds":
-        better = operator_runs(problem, held, half_plane, solved.window)
+        better = operator_runs(problem, held, half_plane, solved.window, tasks)
         if better is not None:
             runs, left = better, [size for name, size in sizes.items() if name not in held]
             if rung == DEFORMED:

@@ -8,6 +8,7 @@ what the layer does."""
 from collections.abc import Mapping
 from dataclasses import replace
 
+from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Figure, Findings
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.nearest_operator import is_layered
@@ -21,10 +22,10 @@ from comparisons.studies.study import LAYERED, Solved, Study
 OF_LAYERS = {"finite_size", "coating"}
 
 
-def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     problem, finite_elements = solved.problem, solved.runs[OTHER]
     held = contained(problem.scene)
-    runs, figures = operator_runs(problem, held, finite_elements, solved.window), []
+    runs, figures = operator_runs(problem, held, finite_elements, solved.window, tasks), []
     for friction, run in (runs or {}).items():
         stated = uncertainties(run, problem, friction)
         for name, value in values_of(run.finest, problem, friction).items():

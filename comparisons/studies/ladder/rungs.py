@@ -10,6 +10,7 @@ from time import perf_counter
 import numpy as np
 
 from analytic.contact.problem import ContactError
+from comparisons.common.tasks import LAST, Tasks, called
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.level import ModelRun
@@ -81,6 +82,7 @@ class Ladder:
 
     solved: Solved
     budget: ErrorBudget
+    tasks: Tasks  # that solve what only the ladder asks for
     compared: tuple[Figure, ...]  # the models' comparison, those that are judged
     flow: FlowAssessment
 
@@ -123,7 +125,7 @@ class Ladder:
     def _by_half_plane(self, name: str, held: frozenset[str]) -> Rung | None:
         """The half-plane with some of the effects, on the finite elements' pressure elements."""
         problem, finite_elements = self.solved.problem, self.solved.runs[OTHER]
-        runs = operator_runs(problem, held, finite_elements, self.solved.window)
+        runs = operator_runs(problem, held, finite_elements, self.solved.window, self.tasks)
         if runs is None:
             return None
         errors = [error for mu, run in runs.items() for error in self._errors(run, mu)]
@@ -224,23 +226,41 @@ class Ladder:
         return [row for row in self.compared if row.friction == friction]
 
 
-def operator_runs(
-    problem: Problem, held: frozenset[str], like: ModelRun, window: Window | None
-) -> dict[float, ModelRun] | None:
-    """The half-plane with what an operator carries, by friction coefficient, on the pressure
-    elements of another model; None where it has no solution."""
+def announce_operators(
+    problem: Problem,
+    held: frozenset[str],
+    pitches: Iterable[float],
+    window: Window | None,
+    tasks: Tasks,
+) -> dict[tuple[float, ...], list[str]]:
+    """Add the half-plane with what an operator carries to the tasks, on pressure elements of each
+    pitch [m]: their keys by the friction coefficients that share a contact."""
     problem, frictions = problem_carrying(problem, held), problem.scene.load.friction
-    runs, fields = {}, has_norms(problem)
+    keys, pitches, fields = {}, list(pitches), has_norms(problem)
     for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
         coupling = group[0] if COUPLED in held else 0.0
         model = OperatorModel(problem, group, coupling, is_deformed(held))
+        name = "+".join(sorted(held)) + f"@{group[0]:g}"
+        keys[group] = [f"operators-{name}-{number}" for number in range(1, len(pitches) + 1)]
+        for key, pitch in zip(keys[group], pitches, strict=True):
+            tasks.add(key, called, model.level, pitch, window, fields, urgency=LAST)
+    return keys
+
+
+def operator_runs(
+    problem: Problem, held: frozenset[str], like: ModelRun, window: Window | None, tasks: Tasks
+) -> dict[float, ModelRun] | None:
+    """The half-plane with what an operator carries, by friction coefficient, on the pressure
+    elements of another model; None where it has no solution."""
+    pitches, runs = [level.grid.pitch for level in like.levels], {}
+    for group, keys in announce_operators(problem, held, pitches, window, tasks).items():
         try:
-            levels = [model.level(level.grid.pitch, window, fields) for level in like.levels]
+            levels = tuple(map(tasks.result, keys))
         except ContactError:  # the cap takes a contact that the pressures' extent does not hold
             return None
         if not all(level.solution.converged for level in levels):
             return None
-        runs |= dict.fromkeys(group, ModelRun(OPERATORS, tuple(levels)))
+        runs |= dict.fromkeys(group, ModelRun(OPERATORS, levels))
     return runs
 
 

@@ -5,27 +5,45 @@ coefficient; what each rung took; which one suffices, and the assumption worth d
 
 from collections.abc import Mapping, Sequence
 
+from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import WHOLE
 from comparisons.studies import comparison
+from comparisons.studies.friction import coupling
 from comparisons.studies.ladder import show
 from comparisons.studies.ladder.estimated import estimated_rungs
-from comparisons.studies.ladder.rungs import HALF_PLANE, Ladder, Rung
+from comparisons.studies.ladder.operators import carried_deformed
+from comparisons.studies.ladder.rungs import HALF_PLANE, Ladder, Rung, announce_operators
 from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.error_budget import selected_effects
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
 from comparisons.studies.subsurface import yielding
 
 
-def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+def begin(solved: Solved, tasks: Tasks) -> None:
+    """Announce the half-plane on the deformed surface, once the half-plane is solved, where the
+    effects that this selects deform the bodies: it then waits for no finite elements."""
+    if not solved.plan.compares or list(solved.runs) != [HALF_PLANE]:
+        return
+    moved = coupling.coupled(solved, tasks).changes if solved.plan.coupling else ()
+    whole = selected_effects(solved, moved).whole
+    held = carried_deformed(solved.problem, whole)
+    if held and "plastic_flow" not in whole:
+        where = solved.problem.pitches, solved.window
+        announce_operators(solved.problem, held, *where, tasks)
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     flow = before[yielding.NAME]
     if not solved.plan.compares:
-        return _findings(estimated_rungs(solved, before, flow.data), flow.data.beyond_doubt, None)
+        rungs = estimated_rungs(solved, before, flow.data, tasks)
+        return _findings(rungs, flow.data.beyond_doubt, None)
     budget = before[MODEL_ERROR].data
     if not budget.solutions:
         why = budget.unsplit or "the whole model has no solution"
         return Findings(statements=(Statement(WHY_NOT, why),))
     compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
-    ladder = Ladder(solved, budget, tuple(compared), flow.data)
+    ladder = Ladder(solved, budget, tasks, tuple(compared), flow.data)
     return _findings(ladder.rungs(), ladder.flows, before[MODEL_ERROR])
 
 
@@ -89,6 +107,7 @@ STUDY = Study(
     name=LADDER,
     quantities=comparison.QUANTITIES,
     solve=solve,
+    begin=begin,
     applies=_applies,
     blocks=show.blocks,
     lines=show.lines,

@@ -56,7 +56,7 @@ def _sampled(
 ) -> Level:
     here.callback("error budget: sampling of the trace")
     thinned = _thinned(problem, first)
-    return from_first(lambda: half_plane_level(thinned, pitch, window, Stages()))
+    return from_first(lambda: half_plane_level(thinned, pitch, window, Stages(), "sparse"))
 
 
 def _thinned(problem: Problem, first: int) -> Problem:

@@ -86,14 +86,15 @@ class ShearDip:
     status: str  # quiescent | bridged | no asperity zone
 
 
-def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
+def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float, fine: int = FINE) -> ShearDip:
     """The dip of `shear` (m,) over depths z (m,), ascending from the surface; the Hertz zone's
-    maximum is sought from `deep` on. Between the points runs a C2 cubic spline."""
+    maximum is sought from `deep` on. Between the points runs a C2 cubic spline, searched at
+    `fine` points an interval."""
     known = np.isfinite(shear)
     places = np.arange(np.count_nonzero(known), dtype=float)
-    fine = np.linspace(0.0, places[-1], FINE * (len(places) - 1) + 1)
+    between = np.linspace(0.0, places[-1], fine * (len(places) - 1) + 1)
     spline = CubicSpline(z[known], shear[known])
-    z = np.interp(fine, places, z[known])
+    z = np.interp(between, places, z[known])
     bottom = int(np.argmax(np.where(z >= deep, spline(z), -inf)))
     z, shear = z[: bottom + 1], spline(z[: bottom + 1])
     hertz, peak = shear[-1], int(np.argmax(shear))
@@ -138,7 +139,8 @@ def zone_of(
 def sparse_zone_of(problem: Problem, level: Level, window: Window, friction: float) -> ShearDip:
     """The same at the window's sparse points, which every level has."""
     shear = mean_shear(problem, window.sparse, level.stress(friction).sparse_tau1)
-    return shear_dip(window.sparse.z, shear, DEEP * problem.hertz.half_width)
+    fine = FINE * round((len(window.z) - 1) / (len(window.sparse.z) - 1))
+    return shear_dip(window.sparse.z, shear, DEEP * problem.hertz.half_width, fine)
 
 
 def asperity_rows(
