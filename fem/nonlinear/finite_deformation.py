@@ -201,22 +201,18 @@ class FiniteContact:
         )
 
     def settled(
-        self,
-        state: ContactState,
-        load: float | None,
-        asked: float | None,
-        looser: float = 1.0,
+        self, state: ContactState, load: float | None, asked: float | None
     ) -> tuple[np.ndarray, float | None, bool]:
         """What to solve next after the state of pressures that press with `asked` [N/m]: from a
         displacement (n, 2) [m] with the bodies moved back, and pressing with what a `load` [N/m]
         leaves to pressures; None where the approach is prescribed. And whether neither differs by
-        more than ASIDE of a hat and LEANING of the load, or so many times more."""
+        more than ASIDE of a hat and LEANING of the load."""
         moved, off = self.set_back(state.displacements[0], state.pressure)
-        is_settled = off <= looser * ASIDE * self.weights.mean()
+        is_settled = off <= ASIDE * self.weights.mean()
         if load is None:
             return moved, None, is_settled
         pressing = self.pressing(load, *state.displacements, state.pressure)
-        return moved, pressing, is_settled and abs(pressing - asked) <= looser * LEANING * load
+        return moved, pressing, is_settled and abs(pressing - asked) <= LEANING * load
 
     def borne(self, moved: np.ndarray, pressure: np.ndarray) -> float:
         """The vertical force [N/m] on the body of pressures (count,) [Pa] and of their friction,
