@@ -7,8 +7,13 @@ from collections.abc import Callable
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
+from scipy.sparse import csr_matrix, eye, kron
+
+from fem.body.triangle import reference_nodes, shapes
+from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import CONTACT, HatStates
-from fem.contact.system import ContactSystem, conjugate_residuals
+from fem.contact.system import BodyTerms, ContactSystem, conjugate_residuals
+from fem.contact.terms import ContactTerms, LinearContact
 from fem.solver.mumps import FemError
 
 MOST_EXCHANGES = 100  # of hats that touch and hats that do not
@@ -108,6 +113,24 @@ class ShiftInvariant:
         """The block of `numpy.ix_` of rows and columns."""
         rows, hats = block
         return self._kernel[rows - hats + self._count - 1]
+
+
+def on_vertices(compliance: FiniteElementCompliance) -> BodyTerms:
+    """An elastic body in frictionless contact whose displacements are linear in each element."""
+    body = compliance.body
+    _, first = np.unique(body.elements, return_index=True)
+    element, place = np.divmod(first, body.elements.shape[1])
+    corner, vertex = np.unique(body.elements[:, :3], return_inverse=True)
+    vertex = vertex.reshape(-1, 3)[element]
+    share = shapes(reference_nodes(body.degree), 1)[place]
+    start = np.arange(0, vertex.size + 1, 3)
+    linear = csr_matrix((share.ravel(), vertex.ravel(), start), (len(vertex), len(corner)))
+    linear = kron(linear, eye(2), format="csr")
+    stiffness = (linear.T @ body.stiffness() @ linear).tocsr()
+    at_rest = np.zeros(body.held.shape), np.zeros(compliance.count)
+    force = (linear.T @ LinearContact(compliance, 0.0).at(*at_rest).force).tocsr()
+    terms = ContactTerms(np.zeros(compliance.count), force, force)
+    return stiffness, terms, np.flatnonzero(~body.held[corner].ravel())
 
 
 class ElasticContact:

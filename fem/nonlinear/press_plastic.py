@@ -31,7 +31,7 @@ from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState
 from fem.contact.system import ReusedFactor
 from fem.contact.terms import LinearContact
-from fem.nonlinear.condensed import Condensed, ElasticContact, ShiftInvariant
+from fem.nonlinear.condensed import Condensed, ElasticContact, ShiftInvariant, on_vertices
 from fem.nonlinear.energy import Energies, EnergyAccount
 from fem.nonlinear.newton import ACCURACY, RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
@@ -146,13 +146,17 @@ class LoadHistory:
                 columns = partial(roller.columns, friction=-friction)
                 self._flexible = Condensed(columns, len(weights))
             both = Condensed(lambda hats: alone.of(hats) + self._flexible.of(hats), len(weights))
-        near = ShiftInvariant(both.of, len(weights), np.flatnonzero(guess > 0.0))
+        touching = np.flatnonzero(guess > 0.0)
+        near = ShiftInvariant(both.of, len(weights), touching)
         self._elastic = ElasticContact(both, near, weights)
         self._nearly = ElasticContact(near, near, weights)
         self._offset = np.zeros_like(gap)  # of its gap, which makes it right in the last contact
         self._bodies = [(self.body, LinearContact(compliance, friction))]
         self.state = ContactState((np.zeros(self.body.held.shape),), guess, approach=0.0)
         self._factor = ReusedFactor(ACCURACY)
+        if roller is not None:
+            near = ShiftInvariant(self._flexible.of, len(weights), touching)
+            self._factor = ReusedFactor(ACCURACY, [on_vertices(roller)], near)
         # load, plastic state and contact before the last increment
         self._former, self._last = (0.0, self.body.state), self.state
 
