@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 FACTOR_WORTH = 12
 MOST_STEPS = 30  # before a system gets its own factor
 MOST_FRESH = 10  # of them by its own symmetric factor: beyond, the friction is in the factor, too
-MOST_CHANGED = 60  # hats that may have joined or left since the factor was made
+BORDER_WORTH = 0.4  # steps that the border of a hat costs which has joined or left
 
 
 # Tangent (2n, 2n) [Pa] of a body, its contact terms and free components.
@@ -143,9 +143,10 @@ class _Bordered:
         self._system = system
         self._columns: dict[int, np.ndarray] = {}  # M^-1 of the border of each changed hat
 
-    def changed(self, hats: np.ndarray) -> int:
-        """How many hats have joined or left to give hats (k,)."""
-        return len(np.setxor1d(hats, self._system.hats))
+    def missing(self, hats: np.ndarray) -> int:
+        """How many borders are still to be found, of hats that joined or left to give hats (k,)."""
+        changed = np.setxor1d(hats, self._system.hats)
+        return sum(hat not in self._columns for hat in changed)
 
     def inverse(self, hats: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
         """Solves the system on other hats (k,)."""
@@ -231,18 +232,22 @@ class ReusedFactor:
 
     def _by_factor(self, system: ContactSystem, right: np.ndarray) -> np.ndarray | None:
         """x, or None where the residuals do not fall."""
+        borders = BORDER_WORTH * self._factor.missing(system.hats)
         inverse = self._factor.inverse(system.hats)
-        solution, self._last = conjugate_residuals(system, right, inverse, self._accuracy)
+        solution, steps = conjugate_residuals(system, right, inverse, self._accuracy)
+        self._last = steps + borders
         self._solutions, self._steps = self._solutions + 1, self._steps + self._last
         return solution
 
     def _is_worn(self, system: ContactSystem) -> bool:
         """Whether the last solution cost more than the mean of all since the factorisation, which
-        is a part of it. The cost of a solution rises with time, so that then the mean is least."""
+        is a part of it. The cost of a solution rises with time, so that then the mean is least.
+        Also where the borders of the next one cost more."""
         if system.loaded != self._factor.loaded:
             return True
-        is_slow = self._last * self._solutions > FACTOR_WORTH + self._steps
-        return is_slow or self._factor.changed(system.hats) > MOST_CHANGED
+        borders = BORDER_WORTH * self._factor.missing(system.hats)
+        worst = max(self._last, borders)
+        return worst * max(1, self._solutions) > FACTOR_WORTH + self._steps
 
 
 def conjugate_residuals(
