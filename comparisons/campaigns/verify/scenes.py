@@ -36,7 +36,8 @@ from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.figures.uncertainty import numerical
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.run import solve
