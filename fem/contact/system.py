@@ -25,7 +25,7 @@ from fem.contact.terms import ContactTerms
 from fem.solver.mumps import Factor, FemError
 
 if TYPE_CHECKING:
-    from fem.nonlinear.condensed import Condensed, ShiftInvariant
+    from fem.nonlinear.condensed import Condensed
 
 # Steps of the residuals that a factorisation costs, of 17 000 to 56 000 unknowns.
 FACTOR_WORTH = 12
@@ -194,24 +194,20 @@ class ReusedFactor:
     """Solves one system after the other, and factors one where that is cheaper in the long run.
 
     accuracy  of a solution: what it leaves of the right side
-    opposite  bodies in the factors in place of the compliance C
-    near      C as near as the accuracy asks for; None: as it is"""
+    opposite  bodies in the factors in place of the compliance C"""
 
     def __init__(
         self,
         accuracy: float,
         opposite: Sequence[BodyTerms] = (),
-        near: "ShiftInvariant | None" = None,
     ) -> None:
-        self._accuracy, self._opposite, self._near = accuracy, opposite, near
+        self._accuracy, self._opposite = accuracy, opposite
         self._factor: _Bordered | None = None
         self._symmetric = True  # factors, whether or not the systems are
         self._solutions = self._steps = self._last = 0  # since the factorisation
 
     def solve(self, system: ContactSystem, right: np.ndarray) -> np.ndarray:
         """x (size,) of system x = right. Raises FemError where that is singular."""
-        if self._near is not None:
-            system = replace(system, flexible=self._near)
         if self._factor is not None and not self._is_worn(system):
             solution = self._by_factor(system, right)
             if solution is not None:

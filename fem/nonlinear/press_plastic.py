@@ -156,8 +156,7 @@ class LoadHistory:
         self.state = ContactState((np.zeros(self.body.held.shape),), guess, approach=0.0)
         self._factor = ReusedFactor(ACCURACY)
         if roller is not None:
-            near = ShiftInvariant(self._flexible.of, len(weights), touching)
-            self._factor = ReusedFactor(ACCURACY, [on_vertices(roller)], near)
+            self._factor = ReusedFactor(ACCURACY, [on_vertices(roller)])
         # load, plastic state and contact before the last increment
         self._former, self._last = (0.0, self.body.state), self.state
 

@@ -189,10 +189,10 @@ TURNED = {
 
 def test_a_turned_metal_flows_below_an_elastic_roller():
     """Beside its refined ranges hats are denser than nodes: the roller's compliance is singular
-    there, and load and contact conditions hold to rounding all the same."""
+    there, and load and contact conditions hold all the same, far below what Newton's method leaves."""
     posed = problem(TURNED)
     plan = make_plan(posed, ("finite_element",))
     coarse = Refinement(posed.pitches[0], travel=4.0)
     solution = finite_element_level(posed, plan, coarse, None, Stages()).solution
-    assert solution.converged and solution.residuals.worst < 1e-12
+    assert solution.converged and solution.residuals.worst < 1e-11
     assert 2.5 * 280e6 < solution.pressure.max() < 3.7 * 280e6
