@@ -189,7 +189,7 @@ TURNED = {
 
 def test_a_turned_metal_flows_below_an_elastic_roller():
     """Beside its refined ranges hats are denser than nodes: the roller's compliance is singular
-    there, and load and contact conditions hold all the same, far below what Newton's method leaves."""
+    there. Load and contact conditions hold far below what Newton's method may leave."""
     posed = problem(TURNED)
     plan = make_plan(posed, ("finite_element",))
     coarse = Refinement(posed.pitches[0], travel=4.0)
