@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from scenes import PROJECT
 
-from fem import compat
 from fem.solver.compilation import (
     STALE_SECONDS,
     c_function,
