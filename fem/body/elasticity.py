@@ -23,14 +23,15 @@ have 2.2 times the unknowns of quadratic ones; their factor takes 2.5 times the 
 3.3 times the time."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from analytic.material import Material
+from analytic.material import Law, Material
 from fem import compat
 from fem.body.coating import Coating, coated_triangles, relative_constants
 from fem.body.nodes import Nodes, conditions_of, nodes_of, space_on
@@ -173,6 +174,12 @@ class ElasticBody(MeshedBody):
         part = free[..., self.owned, :].reshape(*load.shape[:-2], -1).T
         moved = self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
         return moved if self.ties is None else self.ties.followed(moved)
+
+    def with_law(self, law: Law) -> "ElasticBody":
+        """The body with another law at finite strains, on which its factor does not depend."""
+        body = copy(self)
+        body.material = replace(self.material, law=law)
+        return body
 
     def stiffness(self) -> csr_matrix:
         """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only. Rows and
