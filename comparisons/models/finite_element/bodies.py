@@ -62,7 +62,8 @@ class BodyPair:
 class BodyCache:
     """The latest meshes and factored bodies, which all that need the same ones share.
     Loads, friction coefficients, laws at finite strains and profiles in the gap change neither, but
-    for a load that changes where the contact may be. Few are held: a request mostly repeats one of the last."""
+    for a load that changes where the contact may be. Few are held: a request mostly repeats one of
+    the last."""
 
     def __init__(self) -> None:
         self._meshes: OrderedDict[Hashable, BlockMesh] = OrderedDict()
