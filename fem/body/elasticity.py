@@ -171,7 +171,7 @@ class ElasticBody(MeshedBody):
                     "bond its base or hold its sides"
                 )
         free = np.where(self.held, 0.0, load if self.ties is None else self.ties.summed(load))
-        part = free[..., self.owned, :].reshape(*load.shape[:-2], -1).T
+        part = np.take(free, self.owned, axis=-2).reshape(*load.shape[:-2], -1).T
         moved = self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
         return moved if self.ties is None else self.ties.followed(moved)
 
@@ -199,13 +199,17 @@ class ElasticBody(MeshedBody):
     def _gathered(self, part: np.ndarray) -> np.ndarray:
         """The whole displacement (..., n, 2) on every process from the parts they own."""
         part = part.reshape(*part.shape[:-1], -1, 2)
+        if self.processes == 1:
+            return np.take(part, self._place, axis=-2)  # an eighth of the time of an index
         whole = np.empty((*part.shape[:-2], *self.nodes.shape))
-        pieces = [(self.owned, part)]
-        if self.processes > 1:
-            pieces = self.space.mesh.comm.allgather((self.owned, part))
-        for owned, piece in pieces:
+        for owned, piece in self.space.mesh.comm.allgather((self.owned, part)):
             whole[..., owned, :] = piece
         return whole
+
+    @cached_property
+    def _place(self) -> np.ndarray:
+        """Place (n,) of each node among the owned ones, where these are all."""
+        return np.argsort(self.owned)
 
 
 def meshed_body(
