@@ -139,10 +139,11 @@ class ContactState:
 
 @dataclass(frozen=True)
 class ContactPoint:
-    """A state with the force, tangent and contact terms of each body there."""
+    """A state with the force, tangent and contact terms of each body there, and the gap."""
 
     state: ContactState
     bodies: list[tuple[np.ndarray, csr_matrix, ContactTerms]]
+    gap: np.ndarray  # g (count,) [m^2]
 
 
 @dataclass(frozen=True)
@@ -184,26 +185,22 @@ class ContactProblem:
 
     def at(self, state: ContactState) -> ContactPoint:
         """Raises FemError if a body cannot deform so."""
-        bodies = []
+        bodies: list[tuple[np.ndarray, csr_matrix, ContactTerms]] = []
         for (body, contact), u in zip(self.bodies, state.displacements, strict=True):
             force, tangent = body.linearised(u)
             if not np.isfinite(force).all():
                 raise FemError("the internal forces are not finite")
             bodies.append((force.ravel(), tangent, contact.at(u, state.pressure)))
-        return ContactPoint(state, bodies)
+        gap = self.constant + sum(terms.gap for _, _, terms in bodies)
+        if self.flexible is not None:
+            gap = gap + self.flexible @ state.pressure
+        return ContactPoint(state, bodies, gap - state.approach * self.weights)
 
     def solve(self, system: ContactSystem, right: np.ndarray) -> np.ndarray:
         """Newton's step (size,) of a right side; what a reused factor leaves comes next."""
         if self.factor is None:
             return solve_once(system.matrix(), right, system.symmetric)
         return self.factor.solve(system, right)
-
-    def weighted_gap(self, point: ContactPoint) -> np.ndarray:
-        """g (count,) [m^2]."""
-        parts = sum(terms.gap for _, _, terms in point.bodies)
-        if self.flexible is not None:
-            parts = parts + self.flexible @ point.state.pressure
-        return self.constant + parts - point.state.approach * self.weights
 
     def residual(self, point: ContactPoint, load: float | None) -> float:
         """The largest of the three parts (see RESIDUAL)."""
@@ -214,7 +211,7 @@ class ContactProblem:
             applied = terms.force @ pressure
             left = body.softness * (force - applied)
             worst = max(worst, _ratio(left[free], (body.softness * applied)[free]))
-        wanted = pressure - self.stiff * self.weighted_gap(point) / self.weights
+        wanted = pressure - self.stiff * point.gap / self.weights
         clipped = np.clip(wanted, 0.0, self.hardness)
         worst = max(worst, _ratio(pressure - clipped, pressure))
         if load is not None:
@@ -239,7 +236,7 @@ def newton(
     while history[-1] > RESIDUAL:
         if len(history) > MOST_ITERATIONS:
             raise FemError(f"residual {history[-1]:.1e} after {MOST_ITERATIONS} iterations")
-        gap = problem.weighted_gap(point) / problem.weights
+        gap = point.gap / problem.weights
         is_enough = history[-1] <= enough * min(1.0, history[0])
         if is_enough and states.are_settled(point.state.pressure, gap):
             break
@@ -251,7 +248,7 @@ def newton(
         history.append(residual)
     final = np.clip(point.state.pressure, 0.0, problem.hardness)
     total = load if load is not None else float(problem.weights @ final)
-    opening = problem.weighted_gap(point) / problem.weights
+    opening = point.gap / problem.weights
     return replace(point.state, pressure=final, load=total), opening, history
 
 
@@ -282,7 +279,7 @@ def _step(
     """Newton's change of the state with given states (count,) of the hats. The unknowns are the
     lengths u, p w / k and d; the equations are divided by k or w."""
     weights, stiff, width = problem.weights, problem.stiffness, problem.weights.mean()
-    gap, pressure = problem.weighted_gap(point), point.state.pressure
+    gap, pressure = point.gap, point.state.pressure
     hats = np.flatnonzero(states == CONTACT)
     fixed = np.where(states == CAPPED, problem.hardness, 0.0)
     fixed[hats] = pressure[hats]
@@ -294,7 +291,7 @@ def _step(
         right.append((terms.force @ fixed - force)[free] / stiff)
     # what hats that open lose in pressure closes the gap of the others no longer
     closed = 0.0
-    if problem.flexible is not None:
+    if problem.flexible is not None and not np.array_equal(fixed, pressure):
         closed = (problem.flexible @ (fixed - pressure))[hats]
     right.append((gap[hats] + closed) / width)
     if load is not None:

@@ -13,7 +13,7 @@ Unknowns are the lengths u, p w_mean / k and d; equations are divided by k or w_
 stiffness k [Pa]. Where the approach is prescribed the last row and column are missing."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -24,27 +24,30 @@ from fem.contact.terms import ContactTerms
 from fem.solver.mumps import Factor, FemError
 
 if TYPE_CHECKING:
-    from fem.nonlinear.condensed import Condensed
+    from fem.nonlinear.condensed import Condensed, ShiftInvariant
 
 # Steps of the residuals that a factorisation costs, of 17 000 to 56 000 unknowns.
 FACTOR_WORTH = 12
 MOST_STEPS = 30  # before a system gets its own factor
 MOST_FRESH = 10  # of them by its own symmetric factor: beyond, the friction is in the factor, too
-MOST_CHANGED = 60  # hats that may have joined or left since the factor was made
+BORDER_WORTH = 0.4  # steps that the border of a hat costs which has joined or left
+
+
+# Tangent (2n, 2n) [Pa] of a body, its contact terms and free components.
+BodyTerms = tuple[csr_matrix, ContactTerms, np.ndarray]
 
 
 @dataclass(frozen=True)
 class ContactSystem:
     """A Newton step on `hats` (k,) in contact, of all `count` hats.
 
-    bodies     tangent (2n, 2n) [Pa], contact terms and free components of each
     flexible   C (count, count) on the hats in contact at least; None: zero
     weights    w (count,) [m]
     stiff      k [Pa]
     loaded     whether the load is prescribed
     symmetric  whether the system is"""
 
-    bodies: Sequence[tuple[csr_matrix, ContactTerms, np.ndarray]]
+    bodies: Sequence[BodyTerms]
     flexible: "np.ndarray | Condensed | None"
     weights: np.ndarray
     hats: np.ndarray
@@ -111,7 +114,6 @@ class ContactSystem:
         columns = np.zeros((self.size, len(hats)))
         forces = [terms.force[free][:, hats].toarray() for _, terms, free in self.bodies]
         columns[: self.moving] = np.vstack(forces) / -self.width
-        columns[self.moving : self.moving + len(self.hats)] = self.between(self.hats, hats)
         if self.loaded:
             columns[-1] = self.weights[hats] / self.width
         return columns
@@ -119,23 +121,21 @@ class ContactSystem:
     def of_gaps(self, hats: np.ndarray) -> csr_matrix:
         """Rows (m, size) of the gaps under any hats (m,)."""
         rows = [terms.gradient[free][:, hats].T / -self.width for _, terms, free in self.bodies]
-        rows.append(csr_matrix(self.between(hats, self.hats)))
+        rows.append(csr_matrix((len(hats), len(self.hats))))
         if self.loaded:
             rows.append(csr_matrix(self.weights[hats, None] / self.width))
         return bmat([rows], format="csr")
-
-    def between(self, hats: np.ndarray, others: np.ndarray) -> np.ndarray:
-        """Of gaps under hats (m,) by pressures of others (k,)."""
-        if self.flexible is None:
-            return np.zeros((len(hats), len(others)))
-        return self.flexible[np.ix_(hats, others)] * self.compliance
 
 
 class _Bordered:
     """The factor of a system, which also solves it on other hats: by borders for those that have
     joined, and for those that have left, whose pressures are zero."""
 
-    def __init__(self, system: ContactSystem, is_symmetric: bool) -> None:
+    def __init__(
+        self, system: ContactSystem, opposite: Sequence[BodyTerms], is_symmetric: bool
+    ) -> None:
+        self._moving = system.moving
+        system = replace(system, bodies=[*system.bodies, *opposite], flexible=None)
         matrix = system.matrix()
         if is_symmetric and not system.symmetric:
             matrix = 0.5 * (matrix + matrix.T)
@@ -143,34 +143,34 @@ class _Bordered:
         self._system = system
         self._columns: dict[int, np.ndarray] = {}  # M^-1 of the border of each changed hat
 
-    def changed(self, hats: np.ndarray) -> int:
-        """How many hats have joined or left to give hats (k,)."""
-        return len(np.setxor1d(hats, self._system.hats))
+    def missing(self, hats: np.ndarray) -> int:
+        """How many borders are still to be found, of hats that joined or left to give hats (k,)."""
+        changed = np.setxor1d(hats, self._system.hats)
+        return sum(hat not in self._columns for hat in changed)
 
     def inverse(self, hats: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
         """Solves the system on other hats (k,)."""
-        base, moving = self._system, self._system.moving
+        base, moving, outer = self._system, self._system.moving, self._moving
         join, leave = np.setdiff1d(hats, base.hats), np.setdiff1d(base.hats, hats)
         _, here, there = np.intersect1d(hats, base.hats, return_indices=True)
-        here, there = moving + here, moving + there
-        new, left = moving + np.searchsorted(hats, join), moving + np.searchsorted(base.hats, leave)
+        here, there = outer + here, moving + there
+        new, left = outer + np.searchsorted(hats, join), moving + np.searchsorted(base.hats, leave)
         tail = slice(-1, None) if base.loaded else slice(0, 0)
-        size = moving + len(hats) + base.loaded
+        size = outer + len(hats) + base.loaded
         if len(join) + len(leave):
             columns, gaps = self._borders(join, leave), base.of_gaps(join)
             border = -np.vstack([gaps @ columns, columns[left]])
-            border[: len(join), : len(join)] += base.between(join, join)
 
         def solved(right: np.ndarray) -> np.ndarray:
             known = np.zeros(base.size)
-            known[:moving], known[there], known[tail] = right[:moving], right[here], right[tail]
+            known[:outer], known[there], known[tail] = right[:outer], right[here], right[tail]
             z = self._factor.solve(known)
             result = np.empty(size)
             if len(join) + len(leave):
                 share = np.linalg.solve(border, np.append(right[new] - gaps @ z, -z[left]))
                 z -= columns @ share
                 result[new] = share[: len(join)]
-            result[:moving], result[here], result[tail] = z[:moving], z[there], z[tail]
+            result[:outer], result[here], result[tail] = z[:outer], z[there], z[tail]
             return result
 
         return solved
@@ -192,16 +192,25 @@ class _Bordered:
 class ReusedFactor:
     """Solves one system after the other, and factors one where that is cheaper in the long run.
 
-    accuracy  of a solution: what it leaves of the right side"""
+    accuracy  of a solution: what it leaves of the right side
+    opposite  bodies in the factors in place of the compliance C
+    near      C as near as the accuracy asks for; None: as it is"""
 
-    def __init__(self, accuracy: float) -> None:
-        self._accuracy = accuracy
+    def __init__(
+        self,
+        accuracy: float,
+        opposite: Sequence[BodyTerms] = (),
+        near: "ShiftInvariant | None" = None,
+    ) -> None:
+        self._accuracy, self._opposite, self._near = accuracy, opposite, near
         self._factor: _Bordered | None = None
         self._symmetric = True  # factors, whether or not the systems are
         self._solutions = self._steps = self._last = 0  # since the factorisation
 
     def solve(self, system: ContactSystem, right: np.ndarray) -> np.ndarray:
         """x (size,) of system x = right. Raises FemError where that is singular."""
+        if self._near is not None:
+            system = replace(system, flexible=self._near)
         if self._factor is not None and not self._is_worn(system):
             solution = self._by_factor(system, right)
             if solution is not None:
@@ -218,23 +227,27 @@ class ReusedFactor:
 
     def _renew(self, system: ContactSystem) -> None:
         self._factor = None  # before the next one is made: half the memory
-        self._factor = _Bordered(system, self._symmetric or system.symmetric)
+        self._factor = _Bordered(system, self._opposite, self._symmetric or system.symmetric)
         self._solutions = self._steps = 0
 
     def _by_factor(self, system: ContactSystem, right: np.ndarray) -> np.ndarray | None:
         """x, or None where the residuals do not fall."""
+        borders = BORDER_WORTH * self._factor.missing(system.hats)
         inverse = self._factor.inverse(system.hats)
-        solution, self._last = conjugate_residuals(system, right, inverse, self._accuracy)
+        solution, steps = conjugate_residuals(system, right, inverse, self._accuracy)
+        self._last = steps + borders
         self._solutions, self._steps = self._solutions + 1, self._steps + self._last
         return solution
 
     def _is_worn(self, system: ContactSystem) -> bool:
         """Whether the last solution cost more than the mean of all since the factorisation, which
-        is a part of it. The cost of a solution rises with time, so that then the mean is least."""
+        is a part of it. The cost of a solution rises with time, so that then the mean is least.
+        Also where the borders of the next one cost more."""
         if system.loaded != self._factor.loaded:
             return True
-        is_slow = self._last * self._solutions > FACTOR_WORTH + self._steps
-        return is_slow or self._factor.changed(system.hats) > MOST_CHANGED
+        borders = BORDER_WORTH * self._factor.missing(system.hats)
+        worst = max(self._last, borders)
+        return worst * max(1, self._solutions) > FACTOR_WORTH + self._steps
 
 
 def conjugate_residuals(

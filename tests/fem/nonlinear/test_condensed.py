@@ -72,6 +72,22 @@ def test_pressures_are_those_of_dense_equations_from_any_start(
     assert least <= np.count_nonzero(pressure) <= most
 
 
+def test_many_rough_hats_settle_from_all_in_contact():
+    """As where a coarse contact or the load before tells nothing of a smaller one."""
+    count = 2000
+    far = np.arange(1.0 - count, count)
+    kernel = np.log(4.0 * count) - 0.5 * np.log(far**2 + 0.3)
+    place = np.arange(count)[:, None]
+    near = ShiftInvariant(lambda hats: kernel[place - hats + count - 1], count, place.ravel())
+    walk = np.random.default_rng(1).normal(size=count).cumsum()
+    gap = np.convolve(np.pad(walk, 10, mode="edge"), np.full(21, 1.0 / 21.0), "valid")
+    pressure, approach = ElasticContact(near, near, np.ones(count))(gap, 30.0, np.ones(count))
+    opening, on = gap + near @ pressure - approach, pressure > 0.0
+    assert pressure.min() == 0.0 and pressure.sum() == pytest.approx(30.0, rel=1e-12)
+    assert np.abs(opening[on]).max() < 1e-10 * np.ptp(opening) and opening[~on].min() > 0.0
+    assert np.count_nonzero(np.diff(on)) > 20
+
+
 def test_equations_that_do_not_converge_are_solved_directly(dense, monkeypatch):
     monkeypatch.setattr(condensed, "MOST_RESIDUALS", 1)
     flexible, near = uneven(0.3)
