@@ -3,7 +3,8 @@
 From step to step a body's tangent changes only where it flows, and few hats join or leave. A system
 is therefore solved by the factor of a former one, which generalised conjugate residuals improve
 (Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345). That factor is symmetric:
-friction, too, is left to them.
+friction, too, is left to them. C is dense: in the factor a coarser body stands for what it is of,
+with its own displacements, and residual steps bring C itself.
 
     [ K_t   -T          ] [ u ]   K_t   tangents of the bodies [Pa]
     [ -B'   -C     w    ] [ p ]   T, B  forces and gradients of the hats [m]
