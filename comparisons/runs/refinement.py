@@ -179,6 +179,7 @@ class _Levels:
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)
+        others_load = task.name == "half_plane" and "finite_element" in self.levels
         self.tasks.add(
             task.key,
             task.solve,
@@ -186,7 +187,7 @@ class _Levels:
             memory=cost.memory,
             urgency=task.urgency,
             shares=None if task.name == "half_plane" else task.pitch,
-            by_itself=task.name == "half_plane" and cost.seconds < SHORT,
+            by_itself=others_load and cost.seconds < SHORT,
         )
 
     def wait(self, number: int, models: Iterable[str]) -> None:

@@ -23,14 +23,15 @@ have 2.2 times the unknowns of quadratic ones; their factor takes 2.5 times the 
 3.3 times the time."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from analytic.material import Material
+from analytic.material import Law, Material
 from fem import compat
 from fem.body.coating import Coating, coated_triangles, relative_constants
 from fem.body.nodes import Nodes, conditions_of, nodes_of, space_on
@@ -170,9 +171,15 @@ class ElasticBody(MeshedBody):
                     "bond its base or hold its sides"
                 )
         free = np.where(self.held, 0.0, load if self.ties is None else self.ties.summed(load))
-        part = free[..., self.owned, :].reshape(*load.shape[:-2], -1).T
+        part = np.take(free, self.owned, axis=-2).reshape(*load.shape[:-2], -1).T
         moved = self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
         return moved if self.ties is None else self.ties.followed(moved)
+
+    def with_law(self, law: Law) -> "ElasticBody":
+        """The body with another law at finite strains, on which its factor does not depend."""
+        body = copy(self)
+        body.material = replace(self.material, law=law)
+        return body
 
     def stiffness(self) -> csr_matrix:
         """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only. Rows and
@@ -192,13 +199,17 @@ class ElasticBody(MeshedBody):
     def _gathered(self, part: np.ndarray) -> np.ndarray:
         """The whole displacement (..., n, 2) on every process from the parts they own."""
         part = part.reshape(*part.shape[:-1], -1, 2)
+        if self.processes == 1:
+            return np.take(part, self._place, axis=-2)  # an eighth of the time of an index
         whole = np.empty((*part.shape[:-2], *self.nodes.shape))
-        pieces = [(self.owned, part)]
-        if self.processes > 1:
-            pieces = self.space.mesh.comm.allgather((self.owned, part))
-        for owned, piece in pieces:
+        for owned, piece in self.space.mesh.comm.allgather((self.owned, part)):
             whole[..., owned, :] = piece
         return whole
+
+    @cached_property
+    def _place(self) -> np.ndarray:
+        """Place (n,) of each node among the owned ones, where these are all."""
+        return np.argsort(self.owned)
 
 
 def meshed_body(

@@ -134,7 +134,7 @@ class Locator:
 
     @cached_property
     def _centres(self) -> cKDTree:
-        return cKDTree(self.points[self.triangles[:, :3]].mean(axis=1))
+        return cKDTree(self.points.take(self.triangles[:, :3], axis=0).mean(axis=1))
 
     @cached_property
     def _neighbours(self) -> np.ndarray:
@@ -174,15 +174,16 @@ class Locator:
 
     def _reference(self, element: np.ndarray, where: np.ndarray) -> np.ndarray:
         """Reference coordinates (k, 2) of points (k, 2) in given elements (k,)."""
-        nodes = self.points[self.triangles[element]]
+        nodes = self.points.take(self.triangles.take(element, axis=0), axis=0)
         sides = np.stack([nodes[:, 1] - nodes[:, 0], nodes[:, 2] - nodes[:, 0]], axis=-1)
         at = np.einsum("kcd,kd->kc", inverse(sides), where - nodes[:, 0])
         left = np.arange(len(at) if self.curved else 0)
         for _ in range(NEWTON_STEPS):
             # Far outside an element its quadratic map may fold.
             at[left] = np.clip(at[left], -1.0, 2.0)
-            miss = where[left] - np.einsum("kac,ka->kc", nodes[left], shapes(at[left]))
-            jacobian = np.einsum("kac,kad->kcd", nodes[left], slopes(at[left]))
+            still, now = nodes.take(left, axis=0), at.take(left, axis=0)
+            miss = where.take(left, axis=0) - np.einsum("kac,ka->kc", still, shapes(now))
+            jacobian = np.einsum("kac,kad->kcd", still, slopes(now))
             step = np.einsum("kcd,kd->kc", inverse(jacobian), miss)
             at[left] += step
             left = left[np.abs(step).max(axis=1) > SETTLED]

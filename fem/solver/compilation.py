@@ -66,13 +66,15 @@ def load_dolfinx() -> None:
             importlib.import_module(name)
 
 
-def see_to_cache() -> None:
+def see_to_cache() -> Path:
     """dolfinx, as it is imported, takes a folder for compiled forms below XDG_CACHE_HOME or the
-    home. Where neither can be written, it gets one in the folder for temporary files."""
+    home. Where neither can be written, it gets one in the folder for temporary files. The folder,
+    unless the user's settings of dolfinx name another one."""
     try:
         wanted = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics")
         wanted.mkdir(parents=True, exist_ok=True)
         TemporaryDirectory(dir=wanted).cleanup()
+        return wanted
     except (OSError, RuntimeError):  # no home at all
         this_users = Path(gettempdir(), f"crosscheck-{os.getuid()}")
         this_users.mkdir(mode=0o700, exist_ok=True)
@@ -80,6 +82,7 @@ def see_to_cache() -> None:
             this_users = Path(mkdtemp(prefix="crosscheck-"))
         os.environ["XDG_CACHE_HOME"] = str(this_users)
         os.environ.setdefault("XDG_CONFIG_HOME", str(this_users))  # a home may be no folder
+        return this_users / "fenics"
 
 
 def compiled(make: Callable[[], Result]) -> Result:
@@ -102,13 +105,13 @@ def compiled(make: Callable[[], Result]) -> Result:
 @cache
 def c_function(source: Path, name: str) -> Callable[..., None]:
     """The function `name` of a C `source`: numbers, then contiguous arrays of long or double. Like
-    forms it is compiled once, into their cache, by a name of what it depends on. Raises FemError
-    where it does not compile."""
+    forms it is compiled once, into their cache, by a name of what it depends on, but without
+    dolfinx. Raises FemError where it does not compile."""
     text = source.read_text(encoding="utf-8")
     made_of = text, sys.version, platform.machine(), *COMPILER
     key = hashlib.sha256("\n".join(made_of).encode()).hexdigest()[:16]
     module = f"{source.stem}_{key}"
-    ready = compat.form_cache() / (module + EXTENSION_SUFFIXES[0])
+    ready = see_to_cache() / (module + EXTENSION_SUFFIXES[0])
     with uninterrupted():
         if not ready.exists():
             from cffi import FFI, VerificationError

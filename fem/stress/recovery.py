@@ -258,20 +258,22 @@ class Recovery:
             wanted = np.zeros(len(self.known), dtype=bool)
             wanted[new[piece : piece + PIECE]] = True
             self._recover(patches_of(self.body).of(wanted))
-        return self._stress[node]
+        return self._stress.take(node, axis=0)  # of rows a tenth of the time of an index
 
     def _recover(self, patches: Patches) -> None:
         body, load, displacement = self.body, self.load, self.displacement
-        points, shape = body.points[self.nodes.point], self._stress.shape[1:]
+        points, shape = body.points.take(self.nodes.point, axis=0), self._stress.shape[1:]
         sampled = SAMPLED[body.degree]
         held, which = np.unique(patches.element, return_inverse=True)
-        corner = body.points[body.mesh.triangles[held]]
+        corner = body.points.take(body.mesh.triangles.take(held, axis=0), axis=0)
         place = np.einsum("mac,qa->mqc", corner, shapes(sampled), optimize=True)
-        centre, patch, first = points[patches.vertex], patches.patch, patches.start[:-1]
-        offset = place[which] - centre[patch][:, None]
+        centre, patch = points.take(patches.vertex, axis=0), patches.patch
+        first = patches.start[:-1]
+        offset = place.take(which, axis=0) - centre.take(patch, axis=0)[:, None]
         count = np.diff(patches.start) * len(sampled)
         radius = np.sqrt(np.add.reduceat((offset**2).sum(axis=(1, 2)), first) / count)
-        stress = _stress(body, held, displacement[body.elements[held]], sampled)[which]
+        moved = displacement.take(body.elements.take(held, axis=0), axis=0)
+        stress = _stress(body, held, moved, sampled).take(which, axis=0)
         if load is not None:
             seen = patches.coated == body.coated.any()
             weights = load.kinks.weights(centre, radius, seen)
@@ -294,10 +296,12 @@ class Recovery:
         moments[:, curved, curved] += RIDGE * count[:, None]
         fit = np.linalg.solve(moments, sums)
 
-        offset = points[patches.middle][:, None] - centre[patches.ends]
+        middle = points.take(patches.middle, axis=0)[:, None]
+        offset = middle - centre.take(patches.ends, axis=0)
         terms = _terms(offset / radius[patches.ends][..., None], body.degree)
         at_vertex = fit[:, 0].reshape(-1, *shape)
-        at_middle = (terms[:, :, None] @ fit[patches.ends])[:, :, 0].reshape(-1, 2, *shape)
+        ends = fit.take(patches.ends, axis=0)
+        at_middle = (terms[:, :, None] @ ends)[:, :, 0].reshape(-1, 2, *shape)
         if load is not None:
             at_vertex = at_vertex + near.at(np.arange(len(centre)), patches.vertex)
             ends, middle = patches.ends.ravel(), np.repeat(patches.middle, 2)
@@ -321,7 +325,8 @@ class _NearKinks:
         """Take the stress of the kinks' interpolated displacement off sx, sz, txz (p, q, …, 3)."""
         near = np.flatnonzero(self.weights.count[self.patches.patch])
         element = self.patches.element[near]
-        moved = self._displacement(self.patches.patch[near], self.body.elements[element])
+        node = self.body.elements.take(element, axis=0)
+        moved = self._displacement(self.patches.patch[near], node)
         stress[near] -= _stress(self.body, element, moved, sampled)
 
     def surface_samples(
@@ -363,12 +368,12 @@ class _NearKinks:
         patch, point = np.divmod(pair, count)
         nu, shear = body.surface_material.poissons_ratio, body.surface_material.shear_modulus
         moved = self.kinks.displacement(self.weights, patch, body.nodes, point[:, None], nu)
-        return moved[which.reshape(node.shape), 0] / shear
+        return moved[:, 0].take(which.reshape(node.shape), axis=0) / shear
 
 
 def _stress(body: MeshedBody, element: np.ndarray, moved: np.ndarray, at: np.ndarray) -> np.ndarray:
     """sx, sz, txz (r, q, …, 3) [Pa] in elements (r,) from nodal displacements (r, k, …, 2)."""
-    corner = body.points[body.mesh.triangles[element]]
+    corner = body.points.take(body.mesh.triangles.take(element, axis=0), axis=0)
     flat = moved.reshape(*moved.shape[:2], int(np.prod(moved.shape[2:])))
     slope = gradients(corner, flat, at, straight=not body.curved)
     slope = slope.reshape(len(moved), len(at), *moved.shape[2:], 2)

@@ -190,9 +190,9 @@ def within(body: MeshedBody, nodal: NodalStress, element: np.ndarray, at: np.nda
     shape = value.shape[1:]
     value = value.reshape(len(held), 6, *shape)
     if nodal.kinks is None:
-        return np.einsum("rqa,ra...->rq...", share, value[which])
-    triangles = body.mesh.triangles[held]
-    corner = body.points[triangles[:, :3]]
+        return np.einsum("rqa,ra...->rq...", share, value.take(which, axis=0))
+    triangles = body.mesh.triangles.take(held, axis=0)
+    corner = body.points.take(triangles[:, :3], axis=0)
     centre = corner.mean(axis=1)
     radius = np.sqrt(((corner - centre[:, None]) ** 2).sum(axis=2).mean(axis=1))
     seen = body.coated[held] == body.coated.any()
@@ -201,9 +201,11 @@ def within(body: MeshedBody, nodal: NodalStress, element: np.ndarray, at: np.nda
     value = value - nodal.kinks.stress(weights, every, body.points, triangles)
     if nodal.further is not None:
         value -= nodal.further.at(body.points[triangles]).reshape(value.shape)
-    place = np.einsum("rac,rqa->rqc", body.points[triangles[which]], share, optimize=True)
+    nodes = body.points.take(triangles.take(which, axis=0), axis=0)
+    place = np.einsum("rac,rqa->rqc", nodes, share, optimize=True)
     number = np.arange(place.shape[0] * place.shape[1]).reshape(place.shape[:2])
-    values = (share @ value.reshape(len(held), 6, -1)[which]).reshape(*number.shape, *shape)
+    nodal_values = value.reshape(len(held), 6, -1).take(which, axis=0)
+    values = (share @ nodal_values).reshape(*number.shape, *shape)
     values += nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
     if nodal.further is not None:
         values += nodal.further.at(place).reshape(values.shape)

@@ -2,13 +2,13 @@
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import TypeVar
 
 import numpy as np
 
-from analytic.material import Material
+from analytic.material import Law, Material
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.mesh import (
@@ -56,13 +56,14 @@ class BodyPair:
     @property
     def factor_memory(self) -> int:
         """Bytes that their factors hold."""
-        return sum(body.factor.bytes for body in set(self.all))
+        return sum(factor.bytes for factor in {body.factor for body in self.all})
 
 
 class BodyCache:
     """The latest meshes and factored bodies, which all that need the same ones share.
-    Loads, friction coefficients and profiles in the gap change neither, but for a load that changes
-    where the contact may be. Few are held: a request mostly repeats one of the last."""
+    Loads, friction coefficients, laws at finite strains and profiles in the gap change neither, but
+    for a load that changes where the contact may be. Few are held: a request mostly repeats one of
+    the last."""
 
     def __init__(self) -> None:
         self._meshes: OrderedDict[Hashable, BlockMesh] = OrderedDict()
@@ -107,8 +108,9 @@ def bodies_of(
                 _ = made.factor
             return made
 
-        degree = settings.degree
-        return body_cache.body(shape, make, material, support, degree, coating)
+        degree, linear = settings.degree, replace(material, law=Law())
+        known = body_cache.body(shape, make, linear, support, degree, coating)
+        return known if known.material == material else known.with_law(material.law)
 
     spec = block_spec(problem, refinement, patches)
     beyond = 0.5 if refinement.half_block else np.inf

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from scenes import PROJECT
 
-from fem import compat
 from fem.solver.compilation import (
     STALE_SECONDS,
     c_function,
@@ -193,10 +192,9 @@ print(hasattr(pkg_resources, "WorkingSet"))
 @pytest.fixture
 def cache(monkeypatch, tmp_path):
     """An empty cache of compiled code, and none in this process."""
-    folder = tmp_path / "cache"
-    monkeypatch.setattr(compat, "form_cache", lambda: folder)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     c_function.cache_clear()
-    yield folder
+    yield tmp_path / "fenics"
     c_function.cache_clear()
 
 

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from scenes import STEEL, problem
 
+from comparisons.common.progress import Stages
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.stress import stresses_of
+from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
@@ -89,3 +91,12 @@ def test_the_last_level_has_the_stresses_at_all_points_of_its_mesh(runs):
     assert len(runs["finite_element"].levels) < 2
     field = runs["finite_element"].finest.field_on_mesh
     assert len(field.stresses[FRICTION].sx) == len(field.points)
+
+
+def test_a_level_that_was_not_expected_to_be_the_last_has_its_field():
+    """The budget ends the half-plane on the first of two levels, until then without most points."""
+    posed = problem(TABLES | {"stress": {"points": [41, 101]}})
+    scene = unsolved(posed, make_plan(posed, MODELS[:1]))
+    [only] = refined(scene, Tasks()).runs["half_plane"].levels
+    whole = half_plane_level(posed, posed.pitches[0], scene.window, Stages())
+    assert np.array_equal(*(level.stress(FRICTION).field.sz for level in (only, whole)))
