@@ -26,8 +26,11 @@ def browser() -> str | None:
 
 
 def _starts(program: str) -> bool:
-    asked = subprocess.run([program, "--version"], capture_output=True, stdin=subprocess.DEVNULL)
-    return asked.returncode == 0
+    silent = {"capture_output": True, "stdin": subprocess.DEVNULL, "timeout": PATIENCE}
+    try:
+        return subprocess.run([program, "--version"], **silent).returncode == 0
+    except (OSError, subprocess.TimeoutExpired):
+        return False
 
 
 def options(profile: str) -> list[str]:

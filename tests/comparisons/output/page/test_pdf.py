@@ -19,7 +19,6 @@ printf '%%PDF-1.4\\nprinted\\n%%%%EOF\\n' > "${a#*=}";; esac; done
 
 def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, capsys, no_pictures):
     monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
-    monkeypatch.setattr("comparisons.output.page.pdf.BROWSERS", ("chromium",))
     scene, out = tmp_path / "scene.toml", tmp_path / "out"
     scene.write_text(SCENE, encoding="utf-8")
     arguments = ["run", str(scene), "--models", "half-plane", "--out", str(out)]
@@ -34,14 +33,9 @@ def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, caps
     assert main(arguments) == 0
     assert not (out / "report.pdf").exists()
     capsys.readouterr()
-    # one that prints nothing, and one that does not even start, as Ubuntu's without its snap
-    for script, why in (
-        ("case $1 in --version) exit 0;; esac; exit 1", "ended with 1 and left no PDF"),
-        ("exit 1", "no Chromium or Chrome starts here"),
-    ):
-        browser.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
-        assert main([*arguments, "--pdf"]) == 0
-        said = capsys.readouterr().err
-        assert why in said
-        assert said.count("\n") == 1
-        assert (out / "report.html").exists()
+    browser.write_text("#!/bin/sh\ncase $1 in --version) exit;; esac; exit 1\n", encoding="utf-8")
+    assert main([*arguments, "--pdf"]) == 0
+    said = capsys.readouterr().err
+    assert "ended with 1 and left no PDF" in said
+    assert said.count("\n") == 1
+    assert (out / "report.html").exists()
