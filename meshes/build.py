@@ -128,9 +128,12 @@ def _environment() -> dict[str, str]:
 
 
 def start_worker() -> None:
-    """Have a worker wait, which loads gmsh while this process does something else."""
-    if not any(worker.serves(_environment()) for worker in idle):
-        idle.append(GmshWorker(_environment()))
+    """Have one worker wait, which loads gmsh while this process does something else."""
+    environment = _environment()
+    while idle and not idle[-1].serves(environment):
+        idle.pop().close()
+    if not idle:
+        idle.append(GmshWorker(environment))
 
 
 def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:

@@ -169,6 +169,16 @@ def test_another_process_follows_one_that_failed_or_was_killed(monkeypatch):
     np.testing.assert_array_equal(build.build_block(SPEC).points, first.points)
 
 
+def test_one_process_waits_however_the_environment_changes(monkeypatch):
+    build.start_worker()
+    before = build.idle[-1]
+    monkeypatch.setenv("CHANGED", "once")
+    build.start_worker()
+    assert len(build.idle) == 1 and before.process.poll() is not None
+    build.start_worker()
+    assert len(build.idle) == 1 and build.idle[-1].process.poll() is None
+
+
 def test_a_forked_process_starts_its_own():
     build.build_block(SPEC)
     served = process_id()
