@@ -45,7 +45,7 @@ def level_cost(name: str, number: int) -> LevelCost:
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
     from comparisons.models.plan import make_plan
-    from comparisons.models.problem import problem_of
+    from comparisons.models.posing import problem_of
     from comparisons.models.window import window_of
     from comparisons.scenes.scene import Scene
 

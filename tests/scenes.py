@@ -54,7 +54,7 @@ def judging(scene: "Scene", tolerance: dict[str, float]) -> "Scene":
 
 def problem(tables: dict) -> "Problem":
     """The mechanical problem that a scene file of these tables poses."""
-    from comparisons.models.problem import problem_of
+    from comparisons.models.posing import problem_of
 
     return problem_of(resolved(tables))
 

@@ -18,7 +18,7 @@ from comparisons.scenes.profile import COMMON, VARIETIES
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies import STUDIES
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.error_budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
+from comparisons.studies.model_error.refinement import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE
 
 PROJECT = Path(__file__).resolve().parents[1]

@@ -26,7 +26,7 @@ from comparisons.common.progress import Stages
 from comparisons.drawing.style import collected_figures
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
 from comparisons.output.page.pictures.answer import REACH, overview
 from comparisons.output.terminal import SHORT

@@ -224,7 +224,7 @@ def _limited(scene: "Scene", up_to: str) -> "Scene":
 
 def _hertz_alone(scene: "Scene", surface: "SceneSurface") -> int:
     """Whether Hertz's closed form suffices, by estimates; nothing is solved or written."""
-    from comparisons.models.problem import problem_of
+    from comparisons.models.posing import problem_of
     from comparisons.studies.ladder.estimated import hertz_alone
 
     holds, line = hertz_alone(problem_of(scene, surface))
@@ -262,7 +262,7 @@ def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:
         return
     from analytic.contact.problem import ContactError
     from comparisons.campaigns.maps.answer import first_answer
-    from comparisons.models.problem import problem_of
+    from comparisons.models.posing import problem_of
 
     with suppress(ContactError):
         for line in first_answer(problem_of(scene, surface)):

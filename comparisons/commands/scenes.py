@@ -93,7 +93,7 @@ def _say_what_was_made(made: "FirstScene", options: Mapping[str, object]) -> Non
     """What was seen in the profile, assumed beside the options, and the first answer."""
     from comparisons.campaigns.init.show import init_table
     from comparisons.campaigns.maps.answer import first_answer
-    from comparisons.models.problem import problem_of
+    from comparisons.models.posing import problem_of
     from comparisons.output.terminal import PLAIN
 
     show(init_table(made))

@@ -9,7 +9,8 @@ import numpy as np
 
 from comparisons.common.errors import SceneError
 from comparisons.models.nearest_operator import nearest_operator
-from comparisons.models.problem import Levels, Problem, patches_of, pressed_on, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Levels, Problem, patches_of, pressed_on
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
 

@@ -22,13 +22,7 @@ from comparisons.models.level import (
     stress_result,
     under_each,
 )
-from comparisons.models.problem import (
-    Problem,
-    ends_of,
-    half_plane_of,
-    patches_of,
-    pressed_on,
-)
+from comparisons.models.problem import Problem, ends_of, half_plane_of, patches_of, pressed_on
 from comparisons.models.window import FieldPoints, Window, search_window
 
 # Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.

@@ -32,7 +32,8 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import Forecast, forecast
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import Levels, Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Levels, Problem
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.field_files import AUTOMATIC
 from comparisons.output.record import record_of

@@ -10,6 +10,7 @@ import numpy as np
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings
 from comparisons.figures.quantity import MODELS, QUANTITIES
+from comparisons.figures.sideways import relative_l2
 from comparisons.figures.uncertainty import (
     LENGTHS,
     Uncertainty,
@@ -173,20 +174,6 @@ def discretisations(
 
 def _left(stated: Uncertainty) -> float:
     return stated.parts["discretisation"]
-
-
-def relative_l2(
-    values: np.ndarray, reference: np.ndarray, weights: np.ndarray | float = 1.0
-) -> float:
-    """||values - reference|| / ||reference||; points where either is not finite are left out."""
-    known = np.isfinite(values) & np.isfinite(reference)
-    if not known.all():
-        weights = np.broadcast_to(weights, values.shape)[known]
-        values, reference = values[known], reference[known]
-    size = np.sum(weights * reference**2)
-    if size == 0.0:
-        return 0.0 if not np.any(values) else np.inf
-    return float(np.sqrt(np.sum(weights * (values - reference) ** 2) / size))
 
 
 def layer_thickness(depths: np.ndarray) -> np.ndarray:

@@ -14,11 +14,10 @@ stiffness k [Pa]. Where the approach is prescribed the last row and column are m
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse import bmat, csr_matrix
 
 from fem.contact.terms import ContactTerms
@@ -111,7 +110,7 @@ class ContactSystem:
         """Columns (size, m) of the pressures of any hats (m,)."""
         columns = np.zeros((self.size, len(hats)))
         forces = [terms.force[free][:, hats].toarray() for _, terms, free in self.bodies]
-        columns[: self.moving] = np.vstack(forces) / -self.width if forces else 0.0
+        columns[: self.moving] = np.vstack(forces) / -self.width
         columns[self.moving : self.moving + len(self.hats)] = self.between(self.hats, hats)
         if self.loaded:
             columns[-1] = self.weights[hats] / self.width
@@ -140,8 +139,7 @@ class _Bordered:
         matrix = system.matrix()
         if is_symmetric and not system.symmetric:
             matrix = 0.5 * (matrix + matrix.T)
-        kind = partial(Factor, symmetric=is_symmetric) if system.bodies else DenseFactor
-        self._factor, self.loaded = kind(matrix.tocsr()), system.loaded
+        self._factor, self.loaded = Factor(matrix.tocsr(), is_symmetric), system.loaded
         self._system = system
         self._columns: dict[int, np.ndarray] = {}  # M^-1 of the border of each changed hat
 
@@ -189,17 +187,6 @@ class _Bordered:
             columns = self._factor.solve(borders).T
             self._columns.update(zip((*joined, *left), columns, strict=True))
         return np.column_stack([self._columns[hat] for hat in (*join, *leave)])
-
-
-class DenseFactor:
-    """LU of a matrix without bodies, which has no zeros."""
-
-    def __init__(self, matrix: csr_matrix) -> None:
-        self._factor = lu_factor(matrix.toarray(), overwrite_a=True, check_finite=False)
-
-    def solve(self, right: np.ndarray) -> np.ndarray:
-        """x (n,) or (n, m) of matrix x = right."""
-        return lu_solve(self._factor, right, check_finite=False)
 
 
 class ReusedFactor:
@@ -255,13 +242,15 @@ def conjugate_residuals(
     right: np.ndarray,
     inverse: Callable[[np.ndarray], np.ndarray],
     accuracy: float,
+    most: int = MOST_STEPS,
 ) -> tuple[np.ndarray | None, int]:
     """x (n,) of matrix x = right, preconditioned by an approximate inverse, and the steps. None if
-    after MOST_STEPS more than `accuracy` of the right side is left, or the inverse is singular."""
+    more than `accuracy` of the right side is left after the `most` of them, or the inverse is
+    singular."""
     enough = accuracy * float(np.linalg.norm(right))
     x, left = np.zeros_like(right), right.copy()
     moves: list[tuple[np.ndarray, np.ndarray]] = []  # and what they do, orthogonal and of size one
-    for step in range(MOST_STEPS + 1):
+    for step in range(most + 1):
         if np.linalg.norm(left) <= enough:
             return x, step
         try:
@@ -280,4 +269,4 @@ def conjugate_residuals(
         part = moves[-1][1] @ left
         x += part * moves[-1][0]
         left -= part * moves[-1][1]
-    return None, MOST_STEPS
+    return None, most

@@ -8,13 +8,17 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
 from fem.contact.nonlinear import CONTACT, HatStates
-from fem.contact.system import ContactSystem, ReusedFactor
+from fem.contact.system import ContactSystem, conjugate_residuals
 from fem.solver.mumps import FemError
 
 MOST_EXCHANGES = 100  # of hats that touch and hats that do not
 ROOM = 64  # columns by which the space for them grows
 SAMPLES = 12  # columns that the shifted one is the mean of
-SOLVED = 1e-10  # what a linear system may leave of its right side
+# What an equilibrium may leave of the displacements, and as the hats in contact still change of
+# what the exchange before has left.
+SOLVED, WHILE_EXCHANGED = 1e-12, 3e-3
+MOST_RESIDUALS = 200  # before an equilibrium is solved for directly
+LEAST_SYMBOL = 1e-9  # of the largest one: a compliance may be singular
 
 
 class Condensed:
@@ -83,10 +87,22 @@ class ShiftInvariant:
         wrapped = np.zeros(self._size)
         wrapped[np.arange(1 - count, count)] = self._kernel
         self._symbol = rfft(wrapped)
+        # the kernel's even part, continued on the ring: a jump would show at every wave number
+        away = np.arange(self._size)
+        away = np.minimum(np.minimum(away, self._size - away), count - 1)
+        ring = self._kernel[count - 1 + away] + self._kernel[count - 1 - away]
+        symbol = np.abs(rfft(0.5 * ring))
+        self._inverse = 1.0 / np.maximum(symbol, LEAST_SYMBOL * symbol.max())
 
     def __matmul__(self, pressure: np.ndarray) -> np.ndarray:
         """C p (count,) [m^2]."""
         return irfft(self._symbol * rfft(pressure, self._size), self._size)[: self._count]
+
+    def inverse(self, moved: np.ndarray, hats: np.ndarray) -> np.ndarray:
+        """Pressures (k,) under which hats (k,) are moved by about (k,) [m^2], and others little."""
+        line = np.zeros(self._count)
+        line[hats] = moved
+        return irfft(self._inverse * rfft(line, self._size), self._size)[hats]
 
     def __getitem__(self, block: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
         """The block of `numpy.ix_` of rows and columns."""
@@ -95,13 +111,17 @@ class ShiftInvariant:
 
 
 class ElasticContact:
-    """Contact on a compliance C (count, count) [m^2/Pa] of both surfaces together."""
+    """Contact on a compliance C (count, count) [m^2/Pa] of both surfaces together, and `near`
+    another one that is like it. Equilibria of hats in contact are found by generalised conjugate
+    residuals (`fem.contact.system`), preconditioned by the inverse of what is shifted."""
 
     def __init__(
-        self, flexible: np.ndarray | Condensed | ShiftInvariant, weights: np.ndarray
+        self,
+        flexible: np.ndarray | Condensed | ShiftInvariant,
+        near: ShiftInvariant,
+        weights: np.ndarray,
     ) -> None:
-        self.flexible, self._weights = flexible, weights
-        self._factor = ReusedFactor(SOLVED)
+        self.flexible, self._near, self._weights = flexible, near, weights
 
     def __call__(self, gap: np.ndarray, load: float, start: np.ndarray) -> tuple[np.ndarray, float]:
         """Pressure (count,) [Pa] and approach [m] under a load [N/m] > 0, for a weighted gap
@@ -111,17 +131,51 @@ class ElasticContact:
         hats.keep_one_in_contact(gap / weights)
         one = np.flatnonzero(hats.states == CONTACT)[:1]
         stiff = width**2 / float(flexible[np.ix_(one, one)][0, 0])
+        pressure, approach, left = np.array(start, dtype=float), 0.0, WHILE_EXCHANGED
         for _ in range(MOST_EXCHANGES):
             before, on = hats.states.copy(), np.flatnonzero(hats.states == CONTACT)
             system = ContactSystem([], flexible, weights, on, stiff, loaded=True, symmetric=False)
             right = np.append(gap[on] / width, load / stiff)
-            solution = self._factor.solve(system, right)
+            guess = np.append(pressure[on] * width / stiff, approach)
+            solution = self._equilibrium(system, right, guess, left)
             pressure, approach = np.zeros_like(gap), float(solution[-1])
             pressure[on] = solution[:-1] * stiff / width
             opening = (gap + flexible @ pressure) / weights - approach
             opening[on] = 0.0
             hats.exchange(pressure, opening, stiff / width)
             hats.keep_one_in_contact(opening)
-            if np.array_equal(before, hats.states):
+            is_settled = np.array_equal(before, hats.states)
+            if is_settled and left == 0.0:
                 return pressure, approach
+            left = 0.0 if is_settled else WHILE_EXCHANGED
         raise FemError(f"the contact did not settle in {MOST_EXCHANGES} exchanges")
+
+    def _equilibrium(
+        self, system: ContactSystem, right: np.ndarray, guess: np.ndarray, part: float
+    ) -> np.ndarray:
+        """x (size,) of system x = right, of which a `part` of what the guess leaves may be left.
+        Every step carries the load."""
+        inverse = self._inverse(system)
+        x = guess + inverse(right - system @ guess)
+        image = system @ x
+        left = right - image
+        moved = image[:-1] - x[-1] * self._weights[system.hats] / system.width
+        if not (size := float(np.linalg.norm(left))):
+            return x
+        accuracy = max(part, SOLVED * float(np.linalg.norm(moved)) / size)
+        change, _ = conjugate_residuals(system, left, inverse, accuracy, MOST_RESIDUALS)
+        if change is not None:
+            return x + change
+        return np.linalg.solve(system.matrix().toarray(), right)
+
+    def _inverse(self, system: ContactSystem) -> Callable[[np.ndarray], np.ndarray]:
+        """Nearly solves a system."""
+        hats, share = system.hats, self._weights[system.hats] / system.width
+        sunk = self._near.inverse(share, hats)
+
+        def solved(right: np.ndarray) -> np.ndarray:
+            moved = self._near.inverse(right[:-1], hats)
+            approach = (share @ moved - right[-1] * system.compliance) / (share @ sunk)
+            return np.append((moved - approach * sunk) / system.compliance, approach)
+
+        return solved

@@ -146,9 +146,9 @@ class LoadHistory:
                 columns = partial(roller.columns, friction=-friction)
                 self._flexible = Condensed(columns, len(weights))
             both = Condensed(lambda hats: alone.of(hats) + self._flexible.of(hats), len(weights))
-        self._elastic = ElasticContact(both, weights)
-        touching = np.flatnonzero(guess > 0.0)
-        self._nearly = ElasticContact(ShiftInvariant(both.of, len(weights), touching), weights)
+        near = ShiftInvariant(both.of, len(weights), np.flatnonzero(guess > 0.0))
+        self._elastic = ElasticContact(both, near, weights)
+        self._nearly = ElasticContact(near, near, weights)
         self._offset = np.zeros_like(gap)  # of its gap, which makes it right in the last contact
         self._bodies = [(self.body, LinearContact(compliance, friction))]
         self.state = ContactState((np.zeros(self.body.held.shape),), guess, approach=0.0)
@@ -285,7 +285,9 @@ class LoadHistory:
                 reached = part
             else:
                 flows = part
-            part = 0.5 * (reached + flows)
+            # a body that has flowed mostly flows again at once
+            at_once = first > 0.0 and not reached and flows == 1.0
+            part = LEAST_INCREMENT if at_once else 0.5 * (reached + flows)
         return contacts
 
     def _to_elastic(self, load: float) -> float:

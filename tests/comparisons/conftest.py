@@ -33,7 +33,8 @@ from comparisons.drawing.style import Picture
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult, stress_result
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.output.page.page import PICTURES
 from comparisons.output.record import record_of

@@ -17,7 +17,7 @@ from comparisons.campaigns.init.show import init_table
 from comparisons.campaigns.maps.answer import first_answer
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.progress import no_progress
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.output.flat_csv import as_csv, tidy_rows
 from comparisons.output.page.redraw import draw_again
 from comparisons.output.page.saved import read_run

@@ -15,7 +15,8 @@ from comparisons.common.processes import ProcessWorker
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import ProcessEnded, Tasks, called
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
 from meshes.block import MeshError

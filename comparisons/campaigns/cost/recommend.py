@@ -15,7 +15,8 @@ from comparisons.common.numbers import integer, percent, percent_as_written, wit
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.finite_element.mesh import COARSER_GROWTH, STEEPEST_GROWTH
-from comparisons.models.problem import FEWEST_ELEMENTS, Problem
+from comparisons.models.posing import FEWEST_ELEMENTS
+from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 
 ALL = "all"

@@ -17,7 +17,7 @@ from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem, 
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import check_writable, publish
 from comparisons.common.progress import no_progress
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.output.page.html import rendered
 from comparisons.scenes.scene import Scene
 

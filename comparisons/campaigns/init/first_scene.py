@@ -17,7 +17,8 @@ from comparisons.campaigns.init.guess import ProfileFields, fields_of_profile, o
 from comparisons.campaigns.init.show import FirstScene, picture
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.scenes.fields import allowed, field_type
 from comparisons.scenes.scene import Origin, Scene, sections_of
 

@@ -28,7 +28,8 @@ from analytic.surface.roughness import shortest_wavelength
 from comparisons import studies
 from comparisons.common.errors import InputError, SceneError
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.scenes.fields import plain
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.scene import Origin, Scene

@@ -23,7 +23,8 @@ from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
 from comparisons.common.progress import no_progress
 from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Origin, Scene
 from fem.solver.mumps import FemError
 from meshes.block import MeshError

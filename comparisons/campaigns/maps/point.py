@@ -17,7 +17,8 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import Window, window_of
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import values_of

@@ -26,7 +26,8 @@ from comparisons.common.progress import ProgressCallback, Step, no_progress, wit
 from comparisons.common.provenance import as_json, versions
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Levels, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Levels
 from comparisons.output.result_json import content_of
 from comparisons.runs.run import solve
 from comparisons.scenes.scene import Scene

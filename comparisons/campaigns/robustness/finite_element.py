@@ -46,7 +46,8 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import nearest_operator
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene
 from fem.body.coating import Coating

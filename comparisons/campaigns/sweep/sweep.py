@@ -23,7 +23,7 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.figure import Figure, Findings, grouped
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.output.flat_csv import COLUMNS, harmless, rows_of
 from comparisons.output.result_json import result_of
 from comparisons.scenes.scene import Scene

@@ -13,7 +13,7 @@ import numpy as np
 from comparisons.campaigns.cases import Case, CaseFigures, bounded
 from comparisons.common.progress import Stages
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Origin, Scene
 
 AGREE = 1e-6  # relative, in pressure and in load

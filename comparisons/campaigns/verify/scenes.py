@@ -33,17 +33,18 @@ from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, WHOLE
+from comparisons.figures.sideways import relative_l2
 from comparisons.figures.uncertainty import numerical
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.run import solve
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, surface_of
 from comparisons.studies import contact
-from comparisons.studies.comparison import relative_l2
 from comparisons.studies.contact import values_of
 from comparisons.studies.study import MODEL_ERROR, unsolved
 

@@ -25,7 +25,8 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import no_coupling
-from comparisons.models.problem import Problem, surface_ends
+from comparisons.models.posing import surface_ends
+from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies import contact
 from comparisons.studies.comparison import norms

@@ -40,9 +40,9 @@ from comparisons.studies.ladder.rungs import (
 )
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.contributions import split_variants
-from comparisons.studies.model_error.error_budget import LEAST_LEVELS, selected_effects
+from comparisons.studies.model_error.error_budget import selected_effects
 from comparisons.studies.model_error.selection import EffectSelection
-from comparisons.studies.model_error.solutions import SolvedVariants
+from comparisons.studies.model_error.solutions import LEAST_LEVELS, SolvedVariants
 from comparisons.studies.study import Solved
 from comparisons.studies.subsurface.yielding import flow_assessment
 

@@ -17,6 +17,7 @@ from comparisons.figures.figure import (
 )
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.quantity import WHOLE, Quantity
+from comparisons.figures.sideways import sideways_shift
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -25,7 +26,6 @@ from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import trust
 from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.model_error.selection import EffectSelection
-from comparisons.studies.model_error.sideways import sideways_shift
 
 if TYPE_CHECKING:
     from comparisons.studies.model_error.error_budget import ErrorBudget

@@ -10,7 +10,7 @@ What cannot change a verdict is left out, unless budget.effects is "all":
 The model error and its uncertainty are stated for every figure in any case."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -22,29 +22,31 @@ from comparisons.figures.figure import Figure, is_decided
 from comparisons.figures.quantity import WHOLE
 from comparisons.models.forecast import flow_seconds, time_with_flow
 from comparisons.models.level import Level, ModelRun
-from comparisons.models.plan import LONGER
 from comparisons.models.problem import Problem
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.account import figure_of
 from comparisons.studies.model_error.catalogue import UNKNOWN, ModelVariant
 from comparisons.studies.model_error.contributions import (
-    EffectContributions,
     NotComputedError,
     SplitVariants,
-    contributions_of,
     split_variants,
 )
 from comparisons.studies.model_error.estimates import finite_flow
 from comparisons.studies.model_error.laws import EFFECT as LAW
-from comparisons.studies.model_error.laws import LawSolutions, law_variants
+from comparisons.studies.model_error.laws import law_variants
 from comparisons.studies.model_error.model_error import ModelError, Solutions
-from comparisons.studies.model_error.quantities_of_interest import (
-    QuantitiesOfInterest,
+from comparisons.studies.model_error.refinement import (
+    ASKED,
+    GROWTH_OF_TIME,
+    EffectRefinement,
+    RefinedEffects,
+    longer_increments,
+    most_effect_levels,
+    spent_seconds,
 )
 from comparisons.studies.model_error.sampling import announce_sampling, sampling_changes
 from comparisons.studies.model_error.selection import (
     FLOW,
-    NONLINEAR,
     NOT_CERTAIN,
     SMALL_STRAINS,
     EffectSelection,
@@ -53,11 +55,6 @@ from comparisons.studies.model_error.selection import (
 from comparisons.studies.model_error.solutions import LEAST_LEVELS, SolvedVariants
 from comparisons.studies.study import Solved
 from comparisons.studies.subsurface.yielding import flow_assessment
-
-MOST_LEVELS = 3  # of the effects
-SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
-ASKED = 'budget.effects = "all" computes it'
-GROWTH_OF_TIME = 3.2  # from one level to the next, at most
 
 
 @dataclass(frozen=True)
@@ -117,7 +114,7 @@ def error_budget(
         variants.keep(split.whole for split in splits.values())
         try:
             frugal = selection if is_frugal else None
-            refinement = _Refinement(half_plane, rows, splits, variants, selection)
+            refinement = EffectRefinement(half_plane, rows, splits, variants, selection)
             refined = refinement.result(frugal)
             if refinement.without_laws:
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
@@ -131,7 +128,7 @@ def error_budget(
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
-                refined = _Refined(0, _unsplit(rows), str(error), None)
+                refined = RefinedEffects(0, _unsplit(rows), str(error), None)
                 finest = solved.runs["finite_element"].finest
                 wholes = {mu: finest.under(mu) for mu in splits}
                 break
@@ -168,7 +165,7 @@ def _with_plastic_strain(
 
 def _with_finite_flow(
     selection: EffectSelection,
-    refined: "_Refined",
+    refined: RefinedEffects,
     splits: Mapping[float, SplitVariants],
     variants: SolvedVariants,
 ) -> EffectSelection:
@@ -183,13 +180,13 @@ def _with_finite_flow(
         return selection.without(frozenset({"finite_strain"}), f"{SMALL_STRAINS}: {why}")
     wholes = [split_variants(problem, finite, mu).whole for mu in problem.scene.load.friction]
     seconds = math.fsum(variants.forecast(w, n) for w in dict.fromkeys(wholes) for n in least)
-    spent = _spent(variants)
+    spent = spent_seconds(variants)
     if spent + seconds <= problem.time:
         return finite
     flowing = dict.fromkeys(v for split in splits.values() for v in split.wholes)
     time = spent + seconds
     finer = GROWTH_OF_TIME * variants.expected_of(refined.levels, flowing)
-    for _ in range(refined.levels, min(_most_levels(problem), len(variants.of_scene.levels))):
+    for _ in range(refined.levels, min(most_effect_levels(problem), len(variants.of_scene.levels))):
         if spent + finer <= time:  # the time allows this level at small strains, too
             spent, time, finer = spent + finer, time + finer, GROWTH_OF_TIME * finer
     more = with_unit(seconds, "s", 2)
@@ -235,7 +232,7 @@ def announce_effects(
         for variant in law_variants(split.whole, selection.laws).values()
     ]
     again += [variant for split in splits for variant in longer_increments(split.whole, selection)]
-    most = min(_most_levels(problem), len(half_plane.levels))
+    most = min(most_effect_levels(problem), len(half_plane.levels))
     if FLOW in selection.added:
         most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
 
@@ -285,169 +282,6 @@ def _no_time_for_flow(solved: Solved) -> str | None:
     return f"it takes {with_unit(flow_seconds(problem, patches), 's', 2)} more (budget.time)"
 
 
-def longer_increments(whole: ModelVariant, selection: EffectSelection) -> tuple[ModelVariant, ...]:
-    """The whole by longer increments of flow, the longest first, where the scene's own finite
-    elements do not flow: their check; else none."""
-    return tuple(replace(whole, times=t) for t in LONGER) if FLOW in selection.added else ()
-
-
-def _at_small_strains(split: SplitVariants, selection: EffectSelection) -> ModelVariant:
-    """The whole, as its increments are checked: these are the same at finite strain."""
-    flows = selection.whole.issuperset(NONLINEAR)
-    return split.pairs["finite_strain"][1] if flows else split.whole
-
-
-def _most_levels(problem: Problem) -> int:
-    most = None if problem.levels is None else problem.levels.effects
-    return min(MOST_LEVELS, most or MOST_LEVELS)
-
-
-@dataclass(frozen=True)
-class _Refined:
-    """The model errors, as far as the levels of the effects were taken."""
-
-    levels: int  # that the whole was taken to
-    errors: list[ModelError]
-    unsplit: str | None  # why these are not split
-    left_out: str | None  # which level cannot change a verdict
-    solutions: dict[float, Solutions] = field(default_factory=dict)  # by friction
-
-
-class _Refinement:
-    """The effects level by level. The split stays on the least levels, unless the whole and the
-    scene's own finite elements are all that it takes."""
-
-    def __init__(
-        self,
-        half_plane: ModelRun,
-        rows: tuple[Figure, ...],
-        splits: dict[float, SplitVariants],
-        solved: SolvedVariants,
-        selection: EffectSelection,
-    ) -> None:
-        laws = selection.laws
-        self.laws = {mu: law_variants(split.whole, laws) for mu, split in splits.items()}
-        self.open_laws, self.without_laws = laws, ""  # why they have no solution
-        self.with_laws: dict[float, LawSolutions] = {}
-        small = {mu: _at_small_strains(split, selection) for mu, split in splits.items()}
-        longer = {mu: longer_increments(whole, selection) for mu, whole in small.items()}
-        self.increments = {mu: (*some, small[mu]) if some else () for mu, some in longer.items()}
-        self.longer: dict[float, list[QuantitiesOfInterest]] = {}
-        self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
-        self.runs = {"half_plane": half_plane, "finite_element": solved.of_scene}
-        self.most = min(_most_levels(solved.problem), len(solved.of_scene.levels))
-        self.every = dict.fromkeys(variant for split in splits.values() for variant in split.all)
-        self.wholes = dict.fromkeys(
-            variant for split in splits.values() for variant in split.wholes
-        )
-        frictions = solved.problem.scene.load.friction
-        self.history: dict[float, list[EffectContributions]] = {mu: [] for mu in frictions}
-
-    def result(self, frugal: EffectSelection | None) -> _Refined:
-        """The wholes, which others need, are solved before what splits them.
-
-        frugal  what was selected, where a level that cannot change a verdict is left out; else None
-        Raises NotComputedError where a whole has no solution on the least levels."""
-        for number in range(1, LEAST_LEVELS + 1):
-            self.solved.announce(self.every, number, LAST)
-        for mu, variants in self.laws.items():
-            self.solved.announce((*variants.values(), *self.increments[mu]), 1, LAST)
-        left_out = self._take_wholes(frugal)
-        levels = len(next(iter(self.history.values())))
-        for number in range(1, levels + 1):
-            if number <= LEAST_LEVELS or not self._is_open(number):
-                self._take(number, alone=False)
-        parts = (level for of_friction in self.history.values() for level in of_friction)
-        why = next((level.unsplit for level in parts if level.unsplit), None)
-        return _Refined(levels, self._errors(), why, left_out, self._solutions())
-
-    def _take_wholes(self, frugal: EffectSelection | None) -> str | None:
-        """As many levels of the wholes as it takes; which one cannot change a verdict."""
-        for number in range(1, self.most + 1):
-            if number > LEAST_LEVELS and _is_beyond(self.solved, number, self.wholes):
-                return None
-            try:
-                self._take(number, alone=True)
-            except NotComputedError:
-                if number <= LEAST_LEVELS:
-                    raise
-                return None
-            if number == LEAST_LEVELS:
-                self._take_laws()
-                self._take_increments()
-            errors = self._errors()
-            if number >= LEAST_LEVELS and _settled(self.rows, errors):
-                return None
-            if LEAST_LEVELS <= number < self.most and frugal and self._is_fixed(errors, frugal):
-                further = f"level {number + 1} of the whole model"
-                return f"{further}: cannot change a verdict ({ASKED})"
-        return None
-
-    def _take_laws(self) -> None:
-        """The wholes on the coarsest level with other laws; `without_laws` where one has none."""
-        for mu, variants in self.laws.items():
-            self.solved.prepare(variants.values(), 1)
-            try:
-                moved = {key: self.solved.solution(v, 1, mu) for key, v in variants.items()}
-            except NotComputedError as error:
-                self.without_laws = f"with the law of {error.variant.laws_name}: {error}"
-                self.with_laws = {}
-                return
-            if variants:
-                whole, window = self.history[mu][0].whole, self.solved.window
-                self.with_laws[mu] = LawSolutions(
-                    self.problem, window, self.open_laws, whole, moved
-                )
-
-    def _take_increments(self) -> None:
-        """The wholes that flow on the coarsest level by longer increments; none where one of them
-        has no solution."""
-        for mu, variants in self.increments.items():
-            self.solved.prepare(variants, 1)
-            try:
-                self.longer[mu] = [self.solved.solution(v, 1, mu) for v in variants]
-            except NotComputedError:
-                self.longer[mu] = []
-
-    def _take(self, number: int, alone: bool) -> None:
-        """A level into the history: of the wholes alone, or of every variant."""
-        self.solved.prepare(self.wholes if alone else self.every, number)
-        new = {
-            mu: contributions_of(self.solved, self.splits[mu], mu, number, alone)
-            for mu in self.history
-        }
-        for mu, parts in new.items():
-            self.history[mu][number - 1 : number] = [parts]
-
-    def _is_open(self, number: int) -> bool:
-        return any(self.solved.is_open(variant, number) for variant in self.every)
-
-    def _errors(self) -> list[ModelError]:
-        return [
-            solutions.error(row)
-            for mu, solutions in self._solutions().items()
-            for row in self.rows
-            if row.friction == mu
-        ]
-
-    def _solutions(self) -> dict[float, Solutions]:
-        problem, window, made = self.problem, self.solved.window, {}
-        for mu, parts in self.history.items():
-            runs = {name: run.under(mu) for name, run in self.runs.items()}
-            made[mu] = Solutions(
-                *(problem, window, runs, parts, mu),
-                laws=self.with_laws.get(mu),
-                longer=self.longer.get(mu, []) if self.increments[mu] else None,
-            )
-        return made
-
-    def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:
-        """Whether a finer solution leaves every verdict as it is."""
-        tolerance = self.problem.scene.tolerances
-        figures = (figure_of(error, selection, tolerance) for error in errors)
-        return all(figure.is_fixed for figure in figures if figure.bounds)
-
-
 def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
     """Whether every judged row agrees or differs whatever the effects do that its finite elements
     do not have."""
@@ -464,39 +298,12 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
     )
 
 
-def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant]) -> bool:
-    """Whether a level of these variants would exceed the time, by the laws of cost: clocks would
-    give another machine other figures."""
-    finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
-    return _spent(solved, number) + finer > solved.problem.time
-
-
-def _spent(solved: SolvedVariants, below: int | None = None) -> float:
-    """Seconds of the levels of the scene's finite elements and of all variants, of these `below` a
-    number, by the laws of cost."""
-    numbers = {number for _, number in solved.expected if below is None or number < below}
-    spent = sum(level.expected_seconds for level in solved.of_scene.levels)
-    return spent + sum(solved.expected_of(number) for number in sorted(numbers))
-
-
 def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:
     """The models' differences as they are."""
     return [
         ModelError(row.quantity, row.friction, {}, 0.0, row.value, row.numerical, row.scale)
         for row in rows
     ]
-
-
-def _settled(rows: tuple[Figure, ...], errors: list[ModelError]) -> bool:
-    """Whether the effects add little to the uncertainty of every judged figure."""
-    stated = {(e.quantity, e.friction): e.uncertainty for e in errors}
-    return all(
-        stated[row.quantity, row.friction]
-        <= (row.numerical if math.isfinite(row.numerical) else 0.0)
-        + SHARE_OF_TOLERANCE * row.tolerance
-        for row in rows
-        if row.tolerance is not None
-    )
 
 
 def _given_up(

@@ -37,7 +37,8 @@ from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.approach import load_on_layer
 from comparisons.models.half_plane import expected_of, half_plane_level
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.scatter import CUT_OFF, FIELDS, Spread

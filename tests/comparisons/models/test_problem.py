@@ -13,7 +13,7 @@ from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
 from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.mesh import Refinement, block_spec
-from comparisons.models.problem import problem_of, standing_out
+from comparisons.models.posing import problem_of, standing_out
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
 from meshes.build import in_units

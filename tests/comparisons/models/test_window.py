@@ -7,7 +7,7 @@ from scenes import STEEL, resolved
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.models.window import search_window, window_of
 from comparisons.scenes.files import SCENES, read_toml
 from comparisons.scenes.scene import Origin, Scene

@@ -13,7 +13,7 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.output.page.tables.verification import operator_note, operator_table
 from comparisons.output.record import read_result
 from comparisons.runs.run import run

@@ -93,7 +93,7 @@ def whole_levels(findings) -> int:
 def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, monkeypatch):
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
-    monkeypatch.setattr("comparisons.studies.model_error.error_budget._settled", lambda *_: False)
+    monkeypatch.setattr("comparisons.studies.model_error.refinement._settled", lambda *_: False)
     assert whole_levels(read_result(both / "result.json").findings) == 2
     before = contents(both)
     repetition = rerun(both)

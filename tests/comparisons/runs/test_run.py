@@ -16,7 +16,7 @@ from comparisons.common.progress import Lasting
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.output.headline import verdict_of
 from comparisons.output.record import read_result
 from comparisons.output.result_json import content_of

@@ -16,7 +16,8 @@ from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Levels, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Levels
 from comparisons.output.headline import verdict_of
 from comparisons.runs.run import Known, run
 from comparisons.scenes.files import scene_names

@@ -14,7 +14,7 @@ from comparisons.campaigns.maps.map import finished_map
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level, half_plane_on
 from comparisons.models.level import ModelRun
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.models.smooth import closed_form
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene

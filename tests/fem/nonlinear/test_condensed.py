@@ -1,4 +1,4 @@
-"""Elastic contact on a dense compliance, and bodies of which nothing else is left."""
+"""Elastic contact on a compliance, and bodies of which nothing else is left."""
 
 import numpy as np
 import pytest
@@ -32,14 +32,52 @@ def solve(bodies, flexible=None):
     return solve_nonlinear_contact(bodies, GAP, WEIGHTS, rest, 1.0, flexible=flexible).state
 
 
-@pytest.mark.parametrize("start", [np.ones(len(X)), 1.0 * (np.abs(X) < 0.1), np.zeros(len(X))])
-def test_contact_is_the_one_of_the_compliance_from_any_start(compliance, dense, start):
-    flexible = compliance.matrix()
-    pressure, approach = ElasticContact(flexible, WEIGHTS)(GAP, 1.0, start)
-    expected, at = dense(flexible, GAP, WEIGHTS, 1.0)
-    np.testing.assert_allclose(pressure, expected, atol=1e-10 * expected.max())
-    assert approach == pytest.approx(at, rel=1e-10)
-    assert 0 < np.count_nonzero(pressure) < len(X)
+COUNT = 120
+PLACE = np.linspace(-1.0, 1.0, COUNT)
+ROUGH = 0.3 * np.random.default_rng(4).normal(size=COUNT) + 2.0 * PLACE**2
+
+
+def uneven(friction):
+    """A compliance like a half-plane's, which depends on the place, and its shifted columns."""
+    far = np.arange(1.0 - COUNT, COUNT)
+    kernel = np.log(4.0 * COUNT) - 0.5 * np.log(far**2 + 0.3) + 0.3 * friction * np.arctan(far)
+    shifted = kernel[np.subtract.outer(np.arange(COUNT), np.arange(COUNT)) + COUNT - 1]
+    scale = 1.0 + 0.05 * np.cos(3.0 * PLACE)
+    flexible = scale[:, None] * shifted * scale
+    return flexible, ShiftInvariant(lambda hats: flexible[:, hats], COUNT, np.arange(COUNT))
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize(
+    ("gap", "load", "least", "most"),
+    [
+        (2.0 * PLACE**2, 1e-3, 1, 2),
+        (20.0 * PLACE**2, 1.0, 10, 80),
+        (ROUGH, 1.0, 10, 80),
+        (ROUGH, 300.0, COUNT, COUNT),
+    ],
+)
+def test_pressures_are_those_of_dense_equations_from_any_start(
+    dense, friction, gap, load, least, most
+):
+    """A smooth gap and a rough one, one hat in contact, several patches, all hats."""
+    flexible, near = uneven(friction)
+    weights = np.full(COUNT, 0.9)
+    contact = ElasticContact(flexible, near, weights)
+    expected, at = dense(flexible, gap, weights, load)
+    for start in (np.ones(COUNT), 1.0 * (np.abs(PLACE) < 0.1), np.zeros(COUNT)):
+        pressure, approach = contact(gap, load, start)
+        np.testing.assert_allclose(pressure, expected, atol=1e-9 * expected.max())
+        assert approach == pytest.approx(at, rel=1e-9)
+    assert least <= np.count_nonzero(pressure) <= most
+
+
+def test_equations_that_do_not_converge_are_solved_directly(dense, monkeypatch):
+    monkeypatch.setattr(condensed, "MOST_RESIDUALS", 1)
+    flexible, near = uneven(0.3)
+    pressure, _ = ElasticContact(flexible, near, np.ones(COUNT))(ROUGH, 0.3, np.ones(COUNT))
+    expected, _ = dense(flexible, ROUGH, np.ones(COUNT), 0.3)
+    np.testing.assert_allclose(pressure, expected, atol=1e-9 * expected.max())
 
 
 def test_shifted_columns_are_those_of_any_compliance_that_does_not_depend_on_the_place():
@@ -53,10 +91,10 @@ def test_shifted_columns_are_those_of_any_compliance_that_does_not_depend_on_the
     np.testing.assert_allclose(shifted[block], exact[block], rtol=1e-12)
 
 
-def test_a_contact_that_does_not_settle_is_an_error(compliance, monkeypatch):
+def test_a_contact_that_does_not_settle_is_an_error(monkeypatch):
     monkeypatch.setattr(condensed, "MOST_EXCHANGES", 1)
     with pytest.raises(FemError, match="did not settle in 1 exchanges"):
-        ElasticContact(compliance.matrix(), WEIGHTS)(GAP, 1.0, np.ones(len(X)))
+        ElasticContact(*uneven(0.0), np.ones(COUNT))(ROUGH, 0.3, np.ones(COUNT))
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.2])

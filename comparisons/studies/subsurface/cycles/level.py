@@ -19,7 +19,8 @@ from comparisons.common.tasks import Here
 from comparisons.figures.quantity import MODELS
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Levels, Problem, mean_height, problem_of, surface_ends
+from comparisons.models.posing import problem_of, surface_ends
+from comparisons.models.problem import Levels, Problem, mean_height
 from comparisons.studies.subsurface.cycles import endless
 from comparisons.studies.subsurface.cycles.passes import CycledLevel, Passes
 

@@ -118,7 +118,7 @@ def test_a_roller_that_friction_holds_is_let_go_along_x(tmp_path, code):
 
 def scenes_load(resolved) -> float:
     """[N/m]"""
-    from comparisons.models.problem import problem_of
+    from comparisons.models.posing import problem_of
 
     return problem_of(resolved).hertz.load_per_length
 

@@ -14,7 +14,7 @@ from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import finished_map
 from comparisons.campaigns.maps.place import interpolated, known_to, unlike
 from comparisons.common.numbers import with_uncertainty
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Origin, Scene
 
 SCENES = json.loads((PROJECT / "tests/data/random_map_scenes.json").read_text())

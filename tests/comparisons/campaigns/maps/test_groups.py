@@ -4,7 +4,7 @@ import pytest
 
 from comparisons.campaigns.maps.groups import axis_of, counts_of, scene_with
 from comparisons.common.errors import InputError, SceneError
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
 

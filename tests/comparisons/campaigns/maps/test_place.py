@@ -20,7 +20,7 @@ from comparisons.cli import main
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
 from comparisons.models.finite_element.level import problem_of_approach
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Origin, Scene
 
 

@@ -10,7 +10,7 @@ from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.point import is_open, solve_point
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Scene
 from comparisons.studies.heat.half_space import HEAT_QUANTITIES
 

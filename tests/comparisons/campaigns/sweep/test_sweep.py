@@ -13,7 +13,7 @@ from comparisons.campaigns.sweep.sweep import MARGIN, scatter, sweep_request
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.drawing import style
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.notebook import scene_of
 from comparisons.scenes.surface import surface_of
 

@@ -26,7 +26,7 @@ from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.level import LevelOptions, finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Scene
 from fem.body.elasticity import elastic_body
 

@@ -10,7 +10,7 @@ from comparisons.models.finite_element.mesh import (
     roller_spec,
 )
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.scene import Scene
 from meshes.build import build_block

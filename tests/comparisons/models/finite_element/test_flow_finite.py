@@ -7,7 +7,7 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
 
 LIGHT = {

@@ -13,7 +13,8 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 

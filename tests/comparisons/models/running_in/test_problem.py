@@ -10,7 +10,7 @@ import comparisons.models.running_in
 from analytic.profile import Profile
 from analytic.running_in import run_in
 from analytic.surface.roughness import roughness
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.record import read_result
 from comparisons.runs.run import Known

@@ -9,7 +9,7 @@ import pytest
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of

@@ -13,7 +13,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.output.headline import headline
 from comparisons.output.page.page import render
 from comparisons.output.page.tables.problem import problem_sheet

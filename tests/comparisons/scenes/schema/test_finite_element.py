@@ -9,7 +9,7 @@ from analytic.material import Law
 from analytic.material.hardening import Hardening
 from comparisons.common.errors import SceneError
 from comparisons.models.assumptions import assumptions_of
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Origin, Scene
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}

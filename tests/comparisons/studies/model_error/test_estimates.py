@@ -16,7 +16,7 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.files import read_toml
 from comparisons.studies.contact import values_of

@@ -9,7 +9,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import forecast, time_with_flow
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
+from comparisons.models.posing import problem_of
 from comparisons.output.headline import headline
 from comparisons.runs.run import run
 from comparisons.studies.model_error.contributions import split_variants

@@ -13,7 +13,8 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Levels, problem_of
+from comparisons.models.posing import problem_of
+from comparisons.models.problem import Levels
 from comparisons.output.record import read_result
 from comparisons.runs.run import Known, run
 from comparisons.scenes.scene import Scene

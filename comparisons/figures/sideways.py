@@ -1,4 +1,4 @@
-"""How far two pressures lie beside each other, and what is left of their difference without that.
+"""The norm of a difference, how far two pressures lie beside each other, and what is left then.
 
 On the deformed surface asperities move with the material: together, and apart where the surface
 stretches. Narrow peaks that move by a part of their width make a large L2 norm, while the peaks
@@ -15,7 +15,6 @@ from scipy.fft import irfft, next_fast_len, rfft
 from scipy.optimize import minimize
 
 from analytic.grid import HatGrid
-from comparisons.studies.comparison import relative_l2
 
 FARTHEST = 0.05  # of the contact's extent: the largest shift, and the largest stretch, searched
 APART = 2.0  # pitches that the contact's ends move from one searched stretch to the next
@@ -64,3 +63,17 @@ def sideways_shift(grid: HatGrid, pressure: np.ndarray, reference: np.ndarray) -
     shift, stretch = map(float, min((best, nearest), key=left) * per_pitch)
     mean = float(np.average(np.abs(shift + stretch * x) / (1.0 + stretch), weights=reference))
     return SidewaysShift(shift, stretch, mean, left(np.array([shift, stretch]) / per_pitch))
+
+
+def relative_l2(
+    values: np.ndarray, reference: np.ndarray, weights: np.ndarray | float = 1.0
+) -> float:
+    """||values - reference|| / ||reference||; points where either is not finite are left out."""
+    known = np.isfinite(values) & np.isfinite(reference)
+    if not known.all():
+        weights = np.broadcast_to(weights, values.shape)[known]
+        values, reference = values[known], reference[known]
+    size = np.sum(weights * reference**2)
+    if size == 0.0:
+        return 0.0 if not np.any(values) else np.inf
+    return float(np.sqrt(np.sum(weights * (values - reference) ** 2) / size))

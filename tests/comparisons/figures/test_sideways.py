@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.grid import HatGrid
-from comparisons.studies.comparison import relative_l2
-from comparisons.studies.model_error.sideways import sideways_shift
+from comparisons.figures.sideways import relative_l2, sideways_shift
 
 GRID = HatGrid(1e-7, -1500, 1400)
 PLACES = np.random.default_rng(5).uniform(-100e-6, 100e-6, 25)  # of asperities [m]
