@@ -164,7 +164,8 @@ def _carry_out(arguments: list[str]) -> int:
         if _is_interrupt(error):
             return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
-            return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
+            said = error.format_message().replace("Value error, ", "")
+            return _end(ExitStatus.BAD_INPUT, f"{said} (see crosscheck --help)")
         if (missing := getattr(error, "name", None)) in FINITE_ELEMENT_LIBRARIES:
             return _end(ExitStatus.BAD_INPUT, NO_FINITE_ELEMENTS.format(missing, sys.executable))
         status = _defect(error)

@@ -74,6 +74,8 @@ class GmshWorker:
             timer.cancel()
         if late.is_set():
             raise MeshError(f"gmsh was stopped: not done after {timeout:g} s")
+        if status == -signal.SIGKILL:
+            raise MemoryError("gmsh was killed, as the system does where memory ends")
         if status != 0:
             raise MeshError(explain_failure(status, complaint.decode(errors="replace")))
         try:
@@ -126,15 +128,26 @@ def _environment() -> dict[str, str]:
 
 
 def start_worker() -> None:
-    """Have a worker wait, which loads gmsh while this process does something else."""
-    if not any(worker.serves(_environment()) for worker in idle):
-        idle.append(GmshWorker(_environment()))
+    """Have one worker wait, which loads gmsh while this process does something else."""
+    environment = _environment()
+    while idle and not idle[-1].serves(environment):
+        idle.pop().close()
+    if not idle:
+        idle.append(GmshWorker(environment))
 
 
 def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2) and triangles (m, 3) by `meshes.gmsh_worker.fill` with the arguments `task`.
-    Raises MeshError if the process fails, crashes, or takes longer than timeout [s]. The process
-    waits for further tasks, but ends where this one fails or is interrupted."""
+    Raises MeshError if the process fails, crashes, or takes longer than timeout [s], MemoryError
+    if it is killed, and so is the next. The process waits for further tasks, but ends where this
+    one fails or is interrupted."""
+    try:
+        return _filled(task, timeout)
+    except MemoryError:
+        return _filled(task, timeout)
+
+
+def _filled(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
     environment = _environment()
     worker = idle.pop() if idle else GmshWorker(environment)
     try:
@@ -189,7 +202,7 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     timeout   of gmsh [s]
 
     Raises MeshError if spec cannot be meshed, if gmsh fails or runs out of time, or if the elements
-    are not fit to solve on."""
+    are not fit to solve on, MemoryError if gmsh is killed."""
     began = time.perf_counter()
     check_spec(spec)
     unit = spec.surface_size

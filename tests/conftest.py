@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from comparisons.common.progress import machine_memory
+from meshes import build
 
 PROJECT = Path(__file__).resolve().parents[1]
 LAST = ("fem", "meshes", "analytic")  # folders of tests, by how long a file takes
@@ -23,6 +24,8 @@ LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 # rewrite assertions again that it has rewritten once.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+# Nor does gmsh start again because pytest has named the next test in the environment.
+build.LAUNCHER_VARIABLES += ("PYTEST_CURRENT_TEST",)
 # Nor is what they print as wide as the terminal that pytest writes to.
 os.environ.pop("COLUMNS", None)
 # A shell hands an ignored SIGINT down to what it runs in the background; tests send interrupts.

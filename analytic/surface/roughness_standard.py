@@ -92,8 +92,9 @@ def standard_cutoff(profile: Profile) -> float:
             continue
         if cutoff > LONGEST_CUTOFF * profile.length:
             raise ValueError(
-                f"the trace of {profile.length:.4g} m is too short for the standard's cut-off of "
-                f"{cutoff:g} m, which its roughness asks for; allowed is a cut-off in figures"
+                f"the trace of {1e3 * profile.length:.4g} mm is too short for the standard's "
+                f"cut-off of {1e3 * cutoff:g} mm, which its roughness asks for; allowed is a "
+                "cut-off in figures"
             )
         if standard_roughness(profile, cutoff).ra <= most:
             return cutoff

@@ -8,7 +8,7 @@ from typer import Argument, Option
 
 from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, show, show_either, show_json
-from comparisons.common.errors import ExitStatus, tell
+from comparisons.common.errors import ExitStatus, InputError, tell
 from comparisons.common.mpi import from_first
 
 if TYPE_CHECKING:
@@ -102,6 +102,8 @@ def table(
     """Put the figures of many runs into one table. A row a run, friction and quantity."""
     from comparisons.output import flat_csv as flat
 
+    if raw and as_json:
+        raise InputError("table: allowed is one of --csv, --json")
     if out is not None:
         flat.check_ending(out)
     rows, columns = flat.tidy_rows(folders, long), flat.LONG_COLUMNS if long else flat.COLUMNS

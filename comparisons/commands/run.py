@@ -94,6 +94,8 @@ def run(
     asked = from_first(lambda: _read(scene, answer or (), tolerance))
     asked = asked if up_to in (None, HERTZ) else _limited(asked, up_to)
     surface = from_first(lambda: surface_of(asked))
+    if plan and as_json:
+        raise InputError("run: allowed is one of --plan, --json")
     if plan:
         return _say_plan(asked, surface, chosen)
     if up_to == HERTZ:

@@ -2,6 +2,9 @@
 
 In: a scene. Out: a finished run, and its folder."""
 
+import errno
+import os
+import resource
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -57,6 +60,7 @@ CODE = (
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
+LEAST_OPEN_FILES = 32  # of finite elements: MPI crashes with fewer
 LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, and a small scene
 GOES_ON = "finished levels are kept, the same command goes on from there"
 WRITES_AGAIN = "nothing was written, but all is solved and kept: the same command writes the files"
@@ -178,12 +182,16 @@ def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
 
 
 def _check_libraries(models: tuple[str, ...]) -> None:
-    """Raise MemoryError, or ModuleNotFoundError, where the finite elements' libraries would fail
-    amid the work, each in its own words."""
-    if "finite_element" in models and find_spec("dolfinx") is None:
+    """Raise MemoryError, OSError or ModuleNotFoundError where the finite elements' libraries would
+    fail amid the work, each in its own words."""
+    if "finite_element" not in models:
+        return
+    if find_spec("dolfinx") is None:
         raise ModuleNotFoundError("finite elements take dolfinx", name="dolfinx")
+    if 0 <= resource.getrlimit(resource.RLIMIT_NOFILE)[0] < LEAST_OPEN_FILES:
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
     allowed = address_space()
-    if "finite_element" in models and allowed is not None and allowed < LEAST_ADDRESS_SPACE:
+    if allowed is not None and allowed < LEAST_ADDRESS_SPACE:
         least = LEAST_ADDRESS_SPACE / 1e9
         raise MemoryError(f"finite elements take at least {least:.3g} GB of address space")
 

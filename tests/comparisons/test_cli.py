@@ -386,6 +386,14 @@ def test_a_limit_of_the_system_is_named(solver, capsys, number, said):
     assert line.startswith("crosscheck: the system allows this user no more") and said in line
 
 
+def test_too_few_files_are_named_before_mpi_crashes_on_them(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("comparisons.runs.run.LEAST_OPEN_FILES", 10**9)
+    assert main(["run", "smooth", "--out", str(tmp_path / "out")]) == ExitStatus.OUT_OF_MEMORY
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "no more open files (ulimit -n); allowed is a higher limit" in line
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(tmp_path):
     code = (
         "import sys; sys.modules.update(dict.fromkeys(('dolfinx', 'petsc4py', 'mpi4py')))\n"

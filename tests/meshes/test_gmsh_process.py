@@ -44,6 +44,20 @@ def test_each_failure_is_one_clear_error(monkeypatch, code, words):
     assert "\n" not in str(caught.value)
 
 
+def test_a_killed_process_is_no_wrong_input(monkeypatch, tmp_path):
+    """A mesh is tried once more; then the error says what the system does."""
+    code = f"""
+        import os
+        with open({str(tmp_path / "n")!r}, "a") as starts:
+            starts.write("k")
+        os.kill(os.getpid(), 9)
+    """
+    worker(monkeypatch, code)
+    with pytest.raises(MemoryError, match="gmsh was killed"):
+        build.build_block(SPEC)
+    assert (tmp_path / "n").read_text() == "kk"
+
+
 def test_the_time_of_a_mesh_is_known_while_its_process_waits():
     """Then the system does not count it yet."""
     build.close_workers()
@@ -153,6 +167,16 @@ def test_another_process_follows_one_that_failed_or_was_killed(monkeypatch):
     os.kill(process_id(), signal.SIGKILL)
     build.idle[0].process.wait()
     np.testing.assert_array_equal(build.build_block(SPEC).points, first.points)
+
+
+def test_one_process_waits_however_the_environment_changes(monkeypatch):
+    build.start_worker()
+    before = build.idle[-1]
+    monkeypatch.setenv("CHANGED", "once")
+    build.start_worker()
+    assert len(build.idle) == 1 and before.process.poll() is not None
+    build.start_worker()
+    assert len(build.idle) == 1 and build.idle[-1].process.poll() is None
 
 
 def test_a_forked_process_starts_its_own():

@@ -321,6 +321,5 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
     return Picture(
         source=data_uri(drawn),
         alternative=f"Error of the {label(quantity)} over time. Pareto front: {best}.",
-        caption=f"{label(quantity).capitalize()}: error against {reference.source}, over time."
-        f"{named}",
+        caption=f"Error of the {label(quantity)} against {reference.source}, over time.{named}",
     )

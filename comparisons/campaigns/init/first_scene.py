@@ -97,6 +97,8 @@ def write_first_scene(
     force     replace the scene's file, and the picture's
     draw      a picture of the trace beside the scene, as SVG
     Raises InputError, and writes nothing, where profile or place for the scene cannot be used."""
+    if profile.is_dir():
+        raise InputError(f"{profile}: is a directory; a profile is a file")
     out = profile.with_suffix(".toml") if out is None else out
     drawn = out.with_suffix(".svg") if draw else None
     for place in filter(None, (out, drawn)):

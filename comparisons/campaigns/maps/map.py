@@ -39,6 +39,8 @@ from comparisons.scenes.scene import Origin, Scene
 if TYPE_CHECKING:
     from rich.console import Group
 
+    from comparisons.campaigns.maps.picture import Mark
+
 MAP, PICTURE, TIMES = "map.json", "map.svg", "map_times.json"
 SCHEMA = 2
 FINISHED = Path(__file__).parent / "finished"
@@ -134,6 +136,8 @@ def make_map(
     workers  as `tasks_by` takes them
     marked   a scene of the user's on the picture
     Raises InputError for what cannot be mapped or written."""
+    axes = {"scene": request.tables, "x": request.x, "y": request.y}
+    mark = marked and mark_of(axes, marked)  # before anybody waits for the points
     files = MAP, PICTURE, TIMES
     answers = solved_in(out, files, request.points, solve_point, workers, callback)
     if answers is None:
@@ -141,7 +145,7 @@ def make_map(
     content = map_content(request, [answer for answer, _ in answers])
     callback("map: picture")
     times = {"seconds": [seconds for _, seconds in answers]}
-    publish(out, _files(content, marked) | {TIMES: as_json(times)})
+    publish(out, _files(content, mark) | {TIMES: as_json(times)})
     return content
 
 
@@ -158,14 +162,13 @@ def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -
     Raises InputError for a quantity that it does not have, and what cannot be written."""
     content = showing(finished_map(name), quantity)
     check_writable(out, (PICTURE, MAP))
-    publish(out, _files(content, marked))
+    publish(out, _files(content, marked and mark_of(content, marked)))
     return content
 
 
-def _files(content: dict, marked: Problem | None) -> dict[str, str]:
+def _files(content: dict, mark: "Mark | None") -> dict[str, str]:
     from comparisons.campaigns.maps.picture import map_picture
 
-    mark = None if marked is None else mark_of(content, marked)
     return {PICTURE: map_picture(content, mark), MAP: as_json(content)}
 
 
@@ -178,7 +181,7 @@ def misfit(content: dict, scene: Scene) -> str:
     return f"has another [{other[0]}] than the map's scene" if other else ""
 
 
-def mark_of(content: dict, problem: Problem) -> tuple[str, tuple[float, float]]:
+def mark_of(content: dict, problem: Problem) -> "Mark":
     """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
     where a group has no value for a scene, or one off the map, or the scene is none of the map's
     kind."""

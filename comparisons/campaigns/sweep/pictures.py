@@ -10,7 +10,7 @@ import numpy as np
 from comparisons.common.numbers import plain, scale_of
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.drawing import style
-from comparisons.drawing.curves import over, panels
+from comparisons.drawing.curves import distinct, over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
 from comparisons.scenes.scene import dimension_of
 from comparisons.studies.subsurface import bulge, quiescent_zone
@@ -135,16 +135,21 @@ def _lines(content: dict, name: str, axes: list[Axis]) -> dict[str, list[tuple[f
 
 def _draw_lines(axes: "Axes", lines: dict[str, list], name: str, sample: bool) -> None:
     scale = scale_of([y for line in lines.values() for _, y in line], QUANTITIES[name].unit)
-    for number, (label, line) in enumerate(lines.items()):
-        x, y = np.array(sorted(line)).T
+    curves = {label: tuple(np.array(sorted(line)).T) for label, line in lines.items()}
+    apart = {names[0]: names for names in distinct(curves)}
+    for number, (label, (x, y)) in enumerate(curves.items()):
         look = {"marker": MARKERS[number % len(MARKERS)], "markersize": 3.2, "linewidth": 1.0}
-        look["linestyle"] = style.DASHES[number % len(style.DASHES)]
-        [drawn] = axes.plot(x, y / scale.factor, label=label, **look)
+        look |= {"linestyle": style.DASHES[number % len(style.DASHES)], "color": f"C{number}"}
+        shown = slice(None if label in apart else 0)  # one line over another is a third colour
+        axes.plot(x[shown], y[shown] / scale.factor, label=label, **look)
         if sample and number == 0:
             mean, spread = np.mean(y) / scale.factor, np.std(y, ddof=1) / scale.factor
-            band = {"color": drawn.get_color(), "alpha": 0.15, "linewidth": 0.0, "label": BAND}
+            band = {"color": "C0", "alpha": 0.15, "linewidth": 0.0, "label": BAND}
             axes.axhspan(mean - spread, mean + spread, **band)
-            axes.axhline(mean, color=drawn.get_color(), linewidth=0.6)
+            axes.axhline(mean, color="C0", linewidth=0.6)
+    joint = [" = ".join(names) for names in apart.values() if names[1:]]
+    said = "all lines coincide" if len(apart) == 1 else ", ".join(joint)
+    axes.set_title(said if joint else "", loc="right")
     axes.set_ylabel(f"{DRAWN[name]}, {scale.name}")
 
 
@@ -212,6 +217,7 @@ def _draw_zones(axes: "Axes", entries: dict[tuple, dict], columns: list, rows: l
     axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
     axes.set_xticks(range(len(columns)), columns, fontsize=7.5)
     axes.set_yticks(range(len(rows)), rows, fontsize=7.5)
+    axes.tick_params(axis="y", length=0.0)
     axes.grid(False)
 
 

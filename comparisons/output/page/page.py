@@ -140,15 +140,18 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
     if run.window is None:
         return
     frictions = run.problem.scene.load.friction
-    fields: list = [
-        Pictures(("fields",), f"Friction {friction:g}", True, slice(k, None, len(frictions)))
-        for k, friction in enumerate(frictions)
-    ]
     deciding = frictions.index(run.deciding_friction)
-    fields.insert(0, Box("deciding", (fields.pop(deciding),)))  # large on paper, too
-    near = Pictures(("near",), "Next to the surface", abreast=True)
+
+    def fields(place: int) -> Iterator[Pictures]:
+        name, part = f"friction {frictions[place]:g}", slice(place, None, len(frictions))
+        yield Pictures(("fields",), name.capitalize(), True, part)
+        yield Pictures(("near",), f"Next to the surface, {name}", True, part)
+
+    others = [item for k in range(len(frictions)) if k != deciding for item in fields(k)]
+    note = NOTES["fields"] + NOTES["printed"].format(frictions[deciding]) * bool(others)
     down = Heading("Sections over depth"), Pictures(("sections",), abreast=True)
-    items = Note(NOTES["fields"]), *fields, near, explorer, *down
+    on_screens = Box("on-screens", tuple(others))
+    items = Note(note), *fields(deciding), on_screens, explorer, *down
     yield Block("stresses", items, "Subsurface stresses")
 
 

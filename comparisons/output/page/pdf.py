@@ -21,8 +21,16 @@ class NoPdfError(RuntimeError):
 
 
 def browser() -> str | None:
-    """The first Chromium or Chrome on the PATH."""
-    return next(filter(None, map(shutil.which, BROWSERS)), None)
+    """The first Chromium or Chrome on the PATH that starts: Ubuntu's only asks for its snap."""
+    return next(filter(_starts, filter(None, map(shutil.which, BROWSERS))), None)
+
+
+def _starts(program: str) -> bool:
+    silent = {"capture_output": True, "stdin": subprocess.DEVNULL, "timeout": PATIENCE}
+    try:
+        return subprocess.run([program, "--version"], **silent).returncode == 0
+    except (OSError, subprocess.TimeoutExpired):
+        return False
 
 
 def options(profile: str) -> list[str]:
@@ -48,8 +56,8 @@ def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
     program, by_hand = browser(), f"print {page} from any browser"
     if program is None:
         raise NoPdfError(
-            f"{target}: not printed: neither Chromium nor Chrome is installed; "
-            f"{REMEDY} gets one, or {by_hand}"
+            f"{target}: not printed: no Chromium or Chrome starts here; "
+            f"{REMEDY} gets one (of Ubuntu: snap install chromium), or {by_hand}"
         )
     with (
         tempfile.TemporaryDirectory(prefix="crosscheck-", ignore_cleanup_errors=True) as profile,

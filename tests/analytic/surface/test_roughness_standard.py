@@ -173,9 +173,9 @@ def test_automatic_cutoff_is_that_of_the_table(ra, cutoff):
 
 
 def test_automatic_cutoff_needs_the_length_that_it_asks_for():
-    with pytest.raises(ValueError, match=r"too short for the standard's cut-off of 0\.0008 m"):
+    with pytest.raises(ValueError, match=r"too short for the standard's cut-off of 0\.8 mm"):
         standard_cutoff(waves((AMPLITUDE, 8e-6), length=1.5e-3))
-    with pytest.raises(ValueError, match=r"too short for the standard's cut-off of 8e-05 m"):
+    with pytest.raises(ValueError, match=r"too short for the standard's cut-off of 0\.08 mm"):
         standard_cutoff(waves((AMPLITUDE, 8e-6), length=1.5e-4))
     with pytest.raises(ValueError, match=r"no cut-off of the standard .* suits the trace"):
         standard_cutoff(waves((200e-6, 80e-6), length=17e-3))

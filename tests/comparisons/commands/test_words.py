@@ -93,9 +93,26 @@ def test_the_table_of_runs_is_for_people_and_csv_on_request(folder, capsys, undr
     assert capsys.readouterr().out.startswith("run,scene,title,friction,quantity,unit,half_plane")
 
 
-def test_a_mark_of_another_kind_than_the_map_is_refused(folder, capsys):
+def test_a_mark_of_another_kind_than_the_map_is_refused(folder, capsys, monkeypatch):
     said = answered(capsys, "map", "slope-wavelength", "--mark", "smooth", "--out", "map")
     assert "--mark: smooth is smooth, and the map is of a rough surface; allowed is" in said
+    monkeypatch.delattr("comparisons.campaigns.maps.map.solved_in")  # nothing is solved before
+    said = answered(capsys, "map", "smooth", "--mark", "periodic", "--out", "map")
+    assert "--mark: periodic is rough, and the map is of a smooth surface; allowed is" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["run", "mine.toml", "--plan", "--json"], "run: allowed is one of --plan, --json"),
+        (["table", ".", "--csv", "--json"], "table: allowed is one of --csv, --json"),
+        (["deck", "mine.toml", "--for", "ansys"], "'--for': 'ansys' is not one of 'calculix', "),
+        (["init", "."], ".: is a directory; a profile is a file"),
+    ],
+)
+def test_what_no_command_can_do_is_refused(folder, capsys, arguments, said):
+    assert said in answered(capsys, *arguments)
+    assert [path.name for path in folder.iterdir()] == ["mine.toml"]
 
 
 def test_init_says_what_it_has_assumed(folder, capsys):

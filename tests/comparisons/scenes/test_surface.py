@@ -164,11 +164,11 @@ class TestFilter:
         info = with_profile(**ROUGH | {"length": 1e-3}).info
         assert info.standard is None
         assert info.standard_why == (
-            "the trace of 0.001 m is too short for the standard's cut-off of 0.0008 m, which its "
+            "the trace of 1 mm is too short for the standard's cut-off of 0.8 mm, which its "
             "roughness asks for"
         )
         assert complaint(**ROUGH | {"length": 1e-3}, cutoff="auto").startswith(
-            "mine.toml: profile.cutoff: the trace of 0.001 m is too short for the standard's cut"
+            "mine.toml: profile.cutoff: the trace of 1 mm is too short for the standard's cut-"
         )
 
     @pytest.mark.parametrize(

@@ -137,7 +137,8 @@ def judged_picture(run: Run) -> style.Picture | None:
     axes.axvspan(-1.0, 1.0, color="#e8eef2", linewidth=0.0, zorder=0.5)
     for row, error in enumerate(errors):
         _bar(axes, -float(row), error, several=len(run.problem.scene.load.friction) > 1)
-    axes.axvline(0.0, color="#555555", linewidth=0.7)
+    rows = -np.arange(float(len(errors)))  # between them the line would cross words
+    axes.vlines(0.0 * rows, rows - 0.55, rows + 0.56 * THICK, color="#555555", linewidth=0.7)
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
     axes.grid(False, axis="y")

@@ -218,7 +218,7 @@ def test_json_says_what_was_made_and_without_a_browser_why_there_is_no_pdf(
     assert run["report"] == str(copied / "report.html")
     assert run["pdf"] is None
     assert not (copied / "report.pdf").exists()
-    assert "report.pdf: not printed: neither Chromium nor Chrome is installed" in printed.err
+    assert "report.pdf: not printed: no Chromium or Chrome starts here" in printed.err
     assert printed.err.count("\n") == 1
     assert run["verdict"] in ("holds", "fails", "inconclusive")
     result = json.loads((copied / "result.json").read_text())

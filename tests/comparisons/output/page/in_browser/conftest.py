@@ -149,9 +149,7 @@ class Tab:
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     program = installed()
     if program is None:
-        pytest.skip("neither Chromium nor Chrome is installed")
-    if subprocess.run([program, "--version"], capture_output=True).returncode:
-        pytest.skip(f"{program} only says what to install")  # Ubuntu's, without its snap
+        pytest.skip("no Chromium or Chrome starts here")
     running = Browser(program, tmp_path_factory.mktemp("browser"))
     yield running
     running.close()

@@ -79,19 +79,23 @@ def fake(folder: Path, script: str) -> None:
     path.chmod(0o755)
 
 
+STARTS = "case $1 in --version) exit;; esac; "
+
+
 @pytest.mark.parametrize(
     ("script", "message"),
     [
-        (None, "neither Chromium nor Chrome is installed; apt-get install"),
-        ("exit 7", "ended with 7 and left no PDF"),
-        ("sleep 60", "did not end within 1 s"),
+        (None, "no Chromium or Chrome starts here; apt-get install"),
+        ("exit 1", "no Chromium or Chrome starts here; apt-get install"),
+        (STARTS + "exit 7", "ended with 7 and left no PDF"),
+        (STARTS + "sleep 60", "did not end within 1 s"),
         (
-            'for a in "$@"; do case $a in --print-to-pdf=*) '
+            STARTS + 'for a in "$@"; do case $a in --print-to-pdf=*) '
             "printf '%%PDF-1.4 torn' > \"${a#*=}\";; esac; done",
             "left no PDF",
         ),
     ],
-    ids=["none", "fails", "hangs", "torn"],
+    ids=["none", "a stub", "fails", "hangs", "torn"],
 )
 def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch, script, message):
     tools = tmp_path / "bin"
