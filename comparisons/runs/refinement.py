@@ -30,7 +30,8 @@ NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger 
 def refined(
     scene: Solved, tasks: Tasks, begin: Callable[[Solved], None] = lambda solved: None
 ) -> Solved:
-    """The runs of the plan's models, and why their refinement stopped.
+    """The runs of the plan's models, and why their refinement stopped. Raises FemError where one of
+    the least levels has no solution; a finer one that has none ends the refinement.
 
     The levels that the scene asks for are known to `tasks` from the start, further ones when they
     are found necessary.
@@ -43,7 +44,12 @@ def refined(
         begin(levels.solved(len(scene.problem.pitches), ["half_plane"]))
     asked, unresolved_now, begun = len(scene.problem.pitches), {}, False
     for number in count(1):
-        now = levels.solved(number, scene.plan.models)
+        try:
+            now = levels.solved(number, scene.plan.models)
+        except FemError as error:
+            if number <= LEAST_LEVELS:
+                raise
+            return levels.checked(now, _not_resolved(unresolved(now), f"level {number}: {error}"))
         if number >= asked:
             before, unresolved_now = unresolved_now, unresolved(now)
             if not unresolved_now:
@@ -54,11 +60,15 @@ def refined(
         if why is None and number == scene.problem.most_levels:
             why = f"{number} levels are the most"
         if why is not None:
-            names = ", ".join(unresolved_now) or "judged quantities"
-            return levels.checked(now, f"{names} not resolved to a third of the tolerance: {why}")
+            return levels.checked(now, _not_resolved(unresolved_now, why))
         if not begun and number > 1 and (unresolved_now or unresolved(now)):
             begun = True
             begin(now)
+
+
+def _not_resolved(names: Iterable[str], why: str) -> str:
+    open_now = ", ".join(names) or "judged quantities"
+    return f"{open_now} not resolved to a third of the tolerance: {why}"
 
 
 @dataclass(frozen=True)

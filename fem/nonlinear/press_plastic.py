@@ -197,11 +197,11 @@ class LoadHistory:
                 contacts += self._to_plastic(
                     load, start, RESIDUAL if load == target else ON_THE_WAY
                 )
-            except FemError:
+            except FemError as failure:
                 failures += 1
                 if step <= least or failures > MOST_FAILURES:
                     try:
-                        return contacts + self._sink(target)
+                        return contacts + self._sink(target, failure)
                     except FemError as error:
                         why = f"the load of {target:g} N/m was not reached: {error}"
                         raise FemError(why) from error
@@ -212,14 +212,15 @@ class LoadHistory:
             step = float(np.clip(step, least, most))
         return contacts
 
-    def _sink(self, target: float) -> int:
-        """Linear contacts that lead to a load [N/m] by increments of the approach. Where a metal is
-        nearly rigid the load hardly rises until further hats touch, and tells nothing of how far
-        the roller sinks; the approach does. The last increment ends on the load."""
+    def _sink(self, target: float, failure: FemError) -> int:
+        """Linear contacts that lead to a load [N/m] by increments of the approach, where those of
+        the load end with a failure. Where a metal is nearly rigid the load hardly rises until
+        further hats touch, and tells nothing of how far the roller sinks; the approach does. The
+        last increment ends on the load."""
         sign, contacts, failures = np.sign(target - self.state.load), 0, 0
         way = sign * abs(self.state.approach - self._last.approach)
         if not way:
-            raise FemError("nothing has sunk yet")
+            raise failure
         for _ in range(MOST_SINKING):
             here, goal = self.state, self.state.approach + way
             try:

@@ -1,6 +1,7 @@
 """How far refinement goes: by laws, not by the clock."""
 
 import time
+from functools import partial
 
 import numpy as np
 import pytest
@@ -8,11 +9,14 @@ from scenes import SMOOTH, problem
 
 from comparisons.common.errors import SceneError
 from comparisons.common.tasks import Tasks
-from comparisons.models.half_plane import expected_with
+from comparisons.figures.quantity import MODELS
+from comparisons.models.finite_element import level
+from comparisons.models.half_plane import expected_with, half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
 from comparisons.studies.study import Solved
+from fem.solver.mumps import FemError
 
 
 def half_plane(**budget):
@@ -62,3 +66,23 @@ def test_no_clock_decides(monkeypatch):
     assert sum(hurried.seconds.values()) > 100.0
     assert len(usual.levels) == len(hurried.levels)
     np.testing.assert_array_equal(usual.finest.solution.pressure, hurried.finest.solution.pressure)
+
+
+def test_a_finer_level_without_a_solution_ends_the_refinement(monkeypatch):
+    """Finite elements that are half-planes, but for the finest one."""
+    made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}})
+
+    def solve(finest, problem, plan, refinement, window, stages, *rest):
+        if refinement.pitch <= 1.01 * made.pitches[finest - 1]:
+            raise FemError("it did not converge")
+        return half_plane_level(problem, refinement.pitch, window, stages)
+
+    def solved(finest):
+        monkeypatch.setattr(level, "finite_element_level", partial(solve, finest))
+        return refined(Solved(made, make_plan(made, MODELS), None, {}), Tasks())
+
+    runs = solved(3)
+    assert {name: len(run.levels) for name, run in runs.runs.items()} == dict.fromkeys(MODELS, 2)
+    assert runs.refinement.endswith("to a third of the tolerance: level 3: it did not converge")
+    with pytest.raises(FemError, match="did not converge"):
+        solved(2)
