@@ -229,10 +229,12 @@ class FiniteContact:
         by the tangents of one state."""
         return load * float(self.weights @ pressure) / self.borne(moved, pressure)
 
-    def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
+    def set_back(
+        self, moved: np.ndarray, pressure: np.ndarray, turned: bool = True
+    ) -> tuple[np.ndarray, float]:
         """The displacement (n, 2) [m] with each body moved along x, so that in the mean of a
         pressure (count,) [Pa] its surface stays where it was; a disc so that its middle does, and
-        turned until its surface does; and by how much at most they were moved [m]."""
+        `turned` until its surface does; and by how much at most they were moved [m]."""
         pieces, aside = np.split(moved, [len(self.body.nodes)]), 0.0
         at, force = self.hats[1:-1], pressure * self.weights
         for place, (body, piece) in enumerate(zip(self.elastic, pieces, strict=False)):
@@ -241,11 +243,9 @@ class FiniteContact:
             mean = float(force @ along / force.sum())
             if place and self._disc:
                 x, z, radius = _circle(*(body.nodes + piece)[surface.point].T)
-                pieces[place] = _turned(body.nodes, piece - (x, 0.0), z, (mean - x) / radius)
-                mean = x
-            else:
-                pieces[place] = piece - (mean, 0.0)
-            aside = max(aside, abs(mean))
+                angle, mean = (mean - x) / radius if turned else 0.0, x
+                piece = _turned(body.nodes, piece, (x, z), angle)
+            pieces[place], aside = piece - (mean, 0.0), max(aside, abs(mean))
         return np.vstack(pieces), aside
 
     def begun(
@@ -380,12 +380,13 @@ def _circle(x: np.ndarray, z: np.ndarray) -> tuple[float, float, float]:
     return float(a * size), float(b * size), float(np.sqrt(c + a**2 + b**2) * size)
 
 
-def _turned(nodes: np.ndarray, moved: np.ndarray, middle: float, angle: float) -> np.ndarray:
-    """Displacements (n, 2) [m] of nodes (n, 2) [m] that are then turned about (0, `middle`), those
+def _turned(
+    nodes: np.ndarray, moved: np.ndarray, middle: tuple[float, float], angle: float
+) -> np.ndarray:
+    """Displacements (n, 2) [m] of nodes (n, 2) [m] that are then turned about a `middle` [m], those
     with less z towards -x."""
     cosine, sine = np.cos(angle), np.sin(angle)
-    place = nodes + moved - (0.0, middle)
-    return moved + place @ np.array([[cosine - 1.0, -sine], [sine, cosine - 1.0]])
+    return moved + (nodes + moved - middle) @ [[cosine - 1.0, -sine], [sine, cosine - 1.0]]
 
 
 def _started(
