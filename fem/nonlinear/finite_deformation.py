@@ -11,8 +11,10 @@ Friction drags the bodies past each other, by an amount that for unbounded bodie
 constant: a held block or a disc gives ten times what the half-plane's own datum gives. Left to
 itself the roller would stand over another place of the trace. Both are moved back along x until the
 displacement of each surface along x is zero in the pressure's mean: under load the roller stands
-where the scene has put it. A disc also turns, which moves its surface and not its shape: of a disc
-the middle of the circle that fits its deformed rim best is moved back."""
+where the scene has put it. Of a disc the middle of the circle that fits its deformed rim best is
+moved back. Friction also turns it, which moves its surface and not its shape: it is turned back
+about that middle. Left to itself it would carry the dents under the asperities along, and
+corrections that move the pressures' dents and turn the disc apart would diverge."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -227,19 +229,22 @@ class FiniteContact:
         by the tangents of one state."""
         return load * float(self.weights @ pressure) / self.borne(moved, pressure)
 
-    def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
+    def set_back(
+        self, moved: np.ndarray, pressure: np.ndarray, turned: bool = True
+    ) -> tuple[np.ndarray, float]:
         """The displacement (n, 2) [m] with each body moved along x, so that in the mean of a
-        pressure (count,) [Pa] its surface stays where it was, or a disc's middle does; and by how
-        much at most [m]."""
+        pressure (count,) [Pa] its surface stays where it was; a disc so that its middle does, and
+        `turned` until its surface does; and by how much at most they were moved [m]."""
         pieces, aside = np.split(moved, [len(self.body.nodes)]), 0.0
         at, force = self.hats[1:-1], pressure * self.weights
         for place, (body, piece) in enumerate(zip(self.elastic, pieces, strict=False)):
             surface = body.surface
+            along = np.interp(at, surface.x, piece[surface.point, 0])
+            mean = float(force @ along / force.sum())
             if place and self._disc:
-                mean = _middle(*(body.nodes + piece)[surface.point].T)
-            else:
-                along = np.interp(at, surface.x, piece[surface.point, 0])
-                mean = float(force @ along / force.sum())
+                x, z, radius = _circle(*(body.nodes + piece)[surface.point].T)
+                angle, mean = (mean - x) / radius if turned else 0.0, x
+                piece = _turned(body.nodes, piece, (x, z), angle)
             pieces[place], aside = piece - (mean, 0.0), max(aside, abs(mean))
         return np.vstack(pieces), aside
 
@@ -364,14 +369,24 @@ class FiniteCompliance:
         return np.vstack([body.solve(piece) for body, piece in bodies])
 
 
-def _middle(x: np.ndarray, z: np.ndarray) -> float:
-    """x [m] of the middle of the circle that fits points (n,) [m] best, each with as much weight as
-    it has arc (Kasa 1976, IEEE Trans. Instrum. Meas. 25, 8)."""
+def _circle(x: np.ndarray, z: np.ndarray) -> tuple[float, float, float]:
+    """Middle x, z and radius [m] of the circle that fits points (n,) [m] best, each with as much
+    weight as it has arc (Kasa 1976, IEEE Trans. Instrum. Meas. 25, 8)."""
     size = np.ptp(x)
     x, z = x / size, z / size
     weight = np.sqrt(np.gradient(np.append(0.0, np.cumsum(np.hypot(np.diff(x), np.diff(z))))))
     columns = np.column_stack([2.0 * x, 2.0 * z, np.ones_like(x)]) * weight[:, None]
-    return float(np.linalg.lstsq(columns, weight * (x**2 + z**2), rcond=None)[0][0] * size)
+    a, b, c = np.linalg.lstsq(columns, weight * (x**2 + z**2), rcond=None)[0]
+    return float(a * size), float(b * size), float(np.sqrt(c + a**2 + b**2) * size)
+
+
+def _turned(
+    nodes: np.ndarray, moved: np.ndarray, middle: tuple[float, float], angle: float
+) -> np.ndarray:
+    """Displacements (n, 2) [m] of nodes (n, 2) [m] that are then turned about a `middle` [m], those
+    with less z towards -x."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return moved + (nodes + moved - middle) @ [[cosine - 1.0, -sine], [sine, cosine - 1.0]]
 
 
 def _started(

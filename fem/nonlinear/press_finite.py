@@ -93,9 +93,10 @@ class _Surfaces:
         self._there: tuple[np.ndarray, np.ndarray] | None = None  # where it has followed to
 
     def placed(self, displacement: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-        """Displacements (n + m, 2) [m] of both bodies, moved back along x."""
+        """Displacements (n + m, 2) [m] of both bodies, moved back along x, which changes no forces;
+        a disc is not turned."""
         both = np.vstack([displacement, self.roller])
-        return self._contact.set_back(both, pressure)[0]
+        return self._contact.set_back(both, pressure, turned=False)[0]
 
     def loaded(
         self, displacement: np.ndarray, pressure: np.ndarray
@@ -192,7 +193,7 @@ class _FiniteHistory(LoadHistory):
     def _both(self, state: "_Start") -> np.ndarray:
         """Displacements (n + m, 2) [m] of both bodies, moved back along x."""
         both = np.vstack([state.displacements[0], state.roller])
-        return self._contact.set_back(both, state.pressure)[0]
+        return self._contact.set_back(both, state.pressure, turned=False)[0]
 
     def _force(self, state: "_Start") -> np.ndarray:
         """Nodal forces (n, 2) [N/m] of the contact on the body."""

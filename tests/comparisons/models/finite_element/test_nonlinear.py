@@ -54,10 +54,17 @@ def test_it_is_told_what_ends_there(profile, pitches, words):
         pressed(posed, pitches * posed.pitches[0])
 
 
-@pytest.mark.parametrize("roller", [RIGID["roller"], {"radius": 8e-3, **STEEL}])
-def test_the_linear_factors_lead_where_newtons_method_does(roller):
-    """To the same contact of a rough body under friction, rigid roller or elastic; as they do from
-    an accurate start and with forces solved to the end at each pressure, in fewer corrections."""
+ELASTIC = {"radius": 8e-3, **STEEL}
+DISC = {"roller_body": "disc", "roller_shape": "circle"}
+
+
+@pytest.mark.parametrize(
+    ("roller", "shape"), [(RIGID["roller"], {}), (ELASTIC, {}), (ELASTIC, DISC)]
+)
+def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
+    """To the same contact of a rough body under friction, rigid roller or elastic, which turns
+    where it is a disc; as they do from an accurate start and with forces solved to the end at each
+    pressure, in fewer corrections."""
     tables = {
         "roller": roller,
         "body": {**STEEL, "youngs_modulus": 100e9},
@@ -68,6 +75,7 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller):
             "deformation": "finite",
             "coupled": True,
             "far_field": "half-plane",
+            **shape,
         },
     }
     posed = problem(tables)
