@@ -69,7 +69,7 @@ class Pictures:
 
 @dataclass(frozen=True)
 class Box:
-    """Items together, of a class of the page's style: columns | sheet | stack."""
+    """Items together, of a class of the page's style: columns | thirds | sheet | half | signed."""
 
     style: str
     items: tuple

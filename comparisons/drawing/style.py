@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
 
 EDGE, LABEL = 0.17, 0.27  # inches: from the picture's left to a label, from an axis down to its own
-COLUMN = 5.6  # inches: two such pictures stand side by side on a wide screen
+COLUMN, THIRD = 5.6, 3.7  # inches: two or three such pictures stand side by side
 HATCH = 0.055  # inches between hatches
 ROWS = 1500  # of a picture's curves as CSV, at most; contact.csv has all
 WIDE = 11.4  # inches: a picture across the page

@@ -180,7 +180,7 @@ def _over_load(run: Run) -> style.Picture:
         panel.errorbar(load, random.numbers / scale, random.sizes / scale, **look)
         panel.set(xscale="log", yscale="log")
     axes[0].set_ylabel(f"mean real pressure [{unit.name}]")
-    axes[0].legend(loc="lower right", fontsize=7.5)
+    axes[0].legend(loc="lower right")
     axes[1].set_ylabel("half-width / a")
     over(axes, "load [N/m]")
     ends = (columns[f"figures.{name}.{PRESSURE}"].values for name in ("moments", "random"))

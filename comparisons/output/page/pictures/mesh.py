@@ -10,7 +10,7 @@ import numpy as np
 
 from comparisons.common.numbers import integer, scale_of, with_unit
 from comparisons.drawing.curves import panels
-from comparisons.drawing.style import COLUMN, Picture, picture
+from comparisons.drawing.style import THIRD, Picture, picture
 from comparisons.studies.contact import peak_position
 from comparisons.studies.study import Run
 from meshes.block import real_points, unique_edges
@@ -62,9 +62,9 @@ def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Fig
     """Edges between points (n, 2) from a left to a right end and down to a depth [m]."""
     unit = scale_of(view, "m")
     low, high, depth = (end / unit.factor for end in view)
-    width = COLUMN - 0.8
-    height = float(np.clip(width * view[2] / (view[1] - view[0]), 0.8, 4.2))
-    drawn, [axes] = panels(COLUMN, [(0.14, height)], 0.68)
+    width = THIRD - 0.9
+    height = float(np.clip(width * view[2] / (view[1] - view[0]), 0.8, 2.8))
+    drawn, [axes] = panels(THIRD, [(0.14, height)], 0.68, right=0.22)
     points = points / unit.factor
     top = min(0.0, max(points[:, 1].min(), -0.2 * depth)) - 0.03 * depth
     labels = {"xlabel": f"x [{unit.name}]", "ylabel": f"z [{unit.name}]"}
