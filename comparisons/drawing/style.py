@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
 
 EDGE, LABEL = 0.17, 0.27  # inches: from the picture's left to a label, from an axis down to its own
+RIGHT = 0.18  # inches: room for half a number beyond an axis
 COLUMN, THIRD = 5.6, 3.7  # inches: two or three such pictures stand side by side
 HATCH = 0.055  # inches between hatches
 ROWS = 1500  # of a picture's curves as CSV, at most; contact.csv has all
@@ -119,7 +120,7 @@ def figure(width: float, height: float) -> "Figure":
 
 
 def stacked(
-    drawn: "Figure", panels: Sequence[tuple[float, float]], left: float, right: float = 0.12
+    drawn: "Figure", panels: Sequence[tuple[float, float]], left: float, right: float = RIGHT
 ) -> "list[Axes]":
     """Axes under each other from the top, all in inches.
 

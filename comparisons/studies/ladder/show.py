@@ -31,8 +31,7 @@ def blocks(run: Run) -> list[Block]:
         return []
     head = ("model", "quantity", "error", "uncertainty", "verdict", "time", "memory")
     line = "; ".join(f"{name}: {text}" for name, text in lines(run))
-    line = f"{line[0].upper()}{line[1:]}".replace("tau1", "τ₁")
-    table = TextTable(line, head, tuple(rows), "comparison", words=False)
+    table = TextTable(line.replace("tau1", "τ₁"), head, tuple(rows), "comparison", words=False)
     return [Block("model-error", (table, Note(NOTE)))]
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawn
 
-LEFT, RIGHT = 0.72, 0.12  # inches
+LEFT, RIGHT = 0.78, 0.14  # inches
 # Inches above a panel, and of the panel.
 PRESSURES, DIFFERENCES, SURFACES = (0.08, 1.75), (0.3, 0.5), (0.14, 0.8)
 SHEAR, BAR = (0.3, 1.35), (0.44, 0.1)
@@ -79,7 +79,7 @@ def overview(run: Run, width: float) -> "Drawn":
         panels[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
     for panel in panels:
         panel.set_xlim(-REACH, REACH)
-        panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
+        panel.yaxis.set_label_coords(-0.83 * LEFT / (width - LEFT - RIGHT), 0.5)
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel("x/a")
     return drawn

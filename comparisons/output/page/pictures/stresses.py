@@ -197,19 +197,27 @@ def section_pictures(run: Run) -> list[style.Picture]:
     }
     x = run.window.x
     spacing = x[1] - x[0]
-    return [
-        _section_picture(run, int(np.argmin(np.abs(x - place))), words)
+    places = {
+        words: int(np.argmin(np.abs(x - place)))
         for words, place in wanted.items()
         if x[0] - spacing <= place <= x[-1] + spacing
-    ]
+    }
+    names = max((_names(run, column) for column in places.values()), default=0)
+    return [_section_picture(run, column, words, names) for words, column in places.items()]
 
 
-def _section_picture(run: Run, column: int, words: str) -> style.Picture:
-    frictions, hertz = run.problem.scene.load.friction, run.problem.hertz
-    names = {names for mu in frictions for names in distinct(_curves(run, mu, column))}
+def _names(run: Run, column: int) -> int:
+    """How many lines a section has names for."""
+    frictions = run.problem.scene.load.friction
+    curves = {names for mu in frictions for names in distinct(_curves(run, mu, column))}
     zones = any(_zones(run, mu) for mu in frictions)
-    count = len(names) + zones + (closed_form(run.problem) is not None)
-    abreast, top = names_above(style.COLUMN, count)
+    return len(curves) + zones + (closed_form(run.problem) is not None)
+
+
+def _section_picture(run: Run, column: int, words: str, names: int) -> style.Picture:
+    """`names`: room above for so many."""
+    frictions, hertz = run.problem.scene.load.friction, run.problem.hertz
+    abreast, top = names_above(style.COLUMN, names)
     drawn = style.figure(style.COLUMN, top + FOOT + (TITLE + TALL) * len(frictions))
     depths = [run.window.z[-1] / hertz.half_width]
     if run.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
