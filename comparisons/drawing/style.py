@@ -40,6 +40,7 @@ LINES = {
 }
 DASHES = [look["linestyle"] for look in LINES.values()] + [(0, (1, 1.3))]  # for other curves
 REFERENCE = {"color": "#222222", "linestyle": (0, (1, 1.3)), "linewidth": 1.3}
+PALE = {"linestyle": "-", "linewidth": 5.0, "alpha": 0.3, "zorder": 1.9}  # seen around another line
 DIFFERENCE = {"color": "#222222", "linestyle": "-", "linewidth": 0.9}
 BAND = {"color": "#0072B2", "alpha": 0.18, "linewidth": 0.0, "label": "inputs, 95 %"}
 BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
@@ -167,7 +168,7 @@ def beside_bar(axes: "Axes", x: float, y: float, text: str, **look: object) -> N
     """Words to the right of a bar's end."""
     behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
     beside = {"textcoords": "offset points", "va": "center", "bbox": behind}
-    axes.annotate(text, (x, y), (3, 0), **beside, **look)
+    axes.annotate(text, (x, y), (5, 0), **beside, **look)
 
 
 def whisker(

@@ -95,9 +95,15 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     axes.set_xscale("log")
     if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in axes.lines):
         axes.set_yscale("log")
-        axes.yaxis.set_major_formatter(
-            lambda value, place: style.power_of_ten(round(math.log10(value)))
-        )
+        low, high = np.log10(axes.get_ylim())
+        if np.floor(high) - np.ceil(low) >= 1.0:  # two powers of ten are in view
+            axes.yaxis.set_major_formatter(
+                lambda value, place: style.power_of_ten(round(math.log10(value)))
+            )
+        else:
+            ticks = np.outer(10.0 ** np.arange(np.floor(low), high), [1.0, 2.0, 5.0]).ravel()
+            ticks = ticks[(ticks >= 10.0**low) & (ticks <= 10.0**high)]
+            axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     else:
         axes.set_yticks([])
         axes.annotate("no change but rounding", (0.5, 0.5), xycoords="axes fraction", ha="center")

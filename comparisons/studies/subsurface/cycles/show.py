@@ -30,7 +30,6 @@ WORDS = {FRESH: "fresh", ONCE: "pressed once", LAST: "after all passes", FLATTEN
 COLOURS = {FRESH: "#222222", ONCE: "#0072B2", LAST: "#D55E00", FLATTENED: "#009E73"}
 DASHES = {FRESH: (0, (1, 1.3)), ONCE: "-", LAST: (0, (4, 1.6)), FLATTENED: (0, (7, 1.2, 1.4, 1.2))}
 AXES = [{**style.LINES[name], "linewidth": 1.2} for name in MODELS]  # of stresses along x and y
-WIDE = {"linestyle": "-", "linewidth": 5.0, "alpha": 0.3, "zorder": 1.9}
 SHOWN = 6  # passes of the table, the last among them
 OF_SURFACES = ("peak_reloaded", "length_reloaded", "ra")
 SHAPES = "shape_rms", "bearing_rms", "lowered_rms"
@@ -146,9 +145,8 @@ def passes_picture(run: Run) -> style.Picture | None:
         return None
     abreast, room = names_above(style.COLUMN, 4)
     drawn, [panel] = panels(style.COLUMN, [(room, 2.4)])
-    for level, (colour, dash) in zip(
-        data.levels[::-1], zip(COLOURS.values(), style.DASHES), strict=False
-    ):
+    looks = zip(data.levels[::-1], COLOURS.values(), style.DASHES, strict=False)
+    for level, colour, dash in looks:
         numbers = np.arange(1, len(level.passes.flow) + 1)
         flow = np.where(level.passes.flow > 0.0, level.passes.flow, np.nan)
         label = f"elements of {with_unit(level.pitch, 'm', 2)}"
@@ -182,7 +180,7 @@ def stress_picture(run: Run) -> style.Picture | None:
         curves = {n: (finest.z, p / 1e6) for n, p in zip(("first", "last"), parts, strict=True)}
         for names, (z, stress) in distinct(curves).items():
             # the first over the last, which is wide and pale: both are seen where they coincide
-            beside = WIDE if names == ("last",) else {}
+            beside = style.PALE if names == ("last",) else {}
             words = f"σ{axis}, {' = '.join(names)} pass"
             panel.plot(z / unit.factor, stress, label=words, **{**look, **beside})
     panel.axhline(0.0, **style.OUTLINE)
