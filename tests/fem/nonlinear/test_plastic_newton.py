@@ -78,6 +78,15 @@ def test_load_and_approach_lead_to_the_same(pressed):
     assert by_approach.load == pytest.approx(LOAD, rel=1e-8)
 
 
+def test_what_rounding_leaves_is_the_end(pressed):
+    _, bodies = problem(pressed, 0.0)
+    rest = state_at_rest(bodies, 1.0 * (np.abs(X) < 1.0))
+    exact, history = newton_by_contacts(bodies, GAP, WEIGHTS, rest, LOAD, residual=0.0)
+    near, _ = newton_by_contacts(bodies, GAP, WEIGHTS, rest, LOAD)
+    assert history[-1] < 1e-9
+    np.testing.assert_allclose(exact.pressure, near.pressure, atol=1e-7)
+
+
 def test_too_few_steps_are_told(pressed, monkeypatch):
     monkeypatch.setattr("fem.nonlinear.newton.MOST_LINEAR_CONTACTS", 2)
     _, bodies = problem(pressed, 0.0)
