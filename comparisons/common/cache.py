@@ -68,6 +68,8 @@ class Cache:
         return self.folder / f"{name}.npz"
 
     def _read(self, name: str) -> object | None:
+        if not self.path(name).is_file():  # to open a pipe would wait without end
+            return None
         try:
             with np.load(self.path(name), allow_pickle=False) as file:
                 text = str(file["outline"])

@@ -158,7 +158,7 @@ def _check_folder(out: Path, place: Path) -> None:
     Permission bits are not enough (root, a read-only file system), so a folder is made there and
     removed. Another run may remove `place` meanwhile."""
     try:
-        tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
+        os.rmdir(tempfile.mkdtemp(prefix=".crosscheck-", dir=place))  # opens no file
     except NotADirectoryError as error:
         raise _cannot(out, f"{place} is not a folder; allowed is a folder") from error
     except OSError as error:

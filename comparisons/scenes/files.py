@@ -20,6 +20,8 @@ STRINGS = re.compile(
     r"'[^'\n]*+'|#[^\n]*+",
     re.DOTALL,
 )
+# as tomllib says it
+TABLE_TWICE = re.compile(r"Cannot declare \('(.*?)',?\) twice")
 LONG_KEY = re.compile(rf"(?<![\w.-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
 
 
@@ -106,7 +108,9 @@ def read_toml(path: Path) -> dict:
         place = f"byte {error.start} is not UTF-8"
         raise no_toml(f"is not text ({place}); allowed is a TOML file") from error
     except tomllib.TOMLDecodeError as error:
-        raise no_toml(f"is not TOML: {error}") from error
+        said = TABLE_TWICE.sub(r"[\1] is given twice", str(error)).replace("', '", ".")
+        said = said.replace("Cannot overwrite a value", "a field is given twice")
+        raise no_toml(f"is not TOML: {said}") from error
     except (RecursionError, ValueError) as error:
         raise wrong(f"is beyond what TOML may hold: {error}") from error
     if not tables:

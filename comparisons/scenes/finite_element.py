@@ -1,5 +1,6 @@
 """The [finite_element] section: which of the half-plane's assumptions the finite elements keep."""
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, Self
 
@@ -50,6 +51,11 @@ class FiniteElementSection(SceneSection):
     def degree(self) -> int:
         """Of the displacements' polynomials."""
         return int(self.element[1:])
+
+    @property
+    def most_order(self) -> float:
+        """Of convergence in pressures and stresses: linear elements have the first alone."""
+        return 1.0 if self.element == "P1" else math.inf
 
     def completed(self, scene: SceneSection) -> Self:
         bodies = [body for body in (scene.roller, scene.body, scene.coating) if body is not None]

@@ -100,7 +100,8 @@ class SceneBase(SceneSection):
 
     def changed(self, fields: str | Mapping[str, object], value: object = None) -> Self:
         """The scene with another value of a field such as "load.friction", or of several by name,
-        checked as a file is; None takes one away. What was not given follows again."""
+        checked as a file is; None takes one away, and one kind of load another. What was not given
+        follows again."""
         tables = self.written
         pairs = fields if isinstance(fields, Mapping) else {fields: value}
         for name, value in pairs.items():
@@ -114,6 +115,10 @@ class SceneBase(SceneSection):
             table[last] = value
             if value is None:
                 del table[last]
+            elif path == ["load"] and last in LoadSection.KINDS:
+                for kind in {*LoadSection.KINDS} - {last}:
+                    if f"load.{kind}" not in pairs:
+                        table.pop(kind, None)
         return self.of(tables, self._origin)
 
     def unchecked(self, fields: Mapping[str, object]) -> Self:

@@ -294,6 +294,9 @@ class LoadSection(SceneSection):
             if self.approach is not None and not there:
                 why = f"has no meaning {where}, whose displacement has no datum"
                 yield "load.approach", f"{why}; allowed is per_length, or approach with {needed}"
+        if self.position and scene.profile is None and scene.body.width is None:
+            why = "is on a smooth body without ends, which is the same everywhere"
+            yield "load.position", f"{why}; allowed is 0, or one beside [profile] or body.width"
         if self.mean_pressure is not None and not (scene.profile and scene.profile.periodic):
             where = "under a roller, whose load is per length"
             yield "load.mean_pressure", f"is given {where}; allowed with profile.periodic = true"

@@ -71,7 +71,7 @@ def differences_of(
         quantity, tolerance = QUANTITIES[name], problem.scene.tolerances.get(name)
         resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
         values = tuple(of_level[name] for of_level in history)
-        order = formal_order(name, finest, friction)
+        order = formal_order(name, finest, problem, friction)
         convergence = grid_convergence(values, order, resolution)
         unsolved = iteration(*finest)
         if not quantity.of_pair:

@@ -105,7 +105,7 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
         if name in LENGTHS:
             resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
             resolution *= value / run.finest.contact_length
-        order = formal_order(name, run.levels, friction)
+        order = formal_order(name, run.levels, problem, friction)
         convergence = grid_convergence(values, order, resolution)
         scale = abs(value) or COMPARED[name].scale(problem.hertz)
         domain, increments = (size / scale for size in repeated[name])
@@ -114,16 +114,18 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
     return stated
 
 
-def formal_order(name: str, levels: Sequence[Level], friction: float) -> float:
-    """Of a quantity under refinement. Where friction brings a largest stress to the surface, there
-    it stands at an end of contact, next to which stresses go with the square root of the distance:
-    half an order, whatever the elements."""
+def formal_order(name: str, levels: Sequence[Level], problem: Problem, friction: float) -> float:
+    """Of a quantity under refinement; on linear elements none is above 1. Where friction brings a
+    largest stress to the surface, there it stands at an end of contact, next to which stresses go
+    with the square root of the distance: half an order, whatever the elements."""
     key = EXTREMES.get(name)
     if key is not None:
         depths = (level.stress(friction).extremes[key].z for level in levels)
         if any(z <= AT_SURFACE * level.grid.pitch for z, level in zip(depths, levels, strict=True)):
             return LOWEST_ORDER
-    return COMPARED[name].formal_order
+    order, elements = COMPARED[name].formal_order, problem.scene.finite_element
+    meshed = any(level.mesh is not None for level in levels)
+    return min(order, elements.most_order) if meshed else order
 
 
 def by_repetition(

@@ -4,7 +4,7 @@ Vectors of one length are the columns of a table under their names, an `x` first
 dimensions is such a table where it has few columns, else a map without size and unit."""
 
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +25,9 @@ MOST_COLUMNS = 16  # of a table; an array with more of them, or more columns tha
 NPY, ZIP, MAT = b"\x93NUMPY", b"PK\x03\x04", b"MATLAB 5.0"
 
 
+Others = dict[str, tuple[int, str]]  # size and kind of each array that is not of real numbers
+
+
 def is_arrays(path: Path, head: bytes) -> bool:
     """Whether a file that begins with these bytes is one of these."""
     return head.startswith((NPY, MAT)) or (head.startswith(ZIP) and path.suffix == ".npz")
@@ -42,7 +45,7 @@ def read_arrays(
     raw = contents(path, MAX_BYTES)
     kind = "npy" if raw.startswith(NPY) else "npz" if raw.startswith(ZIP) else "mat"
     try:
-        arrays = (_mat if kind == "mat" else _numpy)(path, raw, max_numbers)
+        arrays, others = (_mat if kind == "mat" else _numpy)(path, raw, max_numbers)
     except ProfileError:
         raise
     except Exception as error:  # scipy and numpy raise whatever a damaged file brings about
@@ -51,6 +54,7 @@ def read_arrays(
     check_numbers(path, sum(array.size for array in arrays.values()), max_numbers)
     arrays = {name: np.asarray(array, dtype=float) for name, array in arrays.items()}
     names = tuple(arrays)
+    _check_others(path, arrays, others, channel)
     if channel is not None:
         if channel not in arrays:
             allowed = ", ".join(map(shown, names)) or "none"
@@ -79,6 +83,18 @@ def read_arrays(
     return Topography(path, field, None, None, None, kind)
 
 
+def _check_others(
+    path: Path, arrays: dict[str, np.ndarray], others: Others, channel: str | None
+) -> None:
+    """Raise ProfileError for what is asked for, or belongs to a lone vector, and is no numbers."""
+    sizes = {array.size for array in arrays.values() if array.size > 1}
+    alone = sum(array.size > 1 for array in arrays.values()) < 2
+    for name, (size, kind) in others.items():
+        if name == channel or (channel is None and alone and size > 1 and sizes <= {size}):
+            message = f"{shown(name)} holds {kind} in place of numbers; allowed are real ones"
+            raise ProfileError(path, message)
+
+
 def _table(
     path: Path,
     kind: str,
@@ -93,22 +109,27 @@ def _table(
     return chosen_columns(table, columns)
 
 
-def _numpy(path: Path, raw: bytes, max_numbers: int) -> Mapping[str, np.ndarray]:
+def _numpy(path: Path, raw: bytes, max_numbers: int) -> tuple[dict[str, np.ndarray], Others]:
     arrays = np.load(io.BytesIO(raw), allow_pickle=False)
+    named = {"array": arrays}
     if not isinstance(arrays, np.ndarray):
         named = {name: arrays[name] for name in arrays.files}
-        return {name: array for name, array in named.items() if array.dtype.kind in "fiu"}
-    if arrays.dtype.kind not in "fiu":
-        raise ProfileError(path, f"holds {arrays.dtype} in place of numbers; allowed are real ones")
-    return {"array": arrays}
+    real = {name: array for name, array in named.items() if array.dtype.kind in "fiu"}
+    return real, {n: (a.size, str(a.dtype)) for n, a in named.items() if n not in real}
 
 
-def _mat(path: Path, raw: bytes, max_numbers: int) -> Mapping[str, np.ndarray]:
+def _mat(path: Path, raw: bytes, max_numbers: int) -> tuple[dict[str, np.ndarray], Others]:
     from scipy.io import loadmat, whosmat
 
     numeric = {"double", "single", *(f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64))}
-    known = [(name, shape) for name, shape, kind in whosmat(io.BytesIO(raw)) if kind in numeric]
-    check_numbers(path, sum(np.prod(shape, dtype=float) for _, shape in known), max_numbers)
-    names = [name for name, _ in known]
+    every = {
+        name: (np.prod(shape, dtype=float), kind) for name, shape, kind in whosmat(io.BytesIO(raw))
+    }
+    names = [name for name, (_, kind) in every.items() if kind in numeric]
+    check_numbers(path, sum(every[name][0] for name in names), max_numbers)
     arrays = loadmat(io.BytesIO(raw), variable_names=names) if names else {}
-    return {name: arrays[name] for name in names if not np.iscomplexobj(arrays[name])}
+    real = {name: arrays[name] for name in names if not np.iscomplexobj(arrays[name])}
+    others = {
+        n: (s, "complex" if n in names else k) for n, (s, k) in every.items() if n not in real
+    }
+    return real, others

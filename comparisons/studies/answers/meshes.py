@@ -8,6 +8,7 @@ med, xdmf, msh, …          Salome, FEniCS, gmsh          meshio; med and xdmf 
 They read in a process of their own, this module as a script: a damaged file may crash them, and
 their HDF5 and that of the finite elements may be two versions."""
 
+import logging.handlers
 import resource
 import sys
 from collections.abc import Callable
@@ -134,6 +135,8 @@ def _write_faces(path: Path, out: Path, step: int | None) -> None:
 
 if __name__ == "__main__":
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    logged = logging.handlers.BufferingHandler(1000)  # VTK's first complaint is the cause
+    logging.basicConfig(handlers=[logged])
     try:
         _write_faces(
             Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]) if sys.argv[3:] else None
@@ -141,5 +144,6 @@ if __name__ == "__main__":
     except ImportError as error:
         sys.exit(f"takes {error.name}, which is not installed; {INSTALL}")
     except Exception as error:  # of a damaged file libraries may say anything
-        said = str(error) if "allowed" in str(error) else f"cannot be read ({error})"
+        causes = [record.getMessage() for record in logged.buffer] or [str(error)]
+        said = str(error) if "allowed" in str(error) else f"cannot be read ({causes[0]})"
         sys.exit(" ".join(said.split()))

@@ -4,6 +4,7 @@ In: a solved scene with [partial_slip], of which each level is loaded again alon
 figures at its end with their uncertainties, the models' difference judged as any other, zones and
 loads as series. At the scene's largest friction coefficient."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -106,6 +107,7 @@ class ModelSlip:
     levels: tuple[SlippedLevel, ...]
     smaller: SlippedLevel | None = None  # the coarsest on a block of half the size
     fewer: SlippedLevel | None = None  # the coarsest by half as many increments
+    most_order: float = math.inf  # of convergence, that its elements have
 
     @property
     def finest(self) -> SlippedLevel:
@@ -189,7 +191,8 @@ def _model_slip(solved: Solved, name: str, solve_level: Solve) -> ModelSlip:
         smaller = solve_level(run.levels[0], count, half_block=True)
     if levels[0].is_stepped:
         fewer = solve_level(run.levels[0], count // 2)
-    return ModelSlip(levels, smaller, fewer)
+    most = solved.problem.scene.finite_element.most_order
+    return ModelSlip(levels, smaller, fewer, most if name == "finite_element" else math.inf)
 
 
 def _figures(solved: Solved, models: Mapping[str, ModelSlip]) -> Iterator[Figure]:
@@ -295,7 +298,8 @@ def _uncertainty(
         known = models[0].finest.figures(path)
         resolution = sum(ends) * (known[name] / known["stick_length"] if known[name] else 0.0)
     resolution += END_READ * AT_AN_END.get(name, 0.0) * scale
-    refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
+    order = min(QUANTITIES[name].formal_order, *(model.most_order for model in models))
+    refined = grid_convergence(values, order, resolution)
     domain = sum(
         far_boundary(of(model.smaller), of(model.levels[0])) for model in models if model.smaller
     )

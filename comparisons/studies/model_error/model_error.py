@@ -212,7 +212,7 @@ class Solutions:
     def _order(self, name: str) -> float:
         """Of convergence under refinement."""
         finest = [run.finest for run in self.runs.values()]
-        return formal_order(name, finest, self.friction)
+        return formal_order(name, finest, self.problem, self.friction)
 
     def _estimate(self, name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
         """The relative size of changes, one a level, of a quantity at an asperity."""

@@ -1,6 +1,7 @@
 """Cached results: whole and the same, or none, whatever happened to the file and its folder."""
 
 import json
+import os
 import shutil
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -90,6 +91,13 @@ def test_a_file_that_was_cut_short_is_none(cache, share):
     path = cache.path("some")
     path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
     assert cache.load("some") is None
+
+
+def test_a_pipe_in_a_results_place_is_none_and_replaced(cache):
+    os.mkfifo(cache.path("pipe"))
+    assert cache.load("pipe") is None
+    cache.save("pipe", VALUE)
+    assert cache.load("pipe") is not None
 
 
 def test_what_a_killed_process_left_is_removed(cache):

@@ -1,7 +1,10 @@
 """Grid convergence: known sequences, the fits of a textbook, coverage of exact contacts."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from scenes import QUICK, problem
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
@@ -16,6 +19,7 @@ from comparisons.figures.convergence import (
     TWO_GRIDS,
     grid_convergence,
 )
+from comparisons.studies.contact import formal_order
 
 
 def sequence(limit, error, order, levels=3):
@@ -147,3 +151,32 @@ def test_stated_uncertainty_covers_the_error_of_hertz():
             widths.append(result.uncertainty / exact)
     assert np.mean(covered) >= 0.9
     assert np.median(widths) < 2e-3
+
+
+# Hertz's contact, nu = 0.3, a / h doubled each time: what linear elements find, over the exact.
+ON_LINEAR_ELEMENTS = {
+    "peak_pressure": (1.025928, 1.010387, 1.003821, 1.001950),
+    "tau1_max": (1.049511, 1.010069, 1.003530, 1.000164),
+}
+
+
+@pytest.mark.parametrize("name", ON_LINEAR_ELEMENTS)
+def test_linear_elements_converge_by_the_first_order_at_most(name):
+    values = ON_LINEAR_ELEMENTS[name]
+    linear = problem(QUICK | {"finite_element": {"element": "P1"}})
+    orders = [
+        formal_order(
+            name,
+            [SimpleNamespace(mesh=mesh, stress=stressed, grid=SimpleNamespace(pitch=1.0))],
+            linear,
+            0.0,
+        )
+        for mesh in ("some", None)
+    ]
+    assert orders == [1.0, 2.0]  # of the half-plane, which has no elements, as ever
+    assert grid_convergence(values, orders[0]).uncertainty > abs(values[-1] - 1.0)
+
+
+def stressed(friction):
+    deep = SimpleNamespace(z=1.0)
+    return SimpleNamespace(extremes={"tau1": deep})

@@ -2,6 +2,7 @@
 
 import gzip
 import importlib.util
+import zipfile
 
 import numpy as np
 import pytest
@@ -157,7 +158,11 @@ def test_arrays_that_are_no_profile(tmp_path):
 def test_an_array_of_anything_but_real_numbers_is_none(tmp_path, array, kind):
     np.save(tmp_path / "other.npy", array)
     message = refusal(tmp_path / "other.npy", spacing=1e-6)
-    assert kind in message and message.endswith("in place of numbers; allowed are real ones")
+    said = "in place of numbers; allowed are real ones"
+    assert kind in message and message.endswith(said)
+    np.savez(tmp_path / "other.npz", x=X, z=array)  # else x alone passes for the heights
+    message = refusal(tmp_path / "other.npz", spacing=1e-6)
+    assert f"'z' holds {array.dtype} {said}" in message
 
 
 @pytest.mark.parametrize("kind", ["npy", "npz", "mat", "xlsx"])
@@ -260,13 +265,21 @@ def test_a_spreadsheet(tmp_path):
 
 
 @needs_spreadsheets
+def test_a_row_of_too_many_cells_is_refused_before_it_is_taken_apart(tmp_path):
+    with zipfile.ZipFile(tmp_path / "wide.xlsx", "w", zipfile.ZIP_DEFLATED) as book:
+        book.writestr("xl/workbook.xml", "")
+        book.writestr("xl/worksheets/sheet1.xml", b"<c/>" * (2**22 + 1))
+    assert "a sheet of more than 4194304 cells" in refusal(tmp_path / "wide.xlsx")
+
+
+@needs_spreadsheets
 def test_a_spreadsheet_with_a_cell_far_away_is_not_filled_up_to_it(tmp_path):
     from openpyxl import Workbook
 
     book = Workbook()
     book.active.cell(1_000_000, 16_000, 1.0)
     book.save(tmp_path / "far.xlsx")
-    assert "reaches over more than 2e+07 cells" in refusal(tmp_path / "far.xlsx")
+    assert "reaches over more than 4194304 cells" in refusal(tmp_path / "far.xlsx")
 
 
 def test_an_array_without_columns_holds_nothing(tmp_path):

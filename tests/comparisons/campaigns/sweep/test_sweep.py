@@ -50,6 +50,14 @@ def test_whole_numbers_stay_whole(over):
     assert [type(seed) for seed in asked.fields["profile.seed"]] == [int, int]
 
 
+def test_another_kind_of_load_takes_the_place_of_the_scenes_own():
+    asked = request(["load.per_length=1e5,2e5"])
+    loads = [(point.scene.load.kind, point.scene.load.value) for point in asked.points]
+    assert loads == [("per_length", 1e5), ("per_length", 2e5)]
+    with pytest.raises(InputError, match="is given beside"):  # not which of two is meant
+        request(["load.per_length=1e5,2e5", "load.hertz_peak_pressure=1e9,2e9"])
+
+
 def test_each_point_is_the_scene_with_its_values():
     swept = crosscheck.sweep(WAVES, ["position=2", "load=0.5 GPa,1 GPa"], workers=1)
     assert len(swept.content["points"]) == 4

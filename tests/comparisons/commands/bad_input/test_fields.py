@@ -120,6 +120,11 @@ COMBINATIONS = [
         "load.approach: has no meaning on a half-plane, whose displacement has no datum; allowed",
     ),
     (
+        {"load.position": '"3 mm"'},
+        "load.position: is on a smooth body without ends, which is the same everywhere; allowed is "
+        "0, or one beside [profile] or body.width",
+    ),
+    (
         {**LAYER, "body.base": '"glued"'},
         'body.base: is "glued"; allowed is "bonded" or "frictionless"',
     ),

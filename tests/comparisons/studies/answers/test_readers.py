@@ -242,7 +242,7 @@ ROWS = [f"{x:g},{(1 - x**2) * 1e9:g}" for x in np.linspace(-1.0, 1.0, 11)]
         ("a.vtu", UNKNOWN_NODE, "on nodes that it has not|crashes on it"),
         ("a.csv", text([f"{x},0" for x in range(9)]), "no pressure but 0"),
         ("a.csv", "nothing here\n", "no row of numbers"),
-        ("a.vtu", "<VTKFile", "cannot be read|holds no mesh"),
+        ("a.vtu", "<VTKFile", "at line 1.*; allowed is a whole result file|holds no mesh"),
         ("a.frd", "    1C\n", "ends before its last line"),
         ("a.med", "not HDF", "cannot be read|not installed"),
         ("a.what", "?", "does not support"),
