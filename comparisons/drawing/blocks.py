@@ -5,9 +5,10 @@ figures as cells of tables, alike wherever they are shown, in the digits that ar
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import floor, isfinite, log10
 
 from comparisons.common.numbers import (
+    MINUS,
     percent,
     percent_as_written,
     scale_of,
@@ -16,6 +17,8 @@ from comparisons.common.numbers import (
 )
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import LABELS, MODELS
+
+MOST_DIGITS = 5  # of a figure beside its uncertainty
 
 
 @dataclass(frozen=True)
@@ -69,7 +72,7 @@ class Pictures:
 
 @dataclass(frozen=True)
 class Box:
-    """Items together, of a class of the page's style: columns | sheet | stack."""
+    """Items together, of a class of the page's style: columns | thirds | sheet | half | signed."""
 
     style: str
     items: tuple
@@ -125,8 +128,13 @@ def model_table(rows: Sequence[tuple[str, ...]]) -> TextTable:
 
 
 def stated(figure: Figure | None, unit: float = 1.0, digits: int = 3) -> str:
-    """A figure in a unit [SI] with its uncertainty, as far as that is known."""
+    """A figure in a unit [SI] to the first digit of its uncertainty, at most to the fifth of its
+    own; without one in so many digits."""
     if figure is None:
         return ""
-    text, size = significant(figure.value / unit, digits), figure.numerical * figure.scale / unit
-    return f"{text} ± {significant(size, 1)}" if isfinite(size) else text
+    value, size = figure.value / unit, figure.numerical * figure.scale / unit
+    if not isfinite(size) or size == 0.0:
+        return significant(value, digits)
+    last = max(floor(log10(size)), floor(log10(abs(value) or size)) - MOST_DIGITS + 1)
+    size = max(size, 10.0**last)
+    return f"{value:.{max(0, -last)}f} ± {size:.{max(0, -last)}f}".replace("-", MINUS)

@@ -23,7 +23,7 @@ def panels(
     width: float,
     rows: Sequence[tuple[float, float]],
     left: float = LEFT,
-    right: float = 0.12,
+    right: float = style.RIGHT,
     foot: float = FOOT,
 ) -> "tuple[Figure, list[Axes]]":
     """A figure `width` inches wide with panels by their space above and height in inches."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
     from matplotlib.figure import Figure
 
-LEFT, WIDTH = 0.62, COLUMN - 0.85  # inches, of a field
+LEFT, WIDTH = 0.66, COLUMN - 0.85  # inches, of a field
 LOW, TALL = 0.9, 2.6  # inches: least and greatest height of a field to scale
 TITLE, FOOT, BAR, BAR_LABEL, INSET = 0.28, 0.42, 0.1, 0.34, 0.36  # inches
 BANDS = 16  # of colour on the whole scale, about

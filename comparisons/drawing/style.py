@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
 
 EDGE, LABEL = 0.17, 0.27  # inches: from the picture's left to a label, from an axis down to its own
-COLUMN = 5.6  # inches: two such pictures stand side by side on a wide screen
+RIGHT = 0.18  # inches: room for half a number beyond an axis
+COLUMN, THIRD = 5.6, 3.7  # inches: two or three such pictures stand side by side
 HATCH = 0.055  # inches between hatches
 ROWS = 1500  # of a picture's curves as CSV, at most; contact.csv has all
 WIDE = 11.4  # inches: a picture across the page
@@ -39,6 +40,7 @@ LINES = {
 }
 DASHES = [look["linestyle"] for look in LINES.values()] + [(0, (1, 1.3))]  # for other curves
 REFERENCE = {"color": "#222222", "linestyle": (0, (1, 1.3)), "linewidth": 1.3}
+PALE = {"linestyle": "-", "linewidth": 5.0, "alpha": 0.3, "zorder": 1.9}  # seen around another line
 DIFFERENCE = {"color": "#222222", "linestyle": "-", "linewidth": 0.9}
 BAND = {"color": "#0072B2", "alpha": 0.18, "linewidth": 0.0, "label": "inputs, 95 %"}
 BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
@@ -119,7 +121,7 @@ def figure(width: float, height: float) -> "Figure":
 
 
 def stacked(
-    drawn: "Figure", panels: Sequence[tuple[float, float]], left: float, right: float = 0.12
+    drawn: "Figure", panels: Sequence[tuple[float, float]], left: float, right: float = RIGHT
 ) -> "list[Axes]":
     """Axes under each other from the top, all in inches.
 
@@ -166,7 +168,7 @@ def beside_bar(axes: "Axes", x: float, y: float, text: str, **look: object) -> N
     """Words to the right of a bar's end."""
     behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
     beside = {"textcoords": "offset points", "va": "center", "bbox": behind}
-    axes.annotate(text, (x, y), (3, 0), **beside, **look)
+    axes.annotate(text, (x, y), (5, 0), **beside, **look)
 
 
 def whisker(

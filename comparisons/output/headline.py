@@ -110,9 +110,9 @@ def _sentence_of(run: Run, kind: Kind) -> str:
     several = len(run.problem.scene.load.friction) > 1
     law = _law_leaned_on(run)
     if kind == "holds":
-        nearest = _said(_nearest(errors), several)
-        said = f"{_all_hold(errors)}; nearest to its tolerance, {nearest}"
-        return f"The half-plane holds here: {said}{law}."
+        nearest = _nearest(errors)
+        said = f"{_all_hold(errors)}; nearest to its tolerance, {_said(nearest, several)}"
+        return f"The half-plane holds here: {said}{'' if law_range(nearest) else law}."
     if kind == "fails":
         outside = [error for error in errors if error.verdict == "fails"]
         worst, more = _nearest(outside), len(outside) - 1

@@ -108,6 +108,8 @@ def _of_load(scene: Scene) -> Iterator[str]:
 
 def _of_trace(info: ProfileInfo) -> Iterator[str]:
     slope = info.roughness.rms_slope
+    if info.doubt:
+        yield info.doubt
     if info.length > LONGEST_TRACE:
         yield f"profile: the trace is {with_unit(info.length, 'm')} long: check x_unit or spacing"
     if slope == 0.0:

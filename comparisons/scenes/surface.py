@@ -5,6 +5,7 @@ with their zero on the mean line."""
 
 import hashlib
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from math import hypot, sqrt
 from pathlib import Path
@@ -37,9 +38,9 @@ from analytic.surface.turned import turned
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import finite
 from comparisons.common.provenance import digest
-from comparisons.common.units import LENGTH, unit_in_si
+from comparisons.common.units import LENGTH, UnitError, unit_in_si
 from comparisons.scenes.fields import allowed, plain
-from comparisons.scenes.header_units import header_units
+from comparisons.scenes.header_units import Guesses, header_units
 from comparisons.scenes.profile import AUTOMATIC, COMMON, ProfileSection
 from comparisons.scenes.scene import SceneBase
 
@@ -62,6 +63,7 @@ class KnownTrace:
 
     read: MeasuredProfile
     sha256: str | None
+    doubt: str = ""  # where the file's header names other units than the scene
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,7 @@ class ProfileInfo:
     # as read or made: with its form, unfiltered, at its own positions
     trace: Profile | None = field(default=None, compare=False, repr=False)
     sha256: str | None = None  # of the file
+    doubt: str = field(default="", compare=False)  # about its units, in words
     bridged: int = 0  # lost samples that were interpolated between their neighbours
     trimmed: int = 0  # lost samples that were dropped at the ends
     stretch: tuple[float, float] | None = None  # [m] of the longest bridge, from where to where
@@ -91,9 +94,10 @@ class ProfileInfo:
     seam: float | None = None  # [m] between the heights of a periodic trace's ends, before they met
 
     def as_dict(self) -> dict:
-        """The same for JSON, without `path`, which another machine does not have, and `trace`."""
+        """The same for JSON, without `path`, which another machine does not have, `trace` and
+        `doubt`."""
         figures = asdict(replace(self, path=None, trace=None))
-        del figures["path"], figures["trace"]
+        del figures["path"], figures["trace"], figures["doubt"]
         if self.seam is None:
             del figures["seam"]
         nested = ("form", "roughness", "standard")
@@ -222,7 +226,7 @@ def _measured(table: Mapping, scene: SceneBase, known: KnownTrace | None) -> tup
     names = ("bridged", "trimmed", "stretch", "format", "place")
     how = {name: getattr(known.read, name) for name in names}
     origin = {"source": table["file"], "path": path, "trace": known.read.profile, "form": form}
-    return trace, origin | how | {"sha256": known.sha256}
+    return trace, origin | how | {"sha256": known.sha256, "doubt": known.doubt}
 
 
 def _read(table: Mapping, path: Path) -> KnownTrace:
@@ -232,9 +236,10 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
     )
     spacing, columns = table.get("spacing"), table.get("columns")
     which = {"columns": columns, "channel": table.get("channel")}
-    opened = open_measured(path, **which, one_column=spacing is not None)
+    opened, doubt = open_measured(path, **which, one_column=spacing is not None), ""
     if isinstance(opened, ProfileTable):  # its header may name them
-        named = {n: u for n, (u, _) in header_units(opened, columns is not None).items()}
+        guesses = header_units(opened, columns is not None)
+        named, doubt = {name: unit for name, (unit, _) in guesses.items()}, _doubt(table, guesses)
         if x_scale is None and spacing is None and "x_unit" in named:
             x_scale = unit_in_si(named["x_unit"], LENGTH)
         if height_scale is None and "z_unit" in named:
@@ -247,7 +252,19 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
         dropouts=table["dropouts"],
         chosen=MapLine(**place) if place else None,
     )
-    return KnownTrace(read, hashlib.sha256(path.read_bytes()).hexdigest())
+    return KnownTrace(read, hashlib.sha256(path.read_bytes()).hexdigest(), doubt)
+
+
+def _doubt(table: Mapping, guesses: Guesses) -> str:
+    """What the header says otherwise. One that names a single unit may mean either column."""
+    asked, others = [name for name in guesses if name in table], []
+    for name in asked:
+        unit, why = guesses[name]
+        with suppress(UnitError):  # what stands in brackets need be none
+            if unit_in_si(unit, LENGTH) != unit_in_si(table[name], LENGTH):
+                others.append(f'profile.{name} is "{table[name]}", but "{unit}" {why}')
+    is_single = len({unit for unit, _ in guesses.values()}) == 1
+    return "" if is_single and len(others) < len(asked) else "; ".join(others)
 
 
 def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profile, dict]:

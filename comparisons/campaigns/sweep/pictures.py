@@ -3,6 +3,7 @@
 In: the content of sweep.json. Out: SVG, the same for the same content."""
 
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -34,10 +35,12 @@ DRAWN = {
 }
 # of the bulges: by the figure's name its uncertainty's, what it is drawn over, and the axis' words
 PANELS = {
-    "height": ("uncertainty", "penetration", "bulge over h"),
-    "end": ("end_uncertainty", "contact", "half of it at, over a\u2032"),
-    "energy": ("energy_uncertainty", "work_scale", "energy over P h"),
+    "height": ("uncertainty", "penetration", "height of the bulge / h"),
+    "end": ("end_uncertainty", "contact", "its half height at s / a\u2032"),
+    "energy": ("energy_uncertainty", "work_scale", "elastic energy / P h"),
 }
+NUMBERS = "numbers: least mean shear over the Hertz zone's"
+TITLE = 62  # letters of a line
 DEPTH = "relative_penetration"
 COLOURS = {QUIESCENT: "#56B4E9", UNCLEAR: "#F0E442", BRIDGED: "#E69F00", SMOOTH: "#e4e4e4"}
 CELL, LEAST_WIDE = (0.5, 0.24), 5.0  # inches, of the zones' map
@@ -80,7 +83,7 @@ class Axis:
     @property
     def label(self) -> str:
         words = "position of the roller on the trace" if self.field == POSITION else self.field
-        return f"{words}, {self.unit}" if self.unit else words
+        return f"{words} [{self.unit}]" if self.unit else words
 
     def text(self, value: object) -> str:
         return self.texts[self.values.index(value)]
@@ -150,7 +153,7 @@ def _draw_lines(axes: "Axes", lines: dict[str, list], name: str, sample: bool) -
     joint = [" = ".join(names) for names in apart.values() if names[1:]]
     said = "all lines coincide" if len(apart) == 1 else ", ".join(joint)
     axes.set_title(said if joint else "", loc="right")
-    axes.set_ylabel(f"{DRAWN[name]}, {scale.name}")
+    axes.set_ylabel(f"{DRAWN[name]} [{scale.name}]")
 
 
 def bulge_figure(content: dict) -> "Figure":
@@ -158,7 +161,8 @@ def bulge_figure(content: dict) -> "Figure":
     relative penetration, a line for each friction."""
     entries = [entry for point in content["points"] for entry in point.get(bulge.NAME, ())]
     entries.sort(key=lambda entry: entry[DEPTH])
-    drawn, stack = panels(style.COLUMN, [(ABOVE, 1.5)] * len(PANELS), 0.85, foot=0.75)
+    rows = [(ABOVE + 0.15 * (place == 0), 1.5) for place in range(len(PANELS))]
+    drawn, stack = panels(style.COLUMN, rows, 0.85)
     for (name, (unsure, unit, words)), axes in zip(PANELS.items(), stack, strict=True):
         for k, friction in enumerate(sorted({entry["friction"] for entry in entries})):
             rows = [e for e in entries if e["friction"] == friction and e[unsure] is not None]
@@ -170,7 +174,7 @@ def bulge_figure(content: dict) -> "Figure":
         axes.set(xscale="log", ylabel=words)
     over(stack, "h/R", (0.9 * entries[0][DEPTH], 1.1 * entries[-1][DEPTH]))
     stack[0].legend(loc="upper left")
-    stack[0].set_title(content["scene"]["title"], loc="left")
+    stack[0].set_title("\n".join(wrap(content["scene"]["title"], TITLE)), loc="left")
     return drawn
 
 
@@ -195,12 +199,12 @@ def zone_map_figure(content: dict) -> "Figure":
     (across, down), left, right, above = CELL, 1.25, 0.3, 0.32
     wide = max(left + across * len(columns) + right, LEAST_WIDE)
     heights = [(above, down * len(rows))] * len(by_friction)
-    drawn, stack = panels(wide, heights, left, right, foot=1.0 if axes[1:] else 0.8)
+    drawn, stack = panels(wide, heights, left, right, foot=1.17 if axes[1:] else 0.97)
     for panel, friction in zip(stack, sorted(by_friction), strict=True):
         _draw_zones(panel, by_friction[friction], columns, rows)
         panel.set_title(f"friction {plain(friction)}, {LABELS[model]}")
     upwards = f"\nupwards: {'; '.join(axis.label for axis in axes[1:])}" if axes[1:] else ""
-    over(stack, f"{axes[0].label if axes else ''}{upwards}")
+    over(stack, f"{axes[0].label if axes else ''}{upwards}\n{NUMBERS}")
     look = {"marker": "s", "linestyle": "none", "markersize": 7.0}
     keys = [stack[0].plot([], [], color=c, label=n, **look)[0] for n, c in COLOURS.items()]
     drawn.legend(handles=keys, loc="lower left", ncols=4, columnspacing=1.0, handlelength=1.0)
@@ -213,10 +217,10 @@ def _draw_zones(axes: "Axes", entries: dict[tuple, dict], columns: list, rows: l
         square = np.add(SQUARE, np.reshape(at, (2, 1)))
         axes.fill(*square, facecolor=COLOURS[entry["status"]], edgecolor="white")
         level = f"{entry['level']['value']:.2f}"
-        axes.text(*at, level, ha="center", va="center", fontsize=8.0)
+        axes.text(*at, level, ha="center", va="center")
     axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
-    axes.set_xticks(range(len(columns)), columns, fontsize=7.5)
-    axes.set_yticks(range(len(rows)), rows, fontsize=7.5)
+    axes.set_xticks(range(len(columns)), columns)
+    axes.set_yticks(range(len(rows)), rows)
     axes.tick_params(axis="y", length=0.0)
     axes.grid(False)
 

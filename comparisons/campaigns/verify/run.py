@@ -41,22 +41,27 @@ from comparisons.campaigns.verify.rough import rough_cases
 from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases
 from comparisons.common.errors import InputError
 from comparisons.common.mpi import is_several
+from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.figure import Figure, grouped
+from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.terminal import plain_table
+from comparisons.studies.study import MODEL_ERROR
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
 DEGREES = (1, 2, 3)
 COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
-ABOUT = """Stated uncertainty against true error, wherever the exact answer is known. Ratio: stated
-uncertainty over true error (overestimation ratio). Figures whose error is rounding are not
-informative."""
+ABOUT = """Stated uncertainty against true error, wherever the exact answer is known. Coverage: the
+share of true errors that are within what is stated. Ratio: stated uncertainty over true error
+(overestimation ratio), its median and what nine of ten are below. Figures whose error is rounding
+are not informative."""
+HEADS = {"table": "figure or model error", "kind": "exact solution"}
 OTHERS = "Orders, manufactured solutions, independent solver"
 OTHER_COLUMNS = ("group", "measured", "value", "bound", "holds")
-PAIR_COLUMNS = ("table", "model", "case", "quantity", "exact", "error")
+PAIR_COLUMNS = (HEADS["table"], "model", "case", "quantity", "exact", "error")
 PAIR_COLUMNS += ("uncertainty", "ratio", "covered")
 
 Cases = tuple[Sequence[Case], Sequence[Case]]  # of figures with exact values, and others
@@ -115,7 +120,8 @@ class Verification(Campaign):
         tables = []
         for names in GROUPS:
             rows = self._coverage_cells(names)
-            tables.append((f"Coverage by {', '.join(names)}", (*names, *COLUMNS), rows))
+            heads = [HEADS.get(name, name) for name in names]
+            tables.append((f"Coverage by {', '.join(heads)}", (*heads, *COLUMNS), rows))
         tables.append((OTHERS, OTHER_COLUMNS, figures))
         tables.append(("Figures", PAIR_COLUMNS, map(_pair_cells, self.pairs)))
         title = f"{'Holds' if self.holds else 'Does not hold'}: {self.coverage_line}"
@@ -138,9 +144,14 @@ def _figure_cells(case: Case, figure: Figure) -> tuple[str, ...]:
 
 
 def _pair_cells(pair: Pair) -> tuple[str, ...]:
-    words = pair.table, MODEL_LABELS[pair.model], pair.case, pair.quantity
+    words = pair.table, MODEL_LABELS[pair.model], pair.case, label(pair.quantity)
     ratio = "" if pair.overestimation is None else f"{pair.overestimation:.2f}"
-    numbers = f"{pair.exact:.6g}", f"{pair.error:.2e}", f"{pair.figure.numerical:.2e}"
+    if pair.figure.study == MODEL_ERROR:
+        exact = percent(pair.exact, signed=True, digits=4)
+    else:
+        unit = QUANTITIES[pair.quantity].unit if pair.quantity in QUANTITIES else "m"  # a mean gap
+        exact = with_unit(pair.exact, unit, 6)
+    numbers = exact, percent(pair.error), percent(pair.figure.numerical)
     return (*words, *numbers, ratio, _yes(pair.covered))
 
 

@@ -5,6 +5,7 @@ A loop over blocks: those that every run has, and those by which each study show
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 
+from comparisons.common.numbers import plain
 from comparisons.common.processes import uncollected
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import Block, Box, Bullets, Heading, Names, Note, Pictures
@@ -120,7 +121,7 @@ def sections(run: Run, explorer: Explorer | None) -> list[Block]:
 def _answer(run: Run) -> Block:
     """Beside the verdict: what is judged, the run in one picture, and on paper what is signed."""
     signed = Box("signed", (Names(verification.signed_rows(run)),))
-    return Block("answer", (Box("stack", (Pictures(("judged",)), signed)), Pictures(("overview",))))
+    return Block("answer", (Pictures(("judged",)), Pictures(("overview",)), signed))
 
 
 def _before(run: Run) -> Iterator[Block]:
@@ -142,16 +143,16 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
     frictions = run.problem.scene.load.friction
     deciding = frictions.index(run.deciding_friction)
 
-    def fields(place: int) -> Iterator[Pictures]:
-        name, part = f"friction {frictions[place]:g}", slice(place, None, len(frictions))
-        yield Pictures(("fields",), name.capitalize(), True, part)
-        yield Pictures(("near",), f"Next to the surface, {name}", True, part)
+    def of_friction(place: int, *names: str) -> Pictures:
+        part = slice(place, None, len(frictions))
+        return Pictures(names, f"Friction {plain(frictions[place])}", True, part)
 
-    others = [item for k in range(len(frictions)) if k != deciding for item in fields(k)]
+    others = [k for k in range(len(frictions)) if k != deciding]
     note = NOTES["fields"] + NOTES["printed"].format(frictions[deciding]) * bool(others)
-    down = Heading("Sections over depth"), Pictures(("sections",), abreast=True)
-    on_screens = Box("on-screens", tuple(others))
-    items = Note(note), *fields(deciding), on_screens, explorer, *down
+    near = replace(of_friction(deciding, "near"), heading="", abreast=False)
+    down = Box("columns down", (near, Pictures(("sections",))))
+    on_screens = Box("on-screens", tuple(of_friction(k, "fields", "near") for k in others))
+    items = Note(note), of_friction(deciding, "fields"), down, on_screens, explorer
     yield Block("stresses", items, "Subsurface stresses")
 
 
@@ -169,9 +170,7 @@ def _after(run: Run) -> Iterator[Block]:
     note = Note(NOTES["levels"].format(far=far, norms=norms, refinement=why))
     levels = Heading("All figures"), *verification.convergence_tables(run), note
     yield Block("convergence", (*items, *levels), "Convergence")
-    under = Box("stack", (Pictures(("mesh",), part=slice(1, None)),))
-    mesh = Box("columns", (Pictures(("mesh",), part=slice(0, 1)), under))
-    yield Block("mesh", (mesh,), "Mesh")
+    yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
     note = "By the laws of cost, before anything was solved and without effects, "
     note += f"{forecast(run.problem, run.plan).text}."
     cost = Box("columns", (Pictures(("cost",)), verification.cost_table(run)))

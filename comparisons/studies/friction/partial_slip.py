@@ -58,7 +58,7 @@ QUANTITIES = {
     "energy_lost": Quantity("energy lost from the first touch on", "J/m", formal_order=2.0),
     "energy_of_cycle": Quantity("energy lost in a cycle", "J/m", formal_order=2.0),
     "edge_tension": Quantity("largest σx of the surface", "Pa"),
-    "tau1_slip": Quantity("largest τ1", "Pa", formal_order=2.0),
+    "tau1_slip": Quantity("largest τ₁", "Pa", formal_order=2.0),
     "slip_amplitude": Quantity("largest slip amplitude", "m"),
     "ruiz": Quantity("Ruiz' parameter σx q δ, largest", "Pa^2 m"),
     "smith_watson_topper": Quantity("Smith, Watson and Topper's parameter, largest", "Pa"),

@@ -57,7 +57,7 @@ def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
 
 def blocks(run: Run) -> list[Block]:
     shown = slip_table(run), Names(slip_facts(run)), Note(NOTE)
-    pictures = Pictures(("slip_tractions", "slip_loop"))
+    pictures = Pictures(("slip_tractions", "slip_loop"), abreast=True)
     return [Block("heat", (pictures, *shown), "Partial slip")]
 
 
@@ -157,24 +157,26 @@ def tractions_picture(run: Run) -> style.Picture | None:
     share = f"{run.problem.scene.partial_slip.path[-1]:g}"
     caption = (
         f"Traction on the body under {share} of the load that makes it slide, between the limits "
-        "that friction sets, thin. Bars below: the zones that stick, a row for each model."
+        "that friction sets, dotted. Bars below: the zones that stick, a row for each model."
     )
-    return style.picture(lambda width: _tractions(run, width), caption, caption)
+    return style.picture(_tractions(run), caption, caption)
 
 
-def _tractions(run: Run, width: float) -> "Figure":
+def _tractions(run: Run) -> "Figure":
     curves = run.data(NAME).curves
-    abreast, room = names_above(width, 2 * len(curves))
-    drawn, [panel] = panels(width, [(room, 2.6)])
+    abreast, room = names_above(style.COLUMN, 2 * len(curves))
+    drawn, [panel] = panels(style.COLUMN, [(room, 2.5)])
     unit = scale_of(next(iter(curves.values())).x, "m")
     tractions = {n: (one.x / unit.factor, one.traction[-1] / 1e6) for n, one in curves.items()}
     limits = {n: (one.x / unit.factor, one.limit[-1] / 1e6) for n, one in curves.items()}
     for names, (x, traction) in distinct(tractions).items():
         panel.plot(x, traction, label=joint_label(names, ", traction"), **style.LINES[names[0]])
-    for names, (x, limit) in distinct(limits).items():
-        thin = {**style.LINES[names[0]], "linewidth": 0.6}
-        panel.plot(x, limit, label=joint_label(names, ", ± μp"), **thin)
-        panel.plot(x, -limit, **thin)
+    apart = distinct(limits)
+    for names, (x, limit) in apart.items():
+        look = {**style.REFERENCE, "color": style.LINES[names[0]]["color"]}
+        label = "± μp" if len(apart) == 1 else joint_label(names, ", ± μp")
+        panel.plot(x, limit, label=label, **look)
+        panel.plot(x, -limit, **look)
     for row, (name, one) in enumerate(curves.items()):
         bottom = (-1.08 - 0.05 * row) * one.limit[-1].max() / 1e6
         for start, stop in one.zones[-1] / unit.factor:
@@ -194,13 +196,13 @@ def loop_picture(run: Run) -> style.Picture | None:
         "Tangential load over that of sliding along the path, against the roller's displacement. "
         "Between two loads the line is straight; what is lost is computed from slip."
     )
-    return style.picture(lambda width: _loop(run, width), caption, caption)
+    return style.picture(_loop(run), caption, caption)
 
 
-def _loop(run: Run, width: float) -> "Figure":
+def _loop(run: Run) -> "Figure":
     curves, path = run.data(NAME).curves, (0.0, *run.problem.scene.partial_slip.path)
-    abreast, room = names_above(width, len(curves))
-    drawn, [panel] = panels(width, [(room, 2.4)])
+    abreast, room = names_above(style.COLUMN, len(curves))
+    drawn, [panel] = panels(style.COLUMN, [(room, 2.67)])
     unit = scale_of(next(iter(curves.values())).displacement, "m")
     moved = {n: np.append(0.0, one.displacement) / unit.factor for n, one in curves.items()}
     steps = np.arange(len(path))

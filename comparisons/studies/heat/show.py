@@ -117,18 +117,18 @@ def heat_facts(run: Run) -> list[tuple[str, str]]:
         ("Peclet number V a / 2κ", ", ".join(peclet)),
         ("bulk temperature", f"{plain(heat.bulk_temperature)} K, at rest {reach} away"),
         ("largest rise at x =", ", ".join(dict.fromkeys(with_unit(x, "m") for x in places))),
-        ("the finite elements have", ", ".join(study.contains.values())),
+        ("the finite elements alone have", ", ".join(study.contains.values())),
     ]
     flash = known.of(quantity="flash_temperature")
     figure = flash.one(against=MODELS[1]) or flash.one(source=list(run.runs)[-1])
     for part in sorted(figure.parts, key=lambda part: part.name != OTHER_PRESSURES):
         if part.name == OTHER_PRESSURES:
             share = percent(part.value, signed=True, uncertainty=figure.numerical)
-            facts.append(("of its difference, by other pressures", share))
+            facts.append(("difference of both models by their pressures", share))
         else:
             share = percent(part.value, signed=True, uncertainty=part.uncertainty)
             share = f"{share} ± {percent(part.uncertainty)}"
-            facts.append((f"the largest rise without {study.contains[part.name]}", share))
+            facts.append((f"change of the largest rise without {study.contains[part.name]}", share))
     return [fact for fact in facts if fact[1]]
 
 
@@ -161,37 +161,37 @@ def surfaces_picture(run: Run) -> style.Picture | None:
         for name, contact in contacts.items()
     )
     caption = (
-        "Rise of both surfaces above the bulk temperature, equal where they touch. Below, the "
-        f"heat of friction and its part that enters the body. Largest: {largest}."
+        "Rise of both surfaces above the bulk temperature, equal where they touch; wide and pale: "
+        f"the roller's. Largest: {largest}. Below, the heat of friction, wide and pale, and its "
+        "part that enters the body."
     )
-    caption += " Last, σx of the body's surface, thin without heat." * bool(stresses)
+    caption += " Last, σx of the body's surface; wide and pale: without heat." * bool(stresses)
     words = f"Rise of both surfaces' temperatures over x. Largest: {largest}."
     return style.picture(lambda width: _surfaces(run, width), words, caption)
 
 
 def _surfaces(run: Run, width: float) -> "Figure":
-    """Rise, heat and stresses; thin: of the roller, all heat, without heat."""
+    """Rise, heat and stresses; pale: of the roller, all heat, without heat."""
     contacts, stresses = run.data(NAME).contacts, run.data(NAME).stresses
     abreast, room = names_above(width, 2 * len(contacts))
     drawn, axes = panels(width, [(room, 2.2), (0.2, 0.98), (0.2, 1.5)][: 3 if stresses else 2])
     unit = scale_of(next(iter(contacts.values())).x, "m")
 
-    def plot(panel: "Axes", part: str, values: dict[str, Curve], share: float) -> None:
+    def plot(panel: "Axes", part: str, values: dict[str, Curve], pale: bool) -> None:
         for names, (x, y) in distinct(values).items():
-            look = style.LINES[names[0]]
-            thick = {**look, "linewidth": share * look["linewidth"]}
-            panel.plot(x / unit.factor, y, label=joint_label(names, part), **thick)
+            look = style.LINES[names[0]] | (style.PALE if pale else {})
+            panel.plot(x / unit.factor, y, label=joint_label(names, part), **look)
 
-    for panel, part, name, share, scale in (
-        (axes[0], ", body", "body", 1.0, 1.0),
-        (axes[0], ", roller", "roller", 0.5, 1.0),
-        (axes[1], ", all", "heat", 0.5, 1e6),
-        (axes[1], ", into the body", "into_body", 1.0, 1e6),
+    for panel, part, name, pale, scale in (
+        (axes[0], ", body", "body", False, 1.0),
+        (axes[0], ", roller", "roller", True, 1.0),
+        (axes[1], ", all", "heat", True, 1e6),
+        (axes[1], ", into the body", "into_body", False, 1e6),
     ):
         curves = {m: (c.x, getattr(c, name) / scale) for m, c in contacts.items()}
-        plot(panel, part, curves, share)
-    for case, share in enumerate((1.0, 0.5) if stresses else ()):
-        plot(axes[2], "", {m: (s.x, s.sx[case] / 1e6) for m, s in stresses.items()}, share)
+        plot(panel, part, curves, pale)
+    for case, pale in enumerate((False, True) if stresses else ()):
+        plot(axes[2], "", {m: (s.x, s.sx[case] / 1e6) for m, s in stresses.items()}, pale)
     for panel, name in zip(axes, ("rise [K]", "heat [W/mm²]", "σx [MPa]"), strict=False):
         panel.set_ylabel(name)
     over(axes, f"x [{unit.name}]", next(iter(contacts.values())).x / unit.factor)

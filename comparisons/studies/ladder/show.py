@@ -31,7 +31,7 @@ def blocks(run: Run) -> list[Block]:
         return []
     head = ("model", "quantity", "error", "uncertainty", "verdict", "time", "memory")
     line = "; ".join(f"{name}: {text}" for name, text in lines(run))
-    table = TextTable(line, head, tuple(rows), "comparison", words=False)
+    table = TextTable(line.replace("tau1", "τ₁"), head, tuple(rows), "comparison", words=False)
     return [Block("model-error", (table, Note(NOTE)))]
 
 
@@ -45,7 +45,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
         by = f", by {findings.said(BY)}" if findings.said(BY) == ESTIMATES else ""
         return [("cheapest that holds", f"{by_name[name]}{by}")]
     left = [row["rung"] for row, _, errors in rungs if verdict_of(errors) != "fails"]
-    why = f": {said}" if (said := findings.said(NONE)) else ""
+    why = f", {said}" if (said := findings.said(NONE)) else ""
     beside = f"; cheapest that was not refuted: {by_name[left[0]]}" if left else ""
     return [("cheapest that holds", f"none{why}{beside}")]
 

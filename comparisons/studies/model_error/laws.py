@@ -94,7 +94,7 @@ class OpenLaw:
         solved = " and ".join(self.probes)
         if self.is_scatter:
             return f"its constants were measured; for their errors it is solved with {solved}"
-        return f"the scene names no measured solid; the whole is solved again as {solved}"
+        return f"{' and '.join(self.bodies)} of no measured solid: solved again as {solved}"
 
     @property
     def size(self) -> float:

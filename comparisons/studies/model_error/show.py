@@ -421,7 +421,7 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
             [bar] = axes.barh(y, start - begin, left=begin, **look)
             hatched += [bar] * (sign is False)
             text = error_text(panel.quantity, size, panel.uncertainty)
-            style.beside_bar(axes, max(begin, start), y, text, fontsize=7.5)
+            style.beside_bar(axes, max(begin, start), y, text)
         if not panel.is_norm:
             # past a step that does not apply
             top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
@@ -440,7 +440,7 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
         style.whisker(axes, value, y, (low, reach), thick, caps)
         ends += [value - low, value + reach]
     text = error_text(panel.quantity, panel.error, panel.uncertainty)
-    style.beside_bar(axes, max(ends[-1], value, 0.0), y, text, fontsize=7.5)
+    style.beside_bar(axes, max(ends[-1], value, 0.0), y, text)
     for side in ((1.0,) if panel.is_norm else (-1.0, 1.0)) if panel.tolerance else ():
         axes.axvline(side * at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
         ends.append(side * at)
@@ -450,4 +450,4 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     style.horizontal_bars(axes, place, rows)
     axes.locator_params(axis="x", nbins=6)
     axes.set_title("\n".join(wrap(panel.name, int(TITLE_LETTERS * across))))
-    axes.set_xlabel("per cent")
+    axes.set_xlabel("model error [%]")

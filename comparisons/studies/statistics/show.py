@@ -168,7 +168,8 @@ def _over_load(run: Run) -> style.Picture:
     columns = findings.table("loads").columns
     load, hertz = columns["load"].numbers, columns["half_width"].numbers
     unit = scale_of(columns[f"figures.moments.{PRESSURE}"].values, "Pa")
-    drawn, axes = panels(style.COLUMN, [(0.3, 2.6), (0.25, 1.75)], foot=0.7)
+    abreast, room = names_above(style.COLUMN, len(LOOKS))
+    drawn, axes = panels(style.COLUMN, [(room, 2.2), (0.25, 1.5)], foot=0.5)
     for panel, figure, scale in ((axes[0], PRESSURE, unit.factor), (axes[1], FIGURES[2], hertz)):
         for name, look in LOOKS.items():
             of_theory = {"ridges": "persson.ridges", "even": "even"} if panel is axes[0] else {}
@@ -180,12 +181,12 @@ def _over_load(run: Run) -> style.Picture:
         panel.errorbar(load, random.numbers / scale, random.sizes / scale, **look)
         panel.set(xscale="log", yscale="log")
     axes[0].set_ylabel(f"mean real pressure [{unit.name}]")
-    axes[0].legend(loc="lower right", fontsize=7.5)
+    legend_above(axes[0], abreast)
     axes[1].set_ylabel("half-width / a")
     over(axes, "load [N/m]")
     ends = (columns[f"figures.{name}.{PRESSURE}"].values for name in ("moments", "random"))
     theory, solved = (significant(first / last, 3) for first, *_, last in ends)
-    grown = f"times {theory} by the theory and times {solved} solved"
+    grown = f"{theory} times by the theory and {solved} times as solved"
     alternative = f"Over three decades of load the mean real pressure grows {grown}."
     [traces] = findings.table("traces").columns["traces"].values
     caption = (

@@ -32,5 +32,7 @@ def test_values_stand_in_one_unit_and_norms_have_neither_values_nor_sign():
 def test_a_figure_is_shown_with_its_uncertainty_where_that_is_known():
     figure = replace(PEAK, uncertainty=Uncertainty({"numerical": 0.016}))
     assert stated(figure, 1e9) == "1.25 ± 0.02"
+    small = replace(figure, uncertainty=Uncertainty({"numerical": 1e-9}))
+    assert stated(small, 1e9) == "1.2500 ± 0.0001"
     assert stated(replace(figure, uncertainty=Uncertainty({"numerical": inf})), 1e9) == "1.25"
     assert stated(None) == ""

@@ -60,6 +60,26 @@ def test_a_mistaken_unit_is_doubted(folder, change, words):
     assert doubts(folder) == doubts(folder, z_unit="um") == ""
 
 
+@pytest.mark.parametrize(
+    ("head", "words"),
+    [
+        (
+            "x (mm),z (nm)",
+            'x_unit is "um", but "mm" by "x (mm),z (nm)" in the file; profile.z_unit',
+        ),
+        ("x,z in nm", 'profile.x_unit is "um", but "nm"'),
+        ("x [µm],z [um]", ""),
+        ("x [pixels],z [V]", ""),
+        ("a trace in um", ""),
+    ],
+)
+def test_units_that_the_file_names_otherwise_are_doubted(folder, head, words):
+    trace = folder / "trace.csv"
+    trace.write_text(f"{head}\n{trace.read_text()}", encoding="utf-8")
+    said = doubts(folder, z_unit="um")
+    assert words in said and bool(words) == bool(said)
+
+
 def test_heights_that_are_all_the_same_are_doubted(folder):
     (folder / "trace.csv").write_text("".join(f"{x:.6g},3.0\n" for x in X))
     assert "every height is the same" in doubts(folder, z_unit="um")

@@ -84,7 +84,7 @@ def test_nothing_suffices_where_no_rung_holds(wavy_outcome):
     looser = tuple(replace(error, unknown={"finite_strain": 0.3}) for error in errors)
     said = (Statement(show.NONE, "the whole model is not known to the tolerance"),)
     [(_, line)] = show.lines(refound(wavy_outcome, LADDER, figures=looser, statements=said))
-    assert line.startswith("none: the whole model is not known to the tolerance; cheapest that")
+    assert line.startswith("none, the whole model is not known to the tolerance; cheapest that")
     without = refound(
         wavy_outcome, LADDER, figures=(), series=(), statements=(Statement(WHY_NOT, "no whole"),)
     )

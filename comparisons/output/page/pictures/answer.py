@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawn
 
-LEFT, RIGHT = 0.72, 0.12  # inches
+LEFT, RIGHT = 0.78, 0.14  # inches
 # Inches above a panel, and of the panel.
 PRESSURES, DIFFERENCES, SURFACES = (0.08, 1.75), (0.3, 0.5), (0.14, 0.8)
 SHEAR, BAR = (0.3, 1.35), (0.44, 0.1)
@@ -28,7 +28,7 @@ FOOT = 0.26  # inches
 REACH = 1.15  # half-widths to either side
 
 ROW, TOP, BOTTOM = 0.56, 0.34, 0.5  # inches: of a bar and its words, and the space around all bars
-THICK = 0.34  # of a row
+THICK, ABOVE = 0.34, 0.23  # of a row: a bar, and from its middle up to its words
 FARTHEST = 6.0  # tolerances: what is beyond is cut off
 COLOURS = {"holds": "#0b5c8f", "fails": "#a8410a", "inconclusive": "#8a9199"}
 WORDS = COLOURS | {"inconclusive": "#565c63"}  # in a darker grey
@@ -79,7 +79,7 @@ def overview(run: Run, width: float) -> "Drawn":
         panels[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
     for panel in panels:
         panel.set_xlim(-REACH, REACH)
-        panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
+        panel.yaxis.set_label_coords(-0.83 * LEFT / (width - LEFT - RIGHT), 0.5)
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel("x/a")
     return drawn
@@ -138,12 +138,12 @@ def judged_picture(run: Run) -> style.Picture | None:
     for row, error in enumerate(errors):
         _bar(axes, -float(row), error, several=len(run.problem.scene.load.friction) > 1)
     rows = -np.arange(float(len(errors)))  # between them the line would cross words
-    axes.vlines(0.0 * rows, rows - 0.55, rows + 0.56 * THICK, color="#555555", linewidth=0.7)
+    axes.vlines(0.0 * rows, rows - 0.55, rows + ABOVE, color="#555555", linewidth=0.7)
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
     axes.grid(False, axis="y")
-    axes.set_xlabel("model error over its tolerance")
-    axes.set_title("within the tolerance: shaded", fontsize=8.5)
+    axes.set_xlabel("model error / tolerance")
+    axes.set_title("within the tolerance: shaded")
     words = "; ".join(
         f"{label(e.quantity)}, friction {plain(e.friction)}: {_said(e)}" for e in errors
     )
@@ -176,8 +176,8 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
     if np.isfinite(certain):
         style.whisker(axes, at, y, (certain, certain))
     sliding = f", μ = {plain(error.friction)}" if several else ""
-    above = {"va": "bottom", "fontsize": 8.5}
+    above = {"va": "bottom"}
     name = label(error.quantity).replace("principal shear stress ", "")  # room for the error
-    axes.text(axes.get_xlim()[0], y + 0.56 * THICK, name + sliding, **above)
+    axes.text(axes.get_xlim()[0], y + ABOVE, name + sliding, **above)
     text = {"ha": "right", "color": WORDS[error.verdict], "weight": "bold", **above}
-    axes.text(limit, y + 0.56 * THICK, _said(error), **text)
+    axes.text(limit, y + ABOVE, _said(error), **text)

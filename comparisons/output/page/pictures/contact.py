@@ -147,7 +147,7 @@ def _second_axis(axes: "Axes", half_width: float) -> None:
     ticks = MaxNLocator(TICKS, steps=STEPS).tick_values(low, high)
     end = CLEAR * (high - low)
     top.set_ticks(ticks[(ticks >= low + end) & (ticks <= high - end)])
-    axes.annotate("x/a", (0.0, 1.0), (-22, 4), "axes fraction", "offset points", ha="right")
+    axes.annotate("x/a", (0.0, 1.0), (-22, 6), "axes fraction", "offset points", ha="right")
 
 
 def _cap_and_legend(axes: "Axes", run: Run) -> None:
@@ -160,7 +160,7 @@ def _cap_and_legend(axes: "Axes", run: Run) -> None:
         axes.axhline(hardness / p0, label="hardness", **look)
     names = len(axes.get_legend_handles_labels()[1])
     if axes.figure.get_figwidth() < 0.75 * style.WIDE:
-        rows = 1 + (len(levels) > len(run.runs))
+        rows = -(-names // 2)
         side, corner, room = "upper left", (0.0, 0.91), 1.22 + 0.12 * rows
         columns = -(-names // rows)
     else:

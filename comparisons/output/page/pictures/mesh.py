@@ -10,7 +10,7 @@ import numpy as np
 
 from comparisons.common.numbers import integer, scale_of, with_unit
 from comparisons.drawing.curves import panels
-from comparisons.drawing.style import COLUMN, Picture, picture
+from comparisons.drawing.style import THIRD, Picture, picture
 from comparisons.studies.contact import peak_position
 from comparisons.studies.study import Run
 from meshes.block import real_points, unique_edges
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 CELL = 0.028  # inches: edges shorter than that make the cell that they lie in dark
 COLOUR = 0.12, 0.31, 0.47
+LEFT, RIGHT = 0.68, 0.22  # inches beside a mesh
+LEAST, MOST = 0.8, 1.9  # inches: its height
 CONTACT = 1.3  # half-widths to either side
 PEAK_EDGES = 24  # edges at the surface to either side of the highest peak
 
@@ -62,9 +64,10 @@ def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Fig
     """Edges between points (n, 2) from a left to a right end and down to a depth [m]."""
     unit = scale_of(view, "m")
     low, high, depth = (end / unit.factor for end in view)
-    width = COLUMN - 0.8
-    height = float(np.clip(width * view[2] / (view[1] - view[0]), 0.8, 4.2))
-    drawn, [axes] = panels(COLUMN, [(0.14, height)], 0.68)
+    share = view[2] / (view[1] - view[0])
+    width = min(THIRD - LEFT - RIGHT, MOST / share)
+    height = max(width * share, LEAST)
+    drawn, [axes] = panels(THIRD, [(0.14, height)], LEFT, THIRD - LEFT - width)
     points = points / unit.factor
     top = min(0.0, max(points[:, 1].min(), -0.2 * depth)) - 0.03 * depth
     labels = {"xlabel": f"x [{unit.name}]", "ylabel": f"z [{unit.name}]"}

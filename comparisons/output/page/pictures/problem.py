@@ -33,8 +33,8 @@ EDGE = {"edgecolor": style.OUTLINE["color"], "linewidth": style.OUTLINE["linewid
 def problem_picture(run: Run) -> style.Picture:
     """Roller, body, load and sliding; above to scale, below with the heights stretched."""
     scene = run.problem.scene
-    drawn = style.figure(style.COLUMN, 5.9)
-    to_scale, close_up = style.stacked(drawn, [(0.18, 2.92), (0.73, 1.57)], 0.7, 0.14)
+    drawn = style.figure(style.COLUMN, 5.3)
+    to_scale, close_up = style.stacked(drawn, [(0.12, 2.92), (0.54, 1.22)], 0.7, 0.14)
     _to_scale(to_scale, run.problem)
     stretch = _close_up(close_up, run.problem)
     body = "the rough body" if scene.profile is not None else "the smooth body"
@@ -92,7 +92,7 @@ def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], ro
     sizes  half the view's width, half the body's, and its depth
     roomy  words of the body stand in it, where it is large; else under it"""
     scene, (view, half, below) = problem.scene, sizes
-    note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
+    note = {"va": "center", "linespacing": 1.35}
     load = f"{'p₀' if scene.periodic else 'P'} = {_load(problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)

@@ -19,12 +19,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ABREAST = 4  # panels across a wide page
-HEAD, TITLE, TALL, FOOT = 0.34, 0.36, 1.7, 0.5  # inches: legend, a panel's title, panel, its axis
+HEAD, TITLE, TALL, FOOT = 0.34, 0.36, 1.5, 0.5  # inches: legend, a panel's title, panel, its axis
 LEFT, BETWEEN, LINE = 0.62, 0.5, 0.17  # inches
 LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
 LOOKS = style.LINES | {DIFFERENCE: style.DIFFERENCE}
 NAMES = LABELS | {DIFFERENCE: "difference of both models"}
 SLOPES = {1.0: (0, (1, 1.3)), 2.0: (0, (6, 2))}  # lines by order
+STAGE = 0.2  # inches: of a stage's bar
 SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
 
 
@@ -46,8 +47,10 @@ def convergence_picture(run: Run) -> style.Picture | None:
 
 
 def _drawn(panels: list[list[JudgedSequence]], width: float) -> "Figure":
-    abreast = max(1, round(ABREAST * width / style.WIDE))
-    head = HEAD if abreast == ABREAST else HEAD + 2.0 * LINE  # where names take three lines
+    wide = width == style.WIDE
+    most = ABREAST if wide else ABREAST // 2
+    abreast = -(-len(panels) // -(-len(panels) // most))  # rows of about equal lengths
+    head = HEAD if wide else HEAD + 2.0 * LINE  # where names take three lines
     heights = [(TITLE + (FOOT if row else head), TALL) for row in range(-(-len(panels) // abreast))]
     drawn = style.figure(width, sum(map(sum, heights)) + FOOT)
     rows = [heights[: -(-(len(panels) - side) // abreast)] for side in range(abreast)]
@@ -56,14 +59,14 @@ def _drawn(panels: list[list[JudgedSequence]], width: float) -> "Figure":
         axes = sides[number % abreast][number // abreast]
         _draw(axes, panel)
         if number % abreast == 0:
-            axes.set_ylabel("error, %")
+            axes.set_ylabel("error [%]")
         if number + abreast >= len(panels):
-            axes.set_xlabel("pressure elements, µm")
+            axes.set_xlabel("pressure elements [µm]")
     entries = {}
     for axes in drawn.axes:
         handles, labels = axes.get_legend_handles_labels()
         entries = dict(zip(labels, handles, strict=True)) | entries
-    beside = len(entries) if abreast == ABREAST else abreast
+    beside = len(entries) if wide else 2
     room = {"ncols": beside, "columnspacing": 1.6, "borderaxespad": 0.2}
     drawn.legend(entries.values(), entries, loc="upper left", **room)
     return drawn
@@ -92,9 +95,15 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     axes.set_xscale("log")
     if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in axes.lines):
         axes.set_yscale("log")
-        axes.yaxis.set_major_formatter(
-            lambda value, place: style.power_of_ten(round(math.log10(value)))
-        )
+        low, high = np.log10(axes.get_ylim())
+        if np.floor(high) - np.ceil(low) >= 1.0:  # two powers of ten are in view
+            axes.yaxis.set_major_formatter(
+                lambda value, place: style.power_of_ten(round(math.log10(value)))
+            )
+        else:
+            ticks = np.outer(10.0 ** np.arange(np.floor(low), high), [1.0, 2.0, 5.0]).ravel()
+            ticks = ticks[(ticks >= 10.0**low) & (ticks <= 10.0**high)]
+            axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     else:
         axes.set_yticks([])
         axes.annotate("no change but rounding", (0.5, 0.5), xycoords="axes fraction", ha="center")
@@ -102,7 +111,7 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     axes.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
     axes.minorticks_off()
     axes.set_xlim(0.8 * ticks[0], 1.25 * ticks[-1])
-    axes.set_title(panel[0].name.replace(", friction", ",\nfriction"), fontsize=8.5)
+    axes.set_title(panel[0].name.replace(", friction", ",\nfriction"))
 
 
 def cost_picture(run: Run) -> style.Picture:
@@ -112,8 +121,8 @@ def cost_picture(run: Run) -> style.Picture:
         name: {"in all": sum(m.seconds.values())} | m.seconds for name, m in run.runs.items()
     }
     rows = [(name, stage, time) for name, times in seconds.items() for stage, time in times.items()]
-    drawn = style.figure(style.COLUMN, 0.24 * len(rows) + 0.7)
-    [axes] = style.stacked(drawn, [(0.12, 0.24 * len(rows) + 0.08)], 1.62, 0.67)
+    drawn = style.figure(style.COLUMN, STAGE * len(rows) + 0.7)
+    [axes] = style.stacked(drawn, [(0.12, STAGE * len(rows) + 0.08)], 1.62, 0.67)
     place = -np.arange(len(rows), dtype=float)
     shown = np.maximum([time for _, _, time in rows], SHORTEST)
     first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)

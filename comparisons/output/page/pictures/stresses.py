@@ -13,7 +13,7 @@ import numpy as np
 from analytic.stress_state import StressState
 from comparisons.common.numbers import decimal, percent_as_written, plain, significant
 from comparisons.drawing import style
-from comparisons.drawing.curves import COINCIDE, columns, distinct, joint_label, names_above
+from comparisons.drawing.curves import COINCIDE, Curve, columns, distinct, joint_label, names_above
 from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.models.smooth import closed_form
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 NEAR = 0.1  # half-widths: depth of what is enlarged next to the surface
 STRETCHED = 1.25  # inches: height of fields next to the surface
 FEWEST_ROWS = 4
-TITLE, TALL, FOOT = 0.3, 1.85, 0.46  # inches, of sections
+TITLE, TALL, FOOT = 0.3, 1.65, 0.46  # inches, of sections
 LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
 
 
@@ -197,24 +197,32 @@ def section_pictures(run: Run) -> list[style.Picture]:
     }
     x = run.window.x
     spacing = x[1] - x[0]
-    return [
-        _section_picture(run, int(np.argmin(np.abs(x - place))), words)
+    places = {
+        words: int(np.argmin(np.abs(x - place)))
         for words, place in wanted.items()
         if x[0] - spacing <= place <= x[-1] + spacing
-    ]
-
-
-def _section_picture(run: Run, column: int, words: str) -> style.Picture:
-    frictions, hertz = run.problem.scene.load.friction, run.problem.hertz
-    models = {
-        n: (run.window.z, _tau1(run, n, frictions[0], column)) for n in run.levels(frictions[0])
     }
-    abreast, top = names_above(style.COLUMN, len(distinct(models)) + 2)
+    names = max((_names(run, column) for column in places.values()), default=0)
+    return [_section_picture(run, column, words, names) for words, column in places.items()]
+
+
+def _names(run: Run, column: int) -> int:
+    """How many lines a section has names for."""
+    frictions = run.problem.scene.load.friction
+    curves = {names for mu in frictions for names in distinct(_curves(run, mu, column))}
+    zones = any(_zones(run, mu) for mu in frictions)
+    return len(curves) + zones + (closed_form(run.problem) is not None)
+
+
+def _section_picture(run: Run, column: int, words: str, names: int) -> style.Picture:
+    """`names`: room above for so many."""
+    frictions, hertz = run.problem.scene.load.friction, run.problem.hertz
+    abreast, top = names_above(style.COLUMN, names)
     drawn = style.figure(style.COLUMN, top + FOOT + (TITLE + TALL) * len(frictions))
     depths = [run.window.z[-1] / hertz.half_width]
     if run.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
         depths.append(NEAR)
-    rows = [(TITLE + top * (place == 0), TALL) for place in range(len(frictions))]
+    rows = [(top + 0.08 if place == 0 else TITLE, TALL) for place in range(len(frictions))]
     sides = columns(drawn, [rows] * len(depths), LEFT, ROOM, BETWEEN)
     for friction, panels in zip(frictions, zip(*sides, strict=True), strict=True):
         for panel, depth in zip(panels, depths, strict=True):
@@ -250,6 +258,22 @@ def _section_picture(run: Run, column: int, words: str) -> style.Picture:
     )
 
 
+def _curves(run: Run, friction: float, column: int) -> dict[str, Curve]:
+    """Every model's over z/a."""
+    z = run.window.z / run.problem.hertz.half_width
+    return {name: (z, _tau1(run, name, friction, column)) for name in run.levels(friction)}
+
+
+def _zones(run: Run, friction: float) -> list[tuple[float, float]]:
+    """Ends of the first model's quiescent zone."""
+    half_width, first = run.problem.hertz.half_width, next(iter(run.runs))
+    return [
+        tuple(zone.figures[name].value / half_width for name in ("start", "stop"))
+        for zone in zones_of(run.findings.get(ZONE))
+        if (zone.model, zone.friction) == (first, friction) and "start" in zone.figures
+    ]
+
+
 def _tau1(run: Run, name: str, friction: float, column: int) -> np.ndarray:
     field = run.levels(friction)[name].stress(friction).field
     return COMPONENTS[0].of(field)[:, column] / run.problem.hertz.peak_pressure
@@ -260,17 +284,13 @@ def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float)
     x, z = run.window.x[column], run.window.z
     shown = z <= 1.000001 * depth * hertz.half_width
     at = z[shown] / hertz.half_width
-    curves = {n: (at, _tau1(run, n, friction, column)[shown]) for n in run.levels(friction)}
-    for names, (_, values) in distinct(curves).items():
-        axes.plot(at, values, label=joint_label(names), **style.LINES[names[0]])
+    for names, (_, values) in distinct(_curves(run, friction, column)).items():
+        axes.plot(at, values[shown], label=joint_label(names), **style.LINES[names[0]])
     smooth = closed_form(run.problem)
     if smooth is not None:
         exact = smooth.stress(x, z[shown], friction).tau1 / hertz.peak_pressure
         axes.plot(at, exact, label=f"{smooth.name}, exact", **style.REFERENCE)
-    first = next(iter(run.runs))
-    for zone in zones_of(run.findings.get(ZONE)):
-        if (zone.model, zone.friction) == (first, friction) and "start" in zone.figures:
-            ends = (zone.figures[name].value / hertz.half_width for name in ("start", "stop"))
-            axes.axvspan(*ends, color="#009E73", alpha=0.14, linewidth=0.0, label="quiescent zone")
+    for ends in _zones(run, friction):
+        axes.axvspan(*ends, color="#009E73", alpha=0.14, linewidth=0.0, label="quiescent zone")
     axes.set_xlim(0.0, depth)
     axes.locator_params(axis="x", nbins=5, prune="upper")  # the last would meet the next panel's

@@ -51,21 +51,30 @@ def comparison_rows(run: Run) -> list[ComparisonRow]:
 
 
 def comparison_table(run: Run) -> TextTable:
-    """The same for the page; below a figure in grey that over Hertz's."""
-    first = first_model(run)
+    """The same for the page; below a figure in grey that over Hertz's. The problem that the finite
+    elements solve is its title where it is that of all rows."""
+    first, shown = first_model(run), [r for r in comparison_rows(run) if run.shows(r.quantity)]
+    problems = {row.reference for row in shown}
+    title = "" if len(problems) > 1 else f"The finite elements solve {_problem(*problems)}"
     head = ("quantity", "friction", first, "finite elements", "difference", "uncertainty")
+    head += ("tolerance", "verdict", *["reference"] * (not title))
     rows = tuple(
         (
             f"{label(row.quantity)}\n{row.note}",
             row.friction,
             f"{row.half_plane}\n{row.in_hertz[0]}",
             f"{row.finite_element}\n{row.in_hertz[1]}",
-            *(row.difference, row.uncertainty, row.tolerance, row.verdict, row.reference),
+            *(row.difference, row.uncertainty, row.tolerance, row.verdict),
+            *[row.reference] * (not title),
         )
-        for row in comparison_rows(run)
-        if run.shows(row.quantity)
+        for row in shown
     )
-    return TextTable("", (*head, "tolerance", "verdict", "reference"), rows, "comparison", True)
+    return TextTable(title, head, rows, "comparison", words=not title)
+
+
+def _problem(reference: str) -> str:
+    same = reference == SAME_PROBLEM
+    return f"{reference} as the half-plane" if same else f"it with {reference}"
 
 
 def _values(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:

@@ -12,6 +12,7 @@ from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import distinct, legend_above, names_above, over, panels
 from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import MODELS
 from comparisons.studies.study import WHY_NOT, Run
 from comparisons.studies.subsurface.cycles.study import NAME, QUANTITIES, SOURCE, VERDICT
 from comparisons.studies.subsurface.cycles.surfaces import (
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 WORDS = {FRESH: "fresh", ONCE: "pressed once", LAST: "after all passes", FLATTENED: "run in"}
 COLOURS = {FRESH: "#222222", ONCE: "#0072B2", LAST: "#D55E00", FLATTENED: "#009E73"}
 DASHES = {FRESH: (0, (1, 1.3)), ONCE: "-", LAST: (0, (4, 1.6)), FLATTENED: (0, (7, 1.2, 1.4, 1.2))}
+AXES = [{**style.LINES[name], "linewidth": 1.2} for name in MODELS]  # of stresses along x and y
 SHOWN = 6  # passes of the table, the last among them
 OF_SURFACES = ("peak_reloaded", "length_reloaded", "ra")
 SHAPES = "shape_rms", "bearing_rms", "lowered_rms"
@@ -70,7 +72,7 @@ def blocks(run: Run) -> list[Block]:
         return [Block("cycles", (Note(f"Cycles: {why_not}."),), "Cycles")]
     data = run.data(NAME)
     pictures = Pictures(("cycles_passes", "cycles_stress"), abreast=True)
-    verdict = Note(f"The body {run.findings[NAME].said(VERDICT)}.")
+    verdict = Note(f"The body {run.findings[NAME].said(VERDICT)}.".replace("p0", "p₀"))
     if data.left is None:
         carried = significant(run.figures.one(study=NAME, quantity="carried").value, 3)
         note = Note(f"{NOTE} {OF_ROLLING.format(carried=carried)}")
@@ -143,11 +145,13 @@ def passes_picture(run: Run) -> style.Picture | None:
         return None
     abreast, room = names_above(style.COLUMN, 4)
     drawn, [panel] = panels(style.COLUMN, [(room, 2.4)])
-    for level, colour in zip(data.levels[::-1], COLOURS.values(), strict=False):
+    looks = zip(data.levels[::-1], COLOURS.values(), style.DASHES, strict=False)
+    for level, colour, dash in looks:
         numbers = np.arange(1, len(level.passes.flow) + 1)
         flow = np.where(level.passes.flow > 0.0, level.passes.flow, np.nan)
         label = f"elements of {with_unit(level.pitch, 'm', 2)}"
-        panel.plot(numbers, flow, color=colour, marker="o", markersize=3, label=label)
+        look = {"color": colour, "linestyle": dash, "marker": "o", "markersize": 3}
+        panel.plot(numbers, flow, label=label, **look)
     first = data.levels[-1].passes.flow[0]
     if first:
         share = run.problem.scene.cycles.share
@@ -172,17 +176,18 @@ def stress_picture(run: Run) -> style.Picture | None:
     drawn, [panel] = panels(style.COLUMN, [(room, 2.4)])
     unit = scale_of(finest.z, "m")
     first, last = (profile.T for profile in finest.profile)
-    for axis, width, *parts in zip("xy", (1.5, 0.7), first, last, strict=True):
-        curves = {n: (finest.z, p / 1e6) for n, p in zip((ONCE, LAST), parts, strict=True)}
+    for axis, look, *parts in zip("xy", AXES, first, last, strict=True):
+        curves = {n: (finest.z, p / 1e6) for n, p in zip(("first", "last"), parts, strict=True)}
         for names, (z, stress) in distinct(curves).items():
-            words = " = ".join("first" if name == ONCE else "last" for name in names)
-            look = {"color": COLOURS[names[0]], "linestyle": DASHES[names[0]], "linewidth": width}
-            panel.plot(z / unit.factor, stress, label=f"σ{axis}, {words} pass", **look)
+            # the first over the last, which is wide and pale: both are seen where they coincide
+            beside = style.PALE if names == ("last",) else {}
+            words = f"σ{axis}, {' = '.join(names)} pass"
+            panel.plot(z / unit.factor, stress, label=words, **{**look, **beside})
     panel.axhline(0.0, **style.OUTLINE)
     panel.set_ylabel("residual stress [MPa]")
     over([panel], f"z [{unit.name}]", finest.z / unit.factor)
     legend_above(panel, abreast)
-    place = "anywhere" if data.left is None else "below the largest pressure"
+    place = "at every place along x" if data.left is None else "below the largest pressure"
     caption = f"Residual stresses without the roller over depth, {place}."
     return style.picture(drawn, caption, caption)
 

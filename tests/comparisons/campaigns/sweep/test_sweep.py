@@ -108,10 +108,10 @@ def made(tmp_path_factory):
 @pytest.mark.parametrize(
     ("over", "label", "band"),
     [
-        (["load=0.5 GPa,1e9"], "load.hertz_peak_pressure, GPa", False),
+        (["load=0.5 GPa,1e9"], "load.hertz_peak_pressure [GPa]", False),
         (
             ["position=3", "roller.radius=8 mm,9e-3"],
-            "position of the roller on the trace, µm",
+            "position of the roller on the trace [µm]",
             True,
         ),
         (["profile.rms_height=1e-7,never", "load=0.5 GPa,1e9"], "profile.rms_height", False),

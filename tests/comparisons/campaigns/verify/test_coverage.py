@@ -142,7 +142,10 @@ def test_coverage_is_shown_by_table_model_quantity_and_kind():
     assert groups["figure", "Hertz"].count == 200
     assert [figure.quantity for figure in error.judged] == ["model error, peak_pressure"]
     page = verified.page()
-    assert "Coverage by table, kind" in page and "<td>model error</td>" in page
+    assert (
+        "Coverage by figure or model error, exact solution" in page
+        and "<td>model error</td>" in page
+    )
 
 
 def test_coverage_is_rounded_down():

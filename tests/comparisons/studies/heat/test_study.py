@@ -173,7 +173,9 @@ def test_thermal_stresses_in_every_output(stressed):
     assert place == pytest.approx(-stressed.problem.hertz.half_width, rel=2e-3)
     page = (stressed.directory / "report.html").read_text()
     assert "Rise of temperature below the surface of the roller" in page
-    assert "Last, σx of the body's surface, thin without heat." in page.replace("&#39;", "'")
+    assert "Last, σx of the body's surface; wide and pale: without heat." in page.replace(
+        "&#39;", "'"
+    )
     said = "; ".join(text for _, text in lines(stressed))
     assert "199." in said and "without)" in said and "agree" in said
     rows = {row["quantity"]: row for row in rows_of(result, "made")}
@@ -195,6 +197,6 @@ def test_a_slab_is_no_half_space():
     assert 1.0 < figure.value < effects["thickness"] < 2.0
     assert -0.02 < effects["roller"] < -0.002
     assert [fact for fact, _ in heat_facts(outcome)][-2:] == [
-        "the largest rise without the body's thickness, its base at its bulk temperature",
-        "the largest rise without the roller as a disc",
+        "change of the largest rise without the body's thickness, its base at its bulk temperature",
+        "change of the largest rise without the roller as a disc",
     ]

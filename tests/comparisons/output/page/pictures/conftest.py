@@ -8,6 +8,7 @@ from matplotlib import pyplot
 from scenes import posed
 
 from comparisons.drawing.style import collected_figures
+from comparisons.output.page.pictures.answer import judged_picture, overview_picture
 from comparisons.output.page.pictures.contact import (
     close_up_picture,
     pressure_picture,
@@ -15,15 +16,20 @@ from comparisons.output.page.pictures.contact import (
 )
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.pictures.refinement import cost_picture
+from comparisons.output.page.pictures.refinement import convergence_picture, cost_picture
 from comparisons.output.page.pictures.stresses import (
     field_pictures,
     near_surface_pictures,
     section_pictures,
 )
+from comparisons.studies.model_error.show import model_error_picture
 from comparisons.studies.study import Run
 
 DRAWN = (
+    overview_picture,
+    judged_picture,
+    model_error_picture,
+    convergence_picture,
     problem_picture,
     pressure_picture,
     close_up_picture,

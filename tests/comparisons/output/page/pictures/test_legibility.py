@@ -17,7 +17,6 @@ from comparisons.drawing.style import (
     svg,
 )
 from comparisons.output.page.pictures.answer import judged_picture
-from comparisons.output.page.pictures.contact import TICKS, close_up_picture, pressure_picture
 from comparisons.output.page.pictures.problem import problem_picture
 from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.scenes.sections import CoatingSection
@@ -78,17 +77,33 @@ def test_words_in_the_drawing_stand_apart(wavy_outcome, drawn_by, with_scene, fr
         assert axes.bbox.y0 <= box.y0
 
 
-def test_numbers_along_the_top_are_whole_and_clear_of_the_axis_name(wavy_outcome, drawn_by):
-    for draw in (pressure_picture, close_up_picture):
-        figure = drawn_by(draw, wavy_outcome)[0][-1]
-        [top] = figure.axes[0].child_axes
-        [name] = [text for text in figure.axes[0].texts if text.get_text() == "x/a"]
-        labels = [text for text in top.get_xticklabels() if text.get_text()]
-        assert 3 <= len(labels) <= TICKS + 1
-        for label in labels:
-            box = label.get_window_extent()
-            assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
-            assert not box.overlaps(name.get_window_extent())
+def words_of(axes) -> list:
+    """Every text of the axes, those of ticks where they are in view."""
+    texts = [axes.title, axes._left_title, *axes.texts]
+    for axis in (axes.xaxis, axes.yaxis):
+        low, high = sorted(axis.get_view_interval())
+        room = 1e-9 * (high - low)
+        ticks = [t for t in axis.get_major_ticks() if low - room <= t.get_loc() <= high + room]
+        texts += [axis.label, *(text for t in ticks for text in (t.label1, t.label2))]
+    texts += axes.get_legend().get_texts() if axes.get_legend() else []
+    return texts + [text for inner in axes.child_axes for text in words_of(inner)]
+
+
+def test_no_words_are_cut_or_stand_on_each_other(wavy):
+    for name, figures in wavy.items():
+        for drawn in figures:
+            texts = [text for axes in drawn.axes for text in words_of(axes)]
+            texts += [text for legend in drawn.legends for text in legend.get_texts()]
+            shown = [text for text in texts if text.get_visible() and text.get_text().strip()]
+            assert len(shown) > 7
+            boxes = {text: text.get_window_extent() for text in shown}
+            paper = drawn.bbox.padded(0.5)
+            for text, box in boxes.items():
+                assert Bbox.union([paper, box]).bounds == paper.bounds, (name, text)
+            for one, other in combinations(shown, 2):  # lines of one legend may touch
+                shared = Bbox.intersection(boxes[one], boxes[other])
+                apart = shared is None or shared.width < 0.5 or shared.height < 1.5
+                assert apart, (name, one, other)
 
 
 def test_the_name_of_a_bar_and_its_error_stand_apart(wavy_outcome, drawn_by, with_scene):
