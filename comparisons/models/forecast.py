@@ -4,13 +4,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic.contact.patches import contact_patches
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
 from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import expected_with
-from comparisons.models.level import ExpectedCost
-from comparisons.models.nearest_operator import nearest_operator, solve_on
+from comparisons.models.level import ExpectedCost, flowing_contact
 from comparisons.models.plan import LONGER, Plan, make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, window_of
@@ -120,23 +118,6 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
         finite_flow=finite_flow,
         leaves_out_flow=flow is not None and time_with_flow(problem, plan, flowing) > problem.time,
     )
-
-
-def flowing_contact(problem: Problem) -> np.ndarray:
-    """Patches (k, 2) [m] of the nearest analytic operator on the first level, as wide as flow may
-    make them, which increments of flow follow. Where elastic ones have met they are parted in the
-    middle: so far their edges travel."""
-    grid = problem.grid(problem.pitches[0])
-    gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
-    operator = nearest_operator(problem.scene, grid)
-    wide = solve_on(operator, gap, grid.weights, problem.widest)
-    patches = contact_patches(grid.x, wide.pressure, wide.gap)
-    elastic = solve_on(operator, gap, grid.weights, problem.constraints())
-    first = contact_patches(grid.x, elastic.pressure, elastic.gap)
-    parted = 0.5 * (first[1:, 0] + first[:-1, 1])
-    inside = ((parted[:, None] > patches[:, 0]) & (parted[:, None] < patches[:, 1])).any(axis=1)
-    ends = [*patches[:, 0], *parted[inside]], [*patches[:, 1], *parted[inside]]
-    return np.sort(ends, axis=1).T
 
 
 def expected_level(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.contact.end_stress import EndStress
+from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import Material
@@ -16,6 +17,7 @@ from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import machine_memory
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
+from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.problem import Problem, mean_height
 from comparisons.models.window import Window
 from fem.body.coating import Coating
@@ -53,6 +55,23 @@ def refuse_too_large(problem: Problem, wanted: ExpectedCost, name: str, pitch: f
         remedy = "allowed are coarser pressures, or a smaller finite_element.block"
         machine = f"this machine has {there:.2g} bytes"
         raise SceneError(f"{source}: resolution.pitch: {need}, but {machine}; {remedy}")
+
+
+def flowing_contact(problem: Problem) -> np.ndarray:
+    """Patches (k, 2) [m] of the nearest analytic operator on the first level, as wide as flow may
+    make them, which increments of flow follow. Where elastic ones have met they are parted in the
+    middle: so far their edges travel."""
+    grid = problem.grid(problem.pitches[0])
+    gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+    operator = nearest_operator(problem.scene, grid)
+    wide = solve_on(operator, gap, grid.weights, problem.widest)
+    patches = contact_patches(grid.x, wide.pressure, wide.gap)
+    elastic = solve_on(operator, gap, grid.weights, problem.constraints())
+    first = contact_patches(grid.x, elastic.pressure, elastic.gap)
+    parted = 0.5 * (first[1:, 0] + first[:-1, 1])
+    inside = ((parted[:, None] > patches[:, 0]) & (parted[:, None] < patches[:, 1])).any(axis=1)
+    ends = [*patches[:, 0], *parted[inside]], [*patches[:, 1], *parted[inside]]
+    return np.sort(ends, axis=1).T
 
 
 @dataclass(frozen=True)

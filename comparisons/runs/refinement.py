@@ -12,8 +12,14 @@ import numpy as np
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages, machine_memory, no_progress
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
-from comparisons.models.forecast import expected_level, flowing_contact
-from comparisons.models.level import ExpectedCost, Level, ModelRun, refuse_too_large
+from comparisons.models.forecast import expected_level
+from comparisons.models.level import (
+    ExpectedCost,
+    Level,
+    ModelRun,
+    flowing_contact,
+    refuse_too_large,
+)
 from comparisons.models.plan import LONGER, Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window

@@ -38,7 +38,7 @@ from comparisons.models.finite_element.nonlinear import (
     pressed_plastically_finitely,
 )
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
-from comparisons.models.level import Level, refuse_too_large, under_each
+from comparisons.models.level import Level, flowing_contact, refuse_too_large, under_each
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem
@@ -100,7 +100,9 @@ def _level(
     solving = _LevelSolution(problem, plan, refinement, stages, options)
     solving.load_libraries()
     ranges, start = solving.predicted_contact()
-    cost = expected(problem, plan, refinement, ranges)
+    flows = problem.scene.finite_element.plastic
+    patches = flowing_contact(problem) if flows else ranges
+    cost = expected(problem, plan, refinement, patches)
     refuse_too_large(problem, cost, "finite elements", refinement.pitch)
     meshed = solving.meshed_contact(ranges, start, body_cache)
     pressed = solving.pressed(meshed)
