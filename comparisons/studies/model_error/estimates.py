@@ -177,9 +177,9 @@ def _finite_roller(problem: Problem) -> Sizes:
 SUPPORT, SUPPORT_BY_RATIO = 0.6, 3.1  # of the ratio's square
 SUPPORT_IN_NORMS = {"pressure_l2": 2.6, "tau1_field_near": 5.0}
 # Friction turns a disc by its support, about its middle; over friction, a/R and the roller's share:
-# 1.5 in norms of a smooth contact, 4 in the depth of tau1, 0.3 in the deep field. On ground and
+# 1.5 in norms of a smooth contact, 4 in the depth of tau1, 0.45 in the deep field. On ground and
 # wavy surfaces 1 in peak pressure and 1.7 in length, where single asperities come into contact.
-TURNED = {"pressure_l2": 1.5, "tau1_max_depth": 4.0, "tau1_field_deep": 0.3}
+TURNED = {"pressure_l2": 1.5, "tau1_max_depth": 4.0, "tau1_field_deep": 0.45}
 TURNED_ROUGH = {"peak_pressure": 1.0, "contact_length": 1.7, "contact_ratio": 1.7}
 
 
