@@ -191,8 +191,8 @@ def _legend(
     ]
     first = f"{100.0 * content['tolerances'][0]:g} %"
     words = {
-        BELOW: f"within its numerical uncertainty, below {first}",
-        INCONCLUSIVE: "within its numerical uncertainty",
+        BELOW: f"within its uncertainty, below {first}",
+        INCONCLUSIVE: "within its uncertainty",
     }
     for kind, said in words.items():
         if kind in kinds:

@@ -151,8 +151,8 @@ class TestPicture:
         assert np.allclose(crosses[0].get_xydata(), place)
         words = [text.get_text() for text in axes.get_legend().get_texts()]
         assert words[4:] == [
-            "within its numerical uncertainty, below 1 %",
-            "within its numerical uncertainty",
+            "within its uncertainty, below 1 %",
+            "within its uncertainty",
             "failed",
         ]
 
