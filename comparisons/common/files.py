@@ -104,8 +104,9 @@ def check_writable(out: Path, files: tuple[str, ...] = ALL_FILES) -> None:
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
     _check_folder(out, place)
-    if (unready := _unfinished(out)).is_symlink():
-        raise _cannot(out, f"{unready} is a symbolic link; allowed is a folder, or none")
+    for unready in (_unfinished(out), *_unfinished(out).glob("*")):
+        if unready.is_symlink():
+            raise _cannot(out, f"{unready} is a symbolic link; allowed is a folder, or none")
     for folder in (_unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)

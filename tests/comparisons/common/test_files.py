@@ -37,10 +37,12 @@ def fill_as_run(folder, names, text="new"):
     (folder / "record.json").write_text(json.dumps(record))
 
 
-def test_a_link_in_the_place_of_unfinished_files_is_refused(tmp_path):
+@pytest.mark.parametrize("link", [".results.unfinished", ".results.unfinished/run"])
+def test_a_link_in_the_place_of_unfinished_files_is_refused(tmp_path, link):
     (tmp_path / "elsewhere").mkdir()
-    (tmp_path / ".results.unfinished").symlink_to("elsewhere")
-    with pytest.raises(InputError, match="unfinished is a symbolic link; allowed is a folder"):
+    (tmp_path / link).parent.mkdir(exist_ok=True)
+    (tmp_path / link).symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(InputError, match=f"{link} is a symbolic link; allowed is a folder"):
         check_writable(tmp_path / "results")
 
 
