@@ -79,7 +79,7 @@ def overview(run: Run, width: float) -> "Drawn":
         panels[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
     for panel in panels:
         panel.set_xlim(-REACH, REACH)
-        panel.yaxis.set_label_coords(-0.83 * LEFT / (width - LEFT - RIGHT), 0.5)
+        panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel("x/a")
     return drawn
