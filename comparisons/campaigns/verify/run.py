@@ -130,10 +130,10 @@ class Verification(Campaign):
         return rendered(template, policy=STYLES, **shown)
 
     def _coverage_cells(self, names: tuple[str, ...]) -> list[tuple[str, ...]]:
-        rows = []
+        rows, said = [], {"model": MODEL_LABELS.get, "quantity": label}
         for group, covered in self.groups(*names).items():
             named = zip(names, group, strict=True)
-            words = (MODEL_LABELS[word] if name == "model" else word for name, word in named)
+            words = (said.get(name, str)(word) for name, word in named)
             rows.append((*words, *_cells(covered)))
         return [*rows, ("all", *[""] * (len(names) - 1), *_cells(self.coverage))]
 
