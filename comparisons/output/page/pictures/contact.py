@@ -167,6 +167,7 @@ def _cap_and_legend(axes: "Axes", run: Run) -> None:
         side, corner, room, columns = "upper right", (1.0, 1.02), 1.17, names
     axes.set_ylim(0.0, room * axes.dataLim.y1)
     gaps = {"borderaxespad": 0.1, "columnspacing": 1.0, "handlelength": 2.0, "handletextpad": 0.5}
+    gaps |= style.BEHIND_LEGEND
     axes.legend(loc=side, bbox_to_anchor=corner, ncols=columns, **gaps)
 
 
