@@ -17,6 +17,8 @@ from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, TypeVar
 
 from comparisons.common.cache import NO_CACHE, Cache
+from comparisons.common.errors import SolverError
+from comparisons.common.interrupt import KILLED
 from comparisons.common.mpi import from_first, is_several
 from comparisons.common.processes import (
     ProcessWorker,
@@ -45,8 +47,14 @@ SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
 AT_ONCE, FIRST, NEEDED, LATER, LAST, PERHAPS = range(6)
 
 
-class ProcessEnded(Exception):
-    """A process ended amid a task that it had for itself."""
+class ProcessEnded(SolverError):
+    """A process ended amid a task that it had for itself.
+
+    killed  whether the system killed it, as it does where memory ends"""
+
+    def __init__(self, words: str = "", killed: bool = False) -> None:
+        super().__init__(words)
+        self.killed = killed
 
 
 class Here:
@@ -81,6 +89,7 @@ class _Task:
     urgency: int
     shares: object
     losses: int = 0  # processes that have ended with it in hand
+    stage: str = ""  # the last one that was told
 
 
 @dataclass
@@ -280,6 +289,7 @@ class Tasks:
                 self._lose(worker)
                 continue
             if kind == "stage":
+                self._tasks[self._running[worker]].stage = content
                 self._tell(content)
             else:
                 answered.append(self._running.pop(worker))
@@ -292,13 +302,16 @@ class Tasks:
         """A process has ended: what it had in hand waits again, once."""
         key = self._running.pop(worker)
         del self._workers[worker]
+        how = worker.how_it_ended()
         worker.kill()
         task = self._waiting[key] = self._tasks[key]
         task.losses += 1
+        words = f"{task.stage or key}: the process that worked on it {how}"
         if task.losses > 1:
-            self._answer(
-                key, False, ProcessEnded(f"{key}: two processes that worked on it have ended")
-            )
+            error = ProcessEnded(f"{words}, for the second time, alone", KILLED in how)
+            self._answer(key, False, error)
+        else:
+            self._tell(f"{words}; it is tried again alone")
 
     def _answer(self, key: str, good: bool, answer: object) -> None:
         self._waiting.pop(key, None)

@@ -62,6 +62,7 @@ Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LEAST_OPEN_FILES = 32  # of finite elements: MPI crashes with fewer
 LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, and a small scene
+LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
 GOES_ON = "finished levels are kept, the same command goes on from there"
 WRITES_AGAIN = "nothing was written, but all is solved and kept: the same command writes the files"
 
@@ -129,6 +130,7 @@ def solve_scene(
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
         left = "" if out is None else f"; {GOES_ON}"
+        left += f"; {LESS_MEMORY}" if error.killed else ""
         raise SolverError(f"{scene.source}: {error}{left}") from error
     except FemError as error:
         remedy = "a lighter load"

@@ -87,7 +87,8 @@ def close_up_picture(run: Run) -> style.Picture:
         first = next(iter(levels.values()))
         reach += min(abs(peak_position(first) - centre), most)  # the same peak, beside it
     at = f"x = {with_unit(float(centre), 'm')}"
-    drawn = _drawn(run, (centre - reach, centre + reach), style.COLUMN, 5.6, nodes=True)
+    across = max(centre - reach, level.grid.x[0]), min(centre + reach, level.grid.x[-1])
+    drawn = _drawn(run, across, style.COLUMN, 5.6, nodes=True)
     return style.picture(
         drawn,
         f"Pressures of the models around {place}, {at}.",

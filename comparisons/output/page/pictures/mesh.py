@@ -39,7 +39,8 @@ def mesh_pictures(run: Run) -> list[Picture]:
     reach, fine = min(CONTACT * run.problem.hertz.half_width, half), PEAK_EDGES * edge
     peak = peak_position(level)
     count = f"{integer(len(corners))} quadratic triangles, {integer(level.unknowns)} unknowns"
-    whole = f"Mesh of the whole block: {count}; as a file: finite_element/mesh.msh."
+    whole = f"Mesh of the whole block: {count}; as a file: finite_element/mesh.msh. "
+    whole += "Dark: elements too small to be drawn."
     under = f"Under the contact; edges at the surface are {with_unit(edge, 'm', 3)} long."
     views = {
         "the whole block": (whole, -half, half, depth),
@@ -83,7 +84,9 @@ def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Fig
     broken = np.vstack([points, (np.nan, np.nan)])[_strokes(pairs[visible], len(points))]
     axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
     if not visible.all():
-        _dark_cells(axes, ends[~visible].mean(axis=1), (low, high, depth), cell)
+        short = ends[~visible]
+        points = np.vstack([short.mean(axis=1), *short.swapaxes(0, 1)])
+        _dark_cells(axes, points, (low, high, depth), cell)
     return drawn
 
 
