@@ -117,6 +117,7 @@ class Tasks:
     _waiting: dict[str, _Task] = field(default_factory=dict)
     _running: dict["Worker", str] = field(default_factory=dict)
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
+    _unkept: dict[str, object] = field(default_factory=dict)
     _tasks: dict[str, _Task] = field(default_factory=dict)
     _workers: dict["Worker", object] = field(default_factory=dict)  # with what their tasks share
     _has_begun: bool = False
@@ -169,10 +170,9 @@ class Tasks:
             self._tasks[key] = self._waiting[key] = task
             kept = self.kept.load(key)
             if kept is not None:
-                self._answer(key, True, kept)
+                self._answer(key, True, kept, is_new=False)
             elif by_itself:
                 self._answer(key, *_answered(work, self._here, *args))
-                self._keep(key)
             elif self.worth is None:
                 self._begin()
             self._hand_out()
@@ -208,12 +208,13 @@ class Tasks:
         """Wait for the workers to say something; without any work on a task here."""
         self._begin()
         self._hand_out()
+        self._keep()
         if self._running:
             self._collect()
         else:
             task = self._tasks[key]
             self._answer(key, *_answered(task.work, self._here, *task.args))
-            self._keep(key)
+        self._keep()
 
     def _begin(self) -> None:
         """Let workers begin, where there are to be any and the tasks are worth them."""
@@ -281,7 +282,6 @@ class Tasks:
         ready = partial(next(iter(self._running)).ready, list(self._running))
         if all(self._tasks[key].urgency > AT_ONCE for key in self._running.values()):
             _prepare(self._left, lambda: ready(0.0))
-        answered = []
         for worker in ready():
             try:
                 kind, content = worker.receive()
@@ -292,11 +292,8 @@ class Tasks:
                 self._tasks[self._running[worker]].stage = content
                 self._tell(content)
             else:
-                answered.append(self._running.pop(worker))
-                self._answer(answered[-1], *content)
-        self._hand_out()  # nobody waits for the disk
-        for key in answered:
-            self._keep(key)
+                self._answer(self._running.pop(worker), *content)
+        self._hand_out()
 
     def _lose(self, worker: "Worker") -> None:
         """A process has ended: what it had in hand waits again, once."""
@@ -313,15 +310,17 @@ class Tasks:
         else:
             self._tell(f"{words}; it is tried again alone")
 
-    def _answer(self, key: str, good: bool, answer: object) -> None:
+    def _answer(self, key: str, good: bool, answer: object, is_new: bool = True) -> None:
         self._waiting.pop(key, None)
         self._answers[key] = good, answer
         self._done += self._tasks[key].seconds
+        if good and is_new:
+            self._unkept[key] = answer
 
-    def _keep(self, key: str) -> None:
-        good, answer = self._answers[key]
-        if good:
-            self.kept.save(key, answer)
+    def _keep(self) -> None:
+        """Write what is new; when workers have their tasks, since nobody waits for the disk."""
+        for key in list(self._unkept):
+            self.kept.save(key, self._unkept.pop(key))
 
     def _tell(self, stage: str) -> None:
         left = sum(

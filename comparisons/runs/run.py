@@ -7,7 +7,7 @@ import os
 import resource
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -231,8 +231,7 @@ def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
 
 def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
     problem, plan = scene.problem, scene.plan
-    cache = level_cache(out, problem, plan)
-    tasks.kept, tasks.callback = cache, callback
+    tasks.kept, tasks.callback = level_cache(out, problem, plan), callback
     chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
 
     def begin(solved: Solved) -> None:
@@ -246,7 +245,7 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
-        cache.discard()
+        tasks.kept.discard()
         raise
     return Run(solved, findings, record_of(problem, solved.runs, _hashes(solved, findings)), out)
 
@@ -273,7 +272,7 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
     if out is None:
         return NO_CACHE
     shape = scene_key(problem.scene, problem.surface)
-    key = key_of(shape, repr(plan), versions(), program_code(*CODE))
+    key = cache(lambda: key_of(shape, repr(plan), versions(), program_code(*CODE)))
     kinds = kinds_of(Level, *(study.data for study in STUDIES if study.data is not None))
     return Cache(unfinished(out, "run"), key, kinds, by_all=True)
 
