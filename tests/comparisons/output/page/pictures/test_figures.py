@@ -52,6 +52,20 @@ def test_pressures_are_drawn_over_x_in_units_of_hertz(wavy: dict[str, list], wav
     assert hardness[:, 1] == pytest.approx(wavy_outcome.problem.scene.body.hardness / p0)
 
 
+def test_the_words_above_pressures_hide_the_grid(wavy: dict[str, list]):
+    for name in ("overview_picture", "pressure_picture", "close_up_picture"):
+        for axes in (figure.axes[0] for figure in wavy[name]):
+            [load] = [text for text in axes.texts if text.get_text().startswith("P = ")]
+            for behind in (load.get_bbox_patch(), axes.get_legend().get_frame()):
+                assert behind.get_visible() and behind.get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+
+
+def test_the_close_up_ends_where_the_surfaces_are_known(wavy, wavy_outcome: Run):
+    low, high = np.array(wavy["close_up_picture"][0].axes[0].get_xlim()) * 1e-6
+    x = wavy_outcome.runs["finite_element"].finest.grid.x
+    assert x[0] <= low < high <= x[-1]
+
+
 def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(
     wavy: dict[str, list], wavy_outcome: Run
 ):
