@@ -45,7 +45,7 @@ def mesh_pictures(run: Run) -> list[Picture]:
         "body under the contact": (-reach, reach, min(reach, depth)),
         "body under the highest pressure": (peak - fine, peak + fine, min(fine, depth)),
     }
-    known = f"{count}; finite_element/mesh.msh. Dark: too fine to be drawn."
+    known = f"{count}; as a file: finite_element/mesh.msh. Dark: too fine to draw."
     surface = f"edges at the surface are {with_unit(edge, 'm', 3)} long"
     pictures = []
     for words, view in views.items():
