@@ -158,8 +158,11 @@ def solid_text(section: ElasticSection) -> str:
 
 
 def elastic_text(material: Material) -> str:
-    """A material in one phrase."""
-    return f"E = {as_written(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
+    """A material in one phrase; those of a library are computed, and have no end of digits."""
+    modulus, ratio = (
+        float(f"{value:.4g}") for value in (material.youngs_modulus, material.poissons_ratio)
+    )
+    return f"E = {as_written(modulus, 'Pa')}, ν = {plain(ratio)}"
 
 
 def coating_text(coating: CoatingSection) -> str:

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from analytic.exact.hertz import hertz_stress
+from analytic.material import Material
 from comparisons.output.page.pictures.mesh import CELL
 from comparisons.output.page.pictures.problem import problem_picture
+from comparisons.output.page.tables.problem import elastic_text
 from comparisons.studies.study import Run
 
 
@@ -133,6 +135,11 @@ def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(
     assert np.sort(lengths) == pytest.approx(np.sort(every[every >= cell]))
     assert np.any(every < cell)
     assert whole.images  # the finest elements as dark cells
+
+
+def test_computed_moduli_have_four_digits():
+    computed = Material(211.39412e9, 0.28741573)
+    assert elastic_text(computed) == "E = 211.4 GPa, ν = 0.2874"
 
 
 def test_the_problem_is_drawn_to_the_scene(wavy: dict[str, list], wavy_outcome: Run):
