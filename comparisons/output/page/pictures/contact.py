@@ -39,6 +39,7 @@ CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
 TICKS, STEPS = 7, (1, 2, 2.5, 5, 10)  # of x/a: how many at most, and how far apart, by tens
 CLEAR = 0.04  # share of that axis at either end without one
+UNSEEN = 0.01  # share of it that is too narrow to be seen
 MOST_POINTS = 600  # of a filled outline
 POINTS_PER_INCH = 90  # of an outline across a panel
 
@@ -57,6 +58,7 @@ def pressure_picture(run: Run) -> style.Picture:
     middle = f", their difference ({difference})," if len(run.runs) > 1 else ""
     beyond = 1.05 * hertz.half_width
     across = min(last.grid.x[0], -beyond), max(last.grid.x[-1], beyond)
+    short = np.ptp(last.grid.x) < (1.0 - UNSEEN) * (across[1] - across[0])
     peaks = ", ".join(
         f"{LABELS[name]} "
         f"{significant(level.solution.pressure.max() / hertz.peak_pressure)} p₀ at x = "
@@ -68,7 +70,8 @@ def pressure_picture(run: Run) -> style.Picture:
         f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
         f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
         f"Largest pressure: {peaks}. {_norm(run)}"
-        "Heights are stretched and known but for a constant; in contact both surfaces coincide.",
+        "Heights are stretched and known but for a constant; in contact both surfaces coincide."
+        f"{' They are drawn where contact was sought.' if short else ''}",
     )
 
 
