@@ -28,6 +28,15 @@ CUT = """
 })()
 """
 
+# The white above the table to sign, and the height of the page that it is on.
+SIGNED = """
+(() => {
+  const box = (element) => element.getBoundingClientRect();
+  const ends = [...document.querySelectorAll(".answer > figure")].map((f) => box(f).bottom);
+  const [signed, front] = [".signed", ".front"].map((name) => box(document.querySelector(name)));
+  return [signed.top - Math.max(...ends), front.height];
+})()
+"""
 LEAST_LETTERS = 6.0  # points
 
 
@@ -57,6 +66,8 @@ def test_nothing_is_wider_than_the_paper(tab, request, name):
         "Math.max(...[...document.querySelectorAll('figure')].map((f) => f.offsetHeight))"
     )
     assert tallest < A4[1] * POINTS_TO_PIXELS - 100.0  # a figure that a page holds is not cut
+    white, first = page.value(SIGNED)
+    assert 0.0 <= white < 20.0 and first < A4[1] * POINTS_TO_PIXELS - 2.0 * MARGIN
     for size, text in page.letters():
         assert size >= LEAST_LETTERS, text
     shown = page.value(
