@@ -97,8 +97,8 @@ def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], ro
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
     radius = "" if scene.periodic else f"\nR = {as_written(scene.roller.radius, 'm')}"
-    roller = f"{scene.smooth_body}{radius}\n{material}"
-    axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
+    roller = f"{scene.smooth_body}{radius}\n{material}".replace(", ", "\n")  # inside the circle
+    axes.text(-0.03 * view, 0.44 * view, roller, ha="right", **note)
     rough = "rough body" if scene.profile is not None else "body"
     said = "\n".join([f"{rough}, {elastic_text(scene.body.material)}", *_body_in_words(scene)])
     tall = LINE * view * (1 + said.count("\n"))

@@ -311,7 +311,8 @@ def record_rows(run: Run) -> list[tuple[str, str]]:
     for name, value in (record.get("hashes") or {}).items():
         for model, words in HYPHENATED.items():
             name = name.replace(f"{model}_", f"the {words} model's ")
-        rows.append((f"SHA-256 of {name.replace('_', ' ')}", value))
+        name = name.replace("run_in_", "the run-in ").replace("_", " ")
+        rows.append((f"SHA-256 of {name}", value))
     return rows
 
 
