@@ -1,5 +1,6 @@
 """`crosscheck run`: one scene by both models, compared and judged."""
 
+import gc
 import math
 import sys
 from collections.abc import Sequence
@@ -89,6 +90,7 @@ def run(
         from comparisons.runs.run import Known, finish, solve_scene
         from comparisons.scenes.surface import surface_of
 
+    gc.freeze()  # a collection would look through all that was imported
     began = perf_counter()
     chosen = models_named(models, "--models")
     asked = from_first(lambda: _read(scene, answer or (), tolerance))

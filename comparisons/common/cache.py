@@ -8,7 +8,7 @@ import io
 import json
 import shutil
 import typing
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
@@ -28,7 +28,8 @@ class Cache:
     """Results of one key in a folder, each under a name."""
 
     folder: Path | None  # None caches nothing
-    key: str  # hash of everything that shapes the results (`comparisons.common.provenance`)
+    # hash of everything that shapes the results (`comparisons.common.provenance`), or what finds it
+    key: str | Callable[[], str]
     kinds: dict[str, type]  # the dataclasses that results are made of, by name (`kinds_of`)
     by_all: bool = False  # every process that mpirun started loads: the first reads for all of them
 
@@ -44,7 +45,7 @@ class Cache:
         if self.folder is None or not is_first():
             return
         arrays: dict[str, np.ndarray] = {}
-        outline = json.dumps({"key": self.key, "name": name, "value": encoded(value, arrays)})
+        outline = json.dumps({"key": self._key(), "name": name, "value": encoded(value, arrays)})
         # in memory first: an interrupt amid an archive whose file is closed would be complained of
         content = io.BytesIO()
         seal = np.array(_seal(outline, arrays))
@@ -67,6 +68,9 @@ class Cache:
     def path(self, name: str) -> Path:
         return self.folder / f"{name}.npz"
 
+    def _key(self) -> str:
+        return self.key if isinstance(self.key, str) else self.key()
+
     def _read(self, name: str) -> object | None:
         if not self.path(name).is_file():  # to open a pipe would wait without end
             return None
@@ -74,7 +78,7 @@ class Cache:
             with np.load(self.path(name), allow_pickle=False) as file:
                 text = str(file["outline"])
                 outline = json.loads(text)
-                if (outline["key"], outline["name"]) != (self.key, name):
+                if (outline["key"], outline["name"]) != (self._key(), name):
                     return None
                 arrays = {entry: file[entry] for entry in file.files}
             if str(arrays.pop("seal")) != _seal(text, arrays):

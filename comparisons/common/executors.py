@@ -28,6 +28,9 @@ class ExecutorWorker:
         except Exception as error:
             raise EOFError(str(error)) from error
 
+    def how_it_ended(self) -> str:
+        return f"was lost: {self._future.exception()}"
+
     def kill(self) -> None:
         """It ends where it has not begun."""
         self._future.cancel()

@@ -16,6 +16,7 @@ from comparisons.common.errors import ExitStatus, tell
 
 PATIENCE = 1.5  # seconds that the child has to end by itself
 SHOW_CURSOR = "\x1b[?25h\n"  # a progress bar that was cut off has hidden it
+KILLED = "killed, as the system does where memory ends"
 PR_SET_PDEATHSIG = 1  # of Linux's prctl
 
 
@@ -50,7 +51,7 @@ def watched(work: Callable[[], int], left: str) -> int:
             tell(f"interrupted; {left}", cursor)
         return int(ExitStatus.INTERRUPTED)
     if status == -signal.SIGKILL:
-        tell(f"the process that worked was killed, as the system does where memory ends; {left}")
+        tell(f"the process that worked was {KILLED}; {left}")
         return int(ExitStatus.KILLED)
     if status < 0:  # what killed the child kills its parent: shells see a crash by that
         signal.signal(-status, signal.SIG_DFL)

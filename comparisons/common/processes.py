@@ -14,7 +14,7 @@ from multiprocessing.connection import Connection, wait
 from threading import Lock
 from types import ModuleType
 
-from comparisons.common.interrupt import end_with_parent
+from comparisons.common.interrupt import KILLED, end_with_parent
 
 # Of processes that this one starts: one thread, and no code from the working folder.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "PYTHONSAFEPATH": "1"}
@@ -52,6 +52,14 @@ class ProcessWorker:
     def receive(self) -> tuple[str, object]:
         """Raises EOFError or ConnectionError where the process has ended."""
         return self._pipe.recv()
+
+    def how_it_ended(self) -> str:
+        """In words, of a process that has ended."""
+        self._process.join()
+        code = self._process.exitcode
+        if code == -signal.SIGKILL:
+            return f"was {KILLED}"
+        return f"ended by {signal.Signals(-code).name}" if code < 0 else f"ended with status {code}"
 
     def kill(self) -> None:
         """With what it has started; a long factorisation handles no other signal."""

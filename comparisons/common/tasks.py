@@ -16,6 +16,8 @@ from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, TypeVar
 
 from comparisons.common.cache import NO_CACHE, Cache
+from comparisons.common.errors import SolverError
+from comparisons.common.interrupt import KILLED
 from comparisons.common.mpi import from_first, is_several
 from comparisons.common.processes import (
     ProcessWorker,
@@ -44,8 +46,14 @@ SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
 AT_ONCE, FIRST, NEEDED, LATER, LAST, PERHAPS = range(6)
 
 
-class ProcessEnded(Exception):
-    """A process ended amid a task that it had for itself."""
+class ProcessEnded(SolverError):
+    """A process ended amid a task that it had for itself.
+
+    killed  whether the system killed it, as it does where memory ends"""
+
+    def __init__(self, words: str = "", killed: bool = False) -> None:
+        super().__init__(words)
+        self.killed = killed
 
 
 class Here:
@@ -80,6 +88,7 @@ class _Task:
     urgency: int
     shares: object
     losses: int = 0  # processes that have ended with it in hand
+    stage: str = ""  # the last one that was told
 
 
 @dataclass
@@ -107,6 +116,7 @@ class Tasks:
     _waiting: dict[str, _Task] = field(default_factory=dict)
     _running: dict["Worker", str] = field(default_factory=dict)
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
+    _unkept: dict[str, object] = field(default_factory=dict)
     _tasks: dict[str, _Task] = field(default_factory=dict)
     _workers: dict["Worker", object] = field(default_factory=dict)  # with what their tasks share
     _has_begun: bool = False
@@ -157,10 +167,9 @@ class Tasks:
             self._tasks[key] = self._waiting[key] = task
             kept = self.kept.load(key)
             if kept is not None:
-                self._answer(key, True, kept)
+                self._answer(key, True, kept, is_new=False)
             elif by_itself:
                 self._answer(key, *_answered(work, self._here, *args))
-                self._keep(key)
             elif self.worth is None:
                 self._begin()
             self._hand_out()
@@ -196,12 +205,13 @@ class Tasks:
         """Wait for the workers to say something; without any work on a task here."""
         self._begin()
         self._hand_out()
+        self._keep()
         if self._running:
             self._collect()
         else:
             task = self._tasks[key]
             self._answer(key, *_answered(task.work, self._here, *task.args))
-            self._keep(key)
+        self._keep()
 
     def _begin(self) -> None:
         """Let workers begin, where there are to be any and the tasks are worth them."""
@@ -263,7 +273,6 @@ class Tasks:
         ready = partial(next(iter(self._running)).ready, list(self._running))
         if all(self._tasks[key].urgency > AT_ONCE for key in self._running.values()):
             _prepare(self._left, lambda: ready(0.0))
-        answered = []
         for worker in ready():
             try:
                 kind, content = worker.receive()
@@ -271,35 +280,38 @@ class Tasks:
                 self._lose(worker)
                 continue
             if kind == "stage":
+                self._tasks[self._running[worker]].stage = content
                 self._tell(content)
             else:
-                answered.append(self._running.pop(worker))
-                self._answer(answered[-1], *content)
-        self._hand_out()  # nobody waits for the disk
-        for key in answered:
-            self._keep(key)
+                self._answer(self._running.pop(worker), *content)
+        self._hand_out()
 
     def _lose(self, worker: "Worker") -> None:
         """A process has ended: what it had in hand waits again, once."""
         key = self._running.pop(worker)
         del self._workers[worker]
+        how = worker.how_it_ended()
         worker.kill()
         task = self._waiting[key] = self._tasks[key]
         task.losses += 1
+        words = f"{task.stage or key}: the process that worked on it {how}"
         if task.losses > 1:
-            self._answer(
-                key, False, ProcessEnded(f"{key}: two processes that worked on it have ended")
-            )
+            error = ProcessEnded(f"{words}, for the second time, alone", KILLED in how)
+            self._answer(key, False, error)
+        else:
+            self._tell(f"{words}; it is tried again alone")
 
-    def _answer(self, key: str, good: bool, answer: object) -> None:
+    def _answer(self, key: str, good: bool, answer: object, is_new: bool = True) -> None:
         self._waiting.pop(key, None)
         self._answers[key] = good, answer
         self._done += self._tasks[key].seconds
+        if good and is_new:
+            self._unkept[key] = answer
 
-    def _keep(self, key: str) -> None:
-        good, answer = self._answers[key]
-        if good:
-            self.kept.save(key, answer)
+    def _keep(self) -> None:
+        """Write what is new; when workers have their tasks, since nobody waits for the disk."""
+        for key in list(self._unkept):
+            self.kept.save(key, self._unkept.pop(key))
 
     def _tell(self, stage: str) -> None:
         left = sum(

@@ -46,6 +46,8 @@ BAND = {"color": "#0072B2", "alpha": 0.18, "linewidth": 0.0, "label": "inputs, 9
 BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
 ROLLER = {"facecolor": "#cfdbe6", "edgecolor": "none"}
 OUTLINE = {"color": "#444444", "linewidth": 1.0}
+BEHIND_WORDS = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}  # hides the grid
+BEHIND_LEGEND = {"frameon": True, "framealpha": 1.0, "edgecolor": "none", "borderpad": 0.0}
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -166,8 +168,7 @@ def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
 
 def beside_bar(axes: "Axes", x: float, y: float, text: str, **look: object) -> None:
     """Words to the right of a bar's end."""
-    behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
-    beside = {"textcoords": "offset points", "va": "center", "bbox": behind}
+    beside = {"textcoords": "offset points", "va": "center", "bbox": BEHIND_WORDS}
     axes.annotate(text, (x, y), (5, 0), **beside, **look)
 
 

@@ -170,10 +170,10 @@ class _Levels:
         asked = range(1, len(self.problem.pitches) + 1)
         if "half_plane" in self.levels:  # first, while nothing else is in memory
             for task in (self.numbered("half_plane", number) for number in asked):
-                refuse_too_large(
-                    self.problem, task.expected(self.patches), "half-plane pressures", task.pitch
-                )
-                self.add(task)
+                cost = task.expected(self.patches)
+                refuse_too_large(self.problem, cost, "half-plane pressures", task.pitch)
+                if task.number == 1 or not self.is_short(task, cost):  # those: beside the others
+                    self.add(task)
             self.wait(1, ["half_plane"])
             self.patches = self.levels["half_plane"][0].patches
             if self.problem.scene.finite_element.plastic:
@@ -195,7 +195,6 @@ class _Levels:
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)
-        others_load = task.name == "half_plane" and "finite_element" in self.levels
         self.tasks.add(
             task.key,
             task.solve,
@@ -203,8 +202,13 @@ class _Levels:
             memory=cost.memory,
             urgency=task.urgency,
             shares=None if task.name == "half_plane" else task.pitch,
-            by_itself=others_load and cost.seconds < SHORT,
+            by_itself=self.is_short(task, cost),
         )
+
+    def is_short(self, task: _LevelTask, cost: ExpectedCost) -> bool:
+        """Whether this process solves a level itself while others load libraries."""
+        is_alone = task.name == "half_plane" and "finite_element" in self.levels
+        return is_alone and cost.seconds < SHORT
 
     def wait(self, number: int, models: Iterable[str]) -> None:
         """Have the levels of the models up to a number."""

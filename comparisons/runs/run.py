@@ -7,7 +7,7 @@ import os
 import resource
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -62,6 +62,7 @@ Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LEAST_OPEN_FILES = 32  # of finite elements: MPI crashes with fewer
 LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, and a small scene
+LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
 GOES_ON = "finished levels are kept, the same command goes on from there"
 WRITES_AGAIN = "nothing was written, but all is solved and kept: the same command writes the files"
 
@@ -129,6 +130,7 @@ def solve_scene(
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
         left = "" if out is None else f"; {GOES_ON}"
+        left += f"; {LESS_MEMORY}" if error.killed else ""
         raise SolverError(f"{scene.source}: {error}{left}") from error
     except FemError as error:
         remedy = "a lighter load"
@@ -229,8 +231,7 @@ def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
 
 def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
     problem, plan = scene.problem, scene.plan
-    cache = level_cache(out, problem, plan)
-    tasks.kept, tasks.callback = cache, callback
+    tasks.kept, tasks.callback = level_cache(out, problem, plan), callback
     chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
 
     def begin(solved: Solved) -> None:
@@ -244,7 +245,7 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
-        cache.discard()
+        tasks.kept.discard()
         raise
     return Run(solved, findings, record_of(problem, solved.runs, _hashes(solved, findings)), out)
 
@@ -271,7 +272,7 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
     if out is None:
         return NO_CACHE
     shape = scene_key(problem.scene, problem.surface)
-    key = key_of(shape, repr(plan), versions(), program_code(*CODE))
+    key = cache(lambda: key_of(shape, repr(plan), versions(), program_code(*CODE)))
     kinds = kinds_of(Level, *(study.data for study in STUDIES if study.data is not None))
     return Cache(unfinished(out, "run"), key, kinds, by_all=True)
 

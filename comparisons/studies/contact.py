@@ -292,7 +292,8 @@ def draw_pressures(
         pressure = smooth.pressure(x) / hertz.peak_pressure
         axes.plot(x / unit.factor, pressure, label=smooth.label, **style.REFERENCE)
     axes.set_ylabel("p/p₀")
-    axes.text(0.008, 0.97, hertz_text(run.problem), transform=axes.transAxes, va="top")
+    look = {"transform": axes.transAxes, "va": "top", "bbox": style.BEHIND_WORDS}
+    axes.text(0.008, 0.97, hertz_text(run.problem), **look)
 
 
 STUDY = Study(NAME, QUANTITIES, solve)

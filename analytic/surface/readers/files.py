@@ -30,6 +30,7 @@ from analytic.surface.readers.source import (
     ProfileError,
     beginning,
     regular_file,
+    wide_encoding,
 )
 from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_columns, read_table
 from analytic.surface.readers.topography import (
@@ -78,8 +79,8 @@ def open_measured(
     if is_sdf(head) or is_prf(head):
         _refuse(path, columns, channel)
         return (read_sdf if is_sdf(head) else read_prf)(path)
-    wide = head[:2] in (b"\xff\xfe", b"\xfe\xff")
-    if channel is not None or (NOT_TEXT.search(head.decode("latin-1")) and not wide):
+    is_binary = NOT_TEXT.search(head.decode("latin-1")) and not wide_encoding(head)
+    if channel is not None or is_binary:
         return _by_library(path, columns, channel)
     most_bytes = BYTES_PER_SAMPLE * max_samples + BYTES_OF_HEADER
     try:

@@ -19,6 +19,7 @@ MAX_NUMBERS = 2**26  # 0.5 GB as doubles
 MAX_UNPACKED = 8 * MAX_NUMBERS  # bytes of a packed file: of zeros, 2 MB hold 2 GB
 MAX_LINES, MAX_CELLS = 2**22, 20_000_000  # of text: each is an object of sixty bytes
 LONGEST_LINE = 2**20  # bytes of text
+BEGINNING = 256  # bytes that tell how text is encoded
 GZIP = b"\x1f\x8b"
 SPLITS = (b",", b";", b"\t")  # between cells, beside blanks
 
@@ -149,10 +150,22 @@ def read_lines(path: Path, max_bytes: int) -> list[str]:
     return text.split("\n")
 
 
+def wide_encoding(content: bytes) -> str | None:
+    """The name of UTF-16, where the content is text in it; without a byte-order mark it is known
+    by its beginning: of letters and digits, one of two bytes is 0."""
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "utf-16"
+    halves = content[:BEGINNING:2], content[1:BEGINNING:2]
+    for letters, zeros, name in ((*halves, "utf-16-le"), (*halves[::-1], "utf-16-be")):
+        if letters.count(0) == 0 and 2 * zeros.count(0) > len(zeros):
+            return name
+    return None
+
+
 def _decoded(path: Path, raw: bytes) -> str:
-    if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if encoding := wide_encoding(raw):
         try:
-            return raw.decode("utf-16")
+            return raw.decode(encoding)
         except UnicodeDecodeError:
             message = "is not text (broken UTF-16); export the profile as text or CSV"
             raise NotTextError(path, message) from None

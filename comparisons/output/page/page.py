@@ -19,7 +19,7 @@ from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.tables import verification
-from comparisons.output.page.tables.comparison import comparison_table, figure_table
+from comparisons.output.page.tables.comparison import comparison_table, figure_table, first_model
 from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
@@ -130,11 +130,18 @@ def _before(run: Run) -> Iterator[Block]:
     columns = Box("columns", (Box("sheet", picture), Box("sheet", tuple(sheet))))
     yield Block("problem", (columns,), "Problem")
     if run.plan.compares:
-        yield Block("comparison", (comparison_table(run), Note(NOTES["comparison"])), "Comparison")
+        note = Note(NOTES["comparison"] + _of_layered(run, "layered"))
+        yield Block("comparison", (comparison_table(run), note), "Comparison")
     else:
         yield Block("comparison", (figure_table(run),), "Figures")
     beside = Pictures(("close_up", "surface"), abreast=True)
     yield Block("contact", (Pictures(("pressure",)), beside), "Contact")
+
+
+def _of_layered(run: Run, words: str) -> str:
+    """Which half-plane has the layers of the finite elements; empty where none is compared."""
+    body = "coating" if run.problem.scene.coating is not None else "finite thickness"
+    return NOTES[words].format(body) if first_model(run) != "half-plane" else ""
 
 
 def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
@@ -159,7 +166,8 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
 def _after(run: Run) -> Iterator[Block]:
     items: list = []
     if (judged := verification.judged_table(run)) is not None:
-        items += [judged, Note(NOTES["orders"]), Pictures(("convergence",))]
+        note = Note(NOTES["orders"] + _of_layered(run, "layered_levels"))
+        items += [judged, note, Pictures(("convergence",))]
         halves = [Box("half", (Heading("Words"), Names(verification.WORDS)))]
         if (validation := verification.validation_table(run)) is not None:
             halves.append(Box("half", (validation, Note(NOTES["validation"]))))

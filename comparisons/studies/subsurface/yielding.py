@@ -53,7 +53,7 @@ QUANTITIES = {
     "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/√3"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
     PLASTIC_STRAIN: Quantity("largest equivalent plastic strain"),
-    STRAIN_BY_SLOPE: Quantity("the same times the slope"),
+    STRAIN_BY_SLOPE: Quantity("that strain times the slope of the surface"),
     **pressure_cap.QUANTITIES,
 }
 INDICES = "plasticity_index_summits", "plasticity_index_slope"

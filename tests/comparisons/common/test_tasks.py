@@ -252,7 +252,7 @@ class TestEnds:
         for name in "abcd":
             beside.add(name, home, seconds=1.0)
         beside.add("dies", dies, tmp_path / "tried", seconds=2.0)
-        with pytest.raises(ProcessEnded, match="dies: two processes that worked on it have ended"):
+        with pytest.raises(ProcessEnded, match="it ended with status 3, for the second time"):
             beside.result("dies")
         assert len({beside.result(name) for name in "abcd"} - {os.getpid()}) >= 1
         assert (tmp_path / "tried").read_text() == "xx"

@@ -74,7 +74,7 @@ def keys() -> tuple[str, str, str]:
     """Of levels, of a cost study and of a map."""
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
-    levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key
+    levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key()
     cost, points = (provenance.program_code(*kind.CODE) for kind in (cost_measure, map_of_groups))
     return levels, cost, points
 

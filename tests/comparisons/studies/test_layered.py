@@ -3,7 +3,9 @@
 import pytest
 from scenes import STEEL, resolved
 
+from comparisons.drawing.blocks import Note
 from comparisons.figures.quantity import MODELS
+from comparisons.output.page.page import sections
 from comparisons.output.page.tables.comparison import comparison_rows, first_model
 from comparisons.runs.run import run
 
@@ -41,3 +43,12 @@ def test_they_are_the_first_table_and_what_is_judged(outcome):
     assert rows["peak_pressure"].verdict == "agree"
     assert rows["peak_pressure"].half_plane == rows["peak_pressure"].finite_element
     assert {figure.study for figure in outcome.judged} == {"layered", "model_error"}
+
+
+def test_the_report_says_which_half_plane_has_the_coating(outcome):
+    notes = {
+        block.section: " ".join(item.text for item in block.items if isinstance(item, Note))
+        for block in sections(outcome, None)
+    }
+    assert "layered half-plane has the body's coating" in notes["comparison"]
+    assert "without the body's coating from finite" in " ".join(notes["convergence"].split())

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 LEFT, RIGHT = 0.78, 0.14  # inches
 # Inches above a panel, and of the panel.
-PRESSURES, DIFFERENCES, SURFACES = (0.08, 1.75), (0.3, 0.5), (0.14, 0.8)
-SHEAR, BAR = (0.3, 1.35), (0.44, 0.1)
+PRESSURES, DIFFERENCES, SURFACES = (0.08, 2.1), (0.3, 0.5), (0.14, 0.9)
+SHEAR, BAR = (0.3, 1.8), (0.44, 0.1)
 FOOT = 0.26  # inches
 REACH = 1.15  # half-widths to either side
 
@@ -62,6 +62,7 @@ def overview(run: Run, width: float) -> "Drawn":
     what = run, (-REACH * hertz.half_width, REACH * hertz.half_width), Scale(hertz.half_width, "a")
     draw_pressures(panels[0], *what)
     look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
+    look |= style.BEHIND_LEGEND
     names = len(panels[0].get_legend_handles_labels()[1])
     if width > style.COLUMN:
         room, look["loc"] = 1.35, "upper right"

@@ -87,7 +87,8 @@ def close_up_picture(run: Run) -> style.Picture:
         first = next(iter(levels.values()))
         reach += min(abs(peak_position(first) - centre), most)  # the same peak, beside it
     at = f"x = {with_unit(float(centre), 'm')}"
-    drawn = _drawn(run, (centre - reach, centre + reach), style.COLUMN, 5.6, nodes=True)
+    across = max(centre - reach, level.grid.x[0]), min(centre + reach, level.grid.x[-1])
+    drawn = _drawn(run, across, style.COLUMN, 5.6, nodes=True)
     return style.picture(
         drawn,
         f"Pressures of the models around {place}, {at}.",
@@ -167,6 +168,7 @@ def _cap_and_legend(axes: "Axes", run: Run) -> None:
         side, corner, room, columns = "upper right", (1.0, 1.02), 1.17, names
     axes.set_ylim(0.0, room * axes.dataLim.y1)
     gaps = {"borderaxespad": 0.1, "columnspacing": 1.0, "handlelength": 2.0, "handletextpad": 0.5}
+    gaps |= style.BEHIND_LEGEND
     axes.legend(loc=side, bbox_to_anchor=corner, ncols=columns, **gaps)
 
 

@@ -39,25 +39,22 @@ def mesh_pictures(run: Run) -> list[Picture]:
     reach, fine = min(CONTACT * run.problem.hertz.half_width, half), PEAK_EDGES * edge
     peak = peak_position(level)
     count = f"{integer(len(corners))} quadratic triangles, {integer(level.unknowns)} unknowns"
-    whole = f"Mesh of the whole block: {count}; as a file: finite_element/mesh.msh."
-    under = f"Under the contact; edges at the surface are {with_unit(edge, 'm', 3)} long."
     views = {
-        "the whole block": (whole, -half, half, depth),
-        "the body under the contact": (under, -reach, reach, min(reach, depth)),
-        "the body under the highest pressure": (
-            *("Under the highest pressure.", peak - fine, peak + fine),
-            min(fine, depth),
-        ),
+        "whole block": (-half, half, depth),
+        "body under the contact": (-reach, reach, min(reach, depth)),
+        "body under the highest pressure": (peak - fine, peak + fine, min(fine, depth)),
     }
-    return [
-        picture(
-            _drawn(points, pairs, view),
-            f"Finite-element mesh of {words}: {count}.",
-            caption,
-            data=False,
-        )
-        for words, (caption, *view) in views.items()
-    ]
+    edges = f"Edges at the surface are {with_unit(edge, 'm', 3)} long."
+    known = f"{count}; as a file: finite_element/mesh.msh. Dark: elements too small to be drawn."
+    pictures = []
+    for words, view in views.items():
+        drawn = _drawn(points, pairs, view)
+        if not drawn.axes[0].lines:  # of a thin layer: all is dark
+            continue
+        caption = f"Mesh of the {words}: {known} {edges}" if not pictures else f"The {words}."
+        said = f"Finite-element mesh of the {words}: {count}."
+        pictures.append(picture(drawn, said, caption, data=False))
+    return pictures
 
 
 def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Figure":
@@ -81,9 +78,12 @@ def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Fig
     visible = np.hypot(*(ends[:, 1] - ends[:, 0]).T) >= cell
     # one curve with breaks: a twentieth of the size of as many curves as edges
     broken = np.vstack([points, (np.nan, np.nan)])[_strokes(pairs[visible], len(points))]
-    axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
+    if visible.any():
+        axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
     if not visible.all():
-        _dark_cells(axes, ends[~visible].mean(axis=1), (low, high, depth), cell)
+        short = ends[~visible]
+        points = np.vstack([short.mean(axis=1), *short.swapaxes(0, 1)])
+        _dark_cells(axes, points, (low, high, depth), cell)
     return drawn
 
 

@@ -22,7 +22,8 @@ ABREAST = 4  # panels across a wide page
 HEAD, TITLE, TALL, FOOT = 0.34, 0.36, 1.5, 0.5  # inches: legend, a panel's title, panel, its axis
 LEFT, BETWEEN, LINE = 0.62, 0.5, 0.17  # inches
 LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
-LOOKS = style.LINES | {DIFFERENCE: style.DIFFERENCE}
+# The difference is often the finite elements' error alone: pale around their line.
+LOOKS = style.LINES | {DIFFERENCE: {**style.PALE, "color": style.DIFFERENCE["color"]}}
 NAMES = LABELS | {DIFFERENCE: "difference of both models"}
 SLOPES = {1.0: (0, (1, 1.3)), 2.0: (0, (6, 2))}  # lines by order
 STAGE = 0.2  # inches: of a stage's bar
@@ -80,10 +81,10 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
         seen = np.where(error > 100.0 * LEAST, error, np.nan)
         look, name = LOOKS[sequence.source], NAMES[sequence.source]
         axes.plot(pitch, seen, marker="o", markersize=3.5, label=name, **look)
-        bar = {"marker": "_", "markersize": 13, "markeredgewidth": 2.0, "color": look["color"]}
+        bar = {**look, "linestyle": "none", "marker": "_", "markersize": 13}
         stated = 100.0 * sequence.figure.uncertainty.parts["discretisation"]
         if np.isfinite(stated) and stated > 0.0:
-            axes.plot(pitch[-1], stated, linestyle="none", **bar)
+            axes.plot(pitch[-1], stated, markeredgewidth=1.3 * look["linewidth"], **bar)
         if np.isfinite(seen).any():
             largest = max(largest, (float(np.nanmax(seen)), float(pitch[np.nanargmax(seen)])))
     order = panel[0].known.formal_order

@@ -74,7 +74,9 @@ def comparison_table(run: Run) -> TextTable:
 
 def _problem(reference: str) -> str:
     same = reference == SAME_PROBLEM
-    return f"{reference} as the half-plane" if same else f"it with {reference}"
+    return (
+        f"{reference} as the half-plane" if same else f"the half-plane's problem with {reference}"
+    )
 
 
 def _values(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:

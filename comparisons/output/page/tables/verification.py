@@ -136,7 +136,8 @@ def validation_table(run: Run) -> TextTable | None:
     rows = []
     for error in run.model_errors:
         name, friction, inputs = error.quantity, error.friction, error.part(SAMPLING)
-        named = row_name(run, name, friction) or f"{label(name)}, friction {plain(friction)}"
+        several = len(run.problem.scene.load.friction) > 1  # a whole model's depends on it
+        named = label(name) + (f", friction {plain(friction)}" if several else "")
         size, unsure = error_text(name, error.value, error.numerical), percent(error.numerical)
         by_inputs = "no trace" if inputs is None else percent(inputs.value)
         rows.append((named, size, unsure, by_inputs, NO_DATA))
@@ -250,10 +251,17 @@ def _cost(run: Run, model: ModelRun) -> dict[str, str]:
         "time": with_unit(sum(level.seconds.values()), "s", 3),
         "unknowns": integer(level.unknowns),
         "pressure elements": integer(level.grid.count),
-        **{f"contact solver: {k.replace('_', ' ')}": integer(n) for k, n in counts.items()},
+        **{_iterations(name): integer(count) for name, count in counts.items()},
         "peak memory of the process": with_unit(memory, "byte", 3),
         ALL_LEVELS: with_unit(sum(model.seconds.values()), "s", 3),
     }
+
+
+def _iterations(name: str) -> str:
+    """A count of the contact solver in words; `linear_`: of the solution that it starts from."""
+    words, start = WORDING["iterations"], name.removeprefix("linear_")
+    text = words.get(name) or words[start] + ", linear start" * (start != name)
+    return f"contact solver: {text}"
 
 
 def signed_rows(run: Run) -> list[tuple[str, str]]:

@@ -25,9 +25,10 @@ function nearest(places, wanted) {
   return best;
 }
 
-function written(value, digits = 4) {
+function written(value, digits = 4, all = false) {
   if (Number.isNaN(value)) return "–";
-  return Number(value.toPrecision(digits)).toString().replaceAll("-", "−");
+  const text = value.toPrecision(digits);
+  return (all ? text : Number(text).toString()).replaceAll("-", "−");
 }
 
 function look(fields) {
@@ -51,7 +52,7 @@ function look(fields) {
   function said(component, friction, row, column) {
     const at = row * fields.x.length + column;
     const values = Object.entries(curves(component, friction)).map(
-      ([name, all]) => `${name} ${written(all[at], name === "difference" ? 2 : 4)}\u00a0p₀`,
+      ([name, all]) => `${name} ${written(all[at], name === "difference" ? 2 : 4, true)}\u00a0p₀`,
     );
     const place = `x = ${written(fields.x[column])}\u00a0a, z = ${written(fields.z[row])}\u00a0a`;
     return `${fields.components[component].symbol} at ${place}: ${values.join(", ")}`;
@@ -96,9 +97,16 @@ function look(fields) {
   function ticks(low, high, most) {
     const rough = (high - low) / most || 1;
     const power = 10 ** Math.floor(Math.log10(rough));
-    const step = power * [1, 2, 5, 10].find((size) => size * power >= rough);
-    const first = Math.ceil(low / step - 1e-9);
-    const count = Math.floor(high / step + 1e-9) - first + 1;
+    const sizes = [0.5, 1, 2, 5, 10].map((size) => size * power);
+    const places = (step) => [Math.ceil(low / step - 1e-9), Math.floor(high / step + 1e-9)];
+    const few = sizes.findIndex((size) => size >= rough);
+    // one number alone tells no scale
+    const step = sizes.slice(0, few + 1).findLast((size) => {
+      const [first, last] = places(size);
+      return last > first;
+    });
+    const [first, last] = places(step);
+    const count = last - first + 1;
     return Array.from({ length: count }, (_, k) => (first + k) * step);
   }
 

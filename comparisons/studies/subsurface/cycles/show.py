@@ -31,6 +31,7 @@ COLOURS = {FRESH: "#222222", ONCE: "#0072B2", LAST: "#D55E00", FLATTENED: "#009E
 DASHES = {FRESH: (0, (1, 1.3)), ONCE: "-", LAST: (0, (4, 1.6)), FLATTENED: (0, (7, 1.2, 1.4, 1.2))}
 AXES = [{**style.LINES[name], "linewidth": 1.2} for name in MODELS]  # of stresses along x and y
 SHOWN = 6  # passes of the table, the last among them
+LEAST = 1e-3  # of the share of the first pass that counts: less is not drawn
 OF_SURFACES = ("peak_reloaded", "length_reloaded", "ra")
 SHAPES = "shape_rms", "bearing_rms", "lowered_rms"
 NOTE = """Finite elements at small strains; plastic strain and back stress go from pass to pass. A
@@ -158,6 +159,8 @@ def passes_picture(run: Run) -> style.Picture | None:
         label = f"{percent_as_written(share)} of the first"
         panel.axhline(share * first, label=label, **style.REFERENCE)
         panel.set_yscale("log")
+        low, _ = panel.get_ylim()
+        panel.set_ylim(max(low, LEAST * share * first))
     panel.set_ylabel("plastic strain added")
     panel.set_xlabel("pass")
     panel.xaxis.get_major_locator().set_params(integer=True)

@@ -23,7 +23,7 @@ BAD = {
     "NUL bytes": (GOOD + b"\x00\x00\n", 6, "not text (byte 0x00)"),
     "spreadsheet": (b"PK\x03\x04\x14\x00\x06\x00rest", 1, "not text (byte 0x03)"),
     "control character": (b"0,1\n1,2\x07\n2,3\n3,4\n", 2, "not text (byte 0x07)"),
-    "UTF-16 without its mark": ("0;1\n1;2\n".encode("utf-16-le"), 1, "not text"),
+    "broken UTF-16 without its mark": (b"0\x00;\x001\x00\n", None, "not text (broken UTF-16)"),
     "broken UTF-16": (b"\xff\xfe0\x00,\x001", None, "not text"),
     "text in numbers": (b"# c\n0,1.5\n1,abc\n2,3\n3,1\n4,2\n", 3, "'abc' is not a number"),
     "text in the first row": (b"x,z\n0,peak\n1,2\n2,3\n3,1\n", 2, "'peak' is not a number"),

@@ -29,6 +29,10 @@ TWO_COLUMNS = {
     "end of file sign": b"0,0.125\r\n0.5,-3\r\n1.5,2.5\r\n2,0\r\n4.25,-0.75\r\n\x1a",
     "byte-order mark": b"\xef\xbb\xbf0,0.125\n0.5,-3\n1.5,2.5\n2,0\n4.25,-0.75\n",
     "UTF-16": "x;z\n0;0,125\n0,5;-3\n1,5;2,5\n2;0\n4,25;-0,75\n".encode("utf-16"),
+    "UTF-16 without its mark": "x;µm\n0;0,125\n0,5;-3\n1,5;2,5\n2;0\n4,25;-0,75\n".encode(
+        "utf-16-le"
+    ),
+    "UTF-16, big end first": "x;µm\n0;0,125\n0,5;-3\n1,5;2,5\n2;0\n4,25;-0,75".encode("utf-16-be"),
     "Latin-1 comment": b"# H\xf6he in \xb5m\n0,0.125\n0.5,-3\n1.5,2.5\n2,0\n4.25,-0.75\n",
     "UTF-8 header": "Höhe/µm\n0,0.125\n0.5,-3\n1.5,2.5\n2,0\n4.25,-0.75\n".encode(),
     "true minus": "0,0.125\n0.5,−3\n1.5,2.5\n2,0\n4.25,−0.75\n".encode(),
@@ -131,7 +135,7 @@ def dialects(draw):
         "comment": draw(st.sampled_from(["# 1 2\n", "% Höhe\n", ";x\n", "// 5;5\n", "\n", ""])),
         "header": draw(st.sampled_from(["", "x{0}z\n", "Profil 1\nx{0}z\n[mm]{0}[µm]\n"])),
         "end": draw(st.sampled_from(["\n", "\r\n", "\r"])),
-        "encoding": draw(st.sampled_from(["utf-8", "utf-8-sig", "latin-1", "utf-16"])),
+        "encoding": draw(st.sampled_from(["utf-8", "utf-8-sig", "latin-1", "utf-16", "utf-16-le"])),
         "trailing": draw(st.booleans()),
     }
 

@@ -249,9 +249,10 @@ def test_words_never_carry_the_names_of_result_files(wavy_page):
     assert not re.search(r"tau1|txz|_max|_l2", wavy_page.text.partition("Skipped steps")[0])
 
 
-def test_only_tables_scroll_sideways_and_are_named(wavy_page):
-    places = re.findall(r'<div class="scroll[^>]*>', wavy_page.source)
-    assert len(places) > 5 and all('aria-label="table, scrolls' in place for place in places)
+def test_only_tables_and_pictures_scroll_sideways_and_are_named(wavy_page):
+    places = re.findall(r'<div class="scroll[^>]*aria-label="(\w*), scrolls', wavy_page.source)
+    assert len(places) == wavy_page.source.count('class="scroll"')
+    assert places.count("picture") == len(wavy_page.images) and places.count("table") > 5
     assert "tabindex" not in wavy_page.source  # browsers themselves stop where something scrolls
 
 

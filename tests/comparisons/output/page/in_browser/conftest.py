@@ -29,6 +29,24 @@ os.dup2(int(writes), 4)
 os.execv(command[0], command)
 """
 HIGH = 10  # files below are for the browser
+# Of every text and picture that is seen the size of its letters, in points; in pictures they are
+# outlines of a font of a hundred units.
+LETTERS = r"""
+(() => {
+  const out = [];
+  for (const element of document.body.querySelectorAll("*")) {
+    if (element.closest("script") || !element.getClientRects().length) continue;
+    if ([...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()))
+      out.push([parseFloat(getComputedStyle(element).fontSize) * 0.75 * element.currentCSSZoom,
+        element.textContent.slice(0, 60)]);
+    const drawn = element.currentSrc ? atob(element.currentSrc.split(",")[1]) : "";
+    const units = [...drawn.matchAll(/scale\(([\d.]+) -[\d.]+\)/g)].map((found) => 100 * found[1]);
+    const shown = element.getBoundingClientRect().width / element.naturalWidth;
+    if (units.length) out.push([Math.min(...units) * shown, element.alt]);
+  }
+  return out;
+})()
+"""
 
 
 class Browser:
@@ -118,6 +136,10 @@ class Tab:
         )
         assert "exceptionDetails" not in answer, answer["exceptionDetails"]
         return answer["result"].get("value")
+
+    def letters(self) -> list[tuple[float, str]]:
+        """Sizes of all letters that are seen, in points, and where they stand."""
+        return self.value(LETTERS)
 
     def press(self, key: str, code: int, text: str = "") -> None:
         named = {"key": key, "code": key, "windowsVirtualKeyCode": code}

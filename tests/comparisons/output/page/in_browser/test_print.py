@@ -28,24 +28,6 @@ CUT = """
 })()
 """
 
-# Of every text and picture on the paper the size of its letters, in points; in pictures they are
-# outlines of a font of a hundred units.
-LETTERS = r"""
-(() => {
-  const out = [];
-  for (const element of document.body.querySelectorAll("*")) {
-    if (element.closest("script") || !element.getClientRects().length) continue;
-    if ([...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()))
-      out.push([parseFloat(getComputedStyle(element).fontSize) * 0.75 * element.currentCSSZoom,
-        element.textContent.slice(0, 60)]);
-    const drawn = element.currentSrc ? atob(element.currentSrc.split(",")[1]) : "";
-    const units = [...drawn.matchAll(/scale\(([\d.]+) -[\d.]+\)/g)].map((found) => 100 * found[1]);
-    const shown = element.getBoundingClientRect().width / element.naturalWidth;
-    if (units.length) out.push([Math.min(...units) * shown, element.alt]);
-  }
-  return out;
-})()
-"""
 LEAST_LETTERS = 6.0  # points
 
 
@@ -75,7 +57,7 @@ def test_nothing_is_wider_than_the_paper(tab, request, name):
         "Math.max(...[...document.querySelectorAll('figure')].map((f) => f.offsetHeight))"
     )
     assert tallest < A4[1] * POINTS_TO_PIXELS - 100.0  # a figure that a page holds is not cut
-    for size, text in page.value(LETTERS):
+    for size, text in page.letters():
         assert size >= LEAST_LETTERS, text
     shown = page.value(
         "[...document.querySelectorAll('#look, .hint, .tip')].map((e) => e.offsetHeight)"

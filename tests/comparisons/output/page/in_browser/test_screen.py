@@ -2,7 +2,9 @@
 
 import pytest
 
-WIDTHS = (1280, 390)
+WIDTHS = (1280, 768, 390)
+LEAST_LETTERS = 10.0  # pixels
+PIXELS_TO_A_POINT = 96.0 / 72.0
 LEAST_CONTRAST = 4.5  # WCAG 2, of text; 3 for large text
 MOST_KEYS = 200
 TAB = 9
@@ -64,8 +66,12 @@ def test_the_page_is_whole_and_fits(tab, wavy_file, width, script):
     )
     assert len(pictures) > 15
     assert min(pictures) > 100
-    widest = page.value("Math.max(...[...document.images].map((i) => i.clientWidth))")
-    assert 0.5 * min(width, 1100) < widest <= width
+    shown = page.value("[...document.images].map((i) => i.clientWidth).filter((w) => w)")
+    assert len(shown) < len(pictures)  # of a picture across the page there is a narrow version
+    assert 0.5 * min(width, 1100) < max(shown) <= max(width, 440)
+    hints = page.value("[...document.querySelectorAll('figure .hint')].map((h) => h.offsetHeight)")
+    assert any(hints) == (max(shown) > width)
+    assert min(size for size, _ in page.letters()) * PIXELS_TO_A_POINT >= LEAST_LETTERS
     assert page.value("document.querySelector('#look').hidden") is not script
 
 
