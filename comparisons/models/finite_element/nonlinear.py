@@ -150,7 +150,7 @@ def finite_contact(
     bodies, load = FiniteCompliance(contact), constraints.load
 
     def bearing(pressure: np.ndarray) -> float:
-        return contact.pressing(load, bodies.displacement, pressure)
+        return load * float(contact.weights @ pressure) / bodies.borne
 
     settings = bodies, model, contact.gap, contact.weights, constraints, start, FINITE_TOLERANCE
     solver = solve_coupled if operator.coupled else solve_contact
