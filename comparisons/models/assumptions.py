@@ -21,7 +21,7 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     scene, settings = problem.scene, problem.scene.finite_element
     listed = ["elastic"] if scene.body.hardness is None and not settings.plastic else []
     listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(settings)]
-    listed.append(_roller(settings, scene.roller))
+    listed += [] if scene.periodic else [_roller(settings, scene.roller)]
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
         listed.append(_split("the body is of one material", coated))

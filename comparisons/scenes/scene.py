@@ -176,6 +176,11 @@ class SceneBase(SceneSection):
         return self.profile is not None and bool(self.profile.periodic)
 
     @property
+    def smooth_body(self) -> str:
+        """What presses, in words."""
+        return "flat body" if self.periodic else "roller"
+
+    @property
     def tolerances(self) -> dict[str, float]:
         """Relative, by compared quantity; others are not judged."""
         return {name: value for name, value in self.tolerance if value is not None}

@@ -135,7 +135,7 @@ def answer_pictures(run: Run) -> list[style.Picture]:
 
 
 def _pressures(run: Run, answers: Mapping[str, Answer]) -> style.Picture:
-    words = f"Contact pressures of the models and of {', '.join(answers)}"
+    words = f"Contact pressures of the models and, wide and pale, of {', '.join(answers)}"
     caption = f"{words}; below, what these differ from the {LABELS[reference_of(run)]} by."
     return style.picture(lambda width: _drawn(run, answers, width), words, caption)
 
@@ -152,7 +152,8 @@ def _drawn(run: Run, answers: Mapping[str, Answer], width: float) -> "Drawn":
     wide = width > 0.75 * style.WIDE
     axes[0].set_ylim(0.0, (1.25 if wide else 1.7) * axes[0].dataLim.y1)
     corner = (1.0, 1.0) if wide else (1.0, 0.92)  # below the load in words
-    axes[0].legend(loc="upper right", bbox_to_anchor=corner, ncols=4 if wide else 2)
+    look = {"loc": "upper right", "bbox_to_anchor": corner, **style.BEHIND_LEGEND}
+    axes[0].legend(ncols=4 if wide else 2, **look)
     axes[1].set_ylabel("Δp/p₀")
     over(axes, "x/a", [end / half_width for end in across])
     return drawn
@@ -164,7 +165,8 @@ def _curves(axes: "list[Axes]", run: Run, answer: Answer, look: dict) -> None:
     level = reference.finest.under(run.deciding_friction)
     few, x = len(answer.x) < MARKED, level.grid.x
     p = np.where(answer.touching, answer.pressure, 0.0) / hertz.peak_pressure
-    axes[0].plot(answer.x / hertz.half_width, p, marker="." if few else None, **look)
+    around = {**look, **style.PALE, "marker": "." if few else None}  # the models' lines
+    axes[0].plot(answer.x / hertz.half_width, p, **around)
     difference = (answer.on(x) - level.solution.pressure) / hertz.peak_pressure
     axes[1].plot(x / hertz.half_width, difference, **look)
 

@@ -30,8 +30,8 @@ LOOKS = {
     "trace": {"color": "#222222", "marker": "x", "linestyle": "none", "label": "the scene's"},
 }
 POINTS, ALONG = 4000, 20  # of the profile, of each patch
-SUMMITS = ("", "bandwidth", "rms slope", "peaks a mm", "radius", "deviation")
-SUMMITS += ("summits a mm²", "radius of summits", "deviation of summits")
+SUMMITS = ("", "bandwidth", "rms slope", "peaks per mm", "radius", "deviation")
+SUMMITS += ("summits per mm²", "radius of summits", "deviation of summits")
 PRESSURES = ("load", "patches", "theory, by moments", "by peaks", "Persson, ridges")
 PRESSURES += ("as many ridges, Hertz", "random traces", "the trace")
 WIDTHS = ("half-width over a: theory", "random traces", "the trace")
@@ -58,7 +58,9 @@ def blocks(run: Run) -> list[Block]:
     section, findings = run.problem.scene.statistics, run.findings[NAME]
     models = [LABELS[patches.source] for patches in _patches(findings)]
     kinds = ("", *(f"{model}, {how}" for model in models for how in ("book", "exact")))
-    asperities = "Asperities by relative penetration; after a semicolon, how many of them flow"
+    asperities = "Patches of contact by relative penetration"
+    if any(STRAIN in patches.columns for patches in _patches(findings)):
+        asperities += "; after a semicolon, how many of them flow"
     summits = tuple(map(_summits, findings.table("summits").rows()))
     items = (
         Pictures(("statistics",)),

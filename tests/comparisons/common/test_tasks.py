@@ -262,9 +262,12 @@ class TestEnds:
     def test_a_task_that_lost_its_process_is_tried_alone(self, beside, tmp_path):
         beside.add("dies", dies, tmp_path / "tried", 2, seconds=3.0)
         beside.add("beside", outlasts, tmp_path / "tried", seconds=1.0)
-        running, hand_out = [], beside._hand_out
+        running, hand_out, stages = [], beside._hand_out, []
+        beside.callback = lambda stage: stages.append(str(stage))
         beside._hand_out = lambda: (hand_out(), running.append(sorted(beside._running.values())))
         assert beside.result("dies") == "alive"
+        [line] = stages
+        assert line.startswith("dies: the process that worked on it ended with status 3; it is ")
         steps = [[], ["beside", "dies"], ["beside"], ["dies"], []]
         assert [step for step, _ in itertools.groupby([[], *running, []])] == steps
 

@@ -10,6 +10,8 @@ from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.smooth import closed_form
+from comparisons.output.page.pictures.contact import surface_picture
+from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.runs.run import run
 from comparisons.scenes.surface import surface_of
 from comparisons.studies.contact import uncertainties, values_of
@@ -106,6 +108,14 @@ def test_a_rough_period_is_the_same_to_both(wave):
             assert abs(figure.value) <= figure.total, figure.quantity
     patches = rough.runs["half_plane"].finest.patches
     assert len(patches) > 2 and 0.1 < np.ptp(patches, axis=1).sum() / PERIOD < 0.6
+
+
+def test_the_report_knows_no_roller(wave):
+    sheet = dict(row for _, rows in problem_sheet(wave) for row in rows)
+    assert sheet["flat body"] == "rigid"
+    assert not [text for text in (*sheet, *wave.plan.assumptions) if "roller" in text]
+    picture = surface_picture(wave)
+    assert "roller" not in picture.caption + picture.alternative
 
 
 def test_where_the_period_is_cut_changes_nothing():

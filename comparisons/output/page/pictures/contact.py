@@ -39,6 +39,7 @@ CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
 TICKS, STEPS = 7, (1, 2, 2.5, 5, 10)  # of x/a: how many at most, and how far apart, by tens
 CLEAR = 0.04  # share of that axis at either end without one
+UNSEEN = 0.01  # share of it that is too narrow to be seen
 MOST_POINTS = 600  # of a filled outline
 POINTS_PER_INCH = 90  # of an outline across a panel
 
@@ -57,6 +58,7 @@ def pressure_picture(run: Run) -> style.Picture:
     middle = f", their difference ({difference})," if len(run.runs) > 1 else ""
     beyond = 1.05 * hertz.half_width
     across = min(last.grid.x[0], -beyond), max(last.grid.x[-1], beyond)
+    short = np.ptp(last.grid.x) < (1.0 - UNSEEN) * (across[1] - across[0])
     peaks = ", ".join(
         f"{LABELS[name]} "
         f"{significant(level.solution.pressure.max() / hertz.peak_pressure)} p₀ at x = "
@@ -68,7 +70,8 @@ def pressure_picture(run: Run) -> style.Picture:
         f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
         f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
         f"Largest pressure: {peaks}. {_norm(run)}"
-        "Heights are stretched and known but for a constant; in contact both surfaces coincide.",
+        "Heights are stretched and known but for a constant; in contact both surfaces coincide."
+        f"{' They are drawn where contact was sought.' if short else ''}",
     )
 
 
@@ -224,7 +227,8 @@ def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Sca
     # names where something is drawn: a light load may touch a rough body beside the middle only
     first, last = np.clip(x[[0, -1]], *(end / unit.factor for end in across))
     names = {"transform": axes.get_xaxis_transform(), "clip_on": True}
-    axes.text(0.5 * (first + last), 0.95, "roller", ha="center", va="top", **names)
+    pressing = run.problem.scene.smooth_body
+    axes.text(0.5 * (first + last), 0.95, pressing, ha="center", va="top", **names)
     axes.text(first + 0.01 * (last - first), 0.05, "body", va="bottom", **names)
     axes.set_ylabel(f"height [{up.name}]")
 
@@ -254,7 +258,8 @@ def surface_picture(run: Run) -> style.Picture:
         above.plot(place, under, label=words[1], **style.OUTLINE)
     above.set_ylabel(f"height [{up.name}]")
     above.text(0.02, 0.04, "body", transform=above.transAxes)
-    above.text(0.5, 0.95, "roller", transform=above.transAxes, ha="center", va="top")
+    pressing = problem.scene.smooth_body
+    above.text(0.5, 0.95, pressing, transform=above.transAxes, ha="center", va="top")
     above.legend(loc="lower right", borderaxespad=0.2)
     gaps = {model: np.maximum(shown.solution.gap, 0.0) for model, shown in levels.items()}
     unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
@@ -268,9 +273,9 @@ def surface_picture(run: Run) -> style.Picture:
     approach = with_unit(float(np.max(body_before - body)), "m", 3)
     return style.picture(
         drawn,
-        "Surfaces of roller and body before and under load, and the gap between them; the "
+        f"Surfaces of {pressing} and body before and under load, and the gap between them; the "
         f"body's surface gives way by {approach}.",
         f"Surfaces before and under load ({LABELS[name]}), heights stretched, and the gap "
         f"that is left. The body's surface sinks by up to {approach} against the ends of the "
-        "stretch that is drawn; the roller is set on it.",
+        f"stretch that is drawn; the {pressing} is set on it.",
     )

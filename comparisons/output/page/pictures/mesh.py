@@ -23,6 +23,7 @@ CELL = 0.028  # inches: edges shorter than that make the cell that they lie in d
 COLOUR = 0.12, 0.31, 0.47
 LEFT, RIGHT = 0.68, 0.22  # inches beside a mesh
 LEAST, MOST = 0.8, 1.9  # inches: its height
+NARROWEST = 1.1  # inches: its width, for the numbers of its axis
 CONTACT = 1.3  # half-widths to either side
 PEAK_EDGES = 24  # edges at the surface to either side of the highest peak
 
@@ -44,14 +45,14 @@ def mesh_pictures(run: Run) -> list[Picture]:
         "body under the contact": (-reach, reach, min(reach, depth)),
         "body under the highest pressure": (peak - fine, peak + fine, min(fine, depth)),
     }
-    edges = f"Edges at the surface are {with_unit(edge, 'm', 3)} long."
-    known = f"{count}; as a file: finite_element/mesh.msh. Dark: elements too small to be drawn."
+    known = f"{count}; as a file: finite_element/mesh.msh. Dark: too fine to draw."
+    surface = f"edges at the surface are {with_unit(edge, 'm', 3)} long"
     pictures = []
     for words, view in views.items():
         drawn = _drawn(points, pairs, view)
         if not drawn.axes[0].lines:  # of a thin layer: all is dark
             continue
-        caption = f"Mesh of the {words}: {known} {edges}" if not pictures else f"The {words}."
+        caption = f"The {words}; {surface}." if pictures else f"Mesh of the {words}: {known}"
         said = f"Finite-element mesh of the {words}: {count}."
         pictures.append(picture(drawn, said, caption, data=False))
     return pictures
@@ -62,8 +63,8 @@ def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Fig
     unit = scale_of(view, "m")
     low, high, depth = (end / unit.factor for end in view)
     share = view[2] / (view[1] - view[0])
-    width = min(THIRD - LEFT - RIGHT, MOST / share)
-    height = max(width * share, LEAST)
+    width = max(min(THIRD - LEFT - RIGHT, MOST / share), NARROWEST)
+    height = np.clip(width * share, LEAST, MOST)
     drawn, [axes] = panels(THIRD, [(0.14, height)], LEFT, THIRD - LEFT - width)
     points = points / unit.factor
     top = min(0.0, max(points[:, 1].min(), -0.2 * depth)) - 0.03 * depth

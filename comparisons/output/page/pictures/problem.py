@@ -44,7 +44,7 @@ def problem_picture(run: Run) -> style.Picture:
         drawn,
         f"A {_pressing(scene)} pressed on {body} by {_load(run.problem)}{sliding}; "
         f"{'; '.join(_body_in_words(scene))}.",
-        "The problem. Above: to scale. Below: roller and body where they first touch, "
+        f"The problem. Above: to scale. Below: {scene.smooth_body} and {body} at first touch, "
         f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
         f"is {'the period' if scene.periodic else 'the width'} 2a"
         f"{'' if scene.periodic else ' of the Hertz contact under the same load'}.",
@@ -96,10 +96,8 @@ def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], ro
     load = f"{'p₀' if scene.periodic else 'P'} = {_load(problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
-    roller = (
-        "flat body" if scene.periodic else f"roller\nR = {as_written(scene.roller.radius, 'm')}"
-    )
-    roller = f"{roller}\n{material}"
+    radius = "" if scene.periodic else f"\nR = {as_written(scene.roller.radius, 'm')}"
+    roller = f"{scene.smooth_body}{radius}\n{material}"
     axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
     rough = "rough body" if scene.profile is not None else "body"
     said = "\n".join([f"{rough}, {elastic_text(scene.body.material)}", *_body_in_words(scene)])
@@ -168,9 +166,8 @@ def _close_up(axes: "Axes", problem: Problem) -> float:
 
 
 def _pressing(scene: Scene) -> str:
-    if scene.periodic:
-        return "flat body"
-    return f"roller of radius {as_written(scene.roller.radius, 'm')}"
+    radius = "" if scene.periodic else f" of radius {as_written(scene.roller.radius, 'm')}"
+    return scene.smooth_body + radius
 
 
 def _load(problem: Problem) -> str:

@@ -51,8 +51,10 @@ def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
     rows.append(("body, width w", width))
     if surface.info is None:
         return [*rows, ("surface", "smooth")]
-    place = ("place of the roller on the trace", as_written(surface.position, "m"))
-    return [*rows, *_profile(surface.info), place]
+    rows += _profile(surface.info)
+    if not scene.periodic:
+        rows.append(("place of the roller on the trace", as_written(surface.position, "m")))
+    return rows
 
 
 def _profile(info: ProfileInfo) -> Rows:
@@ -134,9 +136,10 @@ def _pair_in_m(first: float, second: float) -> str:
 
 def _materials(problem: Problem) -> Rows:
     scene = problem.scene
+    has_disc = not (scene.roller.rigid or scene.periodic)
     rows = [
-        ("roller", "rigid" if scene.roller.rigid else solid_text(scene.roller)),
-        *([] if scene.roller.rigid else [("roller as a disc", support_text(scene.roller))]),
+        (scene.smooth_body, "rigid" if scene.roller.rigid else solid_text(scene.roller)),
+        *([("roller as a disc", support_text(scene.roller))] if has_disc else []),
         ("body", solid_text(scene.body)),
         *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
         ("combined modulus E*", with_unit(problem.modulus, "Pa")),
@@ -155,8 +158,11 @@ def solid_text(section: ElasticSection) -> str:
 
 
 def elastic_text(material: Material) -> str:
-    """A material in one phrase."""
-    return f"E = {as_written(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
+    """A material in one phrase; those of a library are computed, and have no end of digits."""
+    modulus, ratio = (
+        float(f"{value:.4g}") for value in (material.youngs_modulus, material.poissons_ratio)
+    )
+    return f"E = {as_written(modulus, 'Pa')}, ν = {plain(ratio)}"
 
 
 def coating_text(coating: CoatingSection) -> str:

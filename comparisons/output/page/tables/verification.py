@@ -261,7 +261,7 @@ def _iterations(name: str) -> str:
     """A count of the contact solver in words; `linear_`: of the solution that it starts from."""
     words, start = WORDING["iterations"], name.removeprefix("linear_")
     text = words.get(name) or words[start] + ", linear start" * (start != name)
-    return f"contact solver: {text}"
+    return f"contact: {text}"
 
 
 def signed_rows(run: Run) -> list[tuple[str, str]]:

@@ -10,6 +10,10 @@ from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.study import Run
 
 WIDTH = 1280
+NUMBERS = (
+    "[...document.querySelectorAll('#look [text-anchor=end]')].map((t) => +t.getAttribute('y'))"
+)
+BELOW = 232  # pixels: where the panel of the difference begins
 NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
 
 
@@ -61,6 +65,8 @@ def test_the_depth_that_is_chosen_is_the_one_that_is_shown(tab, wavy_file, wavy_
                     }})()"""
                 )
                 depths.add(expect(text, wavy_outcome, component, coefficient)["z"])
+                heights = page.value(NUMBERS)
+                assert min(sum(y < BELOW for y in heights), sum(y > BELOW for y in heights)) > 1
     assert len(depths) == 3
     paths = page.value("[...document.querySelectorAll('#look path')].map((p) => p.outerHTML)")
     assert len(paths) == 3  # both models, and their difference below

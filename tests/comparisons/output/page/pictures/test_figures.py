@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from analytic.exact.hertz import hertz_stress
+from analytic.material import Material
 from comparisons.output.page.pictures.mesh import CELL
 from comparisons.output.page.pictures.problem import problem_picture
+from comparisons.output.page.tables.problem import elastic_text
 from comparisons.studies.study import Run
 
 
@@ -50,6 +52,20 @@ def test_pressures_are_drawn_over_x_in_units_of_hertz(wavy: dict[str, list], wav
     )
     hardness = line(wide.axes[0], "hardness")
     assert hardness[:, 1] == pytest.approx(wavy_outcome.problem.scene.body.hardness / p0)
+
+
+def test_the_words_above_pressures_hide_the_grid(wavy: dict[str, list]):
+    for name in ("overview_picture", "pressure_picture", "close_up_picture"):
+        for axes in (figure.axes[0] for figure in wavy[name]):
+            [load] = [text for text in axes.texts if text.get_text().startswith("P = ")]
+            for behind in (load.get_bbox_patch(), axes.get_legend().get_frame()):
+                assert behind.get_visible() and behind.get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+
+
+def test_the_close_up_ends_where_the_surfaces_are_known(wavy, wavy_outcome: Run):
+    low, high = np.array(wavy["close_up_picture"][0].axes[0].get_xlim()) * 1e-6
+    x = wavy_outcome.runs["finite_element"].finest.grid.x
+    assert x[0] <= low < high <= x[-1]
 
 
 def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(
@@ -119,6 +135,11 @@ def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(
     assert np.sort(lengths) == pytest.approx(np.sort(every[every >= cell]))
     assert np.any(every < cell)
     assert whole.images  # the finest elements as dark cells
+
+
+def test_computed_moduli_have_four_digits():
+    computed = Material(211.39412e9, 0.28741573)
+    assert elastic_text(computed) == "E = 211.4 GPa, ν = 0.2874"
 
 
 def test_the_problem_is_drawn_to_the_scene(wavy: dict[str, list], wavy_outcome: Run):

@@ -67,6 +67,14 @@ def test_the_bar_is_the_stated_uncertainty(wavy_outcome: Run, panels):
         assert bars == pytest.approx(stated)
 
 
+def test_the_difference_is_seen_around_the_models_lines(panels):
+    for axes in panels:
+        [behind] = [v for v in axes.lines if v.get_label() == "difference of both models"]
+        models = [v for v in axes.lines if v.get_label() in ("half-plane", "finite elements")]
+        assert behind.get_zorder() < min(line.get_zorder() for line in models)
+        assert behind.get_linewidth() > 2.0 * max(line.get_linewidth() for line in models)
+
+
 def test_nothing_judged_is_no_picture(wavy_outcome: Run, drawn_by):
     scene = judging(wavy_outcome.problem.scene, {})
     problem = replace(wavy_outcome.problem, scene=scene)

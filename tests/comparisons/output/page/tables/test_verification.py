@@ -54,6 +54,7 @@ def test_the_quantities_of_v_and_v_20_are_named(wavy_outcome: Run):
     checks = wavy_outcome.model_errors
     assert len(table.rows) == len(checks) == len({row[0] for row in table.rows})
     for row, check in zip(table.rows, checks, strict=True):
+        assert row[0].endswith(f"friction {check.friction:g}")
         assert row[2] == percent(check.numerical)
         assert row[3] == percent(check.part("trace_sampling").value)
 
