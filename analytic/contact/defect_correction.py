@@ -50,6 +50,7 @@ def solve_with_model(
     tolerance: float = KKT_TOLERANCE,
     solver: Callable[..., ContactSolution] = solve_contact,
     nearer: bool = False,
+    bearing: Callable[[np.ndarray], float] | None = None,
 ) -> ContactSolution:
     """Solve the contact problem of `operator`; residuals are those of `operator` itself.
 
@@ -60,6 +61,8 @@ def solve_with_model(
                   moves the surfaces and the model is a `CoupledOperator`
     nearer        whether `start` is nearer to the solution than what the model alone predicts: r
                   begins with (C - D) start
+    bearing       load [N/m] that pressures (n,) [Pa] are to have once `operator` was applied to
+                  them; None: that of the constraints
 
     A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
     the best of all steps, with `converged` False.
@@ -76,6 +79,8 @@ def solve_with_model(
     if nearer:
         carried = operator.apply(start) - model.apply(start)
         model_applications, probes = model_applications + 1, probes + 1
+        if bearing is not None:
+            constraints = replace(constraints, load=bearing(start))
     for step in range(1, MAX_STEPS + 1):
         trial = solver(model, weighted_gap + carried, weights, constraints, pressure)
         model_applications += 1 + trial.iterations["applications"]
@@ -84,6 +89,8 @@ def solve_with_model(
         counts = {"steps": step, "applications": step + probes}
         counts["model_applications"] = model_applications
         free = _free(pressure, constraints)
+        if bearing is not None:
+            constraints = replace(constraints, load=bearing(pressure))
         contact = weighted_displacement, pressure, weighted_gap, weights
         approach = _approach(*contact, constraints)
         solution = assessed(*contact, approach, constraints, counts, tolerance)

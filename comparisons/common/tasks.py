@@ -8,7 +8,6 @@ process that ends then was ended by its task (`ProcessEnded`)."""
 import math
 import multiprocessing
 import sys
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -159,10 +158,8 @@ class Tasks:
     ) -> None:
         """Make a task known: `work(here, *args)`, of expected seconds and bytes; this process does
         it `by_itself`, at once. The most urgent begins first. Of equally urgent ones a process
-        takes the longest, but
-
-        - first those whose `shares` is that of its last one, while these take longer in all;
-        - last those whose `shares` is that of another process's last one.
+        takes the longest, but first those whose `shares` is that of its last one, and last those
+        whose `shares` is that of another process's last one.
 
         A known task may become more urgent."""
         if key not in self._tasks:
@@ -262,18 +259,12 @@ class Tasks:
     def _order(self, worker: "Worker") -> list[str]:
         """The queue of a worker."""
         last = self._workers[worker]
-        others = {shares for other, shares in self._workers.items() if other is not worker}
-        together = defaultdict(list)
-        for task in self._waiting.values():
-            together[task.urgency, task.shares].append(task.seconds)
+        others = {shares for other, shares in self._workers.items() if other is not worker} - {None}
 
         def place(key: str) -> tuple:
             task = self._waiting[key]
-            if task.shares is None:
-                return task.urgency, False, -task.seconds, 0.0
-            sharing = together[task.urgency, task.shares]
-            length = sum(sharing) if task.shares == last else max(sharing)
-            return task.urgency, task.shares in others, -length, -task.seconds
+            own = task.shares is not None and task.shares == last
+            return task.urgency, not own, task.shares in others, -task.seconds
 
         return sorted(self._waiting, key=place)
 

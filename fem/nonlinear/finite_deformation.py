@@ -41,7 +41,7 @@ from fem.stress.surface_load import SurfaceLoad
 # Of `FiniteCompliance`: forces left over the contact's, at least and at most, and as a part of the
 # change of the pressures; secants, and what one must differ from the others: from less than 0.02 on
 # small last steps mislead those under a changed load.
-RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 3e-3, 0.1
+RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 3e-3, 0.3
 SECANTS, SECANT_RANK = 10, 0.05
 MOST_CORRECTIONS = 25
 # Of Newton's method: mean slip of the surfaces that is left, of a hat, and solutions to get there.
@@ -221,8 +221,11 @@ class FiniteContact:
         which pulls along the tangents: integral (1 - mu s') p dX."""
         if not self.friction:
             return float(self.weights @ pressure)
-        force = self.contact.loaded(moved, pressure)[1].reshape(-1, 2)
-        return float(force[: len(self.body.nodes), 1].sum())
+        return self.vertical(self.contact.loaded(moved, pressure)[1])
+
+    def vertical(self, force: np.ndarray) -> float:
+        """The vertical force [N/m] on the body of nodal forces (2n,) [N/m] on both."""
+        return float(force.reshape(-1, 2)[: len(self.body.nodes), 1].sum())
 
     def pressing(self, load: float, moved: np.ndarray, pressure: np.ndarray) -> float:
         """What pressures alone press with [N/m] where they and their friction bear a `load` [N/m],
@@ -297,13 +300,14 @@ class FiniteCompliance:
     as the pressure has settled.
 
     steps  so far, one assembly and one back-substitution each
-    left   forces over the contact's, at the last pressure"""
+    left   forces over the contact's, at the last pressure
+    borne  vertical force [N/m] on the body of the last pressure and its friction"""
 
     def __init__(self, contact: FiniteContact) -> None:
         self._contact, self.displacement = contact, contact.linear
         self._last: np.ndarray | None = None
         self._secants: list[tuple[np.ndarray, np.ndarray]] = []
-        self.steps, self.left = 0, np.inf
+        self.steps, self.left, self.borne = 0, np.inf, 0.0
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted gap (count,) [m^2] over that of the undeformed bodies, the approach apart, under
@@ -324,6 +328,7 @@ class FiniteCompliance:
             rest = float(np.linalg.norm(soft * left) / size)
             if rest <= wanted:
                 self.displacement, self.left = moved, rest
+                self.borne = contact.vertical(applied)
                 return gap - contact.gap
             step = self._corrected(left.reshape(-1, 2)).ravel()
             if before is not None:

@@ -49,7 +49,7 @@ from fem.solver.compilation import load_dolfinx
 from meshes.build import start_worker
 from meshes.refined_ranges import merge, unrefined_contact
 
-START_TOLERANCE = 1e-5  # of the linear contact that finite deformation starts from
+START_TOLERANCE = 1e-3  # of the linear contact that finite deformation starts from
 MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
 
