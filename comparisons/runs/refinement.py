@@ -29,7 +29,7 @@ from comparisons.studies.study import Solved
 from fem.solver.mumps import FemError
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
-SHORT = 0.05  # seconds of a level that this process solves itself while others load libraries
+SHORT = 0.5  # seconds of a level that this process solves itself while others have begun
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 
 
@@ -206,7 +206,7 @@ class _Levels:
         )
 
     def is_short(self, task: _LevelTask, cost: ExpectedCost) -> bool:
-        """Whether this process solves a level itself while others load libraries."""
+        """Whether this process solves a level itself while others are at work."""
         is_alone = task.name == "half_plane" and "finite_element" in self.levels
         return is_alone and cost.seconds < SHORT
 
