@@ -263,8 +263,8 @@ class Tasks:
 
         def place(key: str) -> tuple:
             task = self._waiting[key]
-            own = task.shares is not None and task.shares == last
-            return task.urgency, not own, task.shares in others, -task.seconds
+            stays = task.shares is not None and task.shares == last
+            return task.urgency, not stays, task.shares in others, -task.seconds
 
         return sorted(self._waiting, key=place)
 
