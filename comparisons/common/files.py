@@ -60,7 +60,7 @@ def claimed(out: Path, together: tuple[str, ...] = ()) -> set[str]:
     names: set[str] = set()
     record = _record(out / RECORD)
     if "hashes" in record:
-        files = record.get("files", ALL_FILES)  # records had no list of files at first
+        files = record.get("files")
         names |= {RECORD, *map(str, files)} if isinstance(files, list | tuple) else set()
     for study in STUDIES:
         if "schema" in _record(out / f"{study}.json"):

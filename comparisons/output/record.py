@@ -19,7 +19,7 @@ from comparisons.common.provenance import digest, machine, made, versions
 from comparisons.figures.quantity import MODELS
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import MOST_LEVELS, Levels, Problem
-from comparisons.output import result_json, schema_2
+from comparisons.output import result_json
 from comparisons.output.result_json import Result
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, ProfileInfo, SceneSurface, surface_of
@@ -100,12 +100,9 @@ def read_record(folder: Path) -> Record:
 
 
 def read_result(path: Path) -> Result:
-    """What a run's result.json says; one of the schema before, too, for one release.
-    Raises InputError, one line, where it is none."""
+    """What a run's result.json says. Raises InputError, one line, where it is none."""
     content = read_table(path)
     try:
-        if content.get("schema") == schema_2.SCHEMA:
-            return schema_2.result_of_schema_2(content)
         check_schema(path, content, result_json.SCHEMA)
         return result_json.read_content(content)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:

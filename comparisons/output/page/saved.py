@@ -20,14 +20,13 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.output import schema_2
 from comparisons.output.record import read_result, read_table
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies import STUDIES
 from comparisons.studies.study import MODEL_ERROR, Run, Solved
 
 FILE = "report.npz"
-SCHEMA = 3  # 2 had an outcome with the figures of every study
+SCHEMA = 3
 REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
 LONGEST = 200  # characters of what a library says: zipfile quotes whole headers
 MESH = Path("finite_element") / "mesh.msh"
@@ -66,11 +65,9 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
     content = _read(folder / FILE)
     try:
         content["problem"] = _problem(content["problem"], folder)
-        data, findings = content.pop("data", None), result.findings
-        if data is None:
-            content, data, findings = schema_2.parts_of_schema_2(content, findings)
+        data = content.pop("data")
         solved = Solved(**content)
-        findings = {name: replace(f, data=data.get(name)) for name, f in findings.items()}
+        findings = {n: replace(f, data=data.get(n)) for n, f in result.findings.items()}
         run = Run(solved, findings, record, folder)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
@@ -80,12 +77,11 @@ def read_run(folder: Path, with_mesh: bool = True) -> Run:
 def _problem(parts: dict, folder: Path) -> Problem:
     said = parts.pop("scene")
     scene = Scene.of(said["tables"], Origin(said["name"], folder, said["source"]))
-    surface = parts.pop("surface", None) or said["surface"]
-    return Problem(scene, surface, **parts)
+    return Problem(scene, **parts)
 
 
 def _read(path: Path) -> dict:
-    """The parts of a run; of the schema before those of its outcome."""
+    """The parts of a run."""
     of_studies = (study.data for study in STUDIES if study.data)
     kinds = kinds_of(Problem, Plan, Window, ModelRun, ShownField, *of_studies)
     try:
@@ -93,9 +89,6 @@ def _read(path: Path) -> dict:
             outline = json.loads(str(arrays["outline"]))
             if outline["schema"] == SCHEMA:
                 return decoded(outline["run"], arrays, kinds)
-            if outline["schema"] == schema_2.SCHEMA:
-                kinds = schema_2.kinds_of_schema_2(kinds)
-                return decoded(outline["outcome"], arrays, kinds)
     except FileNotFoundError:
         raise InputError(f"{path.parent}: holds no {path.name}; {REMEDY}") from None
     except DAMAGED as error:

@@ -138,7 +138,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
             HINTS: [asdict(h) for h in hints(finest, problem, model.finest.under(frictions[0]))],
             VALIDATION: [row for rows in by_quantity for row in rows],
         }
-        series += tables_of(name, tables)
+        series += _tables_of(name, tables)
         files = columns_of([{"file": a.file, "sha256": a.sha256} for a in answers[name]])
         series.append(Series("files", files, name, is_account=True))
     return Findings(tuple(figures), tuple(series), data=OutsideAnswers(answers))
@@ -152,7 +152,7 @@ def _read(solved: Solved, tasks: Tasks) -> Mapping[str, tuple[Answer, ...]]:
     return tasks.held(NAME, NAME, lambda: read_answers(solved.problem, solved.window))
 
 
-def tables_of(answer: str, tables: Mapping[str, list[dict]]) -> Iterator[Series]:
+def _tables_of(answer: str, tables: Mapping[str, list[dict]]) -> Iterator[Series]:
     """Those that have rows; numbers are errors, as sure as their order of size."""
     for name, rows in tables.items():
         columns = columns_of(rows)

@@ -104,8 +104,8 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Patches are as uncertain as the worst of their model's figures, which `before` has."""
     problem, wanted = solved.problem, solved.problem.scene.statistics
-    summits = [flat(asdict(r)) for r in summit_rows(problem.surface.profile, wanted.cutoffs)]
-    series = [series_of("summits", summits), series_of("loads", *tasks.result(NAME))]
+    summits = [_flat(asdict(r)) for r in summit_rows(problem.surface.profile, wanted.cutoffs)]
+    series = [_series_of("summits", summits), _series_of("loads", *tasks.result(NAME))]
     for name, run in solved.runs.items():
         stated = (f for f in before[contact.NAME].figures if f.source == name and f.levels)
         worst = max(figure.numerical for figure in stated)
@@ -113,27 +113,27 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
             patches = patch_rows(problem, level)
             numbers = (name for name, value in patches[0].items() if isinstance(value, float))
             sizes = {name: [worst * abs(patch[name]) for patch in patches] for name in numbers}
-            table = series_of("patches", patches, sizes, name)
+            table = _series_of("patches", patches, sizes, name)
             at = {} if level.friction is None else {"friction": level.friction}
             series.append(replace(table, at=at))
     series.append(Series("traces", {"traces": Column((wanted.traces,))}))
     return Findings(series=tuple(series))
 
 
-def flat(content: Mapping[str, object], before: str = "") -> dict[str, object]:
+def _flat(content: Mapping[str, object], before: str = "") -> dict[str, object]:
     """Nested tables as one, with dots in the names; pairs are by `moments` and by `peaks`."""
     row: dict[str, object] = {}
     for name, value in content.items():
         if isinstance(value, tuple | list):
             value = dict(zip(("moments", "peaks"), value, strict=True))
         if isinstance(value, dict):
-            row |= flat(value, f"{before}{name}.")
+            row |= _flat(value, f"{before}{name}.")
         elif value is not None:
             row[before + name] = value
     return row
 
 
-def series_of(
+def _series_of(
     name: str,
     rows: Sequence[Mapping[str, object]],
     uncertainties: Mapping[str, Sequence[float]] = {},
@@ -270,7 +270,7 @@ def _row(
         for name, share in zip(FIGURES, of_source, strict=False)
     }
     of_pressures = (abs(float(share[FIGURES.index(PRESSURE)])) for share in shares.values())
-    return flat(row), sizes | {"difference": prod(causes.values()) * sum(of_pressures)}
+    return _flat(row), sizes | {"difference": prod(causes.values()) * sum(of_pressures)}
 
 
 def patch_loads(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -310,7 +310,7 @@ def patch_rows(problem: Problem, level: Level) -> tuple[dict[str, object], ...]:
             "kinds": {name: str(values[k]) for name, values in kinds.items()},
             "plastic_strain": _strain_below(field, start, stop) if flows else None,
         }
-        rows.append(flat(row))
+        rows.append(_flat(row))
     return tuple(rows)
 
 

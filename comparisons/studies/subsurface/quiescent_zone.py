@@ -164,7 +164,7 @@ def asperity_rows(
     return rows
 
 
-def asperity_series(rows: list[dict[str, object]], source: str, at: Mapping[str, float]) -> Series:
+def _asperity_series(rows: list[dict[str, object]], source: str, at: Mapping[str, float]) -> Series:
     units = {"x": "m", "length": "m", "level": "", "state": ""}
     columns = {name: Column(tuple(row[name] for row in rows), unit) for name, unit in units.items()}
     return Series(ASPERITIES, columns, source, at)
@@ -222,7 +222,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             figures += of_zone
             states.append(Statement(STATE, state, name, at))
             rows = asperity_rows(problem, run.finest.under(friction), window, friction)
-            series.append(asperity_series(rows, name, at))
+            series.append(_asperity_series(rows, name, at))
     return Findings(tuple(figures), tuple(series), tuple(states))
 
 

@@ -173,7 +173,7 @@ def test_without_pyarrow_one_line_says_how_to_get_it(runs, tmp_path, capsys, mon
         ("{", "is not JSON"),
         ('{"schema": 99}', "schema: is 99, of a later crosscheck; allowed is 3"),
         ('{"schema": 1}', "schema: is 1, of an earlier crosscheck; allowed is 3: run the scene"),
-        ('{"schema": 2, "scene": {}}', "is no result of a run"),
+        ('{"schema": 3, "scene": {}}', "is no result of a run"),
     ],
 )
 def test_what_is_no_run_is_one_line(tmp_path, capsys, content, words):

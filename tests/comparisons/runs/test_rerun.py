@@ -257,10 +257,9 @@ def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
         ),
         ("record.json", '{"schema": 99}', "schema: is 99, of a later crosscheck; allowed is 2"),
         ("record.json", '{"schema": 2}', "record.json: models: is missing"),
-        ("result.json", '{"schema": 1}', "is 1, of an earlier crosscheck; .* run the scene again"),
+        ("result.json", '{"schema": 2}', "is 2, of an earlier crosscheck; .* run the scene again"),
         ("result.json", '{"schema": 3}', "result.json: is no result of a run"),
         ("result.json", '{"schema": 3, "figures": 3, "scene": 4}', "result.json: is no result"),
-        ("result.json", '{"schema": 2}', "result.json: is no result of a run"),
     ],
 )
 def test_a_folder_without_a_whole_record_is_refused(spoilable, capsys, file, text, words):

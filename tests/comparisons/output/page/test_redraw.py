@@ -9,7 +9,6 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import DATA
 
 from comparisons.cli import main
 from comparisons.common.progress import no_progress
@@ -85,30 +84,6 @@ def test_what_is_kept_is_exact_but_for_fields_and_small(written, wavy_outcome: R
     points = wavy_outcome.window.x.size * wavy_outcome.window.z.size
     fields = 2 * 2 * len(wavy_outcome.problem.scene.load.friction) * points * 4  # bytes
     assert (folder / FILE).stat().st_size < fields + 250_000
-
-
-def test_a_folder_of_the_schema_before_is_drawn_again(tmp_path, page_of, capsys):
-    """A smooth contact under two friction coefficients, written before results were figures."""
-    folder = tmp_path / "old"
-    shutil.unpack_archive(DATA / "run_of_schema_2.zip", folder)
-    old = json.loads((folder / "result.json").read_text())
-    figures = read_run(folder).figures
-    for model, entries in old["models"].items():
-        for entry in entries:
-            known = figures.of(study="contact", source=model, friction=entry["friction"])
-            for quantity in ("peak_pressure", "contact_length", "approach"):
-                figure = known.one(quantity=quantity)
-                assert (figure and figure.value) == entry["contact"].get(quantity)
-    errors = {(f.quantity, f.friction): f for f in figures.of(study="model_error")}
-    for quantity, rows in old["model_error"].items():
-        for row in rows:
-            error = errors[quantity, row["friction"]]
-            assert (error.value, error.numerical) == (row["value"], row["uncertainty"])
-    assert main(["report", str(folder)]) == 0
-    page = page_of((folder / "report.html").read_text(encoding="utf-8"))
-    assert "Smooth, sliding" in page.headings and page.count("Principal shear stress") == 2
-    assert main(["table", str(folder)]) == 0
-    assert "Smooth, sliding" in capsys.readouterr().out
 
 
 def spoil(folder: Path, what: str) -> None:
