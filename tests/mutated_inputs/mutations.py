@@ -3,10 +3,8 @@
 import io
 import random
 import re
-import struct
 
 import numpy as np
-from scipy.io import savemat
 
 from comparisons.scenes.fields import file_fields
 from comparisons.scenes.scene import Scene, sections_of
@@ -147,16 +145,14 @@ def mutated_scene(draw: random.Random, text: str) -> bytes:
 
 
 def traces(draw: random.Random) -> tuple[str, bytes, bool]:
-    """Name and content of a good file, text in one of its dialects, surface data or arrays; and
-    whether it may hold heights alone."""
+    """Name and content of a good file, text in one of its dialects or arrays; and whether it may
+    hold heights alone."""
     count = draw.choice((4, 5, 30, 200))
     x = np.arange(count) * draw.choice((0.5, 1.0, 0.1))
     z = np.array([draw.gauss(0.0, 0.5) for _ in range(count)])
-    kind = draw.randrange(9)
-    if kind >= 7:
-        return _arrays(draw, x, z)
+    kind = draw.randrange(7)
     if kind >= 5:
-        return "trace.sdf", _surface_data(draw, z, binary=kind == 5), False
+        return _arrays(draw, x, z)
     comma, separator = draw.choice(((False, ","), (False, ";"), (True, ";"), (True, "\t")))
     separator = draw.choice((separator, separator, " "))
     number = draw.choice(("{:.6g}", "{:.12f}", "{:e}", "{:.3f}"))
@@ -175,28 +171,13 @@ def traces(draw: random.Random) -> tuple[str, bytes, bool]:
 
 
 def _arrays(draw: random.Random, x: np.ndarray, z: np.ndarray) -> tuple[str, bytes, bool]:
-    """The same in a file of numpy or MATLAB."""
-    content, ending = io.BytesIO(), draw.choice(("npy", "npz", "mat"))
+    """The same in a file of numpy."""
+    content, ending = io.BytesIO(), draw.choice(("npy", "npz"))
     if ending == "npy":
         np.save(content, draw.choice((z, np.stack((x, z), axis=1))))
-    elif ending == "npz":
-        np.savez(content, x=x, z=z)
     else:
-        savemat(content, {"x": x, "z": z})
+        np.savez(content, x=x, z=z)
     return f"trace.{ending}", content.getvalue(), ending == "npy"
-
-
-def _surface_data(draw: random.Random, z: np.ndarray, binary: bool) -> bytes:
-    rows = draw.choice((1, 1, 2, 5))
-    scales = (1e-6, 1e-6, 1e-6, -1.0)
-    if binary:
-        head = struct.pack("<10s12s12sHHddddBBB", b"", b"", b"", len(z), rows, *scales, 0, 7, 0)
-        return b"bISO-1.0" + head + np.tile(z, rows).astype("<f8").tobytes()
-    names = ("Xscale", "Yscale", "Zscale", "Zresolution")
-    fields = {"NumPoints": len(z), "NumProfiles": rows, **dict(zip(names, scales, strict=True))}
-    fields |= {"Compression": 0, "DataType": 7, "CheckType": 0}
-    head = "".join(f"{name} = {value}\n" for name, value in fields.items())
-    return f"aISO-1.0\n{head}*\n{' '.join(map(str, np.tile(z, rows)))}\n*\n".encode()
 
 
 NUMBER_IN_TEXT = re.compile(rb"[+-]?\d+[.,]?\d*(?:e[+-]?\d+)?")
@@ -247,11 +228,7 @@ def reading_scene(draw: random.Random, name: str, heights_alone: bool) -> str:
         "column": ("0", "3"),
         "line": ('[["0 um", "0 um"], ["3 um", "2 um"]]',),
     }
-    if name.endswith("sdf"):
-        del often["x_unit"], often["z_unit"]
-        if draw.random() < 0.7:
-            often["row"] = ("0",)
-    elif heights_alone:
+    if heights_alone:
         often["spacing"] = ('"0.5 um"', '"1 mm"', "1e-30", "1e30")
         del often["x_unit"]
     fields = {"file": f'"{name}"'} | {key: draw.choice(choices) for key, choices in often.items()}

@@ -1,4 +1,4 @@
-"""Profiles and maps in files of numpy (npy, npz) and of MATLAB (mat), as numbers alone.
+"""Profiles and maps in files of numpy (npy, npz), as numbers alone.
 
 Vectors of one length are the columns of a table under their names, an `x` first. An array of two
 dimensions is such a table where it has few columns, else a map without size and unit."""
@@ -22,15 +22,14 @@ from analytic.surface.readers.text import ProfileTable, chosen_columns
 from analytic.surface.readers.topography import Topography
 
 MOST_COLUMNS = 16  # of a table; an array with more of them, or more columns than rows, is a map
-NPY, ZIP, MAT = b"\x93NUMPY", b"PK\x03\x04", b"MATLAB 5.0"
-
+NPY, ZIP = b"\x93NUMPY", b"PK\x03\x04"
 
 Others = dict[str, tuple[int, str]]  # size and kind of each array that is not of real numbers
 
 
 def is_arrays(path: Path, head: bytes) -> bool:
     """Whether a file that begins with these bytes is one of these."""
-    return head.startswith((NPY, MAT)) or (head.startswith(ZIP) and path.suffix == ".npz")
+    return head.startswith(NPY) or (head.startswith(ZIP) and path.suffix == ".npz")
 
 
 def read_arrays(
@@ -43,12 +42,12 @@ def read_arrays(
     Raises ProfileError, one line, for anything else than arrays of real numbers."""
     check_unpacked(path)
     raw = contents(path, MAX_BYTES)
-    kind = "npy" if raw.startswith(NPY) else "npz" if raw.startswith(ZIP) else "mat"
+    kind = "npy" if raw.startswith(NPY) else "npz"
     try:
-        arrays, others = (_mat if kind == "mat" else _numpy)(path, raw, max_numbers)
+        arrays, others = _numpy(raw)
     except ProfileError:
         raise
-    except Exception as error:  # scipy and numpy raise whatever a damaged file brings about
+    except Exception as error:  # numpy raises whatever a damaged file brings about
         text = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise ProfileError(path, f"is a damaged {kind} file ({text[:200]})") from error
     check_numbers(path, sum(array.size for array in arrays.values()), max_numbers)
@@ -109,27 +108,10 @@ def _table(
     return chosen_columns(table, columns)
 
 
-def _numpy(path: Path, raw: bytes, max_numbers: int) -> tuple[dict[str, np.ndarray], Others]:
+def _numpy(raw: bytes) -> tuple[dict[str, np.ndarray], Others]:
     arrays = np.load(io.BytesIO(raw), allow_pickle=False)
     named = {"array": arrays}
     if not isinstance(arrays, np.ndarray):
         named = {name: arrays[name] for name in arrays.files}
     real = {name: array for name, array in named.items() if array.dtype.kind in "fiu"}
     return real, {n: (a.size, str(a.dtype)) for n, a in named.items() if n not in real}
-
-
-def _mat(path: Path, raw: bytes, max_numbers: int) -> tuple[dict[str, np.ndarray], Others]:
-    from scipy.io import loadmat, whosmat
-
-    numeric = {"double", "single", *(f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64))}
-    every = {
-        name: (np.prod(shape, dtype=float), kind) for name, shape, kind in whosmat(io.BytesIO(raw))
-    }
-    names = [name for name, (_, kind) in every.items() if kind in numeric]
-    check_numbers(path, sum(every[name][0] for name in names), max_numbers)
-    arrays = loadmat(io.BytesIO(raw), variable_names=names) if names else {}
-    real = {name: arrays[name] for name in names if not np.iscomplexobj(arrays[name])}
-    others = {
-        n: (s, "complex" if n in names else k) for n, (s, k) in every.items() if n not in real
-    }
-    return real, others

@@ -18,7 +18,7 @@ class MeasuredProfile:
     """A profile as its file gives it, in m, x ascending, and how it was read."""
 
     profile: Profile
-    format: str  # text | SDF … | x3p, by SurfaceTopography …
+    format: str  # text | npy | x3p, by SurfaceTopography …
     place: str | None  # which line of which map, None for a line scan
     bridged: int  # dropouts put on the straight line between their neighbours
     trimmed: int  # dropouts left out at the ends of the trace

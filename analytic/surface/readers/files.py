@@ -1,9 +1,9 @@
-"""Measured profiles from any file: text, SDF, or what an instrument wrote.
+"""Measured profiles from any file: text, arrays, or what an instrument wrote.
 
 Text of columns, spreadsheets and arrays are tables, of which one or two columns are a profile
-(`columns`). Everything else is a topography: surface data files (`topography`), PRF, and what
-SurfaceTopography knows (`instruments`), among it text that is no profile and whose header gives the
-map's size and unit. Any of them may be packed as gz."""
+(`columns`). Everything else is a topography that SurfaceTopography knows (`instruments`), among
+it text that is no profile and whose header gives the map's size and unit. Any of them may be packed
+as gz."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -21,7 +21,6 @@ from analytic.surface.readers.instruments import (
     install_command,
     read_instrument_file,
 )
-from analytic.surface.readers.prf import is_prf, read_prf
 from analytic.surface.readers.source import (
     MAX_BYTES,
     NOT_TEXT,
@@ -36,8 +35,6 @@ from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_col
 from analytic.surface.readers.topography import (
     MapLine,
     Topography,
-    is_sdf,
-    read_sdf,
     refuse_line,
     trace_of,
 )
@@ -76,9 +73,6 @@ def open_measured(
     head = beginning(path, HEAD)
     if is_arrays(path, head):
         return read_arrays(path, columns, channel)
-    if is_sdf(head) or is_prf(head):
-        _refuse(path, columns, channel)
-        return (read_sdf if is_sdf(head) else read_prf)(path)
     is_binary = NOT_TEXT.search(head.decode("latin-1")) and not wide_encoding(head)
     if channel is not None or is_binary:
         return _by_library(path, columns, channel)
@@ -93,12 +87,6 @@ def open_measured(
         return _map_in_text(path, error)
 
 
-def _refuse(path: Path, columns: object, channel: object) -> None:
-    for name, choice in (("columns", columns), ("channel", channel)):
-        if choice is not None:
-            raise ProfileError(path, f"is one profile or map; allowed is to leave out {name}")
-
-
 def _by_library(
     path: Path, columns: Sequence[str | int] | None, channel: str | None
 ) -> ProfileTable | Topography:
@@ -108,7 +96,8 @@ def _by_library(
     measured = read_instrument_file(path, channel)
     if isinstance(measured, ProfileTable):
         return chosen_columns(measured, columns)
-    _refuse(path, columns, None)
+    if columns is not None:
+        raise ProfileError(path, "is one profile or map; allowed is to leave out columns")
     return measured
 
 

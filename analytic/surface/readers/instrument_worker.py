@@ -45,7 +45,7 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
     formats = ", ".join(sorted(known))
     unknown = {
         "problem": "is of no format that is known; allowed is text of columns, gz of any, xlsx, "
-        f"npy, npz, mat, SDF, PRF, or what SurfaceTopography {version} reads ({formats}); a newer "
+        f"npy, npz, or what SurfaceTopography {version} reads ({formats}); a newer "
         "one may know it, in an environment whose python CROSSCHECK_SURFACE_PYTHON names"
     }
     if is_spreadsheet(path):

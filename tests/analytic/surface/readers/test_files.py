@@ -1,28 +1,27 @@
 """Which reader takes a file, whose units count, and what happens to lost heights."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import analytic.surface.readers.instruments as instruments
-from analytic.surface.readers.files import MissingUnitError, read_measured
+from analytic.surface.readers.files import MissingUnitError, profile_of, read_measured
 from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.topography import MapLine, Topography
 
 SCAN = b"0,1\n1,2\n2,4\n3,3\n4,0\n"
 SCALES = {"x_scale": 1e-6, "height_scale": 1e-9}
-HEADER = (
-    "aISO-1.0\nNumPoints = {points}\nNumProfiles = {profiles}\nXscale = 1e-6\nYscale = 2e-6\n"
-    "Zscale = 1e-9\nDataType = 7\n*\n"
-)
 MAP = [[1.0, 2.0, 3.0, 4.0, 9.0], [5.0, None, 7.0, 8.0, 1.0], [None, 2.0, 3.0, 0.5, None],
        [6.0, 6.5, 7.0, 3.0, 2.0]]  # fmt: skip
 
 
-def sdf(folder, rows):
-    path = folder / "surface.sdf"
-    words = "\n".join(" ".join("BAD" if v is None else repr(v) for v in row) for row in rows)
-    path.write_text(HEADER.format(points=len(rows[0]), profiles=len(rows)) + words + "\n*\n")
-    return path
+def opened(rows, pitch=(1e-6, 2e-6)) -> Topography:
+    """Rows of a map [nm], or the only one of a line scan, as a file gives them."""
+    heights = 1e-9 * np.array(rows, dtype=float)
+    return Topography(
+        Path("surface.x3p"), heights if len(rows) > 1 else heights[0], pitch, None, 1.0, "made"
+    )
 
 
 def text(folder, content=SCAN):
@@ -31,10 +30,11 @@ def text(folder, content=SCAN):
 
 
 def refusal(path, kind=ProfileError, **options) -> str:
+    is_open = isinstance(path, Topography)
     with pytest.raises(kind) as caught:
-        read_measured(path, **options)
+        (profile_of if is_open else read_measured)(path, **options)
     message = str(caught.value)
-    assert message.startswith(str(path)) and "\n" not in message
+    assert message.startswith(str(path.path if is_open else path)) and "\n" not in message
     return message
 
 
@@ -70,55 +70,54 @@ def test_text_is_no_map(tmp_path):
     assert message.endswith("is a line scan, which has no columns; allowed is to leave out column")
 
 
-def test_a_row_of_a_surface_data_file(tmp_path):
-    trace = read_measured(sdf(tmp_path, MAP), chosen=MapLine(row=3))
+def test_a_row_of_a_map():
+    trace = profile_of(opened(MAP), chosen=MapLine(row=3))
     np.testing.assert_allclose(trace.profile.x, 1e-6 * np.arange(5), rtol=1e-12)
     np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array(MAP[3]), rtol=1e-12)
-    assert trace.format == "SDF (ISO 25178-71)"
     assert trace.place == "row 3 of 4 rows and 5 columns, 4e-06 m by 6e-06 m"
 
 
-def test_a_single_profile_of_a_surface_data_file(tmp_path):
-    trace = read_measured(sdf(tmp_path, MAP[:1]))
+def test_a_line_scan():
+    trace = profile_of(opened(MAP[:1]))
     np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array(MAP[0]), rtol=1e-12)
     assert trace.place is None
 
 
-def test_units_that_the_file_gives_may_be_repeated_but_not_contradicted(tmp_path):
-    path = sdf(tmp_path, MAP[:1])
-    read_measured(path, x_scale=1.0, height_scale=1.0)
-    message = refusal(path, height_scale=1e-6)
+def test_units_that_the_file_gives_may_be_repeated_but_not_contradicted():
+    scan = opened(MAP[:1])
+    profile_of(scan, x_scale=1.0, height_scale=1.0)
+    message = refusal(scan, height_scale=1e-6)
     assert "counts in units of 1 m and not of 1e-06 m, as z_unit has it; allowed is to" in message
-    assert "as x_unit has it" in refusal(path, x_scale=1e-6, height_scale=1.0)
-    assert refusal(path, spacing=1e-6).endswith("the sample spacing is for files without one")
+    assert "as x_unit has it" in refusal(scan, x_scale=1e-6, height_scale=1.0)
+    assert refusal(scan, spacing=1e-6).endswith("the sample spacing is for files without one")
 
 
-def test_lost_heights_are_refused_with_their_place(tmp_path):
-    path = sdf(tmp_path, MAP)
-    assert refusal(path, chosen=MapLine(row=1)).endswith(
+def test_lost_heights_are_refused_with_their_place():
+    scan = opened(MAP)
+    assert refusal(scan, chosen=MapLine(row=1)).endswith(
         "sample 1 of row 1, at x = 1e-06 m, was not measured; "
         "choose another line, or ask for dropouts to be bridged"
     )
     assert "sample 0 of row 2, at x = 0 m, was not measured, nor was 1 more" in refusal(
-        path, chosen=MapLine(row=2)
+        scan, chosen=MapLine(row=2)
     )
 
 
-def test_lost_heights_are_bridged_and_ends_left_out(tmp_path):
+def test_lost_heights_are_bridged_and_ends_left_out():
     rows = [[None, 1.0, None, 5.0, 6.0, 2.0, None]]
-    trace = read_measured(sdf(tmp_path, rows), dropouts="bridge")
+    trace = profile_of(opened(rows), dropouts="bridge")
     np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array([1, 3, 5, 6, 2]))
     np.testing.assert_allclose(trace.profile.x, 1e-6 * np.arange(1, 6))
     assert (trace.bridged, trace.trimmed) == (1, 2)
 
 
-def test_too_little_left_is_refused(tmp_path):
-    path = sdf(tmp_path, [[None, 1.0, 2.0, 3.0, None]])
+def test_too_little_left_is_refused():
+    scan = opened([[None, 1.0, 2.0, 3.0, None]])
     assert "has 3 samples but for dropouts at its ends; a profile needs at least 4" in refusal(
-        path, dropouts="bridge"
+        scan, dropouts="bridge"
     )
-    path = sdf(tmp_path, [[None] * 5])
-    assert "holds nothing but dropouts" in refusal(path, dropouts="bridge")
+    scan = opened([[None] * 5])
+    assert "holds nothing but dropouts" in refusal(scan, dropouts="bridge")
 
 
 def test_an_instruments_file_in_its_own_units(tmp_path, monkeypatch):
@@ -222,15 +221,7 @@ def test_a_loop_of_links_is_called_one(tmp_path):
     assert "a loop of symbolic links" in refusal(tmp_path / "a.csv", **SCALES)
 
 
-@pytest.mark.parametrize(
-    ("scale", "size"),
-    [
-        ("Xscale = 1e-6", "Xscale = 1e-300"),
-        ("Xscale = 1e-6", "Xscale = 1e290"),
-        ("Zscale = 1e-9", "Zscale = 1e300"),
-    ],
-)
-def test_scales_of_no_size_are_refused(tmp_path, scale, size):
-    path = sdf(tmp_path, MAP)
-    path.write_text(path.read_text().replace(scale, size))
-    assert "holds no profile: " in refusal(path, chosen=MapLine(row=0))
+@pytest.mark.parametrize(("scale", "pitch"), [(1.0, 1e-300), (1.0, 1e290), (1e309, 1e-6)])
+def test_scales_of_no_size_are_refused(scale, pitch):
+    rows = scale * np.array(MAP[::3])
+    assert "holds no profile: " in refusal(opened(rows, (pitch, 2e-6)), chosen=MapLine(row=0))

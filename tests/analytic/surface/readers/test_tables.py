@@ -1,4 +1,4 @@
-"""Tables of more than x and height, packed files, arrays, spreadsheets and PRF."""
+"""Tables of more than x and height, packed files, arrays and spreadsheets."""
 
 import gzip
 import importlib.util
@@ -6,7 +6,6 @@ import zipfile
 
 import numpy as np
 import pytest
-from scipy.io import savemat
 
 from analytic.surface.readers.arrays import read_arrays
 from analytic.surface.readers.files import MissingUnitError, open_measured, read_measured
@@ -122,15 +121,13 @@ def test_arrays_of_numpy(tmp_path):
     )
 
 
-def test_arrays_of_matlab(tmp_path):
-    savemat(tmp_path / "both.mat", {"z": RAW, "x": X, "name": "mine"})
-    holds(tmp_path / "both.mat", RAW)
-    savemat(tmp_path / "maps.mat", {"a": np.outer(np.ones(40), RAW), "b": np.eye(40)})
-    assert "holds 2 maps; allowed is channel, of 'a', 'b'" in refusal(tmp_path / "maps.mat")
+def test_one_of_several_maps_is_chosen(tmp_path):
+    np.savez(tmp_path / "maps.npz", a=np.outer(np.ones(40), RAW), b=np.eye(40))
+    assert "holds 2 maps; allowed is channel, of 'a', 'b'" in refusal(tmp_path / "maps.npz")
     options = {"channel": "a", "chosen": MapLine(row=0)}
-    holds(tmp_path / "maps.mat", RAW, spacing=0.5e-6, height_scale=1e-6, **options)
+    holds(tmp_path / "maps.npz", RAW, spacing=0.5e-6, height_scale=1e-6, **options)
     options["channel"] = "c"
-    assert "has no channel 'c'; allowed is 'a', 'b'" in refusal(tmp_path / "maps.mat", **options)
+    assert "has no channel 'c'; allowed is 'a', 'b'" in refusal(tmp_path / "maps.npz", **options)
 
 
 def test_arrays_that_are_no_profile(tmp_path):
@@ -165,15 +162,13 @@ def test_an_array_of_anything_but_real_numbers_is_none(tmp_path, array, kind):
     assert f"'z' holds {array.dtype} {said}" in message
 
 
-@pytest.mark.parametrize("kind", ["npy", "npz", "mat", "xlsx"])
+@pytest.mark.parametrize("kind", ["npy", "npz", "xlsx"])
 def test_a_lost_height_of_an_array_has_its_place(tmp_path, kind):
     path, lost = tmp_path / f"trace.{kind}", np.where(np.arange(40) == 16, np.nan, RAW)
     if kind == "npy":
         np.save(path, np.column_stack([X, lost]))
     elif kind == "npz":
         np.savez(path, x=X, z=lost)
-    elif kind == "mat":
-        savemat(path, {"x": X, "z": lost})
     else:
         write_spreadsheet(path, zip(X, lost, strict=True))
     assert refusal(path) == (
@@ -204,36 +199,6 @@ def test_text_that_is_large_once_unpacked_is_refused_before_it_is_split(tmp_path
     path = tmp_path / "trace.csv.gz"
     path.write_bytes(gzip.compress(content, 1))
     assert f"is too large: it has {what}; allowed are" in refusal(path)
-
-
-PRF = """1 2
-ground 0.0 PRF
-CX M {count} MM 1.000000e+000 D
-CZ M {count} UM 1.000000e-006 L
-EOR
-STYLUS_RADIUS 0.000000e+000 MM
-SPACING CX 5.000000e-004
-EOR
-{rows}
-EOR
-EOF
-"""
-
-
-def test_prf(tmp_path):
-    path = tmp_path / "trace.prf"
-    rows = "\n".join(f"{1e6 * value:.0f}" for value in RAW)  # pm
-    path.write_text(PRF.format(count="4.000000e+001", rows=rows))
-    trace = read_measured(path)
-    np.testing.assert_allclose(trace.profile.x, 1e-6 * X, atol=1e-15)
-    np.testing.assert_allclose(trace.profile.height, 1e-6 * RAW, atol=1e-12)
-    assert trace.format == "PRF"
-    path.write_text(PRF.format(count="41", rows=rows))
-    assert "is a damaged PRF file: it holds 40 heights of 41" in refusal(path)
-    path.write_text(PRF.format(count="40", rows=rows).replace("UM", "YARD"))
-    assert "'YARD' is not known; known units are MM, UM" in refusal(path)
-    path.write_text(PRF.format(count="40", rows=rows).replace("SPACING", "SPACE"))
-    assert "its records are not axes, settings and heights" in refusal(path)
 
 
 @needs_spreadsheets
