@@ -42,7 +42,7 @@ class LevelCost(NamedTuple):
 def level_cost(name: str, number: int) -> LevelCost:
     """Solve the finite elements' level `number` of a scene that comes along."""
     from comparisons.common.progress import Stages, peak_memory, processor_seconds
-    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
+    from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
     from comparisons.models.plan import make_plan
     from comparisons.models.posing import problem_of
@@ -54,9 +54,7 @@ def level_cost(name: str, number: int) -> LevelCost:
     refinement = Refinement(problem.pitches[0] / 2.0 ** (number - 1))
     window = window_of(problem) if plan.stress else None
     begin = processor_seconds()
-    level = finite_element_level(
-        problem, plan, refinement, window, Stages(), options=LevelOptions(check=True)
-    )
+    level = finite_element_level(problem, plan, refinement, window, Stages())
     seconds = processor_seconds() - begin
     unknowns = expected_unknowns(problem, plan, refinement, level.patches), level.unknowns
     memory = level.expected_memory / 1e6, peak_memory() / 1e6

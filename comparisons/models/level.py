@@ -16,7 +16,6 @@ from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import machine_memory
-from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.problem import Problem, mean_height
 from comparisons.models.window import Window
@@ -229,8 +228,6 @@ class Level:
     stresses: tuple[StressResult, ...] = ()
     mesh: BlockMesh | None = None  # finite elements only: the BlockMesh solved on
     mesh_field: MeshField | RecoverableField | None = None  # finite elements only, with stresses
-    # finite elements only: their compliance before the contact, where it was checked
-    operator: ComplianceCheck | None = None
     # (n,) [m] where what now stands at the grid's nodes stood without load; None: there
     material: np.ndarray | None = None
     # where friction moves the contact: this one under the scene's further coefficients

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 from comparisons.figures.quantity import MODELS
 from comparisons.models.assumptions import assumptions_of
-from comparisons.models.finite_element.compliance_check import no_check
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene, sections_of
 
@@ -84,14 +83,12 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     if finite_elements:
         shared = "it is the body's block with another modulus, or the same"
         unasked = "not asked for (budget.effects)" if scene.tolerances else "no quantity is judged"
-        unchecked = no_check(scene)
         steps += [
             (scene.roller.rigid, "mesh of the roller", "it is rigid"),
             (plan.shared_factor, "factorisation of the roller's block", shared),
             (not plan.effects, "effects beside the scene's own finite elements", unasked),
             (not unbounded, "check of the far boundary", "the body's boundaries are its own"),
             (not settings.plastic, "check of the increments of flow", "no body flows"),
-            (unchecked is not None, "check of the compliance before contact", unchecked),
         ]
     steps.append((not compares, "comparison", "it takes both models"))
     skipped = tuple(Skipped(step, because) for needless, step, because in steps if needless)

@@ -140,7 +140,7 @@ class _LevelTask:
             self.window,
             stages,
             here.held("bodies", self.pitch, BodyCache),
-            LevelOptions(check=not is_check, fields=not self.half_block, sparse=self.sparse),
+            LevelOptions(fields=not self.half_block, sparse=self.sparse),
         )
 
 

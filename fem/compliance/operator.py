@@ -72,10 +72,6 @@ class FiniteElementCompliance:
         load = self._load(self.normal @ pressure + self.tangential @ traction)
         return self.body.solve(load) if self.far is None else self.far.displacement(load)
 
-    def apply_all(self, pressures: np.ndarray, friction: float = 0.0) -> np.ndarray:
-        """`apply` to the columns of `pressures` (count, m) at once, (count, m) [m^2]: cheaper."""
-        return self._columns(self._force(pressures, friction)).T
-
     def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
         load = self.load(pressure, friction)
@@ -96,21 +92,20 @@ class FiniteElementCompliance:
     def columns(self, hats: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Columns (count, k) [m^2/Pa] of C, of hats (k,)."""
         forces = self.normal + friction * self.tangential if friction else self.normal
-        forces, starts = forces[:, hats], range(0, len(hats), BATCH)
-        return np.vstack([self._columns(forces[:, i : i + BATCH].toarray()) for i in starts]).T
-
-    def _columns(self, force: np.ndarray) -> np.ndarray:
-        """Columns of C, as rows, for a batch of columns of surface forces (2k, m) [N/m]."""
-        count = force.shape[1]
-        load = np.zeros((count, *self.body.nodes.shape))
-        load[:, self.body.surface.point] = force.T.reshape(count, -1, 2)
-        moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
-        if self.far is not None:
-            moved = moved + self.far.symmetric(force)
-        return (self._means @ moved).T
+        rows = []
+        for start in range(0, len(hats), BATCH):
+            force = forces[:, hats[start : start + BATCH]].toarray()
+            count = force.shape[1]
+            load = np.zeros((count, *self.body.nodes.shape))
+            load[:, self.body.surface.point] = force.T.reshape(count, -1, 2)
+            moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
+            if self.far is not None:
+                moved = moved + self.far.symmetric(force)
+            rows.append((self._means @ moved).T)
+        return np.vstack(rows).T
 
     def _force(self, pressure: np.ndarray, friction: float) -> np.ndarray:
-        """Forces (2k, …) [N/m] on the surface's nodes under a pressure (count, …) [Pa]."""
+        """Forces (2k,) [N/m] on the surface's nodes under a pressure (count,) [Pa]."""
         force = self.normal @ pressure
         return force + friction * (self.tangential @ pressure) if friction else force
 

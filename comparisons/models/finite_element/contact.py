@@ -57,10 +57,6 @@ class MutualCompliance:
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         return sum(p.factor * p.compliance.apply(pressure, p.friction) for p in self.parts)
 
-    def apply_all(self, pressures: np.ndarray) -> np.ndarray:
-        """`apply` to the columns of `pressures` (n, m) at once, (n, m) [m^2]."""
-        return sum(p.factor * p.compliance.apply_all(pressures, p.friction) for p in self.parts)
-
     def moved(
         self, pressure: np.ndarray | None = None, traction: np.ndarray | None = None
     ) -> tuple[np.ndarray, np.ndarray]:

@@ -20,11 +20,6 @@ from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.approach import settled
 from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
-from comparisons.models.finite_element.compliance_check import (
-    ComplianceCheck,
-    no_check,
-    operator_check,
-)
 from comparisons.models.finite_element.contact import (
     MutualCompliance,
     mutual_compliance,
@@ -58,7 +53,6 @@ class LevelOptions:
     """What one level does that others need not."""
 
     approach: float | None = None  # [m] from first touch, prescribed in place of the load
-    check: bool = False  # compare the bodies' compliance with the analytic one first
     fields: bool = True  # give the stresses at all points of the mesh, too
     sparse: bool = False  # give the field at the window's sparse points alone
 
@@ -117,7 +111,6 @@ def _level(
         expected_seconds=cost.seconds,
         expected_memory=cost.memory,
         mesh=meshed.bodies.rough.mesh,
-        operator=meshed.check,
         material=pressed.material,
     )
     if window is None:
@@ -136,7 +129,6 @@ class _MeshedContact:
     bodies: BodyPair
     operator: MutualCompliance
     solution: ContactSolution
-    check: ComplianceCheck | None  # of the bodies' compliance, where it was asked for
 
 
 @dataclass(frozen=True)
@@ -196,8 +188,7 @@ class _LevelSolution:
     ) -> _MeshedContact:
         """Bodies whose meshes are refined wherever they touch; not converged where contact still
         spreads beyond these ranges (k, 2) [m] on the last of them."""
-        problem, grid, check = self.problem, self.grid, None
-        wants_check = self.options.check and no_check(problem.scene) is None
+        problem, grid = self.problem, self.grid
         # what finite deformation starts from need not be closer than it changes
         tolerance = START_TOLERANCE if self.is_finite else KKT_TOLERANCE
         for _ in range(MOST_MESHES):
@@ -205,10 +196,6 @@ class _LevelSolution:
             refined = bodies.rough.mesh.spec.intervals
             with self.stages.stage("contact", "finite elements: contact"):
                 operator = mutual_compliance(problem, bodies, grid)
-            if wants_check:
-                with self.stages.stage("check", "finite elements: compliance before contact"):
-                    check = operator_check(problem, operator, self.model, grid, refined)
-            with self.stages.stage("contact", "finite elements: contact"):
                 solution = solve_mutual(
                     operator,
                     self.model,
@@ -219,13 +206,13 @@ class _LevelSolution:
                     tolerance,
                 )
             if grid.periodic:  # all of the surface is refined
-                return _MeshedContact(bodies, operator, solution, check)
+                return _MeshedContact(bodies, operator, solution)
             touching = grid.x[solution.pressure > 0.0]
             missed = unrefined_contact(refined, touching, reach=grid.pitch)
             if len(missed) == 0:
-                return _MeshedContact(bodies, operator, solution, check)
+                return _MeshedContact(bodies, operator, solution)
             ranges, start = merge(np.vstack([ranges, missed])), solution.pressure
-        return _MeshedContact(bodies, operator, replace(solution, converged=False), check)
+        return _MeshedContact(bodies, operator, replace(solution, converged=False))
 
     def pressed(self, contact: _MeshedContact) -> LoadedBody:
         """Contact and bodies by the scene's laws, from that at small strains."""

@@ -184,8 +184,6 @@ def _after(run: Run) -> Iterator[Block]:
     cost = Box("columns", (Pictures(("cost",)), verification.cost_table(run)))
     yield Block("cost", (cost, Note(note)), "Cost")
     items = [verification.check_table(run), Note(NOTES["checks"])]
-    if (operator := verification.operator_table(run)) is not None:
-        items += [operator, Note(verification.operator_note(run))]
     yield Block("checks", tuple(items), "Checks")
     skipped = tuple((item.step, item.because) for item in run.plan.skipped)
     yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")

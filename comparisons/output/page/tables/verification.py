@@ -1,5 +1,5 @@
-"""Why the figures may be trusted: convergence and ASME V&V 20's terms, contact conditions,
-compliance, cost and record.
+"""Why the figures may be trusted: convergence and ASME V&V 20's terms, contact conditions, cost
+and record.
 
 In: a run, its figures with their levels. Out: sequences for pictures, and rows of text."""
 
@@ -35,7 +35,6 @@ from comparisons.figures.quantity import (
     label,
 )
 from comparisons.figures.uncertainty import COVERAGE
-from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.studies import comparison, contact
 from comparisons.studies.model_error.account import SAMPLING
@@ -335,45 +334,3 @@ def commands(run: Run) -> list[tuple[str, str]]:
         ("draws this page again, in the same folder", f"{program} report ."),
         ("runs the scene again", f"{program} run {shlex.quote(one_line(scene.source))}{models}"),
     ]
-
-
-def operator_table(run: Run) -> TextTable | None:
-    """Columns and waves of the finest level; None where nothing was checked."""
-    check = _check(run)
-    if check is None:
-        return None
-    head = ["", "difference", "far"]
-    nearest, effect = check.nearest, check.half_plane
-    rows = [
-        [f"column at x = {with_unit(c.x, 'm', 3)}", percent(c.difference), percent(c.beyond)]
-        for c in nearest.columns
-    ]
-    for wave in nearest.waves:
-        elements = plain(float(f"{wave.elements:.3g}"))
-        row = f"waves of {with_unit(wave.length, 'm', 3)}, {elements} elements"
-        rows.append([row, percent(wave.difference, signed=True), ""])
-    if effect is not None:
-        finite = " and ".join(f"the {name}" for name in check.finite)
-        head.append(f"from the half-plane: what {finite} does")
-        moved = [percent(c.difference) for c in effect.columns]
-        moved += [percent(w.difference, signed=True) for w in effect.waves]
-        rows = [[*row, cell] for row, cell in zip(rows, moved, strict=True)]
-    verdict = WORDING["compliance"][check.verdict][0]
-    title = f"Finite elements' compliance before contact: {verdict}"
-    return TextTable(title, tuple(head), tuple(map(tuple, rows)))
-
-
-def operator_note(run: Run) -> str:
-    """What the table says, and how it is read; empty without one."""
-    check = _check(run)
-    if check is None:
-        return ""
-    datum = "" if check.datum else ", a constant removed"
-    because = check.because[0].upper() + check.because[1:]
-    verdict, how = WORDING["compliance"][check.verdict][1], WORDING["how_to_read"]["compliance"]
-    return f"{verdict} {because}. {how.format(datum=datum)}"
-
-
-def _check(run: Run) -> ComplianceCheck | None:
-    model = run.runs.get("finite_element")
-    return None if model is None else model.finest.operator

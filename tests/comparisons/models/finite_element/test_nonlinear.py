@@ -16,7 +16,9 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely
 from comparisons.models.plan import make_plan
+from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
+from comparisons.scenes.scene import Scene
 from fem.nonlinear import finite_deformation
 from fem.solver.mumps import FemError
 
@@ -103,6 +105,13 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
     scale = other.pressure.max()
     np.testing.assert_allclose(led.pressure, other.pressure, atol=1e-5 * scale)
     assert led.approach == pytest.approx(other.approach, rel=1e-6)
+
+
+def test_a_body_that_deforms_finitely_is_not_pressed_linearly_as_well(monkeypatch):
+    monkeypatch.setattr(finite_element_level_module, "pressed_linearly", lambda *arguments: 1 / 0)
+    posed = problem_of(Scene.read("finite-strain"))
+    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
+    assert finite_element_level(posed, plan, refinement, None, Stages()).solution.converged
 
 
 def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():
