@@ -24,7 +24,6 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.units import describe
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, models_named
-from comparisons.output.field_files import AUTOMATIC, FORMATS
 from comparisons.output.flat_csv import Row, long_rows, rows_of
 from comparisons.output.headline import verdict_of
 from comparisons.output.page.plots import Plots
@@ -329,7 +328,6 @@ def run(
     *,
     tolerance: float | None = None,
     out: str | os.PathLike | None = None,
-    fields: str = AUTOMATIC,
     progress: ProgressCallback = no_progress,
 ) -> FinishedRun:
     """Solve a scene, compare the models, judge: what `crosscheck run` does.
@@ -337,7 +335,6 @@ def run(
     models     half-plane, finite-element, or both
     tolerance  relative, of all that is judged, in place of the scene's own
     out        folder for the files of the run; None writes none
-    fields     format of the stress fields in files: auto, vtu, vtkhdf, msh
     progress   gets each stage as it begins
     Raises SceneError for a wrong scene, SolverError where no solution is found.
 
@@ -360,14 +357,12 @@ def run(
 
     chosen = models_named(models, "models")
     place = _path(out, "out")
-    if fields not in (words := (AUTOMATIC, *FORMATS)):
-        raise InputError(f"fields: is {describe(fields)}; allowed is {', '.join(words)}")
     if place is not None:
         check_writable(place)
     asked = scene_of(scene)
     if tolerance is not None:
         asked = with_tolerance(asked, tolerance)
-    return FinishedRun(run_scene(asked, place, chosen, progress, fields))
+    return FinishedRun(run_scene(asked, place, chosen, progress))
 
 
 def read(folder: str | os.PathLike) -> FinishedRun:

@@ -92,7 +92,7 @@ def table(
     folders: Annotated[
         list[Path], Argument(metavar="DIR...", help="Folders with runs in or below them.")
     ],
-    out: Annotated[Path | None, Option(help="FILE.csv or FILE.parquet, with all columns.")] = None,
+    out: Annotated[Path | None, Option(help="FILE.csv, with all columns.")] = None,
     long: Annotated[
         bool, Option("--long", help="A row a figure, of every study: value, uncertainty, bounds.")
     ] = False,

@@ -8,7 +8,7 @@ from contextlib import nullcontext, suppress
 from difflib import get_close_matches
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
@@ -48,10 +48,6 @@ UpTo = Annotated[
     str | None,
     Option(help=f"No model beyond {HERTZ}, {', '.join(UP_TO)}; nor the first that holds."),
 ]
-Fields = Annotated[
-    Literal["auto", "vtu", "vtkhdf", "msh"],
-    Option(help="File format of the stress fields; auto is by their size."),
-]
 Workers = Annotated[
     str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
 ]
@@ -71,7 +67,6 @@ def run(
     models: Models = BOTH,
     tolerance: Tolerance = None,
     up_to: UpTo = None,
-    fields: Fields = "auto",
     junit: Junit = None,
     workers: Workers = None,
     answer: Answers = None,
@@ -112,7 +107,7 @@ def run(
     gone = _say_answer(solved, details, as_json)  # before the report is drawn
     _say_warnings(warnings_about_result(solved))
     with progress() as callback:
-        finish(solved, callback, fields)
+        finish(solved, callback)
         if pdf and is_first():
             callback("printing the report")
             _print(directory)

@@ -18,19 +18,15 @@ from pathlib import Path
 
 from comparisons.common.errors import InputError
 
-# What a run may write; those that a repetition does not write again are removed.
 OWN_FOLDERS = ("half_plane", "finite_element", "whole")
-OWN_FILES = (
-    *("result.json", "report.html", "report.npz", "report.pdf", "record.json"),
-    *("run_in_profile.csv", "finite_element/mesh.msh"),
-    *(f"{model}/{name}" for model in OWN_FOLDERS for name in ("contact.csv", "stress.vtu")),
-)
 # of the second friction coefficient, and so on
 FURTHER = tuple(f"{model}/friction_*" for model in OWN_FOLDERS)
-ALL_FILES = (  # with patterns, and those formats of fields that a run writes when it is asked to
-    *OWN_FILES,
-    *(f"{model}/stress.{name}" for model in OWN_FOLDERS for name in ("vtkhdf", "msh")),
-    *(f"{below}/{name}" for below in FURTHER for name in ("contact.csv", "mesh.msh", "stress.*")),
+# What a run may write, by name or pattern; those that a repetition does not write again are
+# removed.
+OWN_FILES = (
+    *("result.json", "report.html", "report.npz", "report.pdf", "record.json"),
+    *("run_in_profile.csv", "finite_element/mesh.msh", "finite_element/friction_*/mesh.msh"),
+    *(f"{m}/{name}" for m in OWN_FOLDERS + FURTHER for name in ("contact.csv", "stress.vtu")),
 )
 RECORD = "record.json"  # of a run: its "files" are this program's
 # Those whose own record is <name>.json.
@@ -92,7 +88,7 @@ def _record(path: Path) -> dict:
     return {}
 
 
-def check_writable(out: Path, files: tuple[str, ...] = ALL_FILES) -> None:
+def check_writable(out: Path, files: tuple[str, ...] = OWN_FILES) -> None:
     """Raise InputError unless `out` is, or can be made, a folder to write `files` in, by name or
     pattern, and holds none of them that somebody else wrote."""
     try:  # the longest name that is used beside it
@@ -236,7 +232,7 @@ def remove_leftovers(folder: Path) -> None:
 
 
 @contextmanager
-def published(out: Path, files: tuple[str, ...] = ALL_FILES) -> Iterator[Path]:
+def published(out: Path, files: tuple[str, ...] = OWN_FILES) -> Iterator[Path]:
     """A scratch folder whose files replace those of `out`, one by one and whole, at the end.
 
     files  names or patterns of those that are removed where they are not made again

@@ -1,13 +1,8 @@
-"""Stresses and displacements of a model as a file that other programs open.
+"""Stresses and displacements of a model as a vtu, which ParaView, PyVista and meshio open.
 
-vtu      ParaView, PyVista, meshio
-vtkhdf   ParaView and PyVista; HDF5, read in pieces: for large fields
-msh      gmsh, meshio, PyVista (MSH 2.2); each array is a view in gmsh
-
-Every file also says what it is of: `title`, `units` and `scene`, the latter two as JSON. In a vtu
-they are bytes in the field data, to be read by bytes(data["scene"]).decode(), for meshio opens no
-file with texts there. In a vtkhdf they are texts, in a msh a section $Comments. The scene stands as
-text in contact.csv beside them, too.
+The file also says what it is of: `title`, `units` and `scene`, the latter two as JSON. They are
+bytes in the field data, to be read by bytes(data["scene"]).decode(), for meshio opens no file with
+texts there. The scene stands as text in contact.csv beside it, too.
 
 Numbers are in single precision; those on a mesh of finite elements have 17 significant bits, which
 moves each by less than 7.6e-6 of itself: a tenth of the least uncertainty that a stress of a scene
@@ -33,14 +28,12 @@ from comparisons.studies.study import Run
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
-AUTOMATIC = "auto"
 SIGNIFICANT = 17  # bits of a number on a mesh of finite elements
-LARGE = 2_000_000  # points from which a field goes to vtkhdf unless the caller says otherwise
 COMPONENTS = ("sx", "sz", "sy", "txz", "tau1", "von_mises")  # [Pa]
 # with the direction of s1, the largest principal stress in the plane, as a vector
 STRESSES = (*COMPONENTS, "s1_direction")
-# Numbers that VTK and gmsh have for a kind of cell that meshio knows by name.
-CELL_TYPES = {"quad": (9, 4), "triangle": (5, 3)}
+# VTK's number for a kind of cell that meshio knows by name.
+CELL_TYPES = {"quad": 9, "triangle": 5}
 
 
 @dataclass(frozen=True)
@@ -174,16 +167,8 @@ def _direction(stress: StressState) -> np.ndarray:
     return np.column_stack([np.cos(angle), np.sin(angle), 0.0 * angle])
 
 
-def write_field(folder: Path, field: FieldFile, choice: str = AUTOMATIC) -> Path:
-    """Write stress.<choice> into a folder; by its size where the choice is automatic."""
-    if choice == AUTOMATIC:
-        choice = "vtu" if len(field.points) < LARGE else "vtkhdf"
-    path = folder / f"stress.{choice}"
-    FORMATS[choice](path, field)
-    return path
-
-
-def _write_vtu(path: Path, field: FieldFile) -> None:
+def write_field(path: Path, field: FieldFile) -> None:
+    """Write a vtu."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
@@ -199,67 +184,29 @@ def _write_vtu(path: Path, field: FieldFile) -> None:
     writer.SetDataModeToBinary()
     writer.SetCompressorTypeToZLib()
     writer.SetCompressionLevel(1)
-    _write(writer, path, grid)
-
-
-def _write_vtkhdf(path: Path, field: FieldFile) -> None:
-    from vtkmodules.vtkCommonCore import vtkStringArray
-    from vtkmodules.vtkIOHDF import vtkHDFWriter
-
-    grid = vtk_grid(field, lambda name: name.replace(".", "_"))  # HDF5 has no such names
-    for name, text in field.notes.items():
-        array = vtkStringArray()
-        array.SetName(name)
-        array.InsertNextValue(text)
-        grid.GetFieldData().AddArray(array)
-    _write(vtkHDFWriter(), path, grid)
-
-
-def _write(writer: object, path: Path, grid: "vtkUnstructuredGrid") -> None:
     writer.SetFileName(os.fsencode(path))  # a name need not be UTF-8
     writer.SetInputData(grid)
     if not writer.Write():
         raise OSError(None, "VTK cannot write it", str(path))
 
 
-def vtk_grid(field: FieldFile, called: Callable[[str], str] = str) -> "vtkUnstructuredGrid":
-    """VTK's form of points, cells and arrays, which `called` names."""
+def vtk_grid(field: FieldFile) -> "vtkUnstructuredGrid":
+    """VTK's form of points, cells and arrays."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
-    number, corners = CELL_TYPES[field.kind]
     points, cells, grid = vtkPoints(), vtkCellArray(), vtkUnstructuredGrid()
     points.SetData(numpy_to_vtk(field.points, deep=True))
-    starts = np.arange(0, field.cells.size + 1, corners)
+    starts = np.arange(0, field.cells.size + 1, field.cells.shape[1])
     kind = np.int32 if field.cells.size < 2**31 else np.int64
     indices = (starts, field.cells.ravel())
     cells.SetData(*(numpy_to_vtk(numbers.astype(kind), deep=True) for numbers in indices))
     grid.SetPoints(points)
-    grid.SetCells(number, cells)
+    grid.SetCells(CELL_TYPES[field.kind], cells)
     for name, values in field.arrays.items():
         array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-        array.SetName(called(name))
+        array.SetName(name)
         array.GetInformation().Set(vtkDataArray.UNITS_LABEL(), field.units[name])
         grid.GetPointData().AddArray(array)
     return grid
-
-
-def _write_msh(path: Path, field: FieldFile) -> None:
-    import meshio
-
-    from meshes.msh_file import append_comment
-
-    tags = [np.ones(len(field.cells), dtype=int)]
-    content = meshio.Mesh(
-        field.points,
-        [(field.kind, field.cells)],
-        point_data=field.arrays,
-        cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
-        field_data={"body": np.array([1, 2])},
-    )
-    meshio.write(path, content, file_format="gmsh22", binary=True)
-    append_comment(path, field.notes)
-
-
-FORMATS = {"vtu": _write_vtu, "vtkhdf": _write_vtkhdf, "msh": _write_msh}

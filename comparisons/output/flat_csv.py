@@ -1,6 +1,6 @@
 """Many runs as one tidy table: wide, or a row a figure.
 
-In: the result.json of runs. Out: CSV, Parquet, or records.
+In: the result.json of runs. Out: CSV, or records.
 
 Wide, a row for each run, friction coefficient and quantity:
   run, scene, title      folder, name, title
@@ -22,15 +22,14 @@ Long, a row for each figure of every study: study, quantity, source, against and
 `value` in `unit`, or relative to the reference; `uncertainty` and `not_modelled` relative, `low`
 and `high` the bounds of what is judged.
 
-What is unknown is empty in a CSV and null in a Parquet file."""
+What is unknown is empty in a CSV."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from importlib import import_module
 from pathlib import Path
 
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.files import csv_text, whole_file, write_whole
+from comparisons.common.files import csv_text, write_whole
 from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.output.record import read_result
@@ -48,8 +47,6 @@ EFFECT_COLUMNS = {
     name: f"effect_{name}" for name in EFFECTS if name not in UNKNOWN or name == LAW_OF_ELASTICITY
 }
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
-TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity", "model_error_verdict")
-TEXTS += ("answer", "study", "source", "against")
 COLUMNS = (
     *("run", "scene", "title", "friction", "quantity", "unit", "half_plane", "finite_element"),
     *("difference", "uncertainty", "tolerance", "verdict", "validity"),
@@ -92,34 +89,18 @@ def harmless(value: object) -> object:
 
 def check_ending(path: Path) -> None:
     """Raise InputError, one line, unless a table can be written to a file of this name."""
-    if path.suffix not in (".csv", ".parquet"):
-        raise InputError(f"{path}: ends with {path.suffix or 'nothing'}; allowed is .csv, .parquet")
+    if path.suffix != ".csv":
+        raise InputError(f"{path}: ends with {path.suffix or 'nothing'}; allowed is .csv")
     if path.is_dir():
         raise InputError(f"{path}: is a folder; allowed is a file")
     if not path.parent.is_dir():
         raise InputError(f"{path}: {path.parent} is no folder; allowed is one that is there")
-    if path.suffix == ".parquet":
-        try:
-            import_module("pyarrow")
-            import_module("pyarrow.parquet")
-        except ImportError as error:
-            why = f"Parquet takes pyarrow, which is not installed ({error})"
-            remedy = "allowed is .csv, or python -m pip install pyarrow"
-            raise InputError(f"{path}: {why}; {remedy}") from error
 
 
 def write_table(path: Path, rows: list[Row], columns: Sequence[str] = COLUMNS) -> None:
-    """Write the table as CSV or Parquet, whichever the file's ending says; whole or not at all."""
+    """Write the table as CSV; whole or not at all."""
     check_ending(path)
-    if path.suffix == ".csv":
-        write_whole(path, as_csv(rows, columns))
-        return
-    import pyarrow as pa
-    from pyarrow import parquet
-
-    schema = pa.schema([(n, pa.string() if n in TEXTS else pa.float64()) for n in columns])
-    with whole_file(path) as part:
-        parquet.write_table(pa.Table.from_pylist(rows, schema=schema), part)
+    write_whole(path, as_csv(rows, columns))
 
 
 def _results(folders: Iterable[Path]) -> list[Path]:

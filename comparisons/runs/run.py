@@ -35,7 +35,6 @@ from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
 from comparisons.models.running_in import run_in_surface
-from comparisons.output.field_files import AUTOMATIC
 from comparisons.output.record import record_of
 from comparisons.runs.long import recorded
 from comparisons.runs.refinement import refined
@@ -81,13 +80,12 @@ def run(
     out: Path | None,
     models: tuple[str, ...],
     callback: ProgressCallback = no_progress,
-    fields: str = AUTOMATIC,
     opens: Opens | None = None,
     known: Known = Known(),
 ) -> Run:
     """`solve_scene`, then `finish`: a run whose files are in `out`, or nowhere (None)."""
     solved = solve_scene(scene, out, models, within(callback, 0.0, SOLVED), opens, known)
-    finish(solved, within(callback, SOLVED, 1.0), fields)
+    finish(solved, within(callback, SOLVED, 1.0))
     return solved
 
 
@@ -250,17 +248,15 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     return Run(solved, findings, record_of(problem, solved.runs, _hashes(solved, findings)), out)
 
 
-def finish(run: Run, callback: ProgressCallback = no_progress, fields: str = AUTOMATIC) -> None:
+def finish(run: Run, callback: ProgressCallback = no_progress) -> None:
     """Write the files of a solved run into its folder, if it has one; what was kept of it goes.
-
-    fields  format of the stress fields, as `write_files` takes it
     Raises InputError for a folder that cannot be written."""
     if run.directory is None:
         return
     from comparisons.runs.write import write_files
 
     try:
-        write_files(run, callback, fields)
+        write_files(run, callback)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(WRITES_AGAIN) from None
     replace(NO_CACHE, folder=unfinished(run.directory, "run")).discard()

@@ -12,17 +12,15 @@ from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.models.level import Level, deformed_height
-from comparisons.output.field_files import AUTOMATIC, field_of, scene_text, write_field
+from comparisons.output.field_files import field_of, scene_text, write_field
 from comparisons.output.result_json import content_of
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
 
-def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATIC) -> None:
-    """Write everything into the run's folder; whole files, all at the end, by one process.
-
-    fields   format of the stress fields, of `comparisons.output.field_files`, or by their size"""
+def write_files(outcome: Run, callback: ProgressCallback) -> None:
+    """Write everything into the run's folder; whole files, all at the end, by one process."""
     if not is_first():
         return
     callback(Step("writing results", 0.0))
@@ -36,8 +34,8 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
         for name in levels:
             (folder / name).mkdir(parents=True, exist_ok=True)
         # two lots: nobody hands out a third while this process draws
-        tasks.add(first, _write_level, folder, first, fields)
-        tasks.add(FILE, _write_others, folder, others, fields)
+        tasks.add(first, _write_level, folder, first)
+        tasks.add(FILE, _write_others, folder, others)
         for study in STUDIES:
             files = study.files(outcome) if study.name in outcome.findings else {}
             for path, columns in files.items():
@@ -52,11 +50,11 @@ def write_files(outcome: Run, callback: ProgressCallback, fields: str = AUTOMATI
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
 
 
-def _write_others(here: Here, folder: Path, names: Sequence[str], fields: str) -> None:
+def _write_others(here: Here, folder: Path, names: Sequence[str]) -> None:
     from comparisons.output.page.saved import FILE, save_shown
 
     for name in names:
-        _write_level(here, folder, name, fields)
+        _write_level(here, folder, name)
     save_shown(folder / FILE, here.shared)
 
 
@@ -70,13 +68,13 @@ def _written(outcome: Run) -> dict[str, Level]:
     return levels
 
 
-def _write_level(here: Here, folder: Path, name: str, fields: str) -> None:
+def _write_level(here: Here, folder: Path, name: str) -> None:
     """The files of a model's level."""
     outcome, folder = here.shared, folder / name
     level = _written(outcome)[name]
     write_contact(folder / "contact.csv", outcome, level)
     if outcome.window is not None:
-        write_field(folder, field_of(outcome, level), fields)
+        write_field(folder / "stress.vtu", field_of(outcome, level))
     if name.split("/")[0] in outcome.runs and level.mesh is not None:
         write_mesh(folder / "mesh.msh", outcome, level.mesh)
 

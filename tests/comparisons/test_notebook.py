@@ -116,8 +116,6 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
             lambda: crosscheck.run("smooth", 5),
             "models: is 5; allowed are half-plane, finite-element",
         ),
-        (lambda: crosscheck.run("smooth", fields="foo"), 'fields: is "foo"; allowed is auto, vtu'),
-        (lambda: crosscheck.run("smooth", fields=["vtu"]), "fields: is a list; allowed is auto"),
         (
             lambda: crosscheck.run("smooth", tolerance="0.1"),
             'tolerance: is "0.1"; allowed is a number',

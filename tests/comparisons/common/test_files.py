@@ -221,7 +221,7 @@ def test_runs_at_once_into_one_folder(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
 
 
-@pytest.mark.parametrize("name", ["report.pdf", "run_in_profile.csv", "finite_element/stress.msh"])
+@pytest.mark.parametrize("name", ["report.pdf", "run_in_profile.csv", "finite_element/stress.vtu"])
 def test_somebody_elses_file_is_neither_replaced_nor_removed(tmp_path, name):
     fill_as_run(tmp_path, ["result.json"], "old")
     fill(tmp_path, [name], "mine")

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import sys
 
 import pytest
 from rich.console import Console
@@ -11,13 +10,7 @@ from rich.console import Console
 from comparisons.cli import main
 from comparisons.common.numbers import with_unit
 from comparisons.common.provenance import as_json
-from comparisons.output.flat_csv import (
-    COLUMNS,
-    EFFECT_COLUMNS,
-    LONG_COLUMNS,
-    tidy_rows,
-    write_table,
-)
+from comparisons.output.flat_csv import COLUMNS, EFFECT_COLUMNS, LONG_COLUMNS, tidy_rows
 from comparisons.output.result_json import content_of
 from comparisons.output.terminal import PLAIN, summary
 from comparisons.studies import meaning
@@ -151,21 +144,6 @@ def test_json(runs, capsys):
     assert json.loads(capsys.readouterr().out) == tidy_rows([runs / "a"])
 
 
-def test_parquet(runs, tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet", reason="no pyarrow: pip install pyarrow")
-    rows = tidy_rows([runs])
-    write_table(tmp_path / "all.parquet", rows)
-    assert parquet.read_table(tmp_path / "all.parquet").to_pylist() == rows
-
-
-def test_without_pyarrow_one_line_says_how_to_get_it(runs, tmp_path, capsys, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    assert main(["table", str(runs), "--out", str(tmp_path / "all.parquet")]) == 2
-    err = capsys.readouterr().err
-    assert "pip install pyarrow" in err and err.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.parametrize(
     ("content", "words"),
     [
@@ -185,7 +163,8 @@ def test_what_is_no_run_is_one_line(tmp_path, capsys, content, words):
 
 
 @pytest.mark.parametrize(
-    ("out", "words"), [("all.xlsx", "ends with .xlsx"), ("no/all.csv", "no is no folder")]
+    ("out", "words"),
+    [("all.xlsx", "ends with .xlsx; allowed is .csv"), ("no/all.csv", "no is no folder")],
 )
 def test_a_file_that_cannot_be_is_refused(runs, tmp_path, capsys, monkeypatch, out, words):
     monkeypatch.chdir(tmp_path)
