@@ -62,9 +62,9 @@ def complete_groups(incomplete: str) -> list[str]:
 
 
 def complete_quantities(incomplete: str) -> list[str]:
-    from comparisons.campaigns.maps.groups import SHOWN
+    from comparisons.figures.quantity import QUANTITIES
 
-    return _beginning(SHOWN, incomplete)
+    return _beginning(QUANTITIES, incomplete)
 
 
 def complete_models(incomplete: str) -> list[str]:

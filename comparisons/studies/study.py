@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -182,12 +181,6 @@ class Study:
     tabled: tuple[str, ...] = ()
     # files of its own in the run's folder, by path: columns (n,) of a CSV by their headings
     files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = lambda run: {}
-    # on maps of the half-plane's model error: a module with its QUANTITIES there, the SECTION of a
-    # scene that has them, `check`, which raises SceneError for what has no answer, `errors_of` both
-    # models' runs, whether its section `is_alike` in a scene and in the tables of another,
-    # `usual_axes`, and its GROUPS: by name what sets a scene's fields, of the half-width [m] that
-    # smooth bodies have, and what reads the group's value of a problem, or None
-    mapped: ModuleType | None = None
     # its lines of the terminal, each with its name
     lines: Callable[[Run], list[tuple[str, str]]] = lambda run: []
 

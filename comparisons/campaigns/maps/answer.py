@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from comparisons.campaigns.maps.map import finished_map, finished_names
-from comparisons.campaigns.maps.place import Place, known_to, place_on, places_of, unlike
+from comparisons.campaigns.maps.place import Place, known_to, place_on, unlike
 from comparisons.common.numbers import percent, with_uncertainty
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure
@@ -91,11 +91,10 @@ def first_answer(problem: Problem) -> list[str]:
         return []
     contact = CoarseContact.of(problem)
     answers = [answer for name in finished_names() if (answer := _by_map(name, contact))]
-    beside = _of_temperatures(problem)
     if answers:
         place, figures = min(answers, key=lambda one: sum(f.total for f in one[1]))
-        return [_verdict(place, figures, contact), *beside]
-    return [*_by_half_plane(contact), *_by_estimates(contact), *beside]
+        return [_verdict(place, figures, contact)]
+    return [*_by_half_plane(contact), *_by_estimates(contact)]
 
 
 def _by_map(name: str, contact: CoarseContact) -> tuple[Place, list[Figure]] | None:
@@ -171,12 +170,6 @@ def _by_half_plane(contact: CoarseContact) -> list[str]:
         errors[name] = contact.values[name] / solved[name] - 1.0, bound
     text = contact.text(errors)
     return [f"by the {words_of(held)}: {text}"] if text else []
-
-
-def _of_temperatures(problem: Problem) -> list[str]:
-    """By the maps of a study beside the contact."""
-    places = places_of(problem)
-    return [p.text for p in places if finished_map(p.name)["quantity"] not in QUANTITIES]
 
 
 def _by_estimates(contact: CoarseContact) -> list[str]:

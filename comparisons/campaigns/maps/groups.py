@@ -4,9 +4,7 @@
     t, w    thickness and width of the body [m]        R   radius of relative curvature [m]
     mu      coefficient of friction                    H   hardness [Pa]
     beta    Dundurs' constant of body and roller       E   Young's moduli [Pa]
-    V       speed of the body past the contact [m/s]   h   thickness of its coating [m]
-    E', Ec  modulus of roller, of coating [Pa]
-    k, k'   conductivity [W/(m K)] of body and coating, kappa diffusivity of the body [m^2/s]
+    E', Ec  modulus of roller, of coating [Pa]         h   thickness of the coating [m]
 
 Each group also says which of the half-plane's assumptions the finite elements drop for it. All
 else stays as in the scene, but for what follows from its lengths: waves that are stretched keep
@@ -20,14 +18,11 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 
 from analytic.surface.roughness import shortest_wavelength
-from comparisons import studies
 from comparisons.common.errors import InputError, SceneError
-from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.scenes.fields import plain
@@ -68,16 +63,6 @@ class Group:
     material: bool = False  # a property of materials, no size of an effect
     # up to which errors a map's scale is straight: larger where they change sign amid the map
     straight: float = 1e-3
-
-
-# What maps may show beside the contact.
-STUDIES = tuple(study.mapped for study in studies.STUDIES if study.mapped is not None)
-SHOWN = (*QUANTITIES, *(name for study in STUDIES for name in study.QUANTITIES))
-
-
-def study_of(quantity: str) -> ModuleType | None:
-    """The one of STUDIES that a quantity is of, None for one of the contact."""
-    return next((study for study in STUDIES if quantity in study.QUANTITIES), None)
 
 
 def smooth_problem(scene: Scene) -> Problem:
@@ -240,10 +225,6 @@ def _set_slope(scene: Scene, value: float) -> Changes:
     return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 
-def _set_by_study(set_to: Callable[..., Changes], scene: Scene, value: float) -> Changes:
-    return set_to(scene, value, _half_width(scene))
-
-
 def _set_coating(scene: Scene, value: float) -> Changes:
     return {"coating.thickness": value * _half_width(scene)}
 
@@ -294,11 +275,6 @@ FUNCTIONS = {  # set_to, value_of
     "modulus_ratio": (_set_modulus_ratio, _modulus_ratio),
     "coating_over_a": (_set_coating, _coating),
     "coating_modulus_ratio": (_set_coating_ratio, _coating_ratio),
-}
-FUNCTIONS |= {
-    name: (partial(_set_by_study, set_to), value_of)
-    for study in STUDIES
-    for name, (set_to, value_of) in study.GROUPS.items()
 }
 GROUPS = {
     name: Group(*FUNCTIONS[name], **fields)
@@ -363,9 +339,7 @@ def counts_of(text: str) -> tuple[int, int]:
     return counts
 
 
-def usual_axes(scene: Scene, quantity: str) -> tuple[str, str]:
-    if study := study_of(quantity):
-        return study.usual_axes(scene)
+def usual_axes(scene: Scene) -> tuple[str, str]:
     if scene.profile is not None and scene.profile.kind in WAVES:
         return "wavelength_over_a", "rms_slope"
     if any(scene.load.friction) and scene.roller.rigid:

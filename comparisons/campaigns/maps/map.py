@@ -15,14 +15,11 @@ from comparisons.campaigns.grid import FAILED, SOLVED, Point, failures, points_o
 from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
 from comparisons.campaigns.maps.groups import (
     GROUPS,
-    SHOWN,
-    STUDIES,
     Axis,
     axis_of,
     counts_of,
     finite_elements,
     scene_with,
-    study_of,
     usual_axes,
 )
 from comparisons.campaigns.maps.point import NOT_CONVERGED, TOLERANCES, solve_point
@@ -57,7 +54,7 @@ class MapRequest:
     scene: Scene
     x: Axis
     y: Axis
-    quantity: str  # of `comparisons.campaigns.maps.groups.SHOWN`, that the map shows
+    quantity: str  # of QUANTITIES, that the map shows
 
     @property
     def command(self) -> str:
@@ -107,15 +104,11 @@ def request_of(
     finished = FINISHED / f"{scene}.toml"
     path = finished if finished.is_file() else find_scene(scene)
     posed = Scene.of(read_toml(path), Origin(name_of(path), path.parent, scene))
-    if quantity not in SHOWN:
-        raise InputError(f"--quantity: there is no {quantity}; allowed are {', '.join(SHOWN)}")
-    if study := study_of(quantity):
-        needed = study.SECTION
-    else:
-        needed = "stress" if QUANTITIES[quantity].needs_stress else "load"
-    if getattr(posed, needed) is None:
-        raise InputError(f"--quantity: {quantity} needs a [{needed}] section in {scene}")
-    usual = usual_axes(posed, quantity)
+    if quantity not in QUANTITIES:
+        raise InputError(f"--quantity: there is no {quantity}; allowed are {', '.join(QUANTITIES)}")
+    if QUANTITIES[quantity].needs_stress and posed.stress is None:
+        raise InputError(f"--quantity: {quantity} needs a [stress] section in {scene}")
+    usual = usual_axes(posed)
     across = axis_of(x or usual[0], counts[0], "--x")
     up = axis_of(y or usual[1], counts[1], "--y")
     if across["group"] == up["group"]:
@@ -177,8 +170,7 @@ def misfit(content: dict, scene: Scene) -> str:
     if ("profile" in content["scene"]) != (scene.profile is not None):
         kinds = ("rough", "smooth") if scene.profile is not None else ("smooth", "rough")
         return "is {}, and the map is of a {} surface".format(*kinds)
-    other = [s.SECTION for s in STUDIES if not s.is_alike(scene, content["scene"])]
-    return f"has another [{other[0]}] than the map's scene" if other else ""
+    return ""
 
 
 def mark_of(content: dict, problem: Problem) -> "Mark":
@@ -235,7 +227,7 @@ def showing(content: dict, quantity: str) -> dict:
     """The same map of another quantity that its points have; refined for the first one. Raises
     InputError where they do not have it."""
     solved = [point for point in content["points"] if point["status"] == SOLVED]
-    allowed = [name for name in SHOWN if all(name in p["quantities"] for p in solved)]
+    allowed = [name for name in QUANTITIES if all(name in p["quantities"] for p in solved)]
     if quantity not in allowed:
         raise InputError(
             f"--quantity: {quantity} is not on this map; allowed are {', '.join(allowed)}"

@@ -17,7 +17,7 @@ from comparisons.campaigns.maps.content import (
     uncertainties,
     unscaled,
 )
-from comparisons.campaigns.maps.groups import GROUPS, STUDIES, smooth_problem
+from comparisons.campaigns.maps.groups import GROUPS, smooth_problem
 from comparisons.campaigns.maps.map import finished_map, finished_names, misfit
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
@@ -89,8 +89,7 @@ def place_on(name: str, problem: Problem) -> Place | None:
             return None
         groups.append(value)
         shown.append(max(value, axis["values"][0]))
-    names = *problem.scene.tolerances, *(name for study in STUDIES for name in study.QUANTITIES)
-    errors = {name: interpolated(content, name, *shown) for name in names}
+    errors = {name: interpolated(content, name, *shown) for name in problem.scene.tolerances}
     errors = {name: error for name, error in errors.items() if np.isfinite(error)}
     return Place(name, tuple(groups), tuple(shown), errors) if errors else None
 
@@ -183,13 +182,11 @@ def places_of(problem: Problem) -> tuple[Place, ...]:
     known = [place for name in names if (place := place_on(name, problem))]
     known.sort(key=lambda place: -np.count_nonzero(place.groups))
     chosen: list[Place] = []
-    covered: set[tuple[bool, str]] = set()
+    covered: set[str] = set()
     for place in known:
         content = finished_map(place.name)
-        kind = content["quantity"] in QUANTITIES  # of the contact, or of another study
-        groups = {
-            (kind, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
-        }
+        pairs = zip("xy", place.groups, strict=True)
+        groups = {content[axis]["group"] for axis, value in pairs if value > 0.0}
         if groups - covered or not (groups or chosen):
             chosen.append(place)
             covered |= groups

@@ -10,7 +10,6 @@ from functools import lru_cache
 import numpy as np
 
 from comparisons.campaigns.grid import SOLVED, Point, failed
-from comparisons.campaigns.maps.groups import study_of
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
@@ -43,18 +42,13 @@ def solve_point(point: Point) -> dict:
     """What is found at a point of a map: the model error of the half-plane in each quantity, and
     both models' values, in the digits that do not depend on the machine."""
     problem = problem_of(point.scene)
-    plan, study = make_plan(problem, MODELS), study_of(point.asked)
-    if study is not None:
-        study.check(problem)
-    window = window_of(problem) if plan.stress and study is None else None
-    for runs in _refined(problem, plan, window, same_pressures=study is not None):
+    plan = make_plan(problem, MODELS)
+    window = window_of(problem) if plan.stress else None
+    for runs in _refined(problem, plan, window):
         for run in runs.values():
             if not run.finest.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
-        if study is None:
-            errors, values = errors_of(problem, runs, window)
-        else:
-            errors, values = study.errors_of(problem, runs)
+        errors, values = errors_of(problem, runs, window)
         if not is_open(errors.one(quantity=point.asked)):
             break
     finest = runs["finite_element"].finest
@@ -95,18 +89,13 @@ def _significant(value: float | None) -> float | None:
     return None if value is None else float(f"{value:.{FIGURES}g}")
 
 
-def _refined(
-    problem: Problem, plan: Plan, window: Window | None, same_pressures: bool
-) -> Iterator[Runs]:
-    """Both models on the first levels, then with one more each time, while there may be; with the
-    same pressures, those of the half-plane, nothing is solved by finite elements."""
+def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Runs]:
+    """Both models on the first levels, then with one more each time, while there may be."""
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
     def solved(pitch: float, half_block: bool = False) -> Level:
-        if same_pressures:
-            return half_plane_level(problem, pitch, window, Stages(), "sparse")
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
         options = LevelOptions(fields=False, sparse=True)
         return finite_element_level(

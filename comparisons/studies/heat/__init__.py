@@ -1,6 +1,6 @@
 """The heat of friction: flash temperatures by both models, and the verdict on their difference."""
 
-from comparisons.studies.heat import mapped, show
+from comparisons.studies.heat import show
 from comparisons.studies.heat.study import COMPARED, NAME, QUANTITIES, HeatStudy, begin, solve
 from comparisons.studies.study import Study
 
@@ -16,5 +16,4 @@ STUDY = Study(
     pictures=show.PICTURES,
     files=show.files,
     lines=show.lines,
-    mapped=mapped,
 )

@@ -4,7 +4,7 @@ The half-space takes the half-plane's pressures, the finite elements their own, 
 difference has what both theories leave out: OTHER_PRESSURES is the part of it that the half-space
 finds under the finite elements' pressures. One rule judges it, as everything else."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -134,7 +134,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     runs = {name: run.under(friction) for name, run in solved.runs.items()}
     tasks.callback("frictional heat")
     contains = what_it_contains(problem) if "finite_element" in runs else {}
-    figures, finest = heat_figures(problem, runs, effects=contains)
+    figures, finest = _heat_figures(problem, runs, contains)
     stresses: dict[str, HeatedStress] = {}
     if problem.scene.heat.stresses:
         tasks.callback("thermal stresses")
@@ -159,24 +159,21 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     return Findings((*peclet, *figures, *rules), statements=said, data=data)
 
 
-def heat_figures(
-    problem: Problem,
-    runs: Mapping[str, ModelRun],
-    without: Set[str] = frozenset(),
-    effects: Iterable[str] = (),
+def _heat_figures(
+    problem: Problem, runs: Mapping[str, ModelRun], features: Iterable[str]
 ) -> tuple[list[Figure], dict[str, HeatedContact]]:
-    """The figures, and both models' contacts on the finest level. The finite elements are `without`
-    features (`what_it_contains`); the `effects` of some are stated."""
+    """The figures, with what each of the finite elements' `features` (`what_it_contains`) does, and
+    both models' contacts on the finest level."""
     from comparisons.studies.heat.finite_elements import finite_element_heat
 
     solve = {
         "half_plane": partial(half_space_heat, problem),
-        "finite_element": partial(finite_element_heat, problem, without=without),
+        "finite_element": partial(finite_element_heat, problem),
     }
-    smaller = partial(finite_element_heat, problem, block=0.5, without=without)
+    smaller = partial(finite_element_heat, problem, block=0.5)
     histories, domain = _histories(runs, solve, smaller)
     dropped = {}
-    for feature in effects:
+    for feature in features:
         levels = runs["finite_element"].levels
         bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
         dropped[feature] = list(zip(bare, histories["finite_element"], strict=True))

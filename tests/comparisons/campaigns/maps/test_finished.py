@@ -13,13 +13,11 @@ from comparisons.campaigns.maps.point import TOLERANCES, solve_point
 from comparisons.campaigns.maps.rule import rules_of
 from comparisons.common.provenance import versions
 
-HEAT_NAMES = ("peclet-insulated", "peclet-radius", "peclet-thickness")
 NAMES = ("curvature-thickness", "ratio-thickness", "slope-wavelength", "thickness-friction")
-NAMES += ("modulus-coating", *HEAT_NAMES)
+NAMES += ("modulus-coating",)
 # A point of each that costs little and whose error is well above its uncertainty: column, row.
 CHEAP = {"curvature-thickness": (9, 9), "slope-wavelength": (9, 0), "thickness-friction": (9, 9)}
 CHEAP |= {"ratio-thickness": (9, 9), "modulus-coating": (9, 8)}
-CHEAP |= dict.fromkeys(HEAT_NAMES, (3, 7))
 
 
 @cache

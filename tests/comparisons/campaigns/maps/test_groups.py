@@ -14,15 +14,6 @@ RIGID = {
     "load": {"hertz_peak_pressure": 1e9},
 }
 ELASTIC = RIGID | {"roller": {"radius": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.2}}
-CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
-HEAT = {f"{b}_{name}": v for b in ("body", "roller", "coating") for name, v in CONSTANTS.items()}
-HEAT |= {"speed": 1.0, "slide_to_roll": 1.0}
-COATING = {"thickness": 1e-5, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
-ROLLING = RIGID | {
-    "load": {"hertz_peak_pressure": 1e9, "friction": 0.1},
-    "coating": COATING,
-    "heat": HEAT | {"slide_to_roll": -2.0},
-}
 LENGTHS = {"shortest_wavelength": 2e-5, "roll_off_wavelength": 2e-4, "longest_wavelength": 2e-3}
 WAVES = {
     "sinusoid": {"wavelength": 4e-5, "amplitude": 1e-7},
@@ -91,16 +82,12 @@ class TestGroups:
             assert problem.scene.finite_element.geometry == "rough"
             assert problem.scene.finite_element.gap == "displaced"
 
-    def test_heat_follows_the_half_width(self):
-        tables = ELASTIC | {"heat": HEAT, "coating": COATING}
-        tables["load"] = tables["load"] | {"friction": 0.1}
-        tables["finite_element"] = {"far_field": "held"}
-        problem = set_to(tables, peclet=3.0, coating_over_a=0.2, conductivity_ratio=0.5)
-        heat, half_width = problem.scene.heat, problem.hertz.half_width
-        speed = abs(heat.velocities[0])
-        assert speed * half_width / (2.0 * heat.body.diffusivity) == pytest.approx(3.0)
-        assert problem.scene.coating.thickness == pytest.approx(0.2 * half_width)
-        assert heat.coating.conductivity == pytest.approx(0.5 * heat.body.conductivity)
+    def test_a_coating_follows_half_width_and_modulus_of_the_body(self):
+        coated = ELASTIC | {"coating": {"thickness": 1e-5, **RIGID["body"]}}
+        problem = set_to(coated, coating_over_a=0.2, coating_modulus_ratio=0.5)
+        coating, half_width = problem.scene.coating, problem.hertz.half_width
+        assert coating.thickness == pytest.approx(0.2 * half_width)
+        assert coating.youngs_modulus == pytest.approx(0.5 * RIGID["body"]["youngs_modulus"])
 
     def test_a_body_of_its_own_size_has_a_held_far_boundary(self):
         tables = RIGID | {"finite_element": {"far_field": "half-plane"}}
@@ -112,10 +99,7 @@ class TestGroups:
             (RIGID, "rms_slope", "profile:"),
             (RIGID, "modulus_ratio", "roller.rigid:"),
             (RIGID, "peak_pressure_over_hardness", "body.yield_stress:"),
-            (RIGID, "peclet", r"heat: is missing; allowed for its groups is \[heat\]"),
-            (RIGID, "coating_over_a", r"coating: is missing"),
-            (ROLLING, "peclet", "is -2, at which the contact"),
-            (RIGID | {"coating": COATING}, "conductivity_ratio", "heat: is missing"),
+            (RIGID, "coating_over_a", r"coating: is missing; allowed for its groups is \[coating"),
             (ELASTIC, "a_over_radius", "a_over_radius, which takes finite"),
             (ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]}, "friction_dundurs", "body:"),
             (

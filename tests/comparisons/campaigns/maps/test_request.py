@@ -12,15 +12,11 @@ class TestRequest:
         request = request_of("sinusoid", "2x2")
         assert (request.x["group"], request.y["group"]) == ("wavelength_over_a", "rms_slope")
 
-        request = request_of("frictional-heat", "2x2", quantity="flash_temperature")
-        assert (request.x["group"], request.y["group"]) == ("peclet", "a_over_thickness")
-
     @pytest.mark.parametrize(
         ("arguments", "what"),
         [
             ({"x": "a_over_width", "y": "a_over_width"}, "--y: is a_over_width, as --x"),
             ({"quantity": "peak"}, "--quantity: there is no peak"),
-            ({"quantity": "mean_temperature"}, "--quantity: mean_temperature needs a .heat. sec"),
             ({"scene": "nothing"}, "nothing: is neither a file nor a scene"),
         ],
     )

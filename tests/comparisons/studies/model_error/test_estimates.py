@@ -1,15 +1,13 @@
 """Estimates are larger than the effects: on every point of the maps, and in the stresses."""
 
-import json
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from scenes import STEEL, problem, resolved
 
-import comparisons.campaigns.maps
 from analytic.material import Law
 from comparisons.campaigns.maps.groups import scene_with
+from comparisons.campaigns.maps.map import FINISHED, finished_map, finished_names
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.level import finite_element_level
@@ -24,18 +22,11 @@ from comparisons.studies.model_error.catalogue import UNKNOWN
 from comparisons.studies.model_error.estimates import estimates
 from comparisons.studies.model_error.laws import open_laws
 
-FINISHED = Path(comparisons.campaigns.maps.__file__).parent / "finished"
-MAPS = sorted(path.stem for path in FINISHED.glob("*.toml") if "heat" not in read_toml(path))
 
-
-def test_there_are_maps():
-    assert len(MAPS) >= 2
-
-
-@pytest.mark.parametrize("name", MAPS)
+@pytest.mark.parametrize("name", finished_names())
 def test_they_bound_every_point_of_a_finished_map(name):
     """What the half-plane is off by, beyond its uncertainty, is at most the sum of estimates."""
-    content = json.loads((FINISHED / f"{name}.json").read_text(encoding="utf-8"))
+    content = finished_map(name)
     base = resolved(read_toml(FINISHED / f"{name}.toml"), name, FINISHED)
     checked, tight = 0, 0.0
     for point in content["points"]:
