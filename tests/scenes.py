@@ -90,5 +90,5 @@ def budgeted(run: "Run", budget: object) -> "Run":
     """A finished run whose model errors are those of another error budget."""
     from comparisons.studies.model_error.account import NAME, findings_of
 
-    findings = findings_of(budget, run.problem, run.runs)
+    findings = findings_of(budget, run.problem)
     return replace(run, findings={**run.findings, NAME: findings})

@@ -9,8 +9,8 @@ import numpy as np
 
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings
+from comparisons.figures.norm import relative_l2
 from comparisons.figures.quantity import MODELS, QUANTITIES
-from comparisons.figures.sideways import relative_l2
 from comparisons.figures.uncertainty import (
     LENGTHS,
     Uncertainty,

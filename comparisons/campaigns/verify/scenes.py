@@ -32,8 +32,8 @@ from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.norm import relative_l2
 from comparisons.figures.quantity import MODELS, WHOLE
-from comparisons.figures.sideways import relative_l2
 from comparisons.figures.uncertainty import numerical
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan

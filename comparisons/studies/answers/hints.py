@@ -15,7 +15,7 @@ from analytic.contact.problem import ContactError
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.profile import surface
-from comparisons.figures.sideways import relative_l2
+from comparisons.figures.norm import relative_l2
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem

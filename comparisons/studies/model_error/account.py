@@ -1,25 +1,14 @@
 """The half-plane's model error as figures, and what became of every effect.
 
 In: an error budget. Out: a figure a quantity and friction coefficient, judged where it has a
-tolerance, with its parts; the effects' account; how far peaks lie beside each other."""
+tolerance, with its parts; the effects' account."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from comparisons.figures.figure import (
-    Column,
-    Figure,
-    Findings,
-    Part,
-    Series,
-    Statement,
-    figures_of,
-)
-from comparisons.figures.quantity import QUANTITIES as COMPARED
-from comparisons.figures.quantity import WHOLE, Quantity
-from comparisons.figures.sideways import sideways_shift
+from comparisons.figures.figure import Column, Figure, Findings, Part, Series, Statement
+from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.studies.model_error.laws import EFFECT as LAW
@@ -35,13 +24,6 @@ NAME = "model_error"
 INTERACTION, JUMP, SAMPLING = "interaction", "jump", "trace_sampling"
 INPUTS = "inputs"  # of the uncertainty: what the errors of measured constants change
 TRUST = "law of elasticity"  # name of what is said of the strains that it bears
-LEFT = "pressure_l2_after_shift"
-QUANTITIES = COMPARED | {
-    "pressure_shift": Quantity("shift of the peaks at x = 0", "m"),
-    "pressure_stretch": Quantity("further shift of the peaks by x"),
-    "pressure_mean_shift": Quantity("mean shift of the peaks", "m"),
-    LEFT: Quantity("pressures' difference with peaks moved", of_pair=True),
-}
 
 
 def figure_of(
@@ -78,18 +60,16 @@ def figure_of(
     )
 
 
-def findings_of(budget: "ErrorBudget", problem: Problem, runs: Mapping[str, ModelRun]) -> Findings:
+def findings_of(budget: "ErrorBudget", problem: Problem) -> Findings:
     """Of a finished comparison."""
     figures = budget.figures(problem.scene.tolerances)
-    for friction in problem.scene.load.friction:
-        figures += _sideways(runs, budget.wholes.get(friction), friction)
     account = {name: effect_account(name, budget.selection) for name in EFFECTS}
     columns = {
         "effect": Column(tuple(account)),
         "status": Column(tuple(status for status, _ in account.values())),
         "because": Column(tuple(why for _, why in account.values())),
     }
-    for quantity in COMPARED:
+    for quantity in QUANTITIES:
         sizes = (budget.selection.estimates.get(name, {}).get(quantity) for name in EFFECTS)
         columns[quantity] = Column(tuple(sizes))
     cost = {"levels": Column((budget.levels,)), "seconds": Column((budget.seconds,), "s")}
@@ -103,23 +83,6 @@ def findings_of(budget: "ErrorBudget", problem: Problem, runs: Mapping[str, Mode
         said[TRUST] = trust(problem, whole, friction)
     statements = tuple(Statement(name, text) for name, text in said.items() if text is not None)
     return Findings(tuple(figures), series, statements, budget)
-
-
-def _sideways(
-    runs: Mapping[str, ModelRun], whole: Level | None, friction: float
-) -> Iterator[Figure]:
-    """How far the whole model's peaks lie beside the half-plane's, and what else they differ by."""
-    other = runs["finite_element"].finest.under(friction) if whole is None else whole
-    half_plane = runs["half_plane"].under(friction).beside(other).solution.pressure
-    shift = sideways_shift(other.grid, half_plane, other.solution.pressure)
-    values = {
-        "pressure_shift": shift.shift,
-        "pressure_stretch": shift.stretch,
-        "pressure_mean_shift": shift.mean,
-        LEFT: shift.left,
-    }
-    itself = Uncertainty({"itself": 1.0})  # a difference is as sure as its order of size
-    return iter(figures_of(NAME, "half_plane", values, itself, {"friction": friction}))
 
 
 def effect_account(name: str, selection: EffectSelection) -> tuple[str, str]:

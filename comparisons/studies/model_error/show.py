@@ -18,7 +18,7 @@ from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.studies import contact
-from comparisons.studies.model_error.account import INTERACTION, JUMP, LEFT, SAMPLING, TRUST
+from comparisons.studies.model_error.account import INTERACTION, JUMP, SAMPLING, TRUST
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.selection import FLOW
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawn
 
 ROUNDING = 1e-12  # of a figure's scale: what two of them leave where it is zero
-WORTH_A_MOVE = 0.75  # of the pressures' difference that is left without it, at most
 SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed
 WORDS = {INTERACTION: "interaction", JUMP: "another asperity"}  # of parts that are no effects
 ROW, TITLE, FOOT, TOP = 0.21, 0.42, 0.5, 0.06  # inches: a step, the words above and below
@@ -51,10 +50,8 @@ too low. Contributions: each effect was computed by itself, as the difference th
 finite elements; *interaction* is what the effects change jointly beyond their sum. A largest
 value is followed at the asperity where the whole model has it; *another asperity* is what the
 half-plane's largest exceeds its own value there, and both places are named. Norms have no sign and
-do not add up; *with peaks moved* is what is left of the pressures' norm after the shift and the
-even stretch along x that bring the half-plane's pressures nearest to the whole model's, and how far
-that moves them on average. *Not modelled* under a quantity: effects that no model has may
-exceed its tolerance. The verdict is taken from these errors."""
+do not add up. *Not modelled* under a quantity: effects that no model has may exceed its tolerance.
+The verdict is taken from these errors."""
 OF_EFFECTS = """An effect is computed where its estimate, from the scene's dimensionless groups,
 exceeds a tenth of a tolerance; an effect that was not computed counts with its estimate."""
 
@@ -104,7 +101,7 @@ class ModelErrorRow:
     error: str
     uncertainty: str
     tolerance: str
-    # what makes it up with signs, the largest first; of pressures first what moved peaks leave
+    # what makes it up with signs, the largest first
     contributions: tuple[str, ...]
     note: str  # what is not modelled of the error
     moved: str  # where the whole has its largest value, if not at the half-plane's asperity
@@ -120,7 +117,6 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
         for same in grouped(errors, lambda row: (_shown(row), _values(run, row), row.place)):
             error, uncertainty, contributions = _shown(same[0])
             half_plane, whole = _values(run, same[0])
-            without = moved_text(run, same[0].friction) if name == "pressure_l2" else ()
             bound = same[0].tolerance
             rows.append(
                 ModelErrorRow(
@@ -131,7 +127,7 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
                     error=error,
                     uncertainty=uncertainty,
                     tolerance="" if bound is None else percent_as_written(bound),
-                    contributions=(*without, *contributions),
+                    contributions=contributions,
                     note=_not_known(same[0]),
                     moved=_moved(same[0]),
                 )
@@ -228,18 +224,6 @@ def contributions_in_words(error: Figure) -> tuple[str, ...]:
         for name, size in sorted(contributions_of(error).items(), key=lambda item: -abs(item[1]))
         if abs(size) >= least
     )
-
-
-def moved_text(run: Run, friction: float) -> tuple[str, ...]:
-    """What is left of the pressures' difference once peaks are moved, unless most of it is."""
-    known = run.figures.of(study=MODEL_ERROR, friction=friction)
-    error, left = known.one(quantity="pressure_l2"), known.one(quantity=LEFT)
-    if left is None or run.problem.scene.profile is None:
-        return ()
-    if left.value > WORTH_A_MOVE * error.value:
-        return ()
-    mean = with_unit(known.one(quantity="pressure_mean_shift").value, "m", 2)
-    return (f"{percent(left.value)} with peaks moved by {mean}",)
 
 
 def not_modelled_line(run: Run) -> str:

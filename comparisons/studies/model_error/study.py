@@ -7,10 +7,11 @@ from collections.abc import Callable, Mapping
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Findings
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.studies import comparison
 from comparisons.studies.friction import coupling
 from comparisons.studies.model_error import show
-from comparisons.studies.model_error.account import NAME, QUANTITIES, findings_of
+from comparisons.studies.model_error.account import NAME, findings_of
 from comparisons.studies.model_error.error_budget import (
     ErrorBudget,
     announce_effects,
@@ -36,7 +37,7 @@ def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     moved = before[coupling.NAME].data.changes if coupling.NAME in before else ()
     budget = error_budget(solved, before[comparison.NAME].figures, moved, tasks)
-    return findings_of(budget, solved.problem, solved.runs)
+    return findings_of(budget, solved.problem)
 
 
 STUDY = Study(

@@ -13,7 +13,6 @@ from comparisons.figures.quantity import LABELS, QUANTITIES, error_text, label
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
 from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.contact import draw_pressures
-from comparisons.studies.model_error.show import moved_text
 from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
@@ -92,8 +91,7 @@ def _norm(run: Run, friction: float) -> str:
     error = run.figures.one(study=MODEL_ERROR, quantity="pressure_l2", friction=friction)
     if error is None:
         return models
-    moved = "".join(f", {text}" for text in moved_text(run, friction))
-    return f"{models}: {percent(error.value)} (L2){moved}"
+    return f"{models}: {percent(error.value)} (L2)"
 
 
 def _shear(axes: "Axes", bar: "Axes", run: Run) -> None:

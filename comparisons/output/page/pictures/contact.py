@@ -26,7 +26,6 @@ from comparisons.figures.quantity import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import mean_height
 from comparisons.studies.contact import closed, draw_pressures, peak_position
-from comparisons.studies.model_error.show import moved_text
 from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
@@ -111,9 +110,8 @@ def _norm(run: Run) -> str:
         f"{percent(norm.value, uncertainty=norm.numerical)} from the {LABELS[name]}"
         for norm, name in zip((difference, error), list(levels)[1:], strict=False)
     )
-    left = "".join(f" ({text} on average)" for text in moved_text(run, friction))
     at = f" at friction {plain(friction)}" if len(run.problem.scene.load.friction) > 1 else ""
-    return f"The half-plane's pressures differ by {said}{left}{at} (relative L2 norms). "
+    return f"The half-plane's pressures differ by {said}{at} (relative L2 norms). "
 
 
 def _drawn(

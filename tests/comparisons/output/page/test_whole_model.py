@@ -1,4 +1,4 @@
-"""The finite elements with all effects: drawn, saved, read again; its peaks beside the others'."""
+"""The finite elements with all effects: drawn, saved, read again."""
 
 import base64
 import json
@@ -9,9 +9,8 @@ import pytest
 from matplotlib import pyplot
 from scenes import budgeted
 
-from comparisons.common.numbers import percent
 from comparisons.common.progress import no_progress
-from comparisons.drawing.style import collected_figures, drawing
+from comparisons.drawing.style import collected_figures
 from comparisons.output.page.field_values import field_explorer
 from comparisons.output.page.page import render
 from comparisons.output.page.pictures.contact import pressure_picture
@@ -19,7 +18,6 @@ from comparisons.output.page.pictures.stresses import field_pictures, section_pi
 from comparisons.output.page.plots import Plots
 from comparisons.output.page.saved import read_run
 from comparisons.runs.write import write_files
-from comparisons.studies.model_error.show import model_error_rows, moved_text
 from comparisons.studies.study import Run
 
 MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
@@ -103,27 +101,6 @@ def test_the_pages_values_are_those_of_the_pictures(outcome: Run):
     wanted = np.abs(half_plane - whole).max() / outcome.problem.hertz.peak_pressure
     packed = np.frombuffer(base64.b64decode(sliding["data"][1]), dtype="<i2")
     assert np.abs(packed * sliding["scale"][1]).max() == pytest.approx(wanted, rel=0.02)
-
-
-def test_how_far_its_peaks_stand_aside_is_said(outcome: Run, monkeypatch):
-    monkeypatch.setattr(Run, "deciding_friction", 0.1)
-    plain, sliding = (
-        {f.quantity: f.value for f in outcome.figures.of(study="model_error", friction=mu)}
-        for mu in (0.0, 0.1)
-    )
-    pitch = outcome.data("model_error").wholes[0.1].grid.pitch
-    assert sliding["pressure_shift"] == pytest.approx(MOVED * pitch, rel=0.05)
-    assert sliding["pressure_mean_shift"] == pytest.approx(MOVED * pitch, rel=0.05)
-    # the body one per cent stiffer, and pressures five per cent higher
-    assert 0.03 < sliding["pressure_l2_after_shift"] < 0.06
-    assert abs(plain["pressure_shift"]) < 0.01 * pitch
-    [said] = moved_text(outcome, 0.1)
-    assert said == f"{percent(sliding['pressure_l2_after_shift'])} with peaks moved by 4.7 µm"
-    assert moved_text(outcome, 0.0) == ()  # there it explains nothing
-    _, row = (row for row in model_error_rows(outcome) if row.quantity == "pressure_l2")
-    assert (row.friction, row.error) == ("0.1", "50 %") and row.contributions[0] == said
-    with drawing():
-        assert said in pressure_picture(outcome).caption
 
 
 def test_it_is_saved_and_the_page_drawn_again_is_the_same(outcome: Run, tmp_path):
