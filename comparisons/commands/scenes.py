@@ -15,7 +15,7 @@ from comparisons.common.errors import ExitStatus
 if TYPE_CHECKING:
     from comparisons.campaigns.init.show import FirstScene
 
-Code = Literal["calculix", "abaqus", "fenicsx"]
+Code = Literal["calculix", "fenicsx"]
 
 
 @job

@@ -1,9 +1,8 @@
 """A scene as a folder that another code solves, with how to run it and bring the answer back.
 
-For Abaqus and CalculiX, which share a keyword format, the job and the mesh that it reads: the rough
-body's top is the slave surface, the roller's the master, and the load acts on a reference node,
-with which the roller's far boundary moves as one. For FEniCSx a script of plain dolfinx, and the
-mesh and gap that it reads."""
+For CalculiX the job and the mesh that it reads: the rough body's top is the slave surface, the
+roller's the master, and the load acts on a reference node, with which the roller's far boundary
+moves as one. For FEniCSx a script of plain dolfinx, and the mesh and gap that it reads."""
 
 import io
 from collections.abc import Iterable, Iterator
@@ -23,10 +22,10 @@ from comparisons.scenes.scene import Scene
 
 TEMPLATES = Path(__file__).parent / "templates"
 FILES = ("README.md", "answer.toml", "job.inp", "mesh.inp", "solve.py", "mesh.npz")
-CODES = {"calculix": "CalculiX", "abaqus": "Abaqus", "fenicsx": "FEniCSx"}
+CODES = {"calculix": "CalculiX", "fenicsx": "FEniCSx"}
 MOST_LEVEL = 8
 AXES = ((0, "X"), (1, "Y"))
-# CalculiX: pressure over penetration, in E over an edge, so that finer meshes penetrate less. Of
+# Pressure over penetration, in E over an edge, so that finer meshes penetrate less. Of
 # Hertz's peak pressure it takes 1e-4 at twenty edges to a half-width.
 STIFFNESS = 50.0
 # Of a body that flows, which keeps the mark of every jag that a stiffer contact has; and with
@@ -34,12 +33,9 @@ STIFFNESS = 50.0
 STIFFNESS_OF_FLOW = 5.0
 STICK = 0.1  # of that: tangential stiffness before the surfaces slide
 SLIDE = 12.0  # mu P / E: bodies with 400 half-widths to their far boundaries shear by less
-# What a code has for the laws of elasticity at finite strain.
+# What CalculiX has for the laws of elasticity at finite strain.
 HYPERELASTIC, ELASTIC = "*HYPERELASTIC, NEO HOOKE", "*ELASTIC"
-LAWS = {
-    "calculix": {"neo-hookean": HYPERELASTIC, "st-venant-kirchhoff": ELASTIC},
-    "abaqus": {"neo-hookean": HYPERELASTIC, "hencky": ELASTIC},
-}
+LAWS = {"neo-hookean": HYPERELASTIC, "st-venant-kirchhoff": ELASTIC}
 OF_FLOW = 0.02  # of the load: an increment in which a body flows
 FARTHEST, FLOW_ROWS = 10.0, 60  # plastic strain that rows of a flow stress reach to, and how many
 GAP_POINTS = 8  # an edge, of the sampled gap
@@ -67,7 +63,7 @@ def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProble
         why = "is true; allowed in a deck for fenicsx are elastic bodies"
         raise SceneError(f"{scene.source}: finite_element.plastic: {why}")
     deck = deck_problem(problem, problem.pitches[0] / 2.0 ** (level - 1))
-    files = fenicsx_files(deck) if code == "fenicsx" else keyword_files(deck, code)
+    files = fenicsx_files(deck) if code == "fenicsx" else calculix_files(deck)
     values = {"code": code, "name": CODES[code], "deck": deck, "scene": scene, "folder": out}
     for name in ("README.md", "answer.toml"):
         files[name] = rendered(TEMPLATES / f"{name}.j2", **values)
@@ -86,8 +82,8 @@ def account_of(deck: DeckProblem, code: str, folder: Path) -> dict:
     }
 
 
-def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
-    """job.inp and mesh.inp of "calculix" or "abaqus". SceneError for a law that the code lacks."""
+def calculix_files(deck: DeckProblem) -> dict[str, str]:
+    """job.inp and mesh.inp. Raises SceneError for a law of elasticity that CalculiX lacks."""
     scene = deck.problem.scene
     modulus = max(material.youngs_modulus for material in deck.rough.materials) * MPA
     flow, held = _flow(deck), _held(deck)
@@ -97,10 +93,9 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
     distances = [(mu, SLIDE * mu * deck.load / modulus) for mu in slides]
     job = rendered(
         TEMPLATES / "job.inp.j2",
-        code=code,
         deck=deck,
         scene=scene,
-        materials=dict(_materials(deck, code)),
+        materials=dict(_materials(deck)),
         flow=flow,
         stiffness=stiffness,
         stick=STICK * stiffness,
@@ -109,7 +104,7 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
         sliding=[] if flow else distances,
         dragging=distances[0] if flow and distances else None,
     )
-    return {"job.inp": job, "mesh.inp": "\n".join(_mesh(deck, code)) + "\n"}
+    return {"job.inp": job, "mesh.inp": "\n".join(_mesh(deck)) + "\n"}
 
 
 def _held(deck: DeckProblem) -> tuple[float, ...]:
@@ -123,21 +118,21 @@ def _held(deck: DeckProblem) -> tuple[float, ...]:
     return friction, *(share * friction * deck.load for share in scene.partial_slip.path)
 
 
-def _materials(deck: DeckProblem, code: str) -> Iterator[tuple[str, tuple[str, str]]]:
+def _materials(deck: DeckProblem) -> Iterator[tuple[str, tuple[str, str]]]:
     scene = deck.problem.scene
     for name, body in deck.bodies.items():
         for material, part in zip(body.materials, ("", "_COATING"), strict=False):
-            keyword = LAWS[code].get(material.law.name) if deck.finite else ELASTIC
+            keyword = LAWS.get(material.law.name) if deck.finite else ELASTIC
             if name == "ROUGH" and scene.finite_element.plastic:
                 keyword = ELASTIC  # which is by logarithmic strain, where strains are finite
             if name == "ROLLER" and scene.roller.rigid:
                 keyword = ELASTIC  # nothing in it deforms
             if keyword is None:
                 section = "body" if name == "ROUGH" else "roller"
-                allowed = " or ".join(f'"{law}"' for law in LAWS[code])
+                allowed = " or ".join(f'"{law}"' for law in LAWS)
                 raise SceneError(
                     f'{scene.source}: {section}.law: is "{material.law.name}"; '
-                    f"allowed in a deck for {code} is {allowed}"
+                    f"allowed in a deck for calculix is {allowed}"
                 )
             yield name + part, (keyword, _constants(material, keyword))
 
@@ -171,12 +166,11 @@ def _constants(material: Material, keyword: str) -> str:
     return f"{0.5 * material.shear_modulus * MPA:.12g}, {6.0 * (1.0 - 2.0 * nu) / modulus:.12g}"
 
 
-def _mesh(deck: DeckProblem, code: str) -> Iterator[str]:
+def _mesh(deck: DeckProblem) -> Iterator[str]:
     """Nodes, elements, surfaces and sets of both bodies, the reference node and its equations."""
     nodes = elements = 0
     for name, body in deck.bodies.items():
-        # there is no contact to begin with, but for CalculiX, which has no step that makes some
-        lower = deck.overlap if (code, name) == ("calculix", "ROLLER") else 0.0
+        lower = deck.overlap if name == "ROLLER" else 0.0  # contact to begin with
         yield f"*NODE, NSET={name}_NODES"
         for number, (x, y) in enumerate(body.points, nodes + 1):
             yield f"{number}, {x:.12g}, {y - lower:.12g}"

@@ -17,13 +17,12 @@ from comparisons.cli import main
 from comparisons.common.errors import SceneError
 from comparisons.notebook import scene_of
 
-KNOWN = {  # keywords of Abaqus/Standard that a deck may use
+KNOWN = {  # keywords of CalculiX that a deck may use
     *("HEADING", "INCLUDE", "NODE", "ELEMENT", "NSET", "SURFACE", "EQUATION", "MATERIAL"),
     *("ELASTIC", "HYPERELASTIC", "SOLID SECTION", "SURFACE INTERACTION", "SURFACE BEHAVIOR"),
     *("CONTACT PAIR", "FRICTION", "CHANGE FRICTION", "BOUNDARY", "CLOAD", "STEP", "STATIC"),
-    *("END STEP", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "CONTACT PRINT"),
+    *("END STEP", "NODE FILE", "EL FILE", "CONTACT FILE"),
 }
-CALCULIX = {"NODE FILE", "EL FILE", "CONTACT FILE"}
 SLIDING = scenes.changed(crosscheck.Scene.read("coated").written, load={"friction": [0.0, 0.1]})
 
 
@@ -45,13 +44,12 @@ def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
     return cards
 
 
-@pytest.mark.parametrize("code", ["calculix", "abaqus"])
 @pytest.mark.parametrize("scene", ["layer", "finite-strain", SLIDING])
-def test_a_deck_is_complete(tmp_path, scene, code):
+def test_a_deck_is_complete(tmp_path, scene):
     resolved = scene_of(scene)
-    deck = write_deck(resolved, code, tmp_path)
+    deck = write_deck(resolved, "calculix", tmp_path)
     cards = blocks(tmp_path)
-    assert {keyword for keyword, *_ in cards} <= KNOWN | (CALCULIX if code == "calculix" else set())
+    assert {keyword for keyword, *_ in cards} <= KNOWN
     nodes, elements, sets, surfaces, materials = {}, {}, {}, {}, set()
     for keyword, options, data in cards:
         if keyword == "NODE":
@@ -90,19 +88,18 @@ def test_a_deck_is_complete(tmp_path, scene, code):
     assert float(load) == pytest.approx(-1e-3 * scenes_load(resolved))
     steps = [keyword for keyword, *_ in cards].count("STEP")
     slides = [mu for mu in resolved.load.friction if mu]
-    assert steps == 1 + len(slides) + (code == "abaqus" or deck.finite)
+    assert steps == 1 + len(slides) + deck.finite
     finite = {bool(options.get("NLGEOM")) for keyword, options, _ in cards if keyword == "STEP"}
     assert finite == {deck.finite}
     answer = tomllib.loads((tmp_path / "answer.toml").read_text())
     assert answer["units"] == {"length": "mm", "stress": "MPa"}
 
 
-@pytest.mark.parametrize("code", ["calculix", "abaqus"])
-def test_a_roller_that_friction_holds_is_let_go_along_x(tmp_path, code):
+def test_a_roller_that_friction_holds_is_let_go_along_x(tmp_path):
     """Tied along both axes, held while it is pressed, then loaded step by step."""
     slip = {"loads": [0.5, -0.25]}
     tables = scenes.changed(scenes.SMOOTH, load={"friction": [0.1, 0.3]}) | {"partial_slip": slip}
-    write_deck(scenes.resolved(tables), code, tmp_path)
+    write_deck(scenes.resolved(tables), "calculix", tmp_path)
     cards = blocks(tmp_path)
     tied = [data[1][1] for keyword, _, data in cards if keyword == "EQUATION"]
     assert tied.count("1") == tied.count("2") > 0
@@ -148,7 +145,7 @@ def test_what_a_code_cannot_have_is_refused(tmp_path):
         (hencky, "calculix", "body.law"),
         (hencky, "fenicsx", "flat ones"),
         (YIELDING, "fenicsx", "finite_element.plastic"),
-        (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "abaqus", "body.hardness"),
+        (scenes.changed(scenes.SMOOTH, body={"hardness": 3e9}), "calculix", "body.hardness"),
         (STRETCHED, "calculix", "partial_slip.bulk_stress"),
         (TWICE, "calculix", "load.friction: has 2"),
     ):
@@ -171,8 +168,8 @@ def test_the_script_for_fenicsx_solves_the_scene(tmp_path, level):
 
 def test_the_command_says_where_the_deck_is(tmp_path, capsys):
     out = tmp_path / "deck"
-    assert main(["deck", "layer", "--for", "abaqus", "--out", str(out)]) == 0
+    assert main(["deck", "layer", "--for", "calculix", "--out", str(out)]) == 0
     assert str(out / "README.md") in capsys.readouterr().out
-    assert f"--answer abaqus={out}/answer.toml" in (out / "README.md").read_text()
+    assert f"--answer calculix={out}/answer.toml" in (out / "README.md").read_text()
     assert main(["deck", "layer", "--for", "ansys", "--out", str(out)]) == 2
-    assert main(["deck", "layer", "--for", "abaqus", "--out", str(out), "--level", "0"]) == 2
+    assert main(["deck", "layer", "--for", "calculix", "--out", str(out), "--level", "0"]) == 2
