@@ -23,8 +23,9 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact.active_set import ActiveSet, exchange, exchange_blocks
+from analytic.contact.active_set import ActiveSet
 from analytic.contact.equilibrium import Constraints, Equilibrium, EquilibriumProblem
+from analytic.contact.exchange import exchange, exchange_blocks
 from analytic.contact.nested_start import EDGES_OFF, coarse_start
 from analytic.contact.problem import (
     ContactSolution,

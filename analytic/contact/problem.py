@@ -10,7 +10,7 @@
 Its solution satisfies g >= 0 where p = 0, g = 0 where 0 < p < H, g <= 0 where p = H (the overlap
 that plastic flow would remove).
 
-Method: an active set (`analytic.contact.active_set`) on nested grids, each started from the next
+Method: an active set (`analytic.contact.exchange`) on nested grids, each started from the next
 coarser one (`nested_start`); on a fixed set conjugate gradients (`equilibrium`)."""
 
 from dataclasses import astuple, dataclass, replace
@@ -18,8 +18,8 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact.active_set import exchange
 from analytic.contact.equilibrium import SET_TOLERANCE, TIGHT, Constraints, EquilibriumProblem
+from analytic.contact.exchange import exchange
 from analytic.contact.nested_start import EDGES_OFF, coarse_start
 from analytic.operators.half_plane import ModelOperator
 

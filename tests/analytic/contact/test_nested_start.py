@@ -6,8 +6,8 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from analytic.contact.active_set import exchange
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
+from analytic.contact.exchange import exchange
 from analytic.contact.nested_start import COARSEST, EDGES_OFF, coarse_start, prolonged
 from analytic.contact.problem import solve_contact
 from analytic.grid import HatGrid, restricted, roller_gap

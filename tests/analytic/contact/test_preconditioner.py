@@ -4,15 +4,9 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
-from analytic.contact import equilibrium as equilibrium
 from analytic.contact.active_set import ActiveSet
-from analytic.contact.equilibrium import (
-    Constraints,
-    EquilibriumProblem,
-    Extension,
-    RowExtension,
-    extension_from,
-)
+from analytic.contact.equilibrium import Constraints, EquilibriumProblem
+from analytic.contact.preconditioner import Extension, RowExtension, extension_from
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import toeplitz
 from scipy.optimize import nnls
 
-from analytic.contact import active_set
+from analytic.contact import exchange
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactError, Residuals, assessed, solve_contact
@@ -135,7 +135,7 @@ def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
     constraints = Constraints(load=0.3 * LOAD, hardness=3e9)
     grid = HatGrid.within(-0.5e-3, 0.5e-3, 8e-6)
     fast = roller.pressed(grid, gap, constraints)
-    monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
+    monkeypatch.setattr(exchange, "MAX_EXCHANGES", 0)
     slow = roller.pressed(grid, gap, constraints)
     assert slow.converged
     assert slow.iterations["exchanges"] < 8 * fast.iterations["exchanges"]
@@ -143,7 +143,7 @@ def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
 
 
 def test_the_primal_method_lowers_the_energy_at_every_step(roller, monkeypatch):
-    monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
+    monkeypatch.setattr(exchange, "MAX_EXCHANGES", 0)
     grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), roller.rough(5)
     operator, weighted_gap = HalfPlane(grid.count, grid.pitch, MODULUS), grid.hat_integrals(gap)
     energies = []
