@@ -129,13 +129,11 @@ class MeshField:
     triangles: np.ndarray  # (m, 6) quadratic triangles in gmsh order; (m, 3) of corners alone
     stresses: dict[float, StressState]  # by friction coefficient, (n,) each
     # by friction coefficient, (n, 2) [m] in x and z, zero where the body is held; at finite
-    # deformation but for a shift of all along x; of a flowing body that without friction, too,
-    # where a bulge is asked for on a profile
+    # deformation but for a shift of all along x
     displacement: dict[float, np.ndarray]
     poissons_ratio: np.ndarray  # (n,) of the material at each point
     # further fields (n,) by name with their unit: what plastic flow leaves
     others: dict[str, np.ndarray] = field(default_factory=dict)
-    top: np.ndarray | None = None  # (k,) points of the surface, by x
 
     @staticmethod
     def of(
@@ -145,15 +143,12 @@ class MeshField:
         displacement: np.ndarray,
         others: dict[str, np.ndarray],
     ) -> "MeshField":
-        """Of stresses at mesh points and displacements (n, c, 2) [m] at nodes, a set a friction; of
-        the displacements one more, where that without is known, too."""
+        """Of stresses at mesh points and displacements (n, c, 2) [m] at nodes, a set a friction."""
         nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
         moved = body.at_points(np.moveaxis(displacement, 1, 0))[:, nodes.point]
         states = dict(zip(frictions, (StressState(*s.values.T) for s in nodal), strict=True))
-        sets = states, dict(zip((*frictions, 0.0), moved, strict=False))
-        points, top = body.points[nodes.point], np.flatnonzero(np.isin(nodes.point, body.top.point))
-        top = top[np.argsort(points[top, 0])]
-        return MeshField(points, nodes.triangles, *sets, nu, others, top)
+        sets = states, dict(zip(frictions, moved, strict=True))
+        return MeshField(body.points[nodes.point], nodes.triangles, *sets, nu, others)
 
     @property
     def at_corners(self) -> "MeshField":

@@ -140,7 +140,7 @@ class _LevelTask:
             self.window,
             stages,
             here.held("bodies", self.pitch, BodyCache),
-            LevelOptions(fields=not self.half_block, sparse=self.sparse),
+            LevelOptions(fields=not is_check, sparse=self.sparse),
         )
 
 
@@ -150,9 +150,8 @@ class _Levels:
     def __init__(self, scene: Solved, tasks: Tasks) -> None:
         self.scene, self.problem, self.plan, self.tasks = scene, scene.problem, scene.plan, tasks
         self.task = partial(_LevelTask, scene.problem, scene.plan, scene.window)
-        stress, levels = scene.problem.scene.stress, scene.problem.levels
-        bulge = stress is not None and stress.bulge
-        self.all_points = bulge or (levels is not None and levels.all_points)  # of every level
+        levels = scene.problem.levels
+        self.all_points = levels is not None and levels.all_points  # of every level
         # the finest level, unless more turn out to be needed
         self.last = len(scene.problem.pitches) if levels is None else levels.models
         check = partial(self.task, "finite_element", 1, sparse=not self.all_points)

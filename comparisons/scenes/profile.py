@@ -210,8 +210,6 @@ class ProfileSection(SceneSection):
             if value not in (None, fits):
                 words = {None: "none", False: "false"}.get(fits, f'"{fits}"')
                 yield name, f"does not fit a periodic surface; allowed is {words}"
-        if scene.stress is not None and scene.stress.bulge:
-            yield "stress.bulge", "does not fit a periodic surface; allowed is false"
         if scene.body.base == "frictionless" and max(load.friction) > 0.0:
             slides = "is given on a frictionless base, where nothing would hold a periodic body"
             yield "load.friction", f'{slides}; allowed is friction = 0 or base = "bonded"'

@@ -303,14 +303,12 @@ class LoadSection(SceneSection):
 
 
 class StressSection(SceneSection):
-    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz).
-    `bulge` asks for what sliding raises ahead of the contact."""
+    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz)."""
 
     STEP = "subsurface stresses"
     depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
     half_range: Annotated[Extent, ExtentField()] = Extent(1.5, in_half_widths=True)
     points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS, MOST_STRESS_LINES)] = (600, 200)
-    bulge: Annotated[bool, Truth()] = False
 
 
 class ToleranceSection(SceneSection):

@@ -3,7 +3,6 @@
 In: the content of sweep.json. Out: SVG, the same for the same content."""
 
 from dataclasses import dataclass
-from textwrap import wrap
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -14,7 +13,7 @@ from comparisons.drawing import style
 from comparisons.drawing.curves import distinct, over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
 from comparisons.scenes.scene import dimension_of
-from comparisons.studies.subsurface import bulge, quiescent_zone
+from comparisons.studies.subsurface import quiescent_zone
 from comparisons.studies.subsurface.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
 
 if TYPE_CHECKING:
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PICTURE = "sweep.svg"
-PICTURES = {quiescent_zone.NAME: "quiescent_zone.svg", bulge.NAME: "bulge.svg"}  # by study
+ZONES = "quiescent_zone.svg"
 POSITION, FRICTION = "load.position", "load.friction"
 MARKERS = "os^Dv<>"
 WIDTH, TALL, ABOVE, FOOT, LEFT = 7.2, 1.75, 0.3, 0.55, 0.9  # inches, of the sweep's own picture
@@ -33,27 +32,24 @@ DRAWN = {
     "contact_length": "contact length",
     "tau1_max": "largest τ₁",
 }
-# of the bulges: by the figure's name its uncertainty's, what it is drawn over, and the axis' words
-PANELS = {
-    "height": ("uncertainty", "penetration", "height of the bulge / h"),
-    "end": ("end_uncertainty", "contact", "its half height at s / a\u2032"),
-    "energy": ("energy_uncertainty", "work_scale", "elastic energy / P h"),
-}
 NUMBERS = "numbers: least mean shear over the Hertz zone's"
-TITLE = 62  # letters of a line
-DEPTH = "relative_penetration"
 COLOURS = {QUIESCENT: "#56B4E9", UNCLEAR: "#F0E442", BRIDGED: "#E69F00", SMOOTH: "#e4e4e4"}
 CELL, LEAST_WIDE = (0.5, 0.24), 5.0  # inches, of the zones' map
 SQUARE = (-0.5, 0.5, 0.5, -0.5), (-0.5, -0.5, 0.5, 0.5)
 
 
 def drawn(content: dict) -> dict[str, str]:
-    """SVG by file: the sweep, and what its points have of quiescent zones and bulges."""
-    has = {name for point in content["points"] for name in PICTURES if name in point}
+    """SVG by file: the sweep, and where its points have quiescent zones their map."""
     draws = {PICTURE: sweep_figure}
-    draws |= {PICTURES[name]: DRAWS[name] for name in DRAWS if name in has}
+    if has_zones(content):
+        draws[ZONES] = zone_map_figure
     with style.drawing():
         return {file: style.svg(draw(content)) for file, draw in draws.items()}
+
+
+def has_zones(content: dict) -> bool:
+    """Whether a point has a rough scene whose stresses reach deep enough."""
+    return any(quiescent_zone.NAME in point for point in content["points"])
 
 
 @dataclass(frozen=True)
@@ -156,28 +152,6 @@ def _draw_lines(axes: "Axes", lines: dict[str, list], name: str, sample: bool) -
     axes.set_ylabel(f"{DRAWN[name]} [{scale.name}]")
 
 
-def bulge_figure(content: dict) -> "Figure":
-    """What sliding raises ahead of the contact: its height, extent and elastic energy against the
-    relative penetration, a line for each friction."""
-    entries = [entry for point in content["points"] for entry in point.get(bulge.NAME, ())]
-    entries.sort(key=lambda entry: entry[DEPTH])
-    rows = [(ABOVE + 0.15 * (place == 0), 1.5) for place in range(len(PANELS))]
-    drawn, stack = panels(style.COLUMN, rows, 0.85)
-    for (name, (unsure, unit, words)), axes in zip(PANELS.items(), stack, strict=True):
-        for k, friction in enumerate(sorted({entry["friction"] for entry in entries})):
-            rows = [e for e in entries if e["friction"] == friction and e[unsure] is not None]
-            depth = [e[DEPTH] for e in rows]
-            value, bar = ([e[which] / e[unit] for e in rows] for which in (name, unsure))
-            look = {"marker": MARKERS[k % len(MARKERS)], "markersize": 3.0, "capsize": 2.0}
-            look["linestyle"] = style.DASHES[k % len(style.DASHES)]
-            axes.errorbar(depth, value, bar, label=f"friction {plain(friction)}", **look)
-        axes.set(xscale="log", ylabel=words)
-    over(stack, "h/R", (0.9 * entries[0][DEPTH], 1.1 * entries[-1][DEPTH]))
-    stack[0].legend(loc="upper left")
-    stack[0].set_title("\n".join(wrap(content["scene"]["title"], TITLE)), loc="left")
-    return drawn
-
-
 def zone_map_figure(content: dict) -> "Figure":
     """A field for each friction, a column for each value of the first swept field, a row for each
     combination of the others; in it the least mean shear over that of the Hertz zone."""
@@ -223,6 +197,3 @@ def _draw_zones(axes: "Axes", entries: dict[tuple, dict], columns: list, rows: l
     axes.set_yticks(range(len(rows)), rows)
     axes.tick_params(axis="y", length=0.0)
     axes.grid(False)
-
-
-DRAWS = {quiescent_zone.NAME: zone_map_figure, bulge.NAME: bulge_figure}

@@ -15,7 +15,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
-from comparisons.campaigns.sweep.pictures import FRICTION, PICTURE, PICTURES, POSITION, drawn
+from comparisons.campaigns.sweep.pictures import (
+    FRICTION,
+    PICTURE,
+    POSITION,
+    ZONES,
+    drawn,
+    has_zones,
+)
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import percent, with_unit
@@ -28,13 +35,13 @@ from comparisons.output.flat_csv import COLUMNS, harmless, rows_of
 from comparisons.output.result_json import result_of
 from comparisons.scenes.scene import Scene
 from comparisons.studies import TABLED
-from comparisons.studies.subsurface import bulge, quiescent_zone
+from comparisons.studies.subsurface import quiescent_zone
 
 if TYPE_CHECKING:
     from rich.console import Group
 
 SWEEP, TABLE = "sweep.json", "sweep.csv"
-FILES = (SWEEP, TABLE, PICTURE, *PICTURES.values())
+FILES = (SWEEP, TABLE, PICTURE, ZONES)
 SCHEMA = 1
 SHORT = {"position": POSITION, "friction": FRICTION}  # beside "load", whichever it is
 MOST = 10_000  # points
@@ -43,7 +50,6 @@ MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of 
 CODE = (*LEVEL_CODE, *(f"comparisons/{name}" for name in ("figures", "studies", "output")))
 CODE += tuple(f"comparisons/campaigns/{name}.py" for name in ("grid", "sweep/sweep"))
 SCATTERED = ("half_plane", "finite_element", "model_error")  # figures whose scatter is stated
-UNCERTAIN = {"height": "uncertainty", "end": "end_uncertainty", "energy": "energy_uncertainty"}
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
 
 
@@ -167,15 +173,13 @@ def make_sweep(
 
 
 def solved(point: Point) -> dict:
-    """The answer at a point: the rows of its figures, its quiescent zones and its bulges."""
+    """The answer at a point: the rows of its figures, and its quiescent zones."""
     from comparisons.runs.run import run
 
     outcome = run(point.scene, None, point.asked)
     answer = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), point.scene.name))}
     if zones := _zones(outcome.findings.get(quiescent_zone.NAME)):
         answer[quiescent_zone.NAME] = zones
-    if bulges := bulge.bulges_of(outcome.findings.get(bulge.NAME)):
-        answer[bulge.NAME] = list(map(_bulge, bulges))
     return answer
 
 
@@ -188,13 +192,6 @@ def _zones(findings: Findings | None) -> dict[str, list[dict]]:
         entry = {"friction": zone.friction, "status": zone.state, **figures, **counts}
         by_model.setdefault(zone.model, []).append(entry)
     return by_model
-
-
-def _bulge(raised: bulge.Bulge) -> dict:
-    """Its figures by name, with the uncertainty of three of them."""
-    values = {name: raised.value(name) for name in bulge.QUANTITIES}
-    sizes = {k: _stated(raised.figures.get(name))["uncertainty"] for name, k in UNCERTAIN.items()}
-    return {"friction": raised.friction} | values | sizes | {"energy_ahead": raised.energy_ahead}
 
 
 def _stated(figure: Figure | None) -> dict[str, float | None]:
@@ -281,8 +278,7 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
         table.add_row(*names, *((mean, deviation) if is_sample else ()), low, high)
     points = content["points"]
     whys = failures(points)
-    pictures = [file for name, file in PICTURES.items() if any(name in p for p in points)]
-    files = TABLE, PICTURE, *pictures, SWEEP
+    files = TABLE, PICTURE, *([ZONES] if has_zones(content) else []), SWEEP
     over = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in content["over"])
     return Group(
         table,

@@ -184,13 +184,9 @@ def pressed_plastically(
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     body, loads = scene.body, (constraints.load, 0.0)
     metal = ElasticPlastic(body.material, body.flow_stress())
-    pressed = rough, metal, gap, weights
-    start = linear.pressure
-    body, (loaded, released) = press_plastically(*pressed, loads, start, friction, roller, travel)
-    still = None
-    if scene.stress is not None and scene.stress.bulge and scene.profile is not None:
-        _, [twin] = press_plastically(*pressed, loads[:1], start, 0.0, roller, travel)
-        still = twin.displacement
+    body, (loaded, released) = press_plastically(
+        rough, metal, gap, weights, loads, linear.pressure, friction, roller, travel
+    )
     refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
     moved = rough.weighted(loaded.displacement)
     both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
@@ -215,7 +211,6 @@ def pressed_plastically(
         fields.sy,
         others,
         moved=loaded.displacement,
-        still=still,
     )
 
 

@@ -47,7 +47,6 @@ class LoadedBody:
     on_mesh: Callable[[np.ndarray, tuple[float, ...]], RecoverableField] | None = None
     # (n, 2) [m] at the nodes of the displacement; None: the stresses have it
     moved: np.ndarray | None = None
-    still: np.ndarray | None = None  # the same without friction, where it is wanted
 
 
 def pressed_linearly(
@@ -173,8 +172,7 @@ def _stresses_of(
     if pressed.moved is None:
         moved = nodal[0].together[0].displacement
     else:
-        still = [] if pressed.still is None else [pressed.still]
-        moved = np.stack([pressed.moved] * len(frictions) + still, axis=1)
+        moved = np.stack([pressed.moved] * len(frictions), axis=1)
     if pressed.on_mesh is not None:
         return tuple(results), pressed.on_mesh(moved, frictions)
     others = pressed.others

@@ -273,23 +273,22 @@ def _row(
     return _flat(row), sizes | {"difference": prod(causes.values()) * sum(of_pressures)}
 
 
-def patch_loads(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Load [N/m], its centre [m] and peak pressure [Pa] (k,) of a level's patches. Pressures belong
-    to the nearest patch."""
+def _patch_loads(level: Level) -> tuple[np.ndarray, np.ndarray]:
+    """Load [N/m] and peak pressure [Pa] (k,) of a level's patches. Pressures belong to the nearest
+    patch."""
     patches, x = level.patches, level.grid.x
-    carried = level.grid.weights * level.solution.pressure
     places = np.searchsorted(0.5 * (patches[:-1, 1] + patches[1:, 0]), x)
-    load, moment = (np.bincount(places, w, len(patches)) for w in (carried, carried * x))
+    load = np.bincount(places, level.grid.weights * level.solution.pressure, len(patches))
     peak = np.zeros(len(patches))
     np.maximum.at(peak, places, level.solution.pressure)
-    return load, moment / load, peak
+    return load, peak
 
 
 def patch_rows(problem: Problem, level: Level) -> tuple[dict[str, object], ...]:
     """Every patch of a level, from `start` to `stop` [m]: load [N/m], peak [Pa], and how deep it
     is penetrated."""
     patches, wanted = level.patches, problem.scene.statistics
-    load, _, peak = patch_loads(level)
+    load, peak = _patch_loads(level)
     depth = relative_penetration(peak, problem.modulus)
     rule = wanted.metal, wanted.lubricated
     kinds = {

@@ -1,1 +1,1 @@
-"""Below the surface: where a body begins to flow, zones of little shear, and bulges."""
+"""Below the surface: where a body begins to flow, and zones of little shear."""

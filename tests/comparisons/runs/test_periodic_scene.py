@@ -189,7 +189,6 @@ def test_ends_of_a_measured_trace_meet_at_their_mean_or_are_refused(tmp_path):
         ({"load": {"per_length": 1e5}}, "load.mean_pressure: is given beside per_length"),
         ({"body": {"hardness": 141e6}}, "load.mean_pressure: is 1.4e.08 Pa at a body.hardness"),
         ({"statistics": {}}, "statistics: is given for a periodic surface; allowed is none"),
-        ({"stress": {"bulge": True}}, "stress.bulge: does not fit a periodic surface"),
         (
             {"finite_element": {"deformation": "finite"}},
             'finite_element.deformation: does not fit a periodic surface; allowed is "linear"',

@@ -396,26 +396,25 @@ def test_work_is_elastic_energy_and_what_flow_takes(slid):
         assert energies.plastic_work == pytest.approx(taken, rel=2e-3)
 
 
-def bulge(scene, contact):
-    """Largest height ahead of the load's centre over that behind it, by its distance."""
+def ahead_less_behind(scene, contact):
+    """Heights of the surface ahead of the load's centre less those as far behind it."""
     body = scene.pressed.body
     top, s = body.surface.point, np.linspace(0.5, 4.0, 141)
     x, raised = body.nodes[top, 0], -contact.displacement[top, 1]
     centre = scene.x @ contact.pressure / contact.pressure.sum()
-    across = np.interp(centre + s, x, raised) - np.interp(centre - s, x, raised)
-    return across
+    return np.interp(centre + s, x, raised) - np.interp(centre - s, x, raised)
 
 
-def test_the_bulge_on_another_mesh(small):
+def test_what_sliding_raises_on_another_mesh(small):
     """Triangles of gmsh in place of divided rectangles; without friction both sides are alike."""
     window = (-2.0, 2.0, 1.2, 0.14)
     other = build_block(BlockSpec(12.0, 6.0, np.array([[-2.0, 2.0]]), 1.0 / 12.0, 0.3, window))
     rises = []
     for mesh in (small, other):
         scene = Scene(mesh, 2.4, 6, hardening=10.0)
-        rise, even = (bulge(scene, scene.press([1.0], mu)[1][0]) for mu in (0.3, 0.0))
+        rise, even = (ahead_less_behind(scene, scene.press([1.0], mu)[1][0]) for mu in (0.3, 0.0))
         elastic = Scene(mesh, 2.4, 6, hardening=1e6)
         elastic.metal = ElasticPlastic(elastic.metal.elastic, Hardening(1e3))
-        rises.append(rise - bulge(elastic, elastic.press([1.0], 0.3)[1][0]))
+        rises.append(rise - ahead_less_behind(elastic, elastic.press([1.0], 0.3)[1][0]))
         assert np.abs(even).max() < 0.05 * rises[-1].max()
     assert rises[0].max() == pytest.approx(rises[1].max(), rel=0.05)

@@ -158,32 +158,6 @@ def test_a_second_call_solves_nothing(made, monkeypatch, capsys):
     )
 
 
-def test_bulges_are_drawn_over_the_relative_penetration(tmp_path, capsys, launch):
-    """On an elastic body none, whatever h/R; as many elements on a half-width at every load. The
-    ranks of mpirun find the same."""
-    (tmp_path / "slides.toml").write_text(
-        '[roller]\nradius = 1e-2\nrigid = true\n[body]\nyoungs_modulus = "210 GPa"\n'
-        'poissons_ratio = 0.3\n[load]\nhertz_peak_pressure = "1 GPa"\nfriction = [0, 0.3]\n'
-        "[stress]\npoints = [60, 30]\nbulge = true\n[resolution]\nelements = 8\nlevels = 2\n"
-        "[budget]\ntime = 1\neffects = false\n[finite_element]\ngrowth = 0.5\n"
-    )
-    out = tmp_path / "out"
-    asked = ["sweep", str(tmp_path / "slides.toml"), "--workers", "1", "--out", str(out)]
-    asked += ["--models", "finite-element", "--over", "load.hertz_peak_pressure=0.5 GPa,1 GPa"]
-    assert main(asked) == 0
-    assert "bulge.svg" in capsys.readouterr().out
-    points = json.loads((out / "sweep.json").read_text())["points"]
-    [one], [two] = (point["bulge"] for point in points)
-    assert two["relative_penetration"] == pytest.approx(4.0 * one["relative_penetration"])
-    assert two["contact"] == pytest.approx(2.0 * one["contact"], rel=1e-6)
-    assert two["over_penetration"] == pytest.approx(one["over_penetration"], abs=1e-6)
-    assert abs(two["height"]) < two["uncertainty"]
-    assert (out / "bulge.svg").read_text().startswith("<?xml")
-    end = launch(2, "-m", "comparisons.cli", *asked, "--out", tmp_path / "ranks")
-    assert end.returncode == 0, end.stderr
-    assert (tmp_path / "ranks/sweep.json").read_bytes() == (out / "sweep.json").read_bytes()
-
-
 def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
     """Long waves bridge it, short ones do not, and friction does."""
     (tmp_path / "waves.toml").write_text(
