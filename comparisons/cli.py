@@ -36,7 +36,7 @@ WATCHED = {
 }
 # Options that name a place. An empty one, as an unset variable leaves it, would mean the working
 # folder and replace what stands there.
-PLACES = ("--out", "--summary", "--junit", "--export", "--answers")
+PLACES = ("--out", "--summary", "--junit")
 # Of finite elements, which no wheel brings along.
 FINITE_ELEMENT_LIBRARIES = ("dolfinx", "basix", "ufl", "petsc4py", "mpi4py")
 NO_FINITE_ELEMENTS = (

@@ -1,8 +1,8 @@
 """Published contact benchmarks: the scenes of the library's `benchmarks`, solved as `run` does.
 
 In: their scenes, each with what is published of it ([published.NAME]). Out: one table of published
-figures, both models' and the verdicts; benchmarks.json, a page, JUnit. A figure that is marked
-doubtful is shown with its difference and decides nothing."""
+figures, both models' and the verdicts; benchmarks.json, JUnit. A figure that is marked doubtful
+is shown with its difference and decides nothing."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -14,11 +14,10 @@ from comparisons.campaigns.cases import Campaign, Case, carry_out
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
-from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.terminal import plain_table
 from comparisons.scenes.files import benchmark_names
 from comparisons.scenes.scene import Scene
-from comparisons.studies.published import HEAD, NAME, NOTE, table
+from comparisons.studies.published import HEAD, NAME, table
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -74,21 +73,6 @@ class Benchmarks(Campaign):
             notes += [f"{name}, {row[0]}: {row[-1]}" for row in rows if row[-1]]
         return Group(shown, *notes, *self.verdict_lines())
 
-    def page(self) -> str:
-        columns = ("published figure", *HEAD[1:-1], "why")
-        tables = []
-        for name, rows in self.tables.items():
-            scene = Scene.read(name)
-            sections = scene.published.values()
-            sources = [s.source + ("" if s.read else " (not read itself)") for s in sections]
-            cells = [(*row, source) for row, source in zip(rows, sources, strict=True)]
-            tables.append((f"{name}: {scene.title}", (*columns, "source"), cells))
-        title = f"Published benchmarks: {'all agree' if self.holds else 'not all agree'}"
-        template = Path(__file__).with_name("verify") / "verify.html.j2"
-        return rendered(
-            template, policy=STYLES, title=title, about=NOTE, faults=self.faults, tables=tables
-        )
-
 
 def run_benchmarks(
     out: Path,
@@ -96,6 +80,6 @@ def run_benchmarks(
     callback: ProgressCallback = no_progress,
     names: tuple[str, ...] | None = None,
 ) -> Benchmarks:
-    """Solve benchmarks by name, None: all; leave benchmarks.json and .html in `out`, JUnit XML in
-    the file `junit`. Raises InputError where those cannot be written."""
+    """Solve benchmarks by name, None: all; leave benchmarks.json in `out`, JUnit XML in the file
+    `junit`. Raises InputError where those cannot be written."""
     return carry_out(COMMAND, cases(names), out, junit, callback, Benchmarks)

@@ -270,10 +270,6 @@ class Campaign:
             "machine": machine(),
         }
 
-    def page(self) -> str | None:
-        """HTML, of a campaign that has a page."""
-        return None
-
     def summary(self) -> "RenderableType":
         """For the terminal: all rows and the verdict."""
         from rich.console import Group
@@ -292,7 +288,7 @@ class Campaign:
 
 def check_places(command: str, out: Path, junit: Path | None) -> None:
     """Raise InputError where the files of a command cannot be written."""
-    check_writable(out, (f"{command}.json", f"{command}.html"))
+    check_writable(out, (f"{command}.json",))
     check_place(junit)
 
 
@@ -304,9 +300,9 @@ def carry_out(
     callback: ProgressCallback,
     concluded: Callable[[str, tuple[Row, ...], float], Campaign] = Campaign,
 ) -> Campaign:
-    """Carry out all cases of a command, and leave <command>.json, and .html where there is a page,
-    in `out`; JUnit XML in the file `junit`. Raises InputError where those cannot be written, and
-    ModuleNotFoundError where there is no dolfinx for cases that take it.
+    """Carry out all cases of a command, and leave <command>.json in `out`, JUnit XML in the file
+    `junit`. Raises InputError where those cannot be written, and ModuleNotFoundError where there
+    is no dolfinx for cases that take it.
 
     concluded  makes the finished campaign of the command, its rows and the seconds"""
     check_places(command, out, junit)
@@ -315,10 +311,7 @@ def carry_out(
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     if is_first():
-        files = {f"{command}.json": as_json(finite(campaign.as_dict()))}
-        if (page := campaign.page()) is not None:
-            files[f"{command}.html"] = page
-        publish(out, files)
+        publish(out, {f"{command}.json": as_json(finite(campaign.as_dict()))})
         write_junit(junit, junit_of(campaign))
     kept.discard()
     return campaign

@@ -3,7 +3,7 @@
 Figures and model errors with their stated uncertainties, of scenes solved as `run` does (`scenes`)
 and of contacts on the library's operators (`operators`), smooth and rough (`rough`); observed
 orders (`coverage`); manufactured solutions (`manufactured`); the contact by PETSc's own solver
-(`independent_solver`). Out: JSON, JUnit, a page of its own, the terminal's tables."""
+(`independent_solver`). Out: JSON, JUnit, the terminal's tables."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -19,10 +19,8 @@ from comparisons.campaigns.cases import (
     Campaign,
     Case,
     Row,
-    bounds_text,
     carry_out,
     check_places,
-    holds,
     rows_table,
 )
 from comparisons.campaigns.verify.coverage import (
@@ -41,28 +39,16 @@ from comparisons.campaigns.verify.rough import rough_cases
 from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases
 from comparisons.common.errors import InputError
 from comparisons.common.mpi import is_several
-from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.figures.figure import Figure, grouped
-from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.output.page.html import STYLES, rendered
+from comparisons.figures.figure import grouped
+from comparisons.figures.quantity import label
 from comparisons.output.terminal import plain_table
-from comparisons.studies.study import MODEL_ERROR
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
 DEGREES = (1, 2, 3)
 COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
-ABOUT = """Stated uncertainty against true error, wherever the exact answer is known. Coverage: the
-share of true errors that are within what is stated. Ratio: stated uncertainty over true error
-(overestimation ratio), its median and what nine of ten are below. Figures whose error is rounding
-are not informative."""
-HEADS = {"table": "figure or model error", "kind": "exact solution"}
-OTHERS = "Orders, manufactured solutions, independent solver"
-OTHER_COLUMNS = ("group", "measured", "value", "bound", "holds")
-PAIR_COLUMNS = (HEADS["table"], "model", "case", "quantity", "exact", "error")
-PAIR_COLUMNS += ("uncertainty", "ratio", "covered")
 
 Cases = tuple[Sequence[Case], Sequence[Case]]  # of figures with exact values, and others
 
@@ -114,21 +100,6 @@ class Verification(Campaign):
         shown = [row for row in self.rows if not (row.holds and pairs_of(row))]
         return Group(*tables, rows_table(shown), *self.verdict_lines(), self.coverage_line)
 
-    def page(self) -> str:
-        unpaired = [row for row in self.rows if not pairs_of(row)]
-        figures = [_figure_cells(row.case, f) for row in unpaired for f in row.judged]
-        tables = []
-        for names in GROUPS:
-            rows = self._coverage_cells(names)
-            heads = [HEADS.get(name, name) for name in names]
-            tables.append((f"Coverage by {', '.join(heads)}", (*heads, *COLUMNS), rows))
-        tables.append((OTHERS, OTHER_COLUMNS, figures))
-        tables.append(("Figures", PAIR_COLUMNS, map(_pair_cells, self.pairs)))
-        title = f"{'Holds' if self.holds else 'Does not hold'}: {self.coverage_line}"
-        template = Path(__file__).parent / "verify.html.j2"
-        shown = {"title": title, "about": ABOUT, "faults": self.faults, "tables": tables}
-        return rendered(template, policy=STYLES, **shown)
-
     def _coverage_cells(self, names: tuple[str, ...]) -> list[tuple[str, ...]]:
         rows, said = [], {"model": MODEL_LABELS.get, "quantity": label}
         for group, covered in self.groups(*names).items():
@@ -138,33 +109,12 @@ class Verification(Campaign):
         return [*rows, ("all", *[""] * (len(names) - 1), *_cells(self.coverage))]
 
 
-def _figure_cells(case: Case, figure: Figure) -> tuple[str, ...]:
-    numbers = f"{figure.value:.4g}", bounds_text(figure), _yes(holds(figure))
-    return (case.group, f"{case.name}: {figure.quantity}", *numbers)
-
-
-def _pair_cells(pair: Pair) -> tuple[str, ...]:
-    words = pair.table, MODEL_LABELS[pair.model], pair.case, label(pair.quantity)
-    ratio = "" if pair.overestimation is None else f"{pair.overestimation:.2f}"
-    if pair.figure.study == MODEL_ERROR:
-        exact = percent(pair.exact, signed=True, digits=4)
-    else:
-        unit = QUANTITIES[pair.quantity].unit if pair.quantity in QUANTITIES else "m"  # a mean gap
-        exact = with_unit(pair.exact, unit, 6)
-    numbers = exact, percent(pair.error), percent(pair.figure.numerical)
-    return (*words, *numbers, ratio, _yes(pair.covered))
-
-
 def _cells(group: Coverage) -> tuple[str, ...]:
     if not group.informative:
         return (str(group.count), "0", "", "", "")
     ratios = group.median_overestimation, group.overestimation_quantile
     covered = f"{100.0 * group.covered:.1f} %"
     return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
-
-
-def _yes(true: bool) -> str:
-    return "yes" if true else "NO"
 
 
 def everything() -> Cases:
@@ -183,8 +133,8 @@ def verify(
     cases: Cases | None = None,
     fewest: tuple[int, int] = (FEWEST, FEWEST_ROUGH),
 ) -> Verification:
-    """Verify; leave verify.json and verify.html in `out`, JUnit XML in the file `junit`. Raises
-    InputError where those cannot be written, and under mpirun.
+    """Verify; leave verify.json in `out`, JUnit XML in the file `junit`. Raises InputError where
+    those cannot be written, and under mpirun.
 
     cases   None is everything
     fewest  informative figures that there must be, in all and of rough contacts"""

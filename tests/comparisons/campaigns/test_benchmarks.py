@@ -54,8 +54,6 @@ def test_files_say_the_same(solved):
     out = solved[1]
     written = json.loads((out / "benchmarks.json").read_text(encoding="utf-8"))
     assert written["holds"] and [row["case"] for row in written["rows"]] == ["vm191", "vm272"]
-    page = (out / "benchmarks.html").read_text(encoding="utf-8")
-    assert "plane strain" in page and "Chandrasekaran" in page
     assert 'failures="0"' in (out / "ci.xml").read_text(encoding="utf-8")
 
 

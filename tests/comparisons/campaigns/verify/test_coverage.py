@@ -113,7 +113,6 @@ def test_all_must_hold(rows, error):
     assert broken.exit_status == ExitStatus.OUTSIDE_TOLERANCE
     [suite] = ElementTree.fromstring(junit_of(broken).encode())
     assert suite.get("failures") == str(len(suite.findall("testcase/failure"))) == "1"
-    assert "Does not hold" in broken.page()
 
 
 def test_one_miss_among_many_is_reported_but_does_not_fail():
@@ -121,7 +120,7 @@ def test_one_miss_among_many_is_reported_but_does_not_fail():
     [suite] = ElementTree.fromstring(junit_of(missed).encode())
     assert missed.holds and suite.get("failures") == "0"
     assert "NOT covered" in suite[200].find("system-out").text
-    assert "case &lt;&amp;&gt;" in missed.page()
+    assert "case <&>" in suite[200].get("name")
 
 
 def test_rough_contacts_have_demands_of_their_own():
@@ -141,11 +140,6 @@ def test_coverage_is_shown_by_table_model_quantity_and_kind():
     assert groups["model error", "layer"].count == groups["figure", "rough"].count == 1
     assert groups["figure", "Hertz"].count == 200
     assert [figure.quantity for figure in error.judged] == ["model error, peak_pressure"]
-    page = verified.page()
-    assert (
-        "Coverage by figure or model error, exact solution" in page
-        and "<td>model error</td>" in page
-    )
 
 
 def test_coverage_is_rounded_down():
