@@ -1,17 +1,14 @@
-"""The half-plane's contacts at their extremes: smooth, rough, sliding, coated; and its algebra.
+"""The half-plane's contacts at their extremes: smooth, rough, sliding, coated.
 
 Smooth cylinders: stiffness, size, load, hardness and grids. In half-widths and peak pressures every
 Hertz contact is the same, so each row states its distance from the exact contact, and from the
-ordinary case, which is rounding. Rough lines: one node, plateaus, spikes, steep slopes, other
-units, against a load over one node's weight, bounded least squares, the contact conditions on a
-dense matrix, the same profile in other units. Sliding, up to a friction of 1 where the bodies
-differ most, against the exact sliding cylinder. Coatings, contrasts of 1e6: where coating or base
-does not matter the contact is that of a half-plane (limits of layers are held by `verify`).
-Algebra, direct solvers and FFT products: backward errors for the ordinary grid and for the matrices
-of worst condition, of many nodes, incompressible layers, coatings of high contrast."""
+ordinary case, which is rounding. Rough lines: one node, plateaus, spikes, against a load over one
+node's weight, bounded least squares, the contact conditions on a dense matrix. Sliding, up to a
+friction of 1 where the bodies differ most, against the exact sliding cylinder. Coatings, contrasts
+of 1e6: where coating or base does not matter the contact is that of a half-plane (limits of layers
+are held by `verify`)."""
 
-from collections.abc import Callable, Sequence
-from functools import cache, partial
+from functools import cache
 
 import numpy as np
 
@@ -22,17 +19,14 @@ from analytic.exact.sliding import sliding_from_load
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material, combined_modulus, dundurs_constants
-from analytic.operators.convolution import Convolution
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
 from analytic.surface.synthetic import self_affine
-from comparisons.campaigns.cases import CONDITION, CaseFigures, account, bounded, relative_error
+from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
 from comparisons.campaigns.robustness.measures import (
     SAME,
-    THRESHOLD,
     Constants,
     LoadedContact,
-    backward_ratio,
     dense_violation,
     deviation,
     flowed_figure,
@@ -50,20 +44,11 @@ LINE_COUNT = 512  # nodes of a rough line
 FEW = 48  # nodes that bounded least squares solve at once
 SLOPE = 0.05  # rms
 LOAD = 0.02 * SLOPE * LINE_COUNT  # [N/m] on nodes 1 m apart, modulus 1 Pa
-TRACE = 1e-3 / LINE_COUNT  # [m] pitch of a trace of 1 mm
 SLIDING_RADIUS, SLIDING_LOAD = 10e-3, 1e6  # [m], [N/m]
 BY_GRID = 1e-4  # of the peak and of the load's place: error by the grid
 SOFT = (1e5, 0.0)  # of the largest Dundurs' constant under a rigid roller
 COATED_RADIUS = 50.0  # [m]
 PITCH = 1.0 / HATS_PER_HALF_WIDTH  # [m]
-ELASTOMER = LayeredBody(Material(1.0, 0.5 - 1e-9), 0.02, "bonded")
-COATED = LayeredBody(Material(1e6, 0.3), 1.0, Material(1.0, 0.3))
-OPERATORS: dict[str, Callable[[int], Convolution]] = {
-    "half-plane": partial(HalfPlane, pitch=1.0, modulus=1.0),
-    "elastomer": partial(LayeredSurface, pitch=0.05, body=ELASTOMER),
-    "stiff coating": partial(LayeredSurface, pitch=1e-3, body=COATED),
-    "sliding": partial(CoupledHalfPlane, pitch=1.0, modulus=1.0, friction_dundurs=1.0),
-}
 
 
 def smooth_contact(
@@ -143,11 +128,9 @@ def rough(count: int, rms_slope: float = SLOPE) -> np.ndarray:
     return profile.height
 
 
-def pressed(
-    height: np.ndarray, load: float, pitch: float = 1.0, modulus: float = 1.0
-) -> LoadedContact:
-    """A rigid flat on heights (n,) [m] of a half-plane."""
-    return load_line(HalfPlane(len(height), pitch, modulus), height, Constraints(load=load))
+def pressed(height: np.ndarray, load: float) -> LoadedContact:
+    """A rigid flat on heights (n,) [m] of a half-plane, modulus 1 Pa."""
+    return load_line(HalfPlane(len(height), 1.0, 1.0), height, Constraints(load=load))
 
 
 def vanishing_figures(load: float) -> CaseFigures:
@@ -187,27 +170,6 @@ def steps(count: int) -> np.ndarray:
 
 
 SHAPES = {"plateau": plateau, "spike": spike, "steps": steps, "flat": np.zeros}
-
-
-def scaled_figures(
-    metre: float = TRACE, pascal: float = 1.0, same: float = SAME, amplitude: float | None = None
-) -> CaseFigures:
-    """All lengths times `metre`, all stresses times `pascal`, and heights, to which pressures are
-    in proportion, up to an `amplitude` [m]; `same` is how well figures agree."""
-    usual = pressed(rough(LINE_COUNT), LOAD)
-    slope = 1.0 if amplitude is None else amplitude / metre / float(np.ptp(rough(LINE_COUNT)))
-    height, load = rough(LINE_COUNT) * metre * slope, LOAD * metre * pascal * slope
-    other, reference = pressed(height, load, metre, pascal), "the ordinary line"
-    length = other.contact_length / usual.contact_length
-    approach = other.solution.approach / usual.solution.approach
-    spent, most = (line.solution.iterations["applications"] for line in (other, usual))
-    pressure = other.pressure / (pascal * slope)
-    return other.figures(
-        deviation(pressure, usual.pressure, "pressure", same, reference),
-        relative_error("contact length", length, metre, max(1e2 * same, 1e-15), reference),
-        relative_error("approach", approach, metre * slope, same, reference),
-        bounded("applications", spent / most, 1.0, reference, low=1.0),
-    )
 
 
 def sliding_figures(
@@ -253,33 +215,3 @@ def coated_figures(
     plain = load_cylinder(HalfPlane(CYLINDER_COUNT, PITCH, modulus), *under_load).pressure
     reference = "the equivalent half-plane"
     return contact.figures(deviation(contact.pressure, plain, "pressure", high, reference))
-
-
-def direct_figures(operator: str, count: int, nodes: Sequence[int] | None = None) -> CaseFigures:
-    """Nodes from the first to the second of `nodes`, or 120 scattered ones."""
-    made, rng = OPERATORS[operator](count), np.random.default_rng(1)
-    scattered = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
-    nodes = np.arange(*nodes) if nodes else scattered
-    right = rng.standard_normal((len(nodes), 2)) * made.column[0]
-    matrix = made.block(nodes)
-    solution = made.solve(nodes, right)
-    ratio = np.inf if solution is None else backward_ratio(matrix, solution, right)
-    figure = bounded("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
-    return figure, account(CONDITION, "dense", np.linalg.cond(matrix))
-
-
-def product_figures(operator: str, count: int, single: bool = False) -> CaseFigures:
-    """A product by FFT against one in longer numbers, row by row; `single` with 32-bit pressures.
-    The ratio grows like log n at most, which THRESHOLD leaves room for."""
-    made = OPERATORS[operator](count)
-    kind = np.float32 if single else float
-    pressure = np.random.default_rng(2).uniform(0.0, 1.0, count).astype(kind)
-    rows = np.unique(np.linspace(0, count - 1, 64).astype(int))
-    distance = rows[:, None] - np.arange(count)
-    matrix = np.where(distance >= 0, made.column[abs(distance)], made.row[abs(distance)])
-    exact = matrix.astype(np.longdouble) @ pressure.astype(np.longdouble)
-    norm = float(np.abs(matrix).sum(axis=1).max())
-    error = np.abs(made.apply(pressure)[rows] - exact).max()
-    ratio = float(error / (norm * np.abs(pressure).max() * float(np.finfo(kind).eps)))
-    reference = "LAPACK's test ratio, 32 bits" if single else "LAPACK's test ratio"
-    return (bounded("error of the product", ratio, THRESHOLD, reference),)

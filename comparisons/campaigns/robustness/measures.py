@@ -1,22 +1,12 @@
-"""What solutions at their extremes are held to: contact conditions, other solvers, rounding.
+"""What contacts at their extremes are held to: contact conditions, other solvers, their cost."""
 
-A contact on a grid of hats with its solution, and its figures. Backward errors, as LAPACK tests its
-solvers (Anderson et al. 1999, LAPACK working note 41, test ratios of xGET02):
-
-    ratio = ||b - A x||_1 / (||A||_1 ||x||_1 eps),   passed below THRESHOLD, whatever cond(A) is
-
-Then x is exact for a matrix that differs from A by rounding."""
-
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 from scipy.linalg import toeplitz
 from scipy.optimize import lsq_linear
-from scipy.sparse import csr_matrix
-from scipy.sparse.linalg import LinearOperator, onenormest
-from scipy.sparse.linalg import norm as sparse_norm
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
@@ -42,8 +32,6 @@ MOST_TIMES = 10.0  # the applications of the ordinary contact on as many nodes
 MOST_NODES = 512  # in contact, for their condition number
 LEAST_SQUARES = 1e-8  # of the peak: error of bounded least squares
 SAME = 1e-9  # of the peak: difference of pressures that should be equal
-THRESHOLD = 30.0  # LAPACK's own for its test ratios
-EPS = float(np.finfo(float).eps)
 Constants = Sequence[float]  # Young's modulus [Pa] and Poisson's ratio
 
 
@@ -205,30 +193,3 @@ def flowed_figure(flowed: np.ndarray, pitch: float, half_width: float) -> Figure
     """Length of the hats at the hardness (n,) against 2 `half_width` [m], in hats."""
     off = abs(np.count_nonzero(flowed) * pitch - 2.0 * half_width) / pitch
     return bounded("flowed length", off, 2.0, "flattened cylinder, exact, in hats")
-
-
-def backward_ratio(
-    matrix: np.ndarray | csr_matrix, solution: np.ndarray, right: np.ndarray
-) -> float:
-    """The ratio of this module for vectors (n,), or the largest of columns (n, k)."""
-    residual = np.abs(right - matrix @ solution).sum(axis=0)
-    size = np.abs(solution).sum(axis=0)
-    return float(np.max(residual / (one_norm(matrix) * size * EPS)))
-
-
-def one_norm(matrix: np.ndarray | csr_matrix) -> float:
-    return float(
-        np.linalg.norm(matrix, 1) if isinstance(matrix, np.ndarray) else sparse_norm(matrix, 1)
-    )
-
-
-def condition_estimate(matrix: csr_matrix, solve: Callable[[np.ndarray], np.ndarray]) -> float:
-    """cond_1 of a symmetric matrix (n, n); `solve` applies its inverse to (n,) (Higham 2002)."""
-
-    def columns(right: np.ndarray) -> np.ndarray:
-        return np.column_stack([solve(column) for column in right.T])
-
-    inverse = LinearOperator(
-        matrix.shape, matvec=solve, rmatvec=solve, matmat=columns, rmatmat=columns, dtype=float
-    )
-    return one_norm(matrix) * float(onenormest(inverse, t=1))  # of more columns some are random

@@ -127,6 +127,17 @@ class TestUnits:
         assert there.gap == pytest.approx(length * expected.gap, abs=lengths)
         assert there.approach == pytest.approx(length * expected.approach, abs=lengths)
 
+    @given(seed=seeds, length=st.integers(-40, 40), modulus=st.integers(-25, 25))
+    @examples(10)
+    def test_powers_of_two_change_no_digit(self, periodic, seed, length, modulus):
+        """Of the modulus those of four, whose roots have no more digits."""
+        here, (metre, pascal) = contact(seed, periodic), np.exp2([length, 2 * modulus])
+        load = Constraints(load=here.constraints.load * metre * pascal)
+        there = Contact(periodic, metre * here.pitch, pascal, metre * here.gap, load).solved()
+        expected = here.solved()
+        assert np.array_equal(there.pressure, pascal * expected.pressure)
+        assert there.iterations == expected.iterations
+
     @given(seed=seeds, factor=factors)
     @examples(15)
     def test_gap_and_load_together(self, periodic, seed, factor):

