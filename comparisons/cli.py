@@ -20,7 +20,6 @@ import typer
 
 from comparisons.commands import checks, doctor, finished, materials, run, scenes, studies
 from comparisons.common.errors import ExitStatus, InputError, SolverError, address_space, drop, tell
-from comparisons.common.mpi import as_one, forget_inherited_launcher, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
@@ -42,10 +41,6 @@ FINITE_ELEMENT_LIBRARIES = ("dolfinx", "basix", "ufl", "petsc4py", "mpi4py")
 NO_FINITE_ELEMENTS = (
     "finite elements take {0}, which {1} does not have; allowed is run --models half-plane, or: "
     "conda install -c conda-forge fenics-dolfinx (on Debian and Ubuntu ./crosscheck of a checkout)"
-)
-FINISHED = (
-    *(ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE),
-    *(ExitStatus.NOT_CONVERGED, ExitStatus.INCONCLUSIVE),
 )
 
 app = typer.Typer(
@@ -98,9 +93,7 @@ for name, command in {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line (default: the process's own) and return the exit status.
-
-    Several processes under mpirun print, and end, as one."""
+    """Run the command line (default: the process's own) and return the exit status."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers
         logging.getLogger("matplotlib").setLevel(logging.ERROR)  # where no home can be written
@@ -114,13 +107,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # nobody's plugins look into scenes: to search for them takes longer than to read one
         os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     arguments = list(sys.argv[1:] if arguments is None else arguments)
-    if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
+    if is_own and arguments[:1] and arguments[0] in WATCHED:
         from comparisons.common.interrupt import watched
 
         return watched(lambda: _carry_out(arguments), WATCHED[arguments[0]])
-    if is_own:  # not before a fork, which MPI does not survive
-        forget_inherited_launcher()
-    return as_one(lambda: _carry_out(arguments), FINISHED)
+    return _carry_out(arguments)
 
 
 def _open_streams() -> None:

@@ -4,7 +4,9 @@ import os
 import tempfile
 from contextlib import suppress
 
-# PETSc's signal handlers turn a closed pipe (`crosscheck run … | head`) into an abort of all ranks;
+from meshes.build import LAUNCHER_VARIABLES
+
+# PETSc's signal handlers turn a closed pipe (`crosscheck run … | head`) into an abort;
 # without them Python reports an error. PETSc reads the option at its first import.
 _QUIET = "-no_signal_handler"
 if _QUIET not in os.environ.get("PETSC_OPTIONS", ""):
@@ -15,8 +17,12 @@ if "TMPDIR" in os.environ:
     with suppress(FileNotFoundError):  # there is none
         os.environ["TMPDIR"] = tempfile.gettempdir()
 
-# A process alone needs neither Open MPI's daemon nor its search for fast networks, which take a
-# third of a second. Open MPI reads these when MPI begins; what a launcher or the user set stays.
-if not any(name.startswith(("OMPI_COMM_", "PMI_", "PMIX_")) for name in os.environ):
-    os.environ.setdefault("OMPI_MCA_ess_singleton_isolated", "1")
-    os.environ.setdefault("OMPI_MCA_pml", "ob1")
+# One process solves a body. What srun or mpirun set for it would make it, and all that it forks,
+# the same rank of a job.
+if any(name.startswith(("OMPI_COMM_", "PMI_", "PMIX_")) for name in os.environ):
+    for _name in [name for name in os.environ if name.startswith(LAUNCHER_VARIABLES)]:
+        del os.environ[_name]
+# It needs neither Open MPI's daemon nor its search for fast networks, which take a third of a
+# second. Open MPI reads these when MPI begins; what the user set stays.
+os.environ.setdefault("OMPI_MCA_ess_singleton_isolated", "1")
+os.environ.setdefault("OMPI_MCA_pml", "ob1")

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     import ufl
     from dolfinx.fem import Form, Function, FunctionSpace
     from dolfinx.mesh import Mesh
-    from mpi4py.MPI import Comm
     from petsc4py.PETSc import Mat
 
 _COMPILED: dict[tuple, tuple] = {}  # by 0.5's compiler, in this process
@@ -53,13 +52,14 @@ def quiet_compiler() -> None:
         handler.setLevel(max(handler.level, logging.WARNING))
 
 
-def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: int) -> "Mesh":
+def triangle_mesh(cells: np.ndarray, points: np.ndarray, degree: int) -> "Mesh":
     """dolfinx mesh of triangles with coordinates of polynomial `degree` 1 or 2. `cells` (m, 3 or 6)
     in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a basix element. On 0.5
     the first compiled form rewrites the element as equispaced; unless it is declared so, later
     processes compile again. An adjacency list of cells avoids 0.5's slow conversion from an
     array."""
     from dolfinx.mesh import create_mesh
+    from mpi4py import MPI
 
     quiet_compiler()
     cells = np.ascontiguousarray(cells, dtype=np.int64)
@@ -71,8 +71,8 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
         triangle = ufl.Cell("triangle", geometric_dimension=2)
         scalar = ufl.FiniteElement("Lagrange", triangle, degree, variant="equispaced")
         domain = ufl.Mesh(ufl.VectorElement(scalar))
-        return create_mesh(comm, AdjacencyList_int64(cells), points, domain)
-    return create_mesh(comm, cells, x=points, e=_equispaced(degree))
+        return create_mesh(MPI.COMM_SELF, AdjacencyList_int64(cells), points, domain)
+    return create_mesh(MPI.COMM_SELF, cells, x=points, e=_equispaced(degree))
 
 
 def _equispaced(degree: int, shape: tuple | None = (2,)):
@@ -98,7 +98,7 @@ def continuous_space(mesh: "Mesh", degree: int, shape: tuple | None) -> "Functio
     scalar = ufl.FiniteElement("Lagrange", mesh.ufl_cell(), degree, variant="equispaced")
     used = ufl.VectorElement(scalar) if shape else scalar
     name = ("element", degree, shape)
-    parts, module, _ = _compiled_once(name, lambda: used, mesh.comm)
+    parts, module, _ = _compiled_once(name, lambda: used)
     ffi = module.ffi
     element, dofmap = (ffi.cast("uintptr_t", ffi.addressof(part)) for part in parts)
     element = cpp.fem.FiniteElement(element)
@@ -106,12 +106,13 @@ def continuous_space(mesh: "Mesh", degree: int, shape: tuple | None) -> "Functio
     return fem.FunctionSpace(mesh, used, cpp.fem.FunctionSpace(mesh._mesh, element, dofmap))
 
 
-def _compiled_once(name: tuple, make: Callable[[], object], comm: "Comm") -> tuple:
+def _compiled_once(name: tuple, make: Callable[[], object]) -> tuple:
     """What 0.5's compiler makes of a named UFL object: compiled parts, module, code."""
     from dolfinx import jit
+    from mpi4py import MPI
 
     if name not in _COMPILED:
-        _COMPILED[name] = jit.ffcx_jit(comm, make())
+        _COMPILED[name] = jit.ffcx_jit(MPI.COMM_SELF, make())
     return _COMPILED[name]
 
 
@@ -124,13 +125,13 @@ def cell_nodes(space: "FunctionSpace") -> np.ndarray:
 
 
 def input_cells(mesh: "Mesh") -> np.ndarray:
-    """Number in the arrays given to `triangle_mesh` of each cell, ghosts included."""
+    """Number in the arrays given to `triangle_mesh` of each cell."""
     return np.asarray(mesh.topology.original_cell_index, dtype=np.int64)
 
 
 def cell_values(mesh: "Mesh", value: np.ndarray) -> "Function":
-    """Function of a form that is `value` (m,) on the cells, ghosts included, in their order. 0.5
-    has a class of spaces, later ones a function."""
+    """Function of a form that is `value` (m,) on the cells in their order. 0.5 has a class of
+    spaces, later ones a function."""
     from dolfinx import fem
 
     make = getattr(fem, "functionspace", None) or fem.FunctionSpace
@@ -142,8 +143,7 @@ def cell_values(mesh: "Mesh", value: np.ndarray) -> "Function":
 def cell_points(mesh: "Mesh") -> np.ndarray:
     """Coordinate numbers (m, k) of cells. 0.5 has an adjacency list, 0.9 an array, 0.11 several."""
     geometry = mesh.geometry
-    count = mesh.topology.index_map(mesh.topology.dim)
-    count = count.size_local + count.num_ghosts
+    count = mesh.topology.index_map(mesh.topology.dim).size_local
     if hasattr(geometry, "dofmaps") and not callable(geometry.dofmaps):
         points = geometry.dofmaps[0]
     else:
@@ -190,7 +190,7 @@ def compile_bilinear(
     from dolfinx.fem.forms import FormMetaClass
     from petsc4py import PETSc
 
-    form, module, code = _compiled_once(name, make, space.mesh.comm)
+    form, module, code = _compiled_once(name, make)
     taken = [value._cpp_object for value in values]
     positions = form.original_coefficient_position
     functions = [taken[positions[i]] for i in range(form.num_coefficients)]
@@ -232,7 +232,7 @@ def real_number(value: float) -> np.floating:
 
 
 def assembled_vector(linear: "Form") -> np.ndarray:
-    """Values of a compiled linear form at this process's components: dolfinx frees its vector."""
+    """Values of a compiled linear form: dolfinx frees its vector."""
     from dolfinx import fem
 
     return fem.assemble_vector(linear).array.copy()

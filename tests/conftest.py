@@ -1,12 +1,9 @@
 """What every test needs of the process that it runs in, and its random numbers."""
 
 import os
-import shutil
 import signal
-import subprocess
 import sys
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +15,6 @@ from meshes import build
 PROJECT = Path(__file__).resolve().parents[1]
 LAST = ("fem", "meshes", "analytic")  # folders of tests, by how long a file takes
 WORKER_MEMORY = 2.5e9  # bytes that one process with its share of the tests may take
-LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 
 # Tests start some hundred processes: what one has compiled, the next one need not. Nor need pytest
 # rewrite assertions again that it has rewritten once.
@@ -68,25 +64,3 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 def rng() -> np.random.Generator:
     """The same numbers in each test, whichever ran before."""
     return np.random.default_rng(29)
-
-
-@pytest.fixture(scope="session")
-def launch() -> Callable[..., subprocess.CompletedProcess]:
-    """launch(2, "-m", "comparisons.cli", …): Python in two processes under mpirun, in one without
-    it; its status and what it said."""
-
-    def launched(processes: int, *arguments: str | Path) -> subprocess.CompletedProcess:
-        command = [sys.executable, *map(str, arguments)]
-        if processes > 1:
-            if shutil.which("mpirun") is None:
-                pytest.skip("no mpirun: apt-get install openmpi-bin")
-            command = ["mpirun", "--oversubscribe", "-n", str(processes), *command]
-        environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
-        environment |= {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
-        environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        environment |= {"OMPI_MCA_mpi_yield_when_idle": "1"}  # waiting leaves the core to others
-        return subprocess.run(
-            command, env=environment, cwd=PROJECT, capture_output=True, text=True, timeout=300
-        )
-
-    return launched

@@ -29,8 +29,7 @@ def press_finitely(
     hardness   H [Pa], cap on `pressure`
 
     Others as of `FiniteContact`; Newton's method starts from the linear solution under `start`.
-    Raises FemError if it does not converge, and on more than one process; ValueError for a load
-    that the hats cannot bear.
+    Raises FemError if it does not converge, ValueError for a load that the hats cannot bear.
     """
     contact = FiniteContact(body, hats, roller, start, friction, far)
     return contact.by_newton(load, approach, hardness)

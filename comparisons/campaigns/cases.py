@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
 from comparisons.common.errors import ExitStatus, one_line
 from comparisons.common.files import check_writable, publish, unfinished
-from comparisons.common.mpi import is_first
 from comparisons.common.numbers import finite
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, key_of, machine, program_code, versions
@@ -230,7 +229,7 @@ def answers_of(out: Path, command: str, cases: Iterable[Case]) -> Cache:
     names = [[case.group, case.name, case.model] for case in cases]
     code = program_code("analytic", "comparisons", "fem", "meshes")
     key = key_of(names, versions(), code)
-    return Cache(unfinished(out, command), key, kinds_of(Figure), by_all=True)
+    return Cache(unfinished(out, command), key, kinds_of(Figure))
 
 
 @dataclass(frozen=True)
@@ -310,9 +309,8 @@ def carry_out(
         raise ModuleNotFoundError(f"{command}: takes dolfinx", name="dolfinx")
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
-    if is_first():
-        publish(out, {f"{command}.json": as_json(finite(campaign.as_dict()))})
-        write_junit(junit, junit_of(campaign))
+    publish(out, {f"{command}.json": as_json(finite(campaign.as_dict()))})
+    write_junit(junit, junit_of(campaign))
     kept.discard()
     return campaign
 

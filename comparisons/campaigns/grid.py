@@ -15,16 +15,14 @@ from time import perf_counter
 
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, one_line
-from comparisons.common.executors import cluster, ranks
+from comparisons.common.executors import cluster
 from comparisons.common.files import check_writable
-from comparisons.common.mpi import is_several
 from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import key_of, program_code, versions
 from comparisons.common.tasks import ProcessEnded, Tasks, called
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import scene_key, surface_of
-from fem.solver.communicator import each_alone
 
 SOLVED, FAILED = "solved", "failed"
 DIED = "the process that solved it died"
@@ -86,14 +84,9 @@ def failures(points: Iterable[dict]) -> Counter[str]:
 
 
 @contextmanager
-def tasks_by(workers: int | str | None, kept: Cache) -> Iterator[Tasks | None]:
-    """Tasks on so many processes, one a core (None), or on a Dask cluster, by its address. Under
-    mpirun its ranks are the workers: each calls this; all but the first work, and get None.
-    Raises InputError for other workers."""
-    if is_several():
-        with ranks() as opens, Tasks(opens, math.inf, kept) as tasks:
-            yield opens and tasks
-        return
+def tasks_by(workers: int | str | None, kept: Cache) -> Iterator[Tasks]:
+    """Tasks on so many processes, one a core (None), or on a Dask cluster, by its address. Raises
+    InputError for other workers."""
     text = str(cores() if workers is None else workers)
     if text.isdigit():
         if int(text) < 1:
@@ -117,10 +110,9 @@ def solved_in(
     solve: Solve,
     workers: int | str | None,
     callback: ProgressCallback,
-) -> list[Answer] | None:
-    """The answer at every point; under mpirun None in processes that only work for the first one.
-    Points that `out` has are not solved again, others are kept there; one that kills its process
-    has failed.
+) -> list[Answer]:
+    """The answer at every point. Points that `out` has are not solved again, others are kept there;
+    one that kills its process has failed.
 
     files    that are to be written in `out`; the points are kept under the first one's name
     workers  as `tasks_by` takes them
@@ -129,8 +121,6 @@ def solved_in(
     cache = Cache(out / f"{what}_points", "", {})
     try:
         with tasks_by(workers, cache) as tasks:
-            if tasks is None:
-                return None
             check_writable(out, files)
             cache.remove_leftovers()
             callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
@@ -148,14 +138,13 @@ def solved_in(
 
 
 def answered(solve: Solve, point: Point) -> Answer:
-    """By this process alone, though it may be one of several. What is refused, and what solvers and
-    numbers run into, is an answer; what is wrong with the machine is raised."""
+    """The answer at a point. What is refused, and what solvers and numbers run into, is an answer;
+    what is wrong with the machine is raised."""
     began = perf_counter()
     try:
         if point.scene is None:
             raise InputError(point.why)
-        with each_alone():
-            answer = solve(point)
+        answer = solve(point)
     except (ValueError, ArithmeticError, RuntimeError) as error:
         answer = failed(str(error) or type(error).__name__)
     return answer, perf_counter() - began

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 PATIENCE = 60.0  # s; the first trial that compiles a form takes twenty
-STARTED_BY = {"MPI": ("mpirun", "-n", "2")}  # the interpreter that runs a trial
 MODELS = {"half-plane": "half-plane", "finite elements": "finite-element"}
 REMEDY = "./crosscheck installs everything anew once its folder .venv is removed."
 
@@ -69,7 +68,7 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
 
 def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
     """Run a trial for at most `patience` seconds."""
-    command = [*STARTED_BY.get(name, ()), sys.executable, "-P", "-c", program]
+    command = [sys.executable, "-P", "-c", program]
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, errors="replace", timeout=patience,
@@ -77,8 +76,6 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
         )  # fmt: skip
     except subprocess.TimeoutExpired:
         return Finding(name, False, f"does not answer within {patience:g} s")
-    except OSError as error:
-        return Finding(name, False, f"{error.filename}: {error.strerror}")
     if done.returncode == 0:
         return Finding(name, True, done.stdout.strip().splitlines()[-1])
     if done.returncode < 0:

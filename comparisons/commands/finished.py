@@ -9,7 +9,6 @@ from typer import Argument, Option
 from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, show, show_either, show_json
 from comparisons.common.errors import ExitStatus, InputError, tell
-from comparisons.common.mpi import from_first
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -63,7 +62,7 @@ def report(
     if draws and len(folders) > 1:
         summary = RESULTS / "summary.html"
     with progress() as callback:
-        reports = from_first(lambda: draw_again(folders, summary, pdf, callback, draws))
+        reports = draw_again(folders, summary, pdf, callback, draws)
     content = reports_content(reports, summary)
     show_either(as_json, content, lambda: reports_table(reports, summary))
     for why in dict.fromkeys(report.no_pdf for report in reports if report.no_pdf):

@@ -11,8 +11,7 @@ from pathlib import Path
 from time import monotonic
 
 from comparisons.common.errors import tell
-from comparisons.common.mpi import is_first, is_several
-from comparisons.common.progress import Lasting, ProgressCallback, Step, no_progress
+from comparisons.common.progress import Lasting, ProgressCallback, Step
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 SILENCE = 60.0  # seconds between lines of progress where no terminal shows it
@@ -23,7 +22,7 @@ def progress() -> Iterator[ProgressCallback]:
     """A callback that shows the stage at work and the time left, if standard error is a terminal;
     of them nothing stays there. Elsewhere a line tells a stage every SILENCE seconds."""
     if not sys.stderr.isatty():
-        yield _lines() if is_first() else no_progress
+        yield _lines()
         return
     from rich import progress as rich
     from rich.console import Console
@@ -70,17 +69,11 @@ def _lines() -> ProgressCallback:
     return callback
 
 
-def is_watched() -> bool:
-    """Whether results go to a terminal that somebody reads."""
-    # Open MPI hands its processes a terminal, whatever its own output goes to
-    return sys.stdout.isatty() and not is_several()
-
-
 def show(renderable: object) -> None:
     """Print a table, as wide as the terminal, or as COLUMNS; into a file without padding."""
     from rich.console import Console
 
-    if is_watched():
+    if sys.stdout.isatty():
         Console().print(renderable)
         return
     asked = os.environ.get("COLUMNS", "")

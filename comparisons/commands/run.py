@@ -23,7 +23,6 @@ from comparisons.commands.arguments import (
 )
 from comparisons.commands.output import progress, show, show_either
 from comparisons.common.errors import ExitStatus, InputError, drop, tell
-from comparisons.common.mpi import from_first, is_first
 from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
 
 if TYPE_CHECKING:
@@ -88,9 +87,9 @@ def run(
     gc.freeze()  # a collection would look through all that was imported
     began = perf_counter()
     chosen = models_named(models, "--models")
-    asked = from_first(lambda: _read(scene, answer or (), tolerance))
+    asked = _read(scene, answer or (), tolerance)
     asked = asked if up_to in (None, HERTZ) else _limited(asked, up_to)
-    surface = from_first(lambda: surface_of(asked))
+    surface = surface_of(asked)
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
     if plan:
@@ -98,7 +97,7 @@ def run(
     if up_to == HERTZ:
         return _hertz_alone(asked, surface)
     directory = out or RESULTS / asked.name
-    from_first(lambda: _check_places(directory, junit, chosen))
+    _check_places(directory, junit, chosen)
     _say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
     if sys.stderr.isatty():
         _say_first_answer(asked, surface)
@@ -108,7 +107,7 @@ def run(
     _say_warnings(warnings_about_result(solved))
     with progress() as callback:
         finish(solved, callback)
-        if pdf and is_first():
+        if pdf:
             callback("printing the report")
             _print(directory)
     if junit is not None:
@@ -243,7 +242,7 @@ def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) ->
 
 
 def _say_warnings(warnings: list[str]) -> None:
-    if not (warnings and is_first()):
+    if not warnings:
         return
     from comparisons.output.terminal import PLAIN
 
@@ -255,7 +254,7 @@ def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:
     """What maps or estimates say of the model error; not of a surface that must be run in first,
     nor under a load that must be found first, nor of a contact that has no solution: the run says
     why."""
-    if scene.running_in is not None or scene.load.kind == "approach" or not is_first():
+    if scene.running_in is not None or scene.load.kind == "approach":
         return
     from analytic.contact.problem import ContactError
     from comparisons.campaigns.maps.answer import first_answer

@@ -20,7 +20,6 @@ from comparisons.commands.arguments import (
 )
 from comparisons.commands.output import progress, show_either, show_written
 from comparisons.common.errors import ExitStatus, tell
-from comparisons.common.mpi import from_first
 
 Axis = Annotated[
     str | None,
@@ -97,20 +96,18 @@ def map_of(
     )
     from comparisons.campaigns.maps.place import problem_named, unlike
 
-    marked = mark and from_first(lambda: problem_named(mark))
+    marked = mark and problem_named(mark)
     solves = again or any(option is not None for option in (points, x, y, workers))
     finished = scene in finished_names()
     quantity = quantity or (finished_map(scene)["quantity"] if finished else "peak_pressure")
     if finished and not solves:
         directory = out or RESULTS / scene
-        content = from_first(lambda: show_finished(scene, quantity, marked, directory))
+        content = show_finished(scene, quantity, marked, directory)
     else:
-        request = from_first(lambda: request_of(scene, points or SIZE, x, y, quantity))
+        request = request_of(scene, points or SIZE, x, y, quantity)
         directory = out or RESULTS / request.scene.name
         with progress() as callback:
             content = make_map(request, directory, workers, callback, marked)
-    if content is None:  # it worked for the first process
-        return ExitStatus.DONE
     if marked and (why := unlike(content, marked)):
         tell(f"--mark: {marked.scene.name} {why}; the map's errors are those of its own scene")
     show_either(as_json, content, lambda: map_table(content, directory))
@@ -138,12 +135,10 @@ def sweep(
     from comparisons.scenes.scene import Scene
 
     chosen = models_named(models, "--models")
-    request = from_first(lambda: sweep_request(Scene.read(scene), over, chosen))
+    request = sweep_request(Scene.read(scene), over, chosen)
     directory = out or RESULTS / f"sweep-{request.scene.name}"
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)
-    if content is None:  # it worked for the first process
-        return ExitStatus.DONE
     show_either(as_json, content, lambda: sweep_table(content, directory))
     return ExitStatus.DONE
 

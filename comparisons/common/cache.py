@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.common.files import remove_leftovers, whole_file
-from comparisons.common.mpi import from_first, is_first
 
 # What reading raises where a file is damaged, or of an earlier state of the program: zipfile, zlib,
 # numpy, json and the checks of dataclasses have errors of their own.
@@ -31,48 +30,10 @@ class Cache:
     # hash of everything that shapes the results (`comparisons.common.provenance`), or what finds it
     key: str | Callable[[], str]
     kinds: dict[str, type]  # the dataclasses that results are made of, by name (`kinds_of`)
-    by_all: bool = False  # every process that mpirun started loads: the first reads for all of them
 
     def load(self, name: str) -> object | None:
         """The result saved under a name; None without a whole one of the same key."""
-        if self.folder is None:
-            return None
-        return from_first(lambda: self._read(name)) if self.by_all else self._read(name)
-
-    def save(self, name: str, value: object) -> None:
-        """Write a result: dataclasses, dictionaries, tuples, arrays, numbers, texts.
-        The same command may end elsewhere and remove the folder; what is lost is computed again."""
-        if self.folder is None or not is_first():
-            return
-        arrays: dict[str, np.ndarray] = {}
-        outline = json.dumps({"key": self._key(), "name": name, "value": encoded(value, arrays)})
-        # in memory first: an interrupt amid an archive whose file is closed would be complained of
-        content = io.BytesIO()
-        seal = np.array(_seal(outline, arrays))
-        np.savez(content, outline=np.array(outline), seal=seal, **arrays)
-        self.folder.mkdir(parents=True, exist_ok=True)
-        with suppress(FileNotFoundError), whole_file(self.path(name)) as part:
-            part.write_bytes(content.getbuffer())
-
-    def discard(self) -> None:
-        """Remove the results, and the folder around theirs unless it holds those of others."""
-        if self.folder is not None and is_first():
-            shutil.rmtree(self.folder, ignore_errors=True)
-            with suppress(OSError):
-                self.folder.parent.rmdir()
-
-    def remove_leftovers(self) -> None:
-        """Remove what a process left that was killed while it saved."""
-        remove_leftovers(self.folder)
-
-    def path(self, name: str) -> Path:
-        return self.folder / f"{name}.npz"
-
-    def _key(self) -> str:
-        return self.key if isinstance(self.key, str) else self.key()
-
-    def _read(self, name: str) -> object | None:
-        if not self.path(name).is_file():  # to open a pipe would wait without end
+        if self.folder is None or not self.path(name).is_file():  # to open a pipe would wait
             return None
         try:
             with np.load(self.path(name), allow_pickle=False) as file:
@@ -86,6 +47,38 @@ class Cache:
             return decoded(outline["value"], arrays, self.kinds)
         except DAMAGED:
             return None
+
+    def save(self, name: str, value: object) -> None:
+        """Write a result: dataclasses, dictionaries, tuples, arrays, numbers, texts.
+        The same command may end elsewhere and remove the folder; what is lost is computed again."""
+        if self.folder is None:
+            return
+        arrays: dict[str, np.ndarray] = {}
+        outline = json.dumps({"key": self._key(), "name": name, "value": encoded(value, arrays)})
+        # in memory first: an interrupt amid an archive whose file is closed would be complained of
+        content = io.BytesIO()
+        seal = np.array(_seal(outline, arrays))
+        np.savez(content, outline=np.array(outline), seal=seal, **arrays)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with suppress(FileNotFoundError), whole_file(self.path(name)) as part:
+            part.write_bytes(content.getbuffer())
+
+    def discard(self) -> None:
+        """Remove the results, and the folder around theirs unless it holds those of others."""
+        if self.folder is not None:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            with suppress(OSError):
+                self.folder.parent.rmdir()
+
+    def remove_leftovers(self) -> None:
+        """Remove what a process left that was killed while it saved."""
+        remove_leftovers(self.folder)
+
+    def path(self, name: str) -> Path:
+        return self.folder / f"{name}.npz"
+
+    def _key(self) -> str:
+        return self.key if isinstance(self.key, str) else self.key()
 
 
 def _seal(outline: str, arrays: Mapping[str, np.ndarray]) -> str:

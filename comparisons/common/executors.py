@@ -1,6 +1,5 @@
-"""Workers in other places: the ranks of mpirun, and those of a Dask cluster.
-
-Both are executors of `concurrent.futures`, which queue what they get."""
+"""Workers on other machines: those of a Dask cluster, as an executor of `concurrent.futures`, which
+queues what it gets."""
 
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
@@ -9,7 +8,6 @@ from functools import partial
 
 from comparisons.common.errors import InputError
 from comparisons.common.tasks import Opens, carried_out
-from fem.solver.compilation import load_dolfinx
 
 
 class ExecutorWorker:
@@ -41,18 +39,6 @@ class ExecutorWorker:
     ) -> list["ExecutorWorker"]:
         done = wait([worker._future for worker in workers], timeout, FIRST_COMPLETED).done
         return [worker for worker in workers if worker._future in done]
-
-
-@contextmanager
-def ranks() -> Iterator[Opens | None]:
-    """The processes that mpirun started; each of them calls this. The first one gets the others as
-    workers. The others work until it is done, and get None."""
-    load_dolfinx()  # before the pool is made: within a job it would wait for the others for ever
-    from mpi4py import MPI
-    from mpi4py.futures import MPICommExecutor
-
-    with MPICommExecutor(MPI.COMM_WORLD, root=0) as executor:
-        yield executor and partial(ExecutorWorker, executor)
 
 
 @contextmanager

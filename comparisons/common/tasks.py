@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, TypeVar
 from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import SolverError
 from comparisons.common.interrupt import KILLED
-from comparisons.common.mpi import from_first, is_several
 from comparisons.common.processes import (
     ProcessWorker,
     cores,
@@ -331,9 +330,9 @@ def tasks_here(
     here: Sequence[Preparation] = (),
     there: Sequence[Preparation] = (),
 ) -> Tasks:
-    """Tasks on all cores within `memory` [bytes], and within the machine's; in this process alone
-    where it is one of several. The processes begin where the tasks are worth them."""
-    memory = min(memory, SHARE_OF_MEMORY * from_first(machine_memory))
+    """Tasks on all cores within `memory` [bytes], and within the machine's. Processes begin where
+    the tasks are worth them."""
+    memory = min(memory, SHARE_OF_MEMORY * machine_memory())
     opens, worth = None if _places() < 2 else _process, WORTH_A_FORK if _forks() else WORTH_A_START
     return Tasks(opens, _places(), kept, callback, worth, memory, here=here, there=there)
 
@@ -356,8 +355,8 @@ def carried_out(work: Work, *args: object) -> tuple[bool, object]:
 
 
 def _places() -> int:
-    """How many processes may work for this one, which may be one of several itself."""
-    return 1 if is_several() or multiprocessing.parent_process() is not None else cores()
+    """How many processes may work for this one, which may work for another itself."""
+    return 1 if multiprocessing.parent_process() is not None else cores()
 
 
 def _forks() -> bool:

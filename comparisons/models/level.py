@@ -14,7 +14,6 @@ from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
-from comparisons.common.mpi import from_first
 from comparisons.common.progress import machine_memory
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.problem import Problem, mean_height
@@ -49,8 +48,7 @@ def refuse_too_large(problem: Problem, wanted: ExpectedCost, name: str, pitch: f
     if wanted.memory > allowed:
         remedy = "allowed is a larger budget, or coarser pressures (resolution.pitch)"
         raise SceneError(f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; {remedy}")
-    there = from_first(machine_memory)
-    if wanted.memory > there:
+    if wanted.memory > (there := machine_memory()):
         remedy = "allowed are coarser pressures, or a smaller finite_element.block"
         machine = f"this machine has {there:.2g} bytes"
         raise SceneError(f"{source}: resolution.pitch: {need}, but {machine}; {remedy}")

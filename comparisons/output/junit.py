@@ -8,7 +8,6 @@ from xml.etree import ElementTree
 
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, published
-from comparisons.common.mpi import is_first
 from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.figures.figure import Figure, Verdict
 from comparisons.output.headline import headline
@@ -46,7 +45,7 @@ def check_place(junit: Path | None) -> None:
 
 def write_junit(junit: Path | None, content: str) -> None:
     """Leave the content in the file, whole or not at all; None is no file."""
-    if junit is not None and is_first():
+    if junit is not None:
         with published(junit.parent, ()) as folder:
             (folder / junit.name).write_text(content, encoding="utf-8")
 

@@ -5,7 +5,6 @@ from datetime import datetime
 from pathlib import Path
 
 from comparisons.common.files import write_whole
-from comparisons.common.mpi import is_first
 from comparisons.common.numbers import with_unit
 from comparisons.common.progress import Lasting, ProgressCallback
 from comparisons.models.forecast import Forecast
@@ -31,7 +30,7 @@ def recorded(
         levels += f", flow {with_unit(planned.seconds_of_flow, 's', 2)}"
     began = f"started {datetime.now():%Y-%m-%d %H:%M:%S}"
     expected = f"expected of one process: {levels}"
-    if folder is None or not is_first():
+    if folder is None:
         callback(Lasting(f"{began}; {expected}"))
         return callback
     path = folder / PROGRESS

@@ -9,7 +9,6 @@ from itertools import count
 
 import numpy as np
 
-from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages, machine_memory, no_progress
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
 from comparisons.models.forecast import expected_level
@@ -120,7 +119,7 @@ class _LevelTask:
             from comparisons.models.half_plane import half_plane_level
 
             how = self.problem, self.pitch, self.window, stages, "sparse" if self.sparse else "all"
-            return from_first(lambda: half_plane_level(*how))
+            return half_plane_level(*how)
         from comparisons.models.finite_element.bodies import BodyCache
         from comparisons.models.finite_element.level import LevelOptions, finite_element_level
         from comparisons.models.finite_element.mesh import Refinement
@@ -161,7 +160,7 @@ class _Levels:
         self.levels: dict[str, list[Level]] = {name: [] for name in self.plan.models}
         self.patches = np.array([self.problem.extent])  # of contact, by which costs are expected
         # [bytes] that the machine has to give at the start
-        self.machine = from_first(machine_memory)
+        self.machine = machine_memory()
 
     def begin(self) -> None:
         """Make known the levels that the scene asks for; the half-plane's first tells what the

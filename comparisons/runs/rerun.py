@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.errors import ExitStatus, InputError, one_line
 from comparisons.common.files import check_writable
-from comparisons.common.mpi import from_first, is_first
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of, movement
 from comparisons.output.record import Record, read_record
@@ -67,7 +66,7 @@ def rerun(
 ) -> Repetition:
     """Repeat the run in a folder, which is only read; `out` keeps the repetition.
     Raises InputError for a folder without a sound record, or one that may not be written to."""
-    record = from_first(lambda: read_record(folder))
+    record = read_record(folder)
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone
         from comparisons.output.page.saved import read_run
@@ -123,17 +122,16 @@ def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:
 def _place(folder: Path, out: Path | None) -> Iterator[Path]:
     """Where the repetition goes: `out`, or a folder that is dropped with it."""
     if out is not None:
-        from_first(lambda: _check_other(folder, out))
+        _check_other(folder, out)
         yield out
         return
-    scratch = Path(from_first(lambda: tempfile.mkdtemp(prefix="crosscheck-")))
+    scratch = Path(tempfile.mkdtemp(prefix="crosscheck-"))
     try:
         yield scratch / "again"
     except KeyboardInterrupt:
         raise KeyboardInterrupt from None  # no level is kept to go on from
     finally:
-        if is_first():
-            shutil.rmtree(scratch, ignore_errors=True)
+        shutil.rmtree(scratch, ignore_errors=True)
 
 
 def _check_other(folder: Path, out: Path) -> None:

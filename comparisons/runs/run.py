@@ -16,7 +16,6 @@ from analytic.contact.problem import ContactError
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
 from comparisons.common.errors import InputError, SceneError, SolverError, address_space
 from comparisons.common.files import unfinished
-from comparisons.common.mpi import from_first, is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import (
     LEVEL_CODE,
@@ -45,7 +44,6 @@ from comparisons.studies.answers.answer import Answer
 from comparisons.studies.ladder.limits import limited, may_stop_early
 from comparisons.studies.ladder.show import SUFFICES
 from comparisons.studies.study import LADDER, Run, Solved, studied, unsolved
-from fem.solver.communicator import is_alone
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -110,9 +108,8 @@ def solve_scene(
     if may_stop_early(scene, models):
         first = solve_scene(scene, None, MODELS[:1], callback, known=known)
         models = MODELS[:1] if first.findings[LADDER].said(SUFFICES) else models
-    _check_processes(scene, models)
     _check_libraries(models)
-    surface = known.surface or from_first(lambda: surface_of(scene))
+    surface = known.surface or surface_of(scene)
     try:
         with _tasks_of(scene, models) as tasks:
             tasks.prepare()
@@ -167,18 +164,6 @@ def planned(scene: Solved, levels: Forecast | None = None) -> list[str]:
             takes = study.planned(scene) if why_not is None else f"is left out: it {why_not}"
             said += [f"{study.name} {takes}"] if takes else []
     return said
-
-
-def _check_processes(scene: Scene, models: tuple[str, ...]) -> None:
-    """Raise SceneError for what only one process can solve where there are several."""
-    settings, several = scene.finite_element, is_several() and not is_alone()
-    finite = settings.deformation == "finite"
-    name = "deformation" if finite else "plastic"
-    if several and (finite or settings.plastic) and "finite_element" in models:
-        raise SceneError(
-            f"{scene.source}: finite_element.{name}: is solved on one process; allowed without "
-            "mpirun"
-        )
 
 
 def _check_libraries(models: tuple[str, ...]) -> None:
@@ -270,7 +255,7 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
     shape = scene_key(problem.scene, problem.surface)
     key = cache(lambda: key_of(shape, repr(plan), versions(), program_code(*CODE)))
     kinds = kinds_of(Level, *(study.data for study in STUDIES if study.data is not None))
-    return Cache(unfinished(out, "run"), key, kinds, by_all=True)
+    return Cache(unfinished(out, "run"), key, kinds)
 
 
 def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:

@@ -7,7 +7,6 @@ import numpy as np
 
 from comparisons.common.errors import one_line
 from comparisons.common.files import RECORD, published
-from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
@@ -20,9 +19,7 @@ from meshes.block import BlockMesh
 
 
 def write_files(outcome: Run, callback: ProgressCallback) -> None:
-    """Write everything into the run's folder; whole files, all at the end, by one process."""
-    if not is_first():
-        return
+    """Write everything into the run's folder; whole files, all at the end."""
     callback(Step("writing results", 0.0))
     from comparisons.output.page.page import render
     from comparisons.output.page.saved import FILE

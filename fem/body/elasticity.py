@@ -1,7 +1,6 @@
 """Plane-strain elasticity of a block: displacements of degree 1, 2 or 3, one factorisation.
 
 Displacements and loads are arrays (n, 2), x and z components, in the numbering of `fem.body.nodes`.
-Under MPI every process holds the whole array and its own part of the matrix.
 
 The stiffness is assembled for Young's modulus 1 of the body, a coating's relative to it, and the
 displacement divided by the modulus, so that results scale exactly.
@@ -39,7 +38,6 @@ from fem.body.support import Support, held_components
 from fem.body.surface import BoundaryPoints, Surface, boundary_points, surface_of
 from fem.body.ties import Ties, tied_sides
 from fem.body.triangle import Locator, reference_nodes, shapes
-from fem.solver.communicator import communicator
 from fem.solver.compilation import compiled, load_dolfinx
 from fem.solver.mumps import FemError, SymmetricFactor
 from meshes.block import BlockMesh, real_points
@@ -137,8 +135,7 @@ class ElasticBody(MeshedBody):
 
     support: Support
     held: np.ndarray  # (n, 2) components that the support holds
-    # our number of each node of `space`, of displacements, that this process owns
-    owned: np.ndarray
+    space_nodes: np.ndarray  # (n,) our number of each node of `space`, of displacements
     # gives PETSc's stiffness for Young's modulus 1; held rows are those of the identity
     assemble: Callable[[], "Mat"]
     space: "FunctionSpace"
@@ -148,16 +145,11 @@ class ElasticBody(MeshedBody):
     def factor(self) -> SymmetricFactor:
         matrix = self.assemble()
         if self.ties is not None:
-            matrix = self.ties.applied(matrix, self.owned, len(self.nodes))
+            matrix = self.ties.applied(matrix, self.space_nodes)
         try:
             return SymmetricFactor(matrix)
         finally:
             matrix.destroy()  # as large as a third of the factor
-
-    @property
-    def processes(self) -> int:
-        """That share it."""
-        return self.space.mesh.comm.size
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once. The
@@ -171,8 +163,10 @@ class ElasticBody(MeshedBody):
                     "bond its base or hold its sides"
                 )
         free = np.where(self.held, 0.0, load if self.ties is None else self.ties.summed(load))
-        part = np.take(free, self.owned, axis=-2).reshape(*load.shape[:-2], -1).T
-        moved = self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
+        right = np.take(free, self.space_nodes, axis=-2).reshape(*load.shape[:-2], -1).T
+        solution = self.factor.solve(right).T.reshape(load.shape)
+        # a take is an eighth of the time of an index
+        moved = np.take(solution, self._place, axis=-2) / self.material.youngs_modulus
         return moved if self.ties is None else self.ties.followed(moved)
 
     def with_law(self, law: Law) -> "ElasticBody":
@@ -182,34 +176,22 @@ class ElasticBody(MeshedBody):
         return body
 
     def stiffness(self) -> csr_matrix:
-        """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only. Rows and
-        columns of held components are those of the identity times Young's modulus."""
-        if self.processes > 1:
-            raise FemError("the stiffness as one matrix is available on one process only")
+        """Stiffness (2n, 2n) [Pa], x and z of each node in turn. Rows and columns of held
+        components are those of the identity times Young's modulus."""
         if self.ties is not None:
             raise FemError("the stiffness as one matrix is available without tied sides only")
         matrix = self.assemble()
         start, column, value = matrix.getValuesCSR()
         matrix.destroy()
-        component = (2 * self.owned[:, None] + np.arange(2)).ravel()
+        component = (2 * self.space_nodes[:, None] + np.arange(2)).ravel()
         row = np.repeat(component, np.diff(start))
         value = value * self.material.youngs_modulus
         return csr_matrix((value, (row, component[column])), shape=(len(component),) * 2)
 
-    def _gathered(self, part: np.ndarray) -> np.ndarray:
-        """The whole displacement (..., n, 2) on every process from the parts they own."""
-        part = part.reshape(*part.shape[:-1], -1, 2)
-        if self.processes == 1:
-            return np.take(part, self._place, axis=-2)  # an eighth of the time of an index
-        whole = np.empty((*part.shape[:-2], *self.nodes.shape))
-        for owned, piece in self.space.mesh.comm.allgather((self.owned, part)):
-            whole[..., owned, :] = piece
-        return whole
-
     @cached_property
     def _place(self) -> np.ndarray:
-        """Place (n,) of each node among the owned ones, where these are all."""
-        return np.argsort(self.owned)
+        """Index (n,) of each of our nodes among those of `space`."""
+        return np.argsort(self.space_nodes)
 
 
 def meshed_body(
@@ -240,7 +222,7 @@ def elastic_body(
     ties = tied_sides(numbering.flat, sides) if support.sides == "tied" else None
     coated = coated_triangles(mesh, coating)
     curved = bool(np.any(mesh.shift))
-    space, cell, node = space_on(mesh, numbering, (2,), communicator())
+    space, cell, node = space_on(mesh, numbering, (2,))
     domain = space.mesh
 
     # compiled once for all plain bodies and once for all coated ones
@@ -255,10 +237,9 @@ def elastic_body(
     form = compiled(lambda: compat.compile_bilinear(name, make, space, [shear, lame]))
     conditions = conditions_of(space, held[node])
 
-    owned = node[: space.dofmap.index_map.size_local]
     form_of_body = (mesh, material, coating, coated, numbering)
     assemble = partial(compat.petsc_matrix, form, conditions)
-    return ElasticBody(*form_of_body, support, held, owned, assemble, space, ties)
+    return ElasticBody(*form_of_body, support, held, node, assemble, space, ties)
 
 
 def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":

@@ -18,7 +18,6 @@ from meshes.quality import corner_jacobians
 
 if TYPE_CHECKING:
     from dolfinx.fem import DirichletBC, FunctionSpace
-    from mpi4py.MPI import Comm
 
 # dolfinx lists the edge opposite to vertex 0 first, gmsh the edge between vertices 0 and 1.
 GMSH_TO_DOLFINX = [0, 1, 2, 4, 5, 3]
@@ -81,13 +80,12 @@ def in_order(degree: int, order: np.ndarray, vertices: np.ndarray) -> np.ndarray
 
 
 def space_on(
-    mesh: BlockMesh, numbering: Nodes, shape: tuple | None, comm: "Comm"
+    mesh: BlockMesh, numbering: Nodes, shape: tuple | None
 ) -> tuple["FunctionSpace", np.ndarray, np.ndarray]:
     """dolfinx space of values of a `shape` (2,), or None of scalars, on the mesh; our triangle of
-    each of its cells, and our node of each of its nodes (owned, then ghosts). The first process has
-    the whole mesh; dolfinx distributes it. Matched by topology, not by coordinates: dolfinx gives
-    each cell's input number, and the order of its vertices among ours gives that of its nodes.
-    Raises FemError if an element is inverted."""
+    each of its cells, and our node of each of its nodes. Matched by topology, not by coordinates:
+    dolfinx gives each cell's input number, and the order of its vertices among ours gives that of
+    its nodes. Raises FemError if an element is inverted."""
     points = real_points(mesh)
     folded = (corner_jacobians(points, mesh.triangles) <= 0.0).any(axis=1)
     if folded.any():
@@ -98,9 +96,7 @@ def space_on(
         number, cells = np.unique(mesh.triangles[:, :3], return_inverse=True)
         cells = cells.reshape(-1, 3)
     points = points[number]
-    if comm.rank > 0:
-        cells, points = cells[:0], points[:0]
-    domain = compat.triangle_mesh(comm, cells, points, 2 if curved else 1)
+    domain = compat.triangle_mesh(cells, points, 2 if curved else 1)
     space = compiled(lambda: compat.continuous_space(domain, numbering.degree, shape))
 
     cell = compat.input_cells(domain)
@@ -108,8 +104,7 @@ def space_on(
     vertices = np.argmax(corner[:, :, None] == mesh.triangles[cell, None, :3], axis=2)
     order = lattice(numbering.degree, DOLFINX_EDGES)
     order = in_order(numbering.degree, order, vertices)
-    index_map = space.dofmap.index_map
-    node = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
+    node = np.empty(space.dofmap.index_map.size_local, dtype=np.int64)
     node[compat.cell_nodes(space)] = np.take_along_axis(numbering.elements[cell], order, axis=1)
     return space, cell, node
 

@@ -2,7 +2,7 @@
 
 The nodes of the right side follow those of the left at the same depth. With T the matrix that gives
 all displacements from those that lead, the system T'KT u = T'f is as large as before: what follows
-has no row in it but the identity's. So numbering, ranks and the factorisation stay as they are."""
+has no row in it but the identity's. So numbering and the factorisation stay as they are."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -36,31 +36,27 @@ class Ties:
         moved[..., self.right, :] = displacement[..., self.left, :]
         return moved
 
-    def applied(self, matrix: "Mat", owned: np.ndarray, count: int) -> "Mat":
+    def applied(self, matrix: "Mat", nodes: np.ndarray) -> "Mat":
         """T'KT, with the identity in the rows of what follows, of PETSc's K, which is freed.
 
-        owned  this process's nodes, in the order of their rows, two each, of `count` in all"""
+        nodes  (n,) in the order of their rows, two each"""
         from petsc4py import PETSc
 
-        start = matrix.getOwnershipRange()[0]
-        rank_nodes = matrix.comm.tompi4py().allgather(owned)
-        row_of = np.empty(count, dtype=PETSc.IntType)  # of each node, over two
-        row_of[np.concatenate(rank_nodes)] = np.arange(count)
-        leader = np.arange(count)
+        row_of = np.argsort(nodes)  # of each node, over two
+        leader = np.arange(len(nodes))
         leader[self.right] = self.left
-        follows = np.zeros(count, dtype=bool)
+        follows = np.zeros(len(nodes), dtype=bool)
         follows[self.right] = True
 
         def one_a_row(columns: np.ndarray, values: np.ndarray) -> "Mat":
-            """This process's rows, one entry each."""
-            rows = np.arange(len(columns) + 1, dtype=PETSc.IntType)
-            return PETSc.Mat().createAIJ(matrix.getSizes(), csr=(rows, columns, values), comm=comm)
+            """Rows of one entry each."""
+            csr = np.arange(len(columns) + 1, dtype=PETSc.IntType), columns, values
+            return PETSc.Mat().createAIJ(matrix.getSizes(), csr=csr, comm=PETSc.COMM_SELF)
 
-        comm = matrix.comm
-        columns = (2 * row_of[leader[owned], None] + np.arange(2)).ravel().astype(PETSc.IntType)
+        columns = (2 * row_of[leader[nodes], None] + np.arange(2)).ravel().astype(PETSc.IntType)
         give = one_a_row(columns, np.ones(len(columns)))
-        numbers = np.arange(start, start + len(columns), dtype=PETSc.IntType)
-        identity = one_a_row(numbers, np.repeat(follows[owned].astype(float), 2))
+        diagonal = np.arange(len(columns), dtype=PETSc.IntType)
+        identity = one_a_row(diagonal, np.repeat(follows[nodes].astype(float), 2))
         tied = matrix.PtAP(give)
         tied.axpy(1.0, identity)
         for used in (matrix, give, identity):

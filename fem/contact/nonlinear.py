@@ -359,8 +359,8 @@ def solve_nonlinear_contact(
     flexible   C (count, count) [m^2/Pa] of further bodies, linear, as a dense matrix
 
     The load is the sum of the pressures; the vertical part of the friction's tractions, of the
-    order of friction times slope, is neglected as in the linear theory. On one process. Raises
-    ValueError for a load that the hats cannot bear, FemError if even the smallest increment fails.
+    order of friction times slope, is neglected as in the linear theory. Raises ValueError for
+    a load that the hats cannot bear, FemError if even the smallest increment fails.
     """
     if (load is None) == (approach is None):
         raise ValueError("give either the load or the approach")

@@ -22,7 +22,6 @@ from fem.body.elasticity import quadrature_degree
 from fem.body.nodes import Nodes, nodes_of, space_on
 from fem.body.surface import Surface, surface_of
 from fem.body.triangle import Locator, shapes
-from fem.solver.communicator import communicator, each_alone
 from fem.solver.compilation import compiled, load_dolfinx
 from meshes.block import BlockMesh, real_points
 
@@ -82,14 +81,13 @@ def thermal_body(
     radius: float = np.inf,
 ) -> ThermalBody:
     """A block with temperatures of `degree` 1, 2 or 3; of the mesh of a disc's sector with its
-    `radius` [m]. Every process has all of it. Raises FemError if an element is inverted, ValueError
-    if one crosses the coating's lower side."""
+    `radius` [m]. Raises FemError if an element is inverted, ValueError if one crosses the coating's
+    lower side."""
     load_dolfinx()
     numbering, coated = nodes_of(mesh, degree), coated_triangles(mesh, coating)
     layer = coating.material if coating else material
     curved = bool(np.any(mesh.shift))
-    with each_alone():
-        space, cell, node = space_on(mesh, numbering, None, communicator())
+    space, cell, node = space_on(mesh, numbering, None)
 
     def of_cells(surface: float, below: float):
         return compat.cell_values(space.mesh, np.where(coated[cell], surface, below))

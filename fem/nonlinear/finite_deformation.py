@@ -135,9 +135,7 @@ class FiniteContact:
     far        gives the body's outer boundary the half-plane's displacement under `start`; None:
                the support holds it. An elastic roller has its own
     gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
-    compliance of the body on the hats, without flow
-
-    Raises FemError on more than one process."""
+    compliance of the body on the hats, without flow"""
 
     def __init__(
         self,

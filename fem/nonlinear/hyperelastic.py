@@ -27,7 +27,7 @@ CORNERS = reference_nodes(1)
 
 class HyperelasticBody:
     """The response of `body` at finite strains, by its material's law, and of its coating by that
-    one's. FemError in parallel."""
+    one's."""
 
     symmetric, softness = True, np.ones(1)
 
@@ -35,8 +35,6 @@ class HyperelasticBody:
         import ufl
         from dolfinx import fem
 
-        if body.processes > 1:
-            raise FemError("finite deformations are computed on one process only")
         self.body, self.held = body, body.held
         self._unit = body.material.youngs_modulus
         space = body.space
@@ -57,7 +55,7 @@ class HyperelasticBody:
         tangent = ufl.derivative(work, self._moved, w)
         self._work = compiled(lambda: compat.compile_form(work))
         self._tangent = compiled(lambda: compat.compile_form(tangent))
-        self._component = (2 * body.owned[:, None] + np.arange(2)).ravel()
+        self._component = (2 * body.space_nodes[:, None] + np.arange(2)).ravel()
         self._pattern: csr_matrix | None = None
         # at the corners, by r at all of them and then by s: of the displacement's shape functions
         # (k, 6), and of x and z (m, 6) each

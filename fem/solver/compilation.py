@@ -87,12 +87,9 @@ def see_to_cache() -> Path:
 
 def compiled(make: Callable[[], Result]) -> Result:
     """What `make`, which may compile forms, returns. TimeoutError if another does for a minute."""
-    from mpi4py import MPI
-
     waits, clear = 0, _clear_once
     while True:
-        if MPI.COMM_WORLD.rank == 0:  # it compiles for all
-            clear(compat.form_cache())
+        clear(compat.form_cache())
         try:
             with uninterrupted():
                 return make()

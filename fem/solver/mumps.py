@@ -9,7 +9,7 @@ from scipy.sparse import csr_matrix
 from fem import compat
 
 if TYPE_CHECKING:
-    from petsc4py.PETSc import KSP, Comm, Mat, Object
+    from petsc4py.PETSc import KSP, Mat, Object
 
 # Extra room for fill that pivoting and unsymmetric trees need, per cent (MUMPS ICNTL(14), default
 # 20, too little for graded meshes of high contrast); each failure doubles it.
@@ -46,19 +46,16 @@ class FemError(RuntimeError):
 
 
 def release_with(owner: object, *objects: "Object") -> None:
-    """Free PETSc's objects when Python frees their owner. From 3.18 on PETSc keeps them until all
-    processes of the communicator destroy them in the same order. Several processes do not free
-    owners in the same order: there nothing is freed."""
+    """Free PETSc's objects when Python frees their owner: from 3.18 on PETSc keeps them."""
     for item in objects:
-        if item.comm.size == 1:
-            weakref.finalize(owner, item.destroy).atexit = False
+        weakref.finalize(owner, item.destroy).atexit = False
 
 
 class SymmetricFactor:
     """LDL^T of an assembled symmetric positive definite PETSc matrix, both triangles stored. It
     does not need the matrix again.
 
-    bytes       memory that MUMPS holds for the factor, over all processes
+    bytes       memory that MUMPS holds for the factor
     solves      right-hand sides so far
 
     Raises FemError if MUMPS cannot factor it."""
@@ -68,7 +65,6 @@ class SymmetricFactor:
 
         matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         matrix.setOption(PETSc.Mat.Option.SPD, True)
-        self._sizes, self._comm = matrix.getSizes(), matrix.comm
         self._right, self._left = matrix.createVecs()
         ksp, self._factor = factorised(matrix)
         for used in (ksp.getPC(), ksp):  # they hold the matrix
@@ -78,24 +74,24 @@ class SymmetricFactor:
         self.solves = 0
 
     def solve(self, load: np.ndarray) -> np.ndarray:
-        """This process's rows of the solution for its rows of the load: (n,) or (n, m)."""
+        """The solution for a load (n,), or those for m loads (n, m)."""
         self.solves += 1 if load.ndim == 1 else load.shape[1]
         if load.ndim == 1:
             self._right.setArray(load)
             self._factor.solve(self._right, self._left)
             return self._left.getArray().copy()
-        return _solutions(self._factor, self._sizes, self._comm, load)
+        return _solutions(self._factor, load)
 
 
-def _solutions(factor: "Mat", sizes: tuple, comm: "Comm", right: np.ndarray) -> np.ndarray:
-    """This process's rows of the solutions (n, m) of m right sides at once, which read the factor
-    less often than one after the other."""
+def _solutions(factor: "Mat", right: np.ndarray) -> np.ndarray:
+    """Solutions (n, m) of m right sides at once, which read the factor less often than one after
+    the other."""
     from petsc4py import PETSc
 
-    shape = sizes[0], (PETSc.DECIDE, right.shape[1])
-    rights = PETSc.Mat().createDense(shape, array=np.asfortranarray(right), comm=comm)
+    comm = PETSc.COMM_SELF
+    rights = PETSc.Mat().createDense(right.shape, array=np.asfortranarray(right), comm=comm)
     rights.assemble()
-    left = PETSc.Mat().createDense(shape, comm=comm)
+    left = PETSc.Mat().createDense(right.shape, comm=comm)
     left.setUp()
     left.assemble()
     factor.matSolve(rights, left)
@@ -153,8 +149,8 @@ def _attempt(matrix: "Mat", symmetric: bool, spare: int) -> "tuple[KSP, Mat, int
 
 
 class Factor:
-    """LU of a scipy matrix, on one process; of a `symmetric` one, definite or not, LDL^T. Raises
-    FemError if MUMPS cannot factor it."""
+    """LU of a scipy matrix; of a `symmetric` one, definite or not, LDL^T. Raises FemError if MUMPS
+    cannot factor it."""
 
     def __init__(self, matrix: csr_matrix, symmetric: bool = False) -> None:
         PETSc = compat.petsc()
@@ -165,7 +161,6 @@ class Factor:
             system.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self._right, self._left = system.createVecs()
         self._ksp, self._factor = factorised(system, symmetric)
-        self._sizes = system.getSizes()
         used = self._factor, self._ksp.getPC(), self._ksp, self._right, self._left, system
         release_with(self, *used)
 
@@ -176,7 +171,7 @@ class Factor:
             self._ksp.solve(self._right, self._left)
             solution = self._left.getArray().copy()
         else:
-            solution = _solutions(self._factor, self._sizes, self._ksp.comm, right)
+            solution = _solutions(self._factor, right)
         if not np.isfinite(solution).all():
             raise FemError(f"the system of {len(right)} unknowns is singular")
         return solution

@@ -10,7 +10,6 @@ from comparisons.campaigns.cost.show import content_of, cost_page
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.files import check_writable, publish
-from comparisons.common.mpi import is_several
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
@@ -44,8 +43,6 @@ def cost(
 
     Raises InputError for a scene that cannot be solved or a folder that cannot be written,
     KeyboardInterrupt with how to go on."""
-    if is_several():
-        raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
     if repeats < 1:
         raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
     check_writable(out, FILES)

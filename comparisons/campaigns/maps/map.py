@@ -122,9 +122,8 @@ def make_map(
     workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
     marked: Problem | None = None,
-) -> dict | None:
-    """Compute the points that `out` does not have, write the map there, and return its content;
-    None in processes that only work for the first one under mpirun.
+) -> dict:
+    """Compute the points that `out` does not have, write the map there, and return its content.
 
     workers  as `tasks_by` takes them
     marked   a scene of the user's on the picture
@@ -133,8 +132,6 @@ def make_map(
     mark = marked and mark_of(axes, marked)  # before anybody waits for the points
     files = MAP, PICTURE, TIMES
     answers = solved_in(out, files, request.points, solve_point, workers, callback)
-    if answers is None:
-        return None
     content = map_content(request, [answer for answer, _ in answers])
     callback("map: picture")
     times = {"seconds": [seconds for _, seconds in answers]}

@@ -19,9 +19,8 @@ from comparisons.campaigns.paper.claims import (
 )
 from comparisons.campaigns.paper.page import paper_page
 from comparisons.campaigns.paper.readings import SLIDING
-from comparisons.common.errors import ExitStatus, InputError, SolverError
+from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.files import check_writable, publish
-from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Step, no_progress, within
 from comparisons.common.provenance import as_json, versions
 from comparisons.figures.quantity import MODELS
@@ -99,10 +98,8 @@ def paper(
     fields   of the scenes, by name, that say how finely they are solved
     effects  compute the half-plane's model error beside each claim; else it is estimated
 
-    Raises InputError where `out` cannot be written and under mpirun, SolverError where a model
-    finds no solution; nothing is written then."""
-    if is_several():
-        raise InputError("paper: runs in several processes; allowed is one, without mpirun")
+    Raises InputError where `out` cannot be written, SolverError where a model finds no solution;
+    nothing is written then."""
     check_writable(out, (PAGE, NUMBERS))
     start = perf_counter()
     runs = solve_surfaces(fields, within(callback, 0.0, SOLVING), effects)

@@ -154,15 +154,13 @@ def make_sweep(
     out: Path,
     workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
-) -> dict | None:
+) -> dict:
     """Solve the points that `out` does not have, write table and pictures there, return the
-    content; None in processes that only work for the first one under mpirun.
+    content.
 
     workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, and where no point has an answer."""
     answers = solved_in(out, FILES, request.points, solved, workers, callback)
-    if answers is None:
-        return None
     content = sweep_content(request, [answer for answer, _ in answers])
     whys = failures(content["points"])
     if whys.total() == len(content["points"]):

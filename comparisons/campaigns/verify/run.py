@@ -37,8 +37,6 @@ from comparisons.campaigns.verify.coverage import (
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
 from comparisons.campaigns.verify.rough import rough_cases
 from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases
-from comparisons.common.errors import InputError
-from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import label
@@ -134,12 +132,10 @@ def verify(
     fewest: tuple[int, int] = (FEWEST, FEWEST_ROUGH),
 ) -> Verification:
     """Verify; leave verify.json in `out`, JUnit XML in the file `junit`. Raises InputError where
-    those cannot be written, and under mpirun.
+    those cannot be written.
 
     cases   None is everything
     fewest  informative figures that there must be, in all and of rough contacts"""
-    if is_several():
-        raise InputError("verify: runs in several processes; allowed is one, without mpirun")
     check_places("verify", out, junit)  # before the cases, which take seconds
     exact, others = cases or everything()
 

@@ -9,7 +9,6 @@ from typing import TypeVar
 import numpy as np
 
 from analytic.material import Law, Material
-from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.mesh import (
     Refinement,
@@ -70,7 +69,7 @@ class BodyCache:
         self._bodies: OrderedDict[Hashable, ElasticBody] = OrderedDict()
 
     def mesh(self, spec: BlockSpec) -> BlockMesh:
-        return _held(self._meshes, _key(spec), lambda: from_first(lambda: build_block(spec)))
+        return _held(self._meshes, _key(spec), partial(build_block, spec))
 
     def body(
         self, shape: Hashable, make: Callable[[], ElasticBody], *properties: Hashable

@@ -16,7 +16,6 @@ from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ModelOperator
 from comparisons.common.errors import SceneError
-from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.approach import settled
 from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
@@ -173,7 +172,7 @@ class _LevelSolution:
 
     def load_libraries(self) -> None:
         with self.stages.stage("assembly", "finite elements: loading"):
-            from_first(start_worker)
+            start_worker()
             load_dolfinx()
 
     def predicted_contact(self) -> tuple[np.ndarray, np.ndarray]:

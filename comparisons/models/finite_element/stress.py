@@ -8,7 +8,6 @@ import numpy as np
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.stress_state import von_mises
-from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
 from comparisons.models.level import (
     MeshField,
@@ -131,19 +130,6 @@ def stresses_of(
     sparse      whether the field is wanted at the window's `sparse` points alone
     """
     nodal = pressed.stresses(frictions)
-    wanted = frictions, window, asperities, on_mesh, sparse
-    return from_first(lambda: _stresses_of(pressed, nodal, *wanted))
-
-
-def _stresses_of(
-    pressed: LoadedBody,
-    nodal: tuple[NodalStress, ...],
-    frictions: tuple[float, ...],
-    window: Window,
-    asperities: tuple[float, ...],
-    on_mesh: bool,
-    sparse: bool,
-) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     body, results = pressed.body, []
     bounds = (-window.extent, window.extent, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}

@@ -6,7 +6,6 @@ half-plane is enough, for both models press one curve."""
 from collections.abc import Sequence
 from dataclasses import replace
 
-from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
 from comparisons.models.half_plane import expected_of, half_plane_level
@@ -56,7 +55,7 @@ def _sampled(
 ) -> Level:
     here.callback("error budget: sampling of the trace")
     thinned = _thinned(problem, first)
-    return from_first(lambda: half_plane_level(thinned, pitch, window, Stages(), "sparse"))
+    return half_plane_level(thinned, pitch, window, Stages(), "sparse")
 
 
 def _thinned(problem: Problem, first: int) -> Problem:

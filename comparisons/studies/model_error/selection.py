@@ -3,14 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from comparisons.common.mpi import is_several
 from comparisons.models.problem import Problem
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
 from comparisons.studies.model_error.estimates import Sizes, estimates
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import OpenLaw, open_laws
-from fem.solver.communicator import is_alone
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 FLOW = "plastic_flow"
@@ -139,13 +137,11 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
         return "no support is given: a sector of the disc is held at 0.4 of its radius"
     if name not in (*NONLINEAR, LAW):
         return None
-    reasons = {"it is solved on one process": is_several() and not is_alone()}
+    reasons = {SMALL_STRAINS: flows}
     if name == FLOW:
         reasons = {
             "the body has no yield stress": scene.body.yield_stress is None,
             "it takes no prescribed approach": scene.load.kind == "approach",
             'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
-        } | reasons
-    else:
-        reasons = {SMALL_STRAINS: flows} | reasons
+        }
     return next((why for why, hindered in reasons.items() if hindered), None)

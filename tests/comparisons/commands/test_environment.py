@@ -78,15 +78,6 @@ def test_any_number_of_threads_is_recorded_or_none(monkeypatch, value, threads):
     assert machine()["threads"] == threads
 
 
-def test_a_rank_that_a_shell_inherited_silences_nothing(tmp_path):
-    pytest.importorskip("mpi4py")
-    arguments = "-m", "comparisons.cli", "run", "smooth", "--models", "half-plane", "--out", "here"
-    done = command(*arguments, cwd=tmp_path, OMPI_COMM_WORLD_RANK="2", PMI_RANK="2")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "peak pressure" in done.stdout
-    assert json.loads((tmp_path / "here/result.json").read_text())["schema"]
-
-
 def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
     title = "=1+2\x1b]0;owned\x07\x9b31m"
     result = content_of(smooth_outcome)

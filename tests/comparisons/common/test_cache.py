@@ -146,16 +146,6 @@ def test_discarding_twice_is_no_error(cache):
     assert not cache.folder.exists() and cache.load("some") is None
 
 
-def test_one_process_of_several_writes(cache, monkeypatch):
-    monkeypatch.setenv("PMIX_RANK", "1")
-    cache.discard()
-    cache.save("other", VALUE)
-    assert names(cache.folder) == ["some.npz"]
-    monkeypatch.setenv("PMIX_RANK", "0")
-    cache.save("other", VALUE)
-    assert names(cache.folder) == ["other.npz", "some.npz"]
-
-
 def test_without_a_folder_nothing_is_cached():
     nowhere = Cache(None, "key", {})
     nowhere.save("some", VALUE)

@@ -169,7 +169,7 @@ class TestProcesses:
         beside.add("c", number, seconds=1e9, urgency=PERHAPS)
         assert beside.result("a") == os.getpid()
 
-    def test_one_of_several_processes_begins_none(self, one, monkeypatch):
+    def test_one_that_works_for_another_begins_none(self, one, monkeypatch):
         monkeypatch.setattr(module, "cores", lambda: 2)
         monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
         assert places() == (2, True, False)
@@ -177,8 +177,6 @@ class TestProcesses:
         assert places() == (2, True, True)
         one.add("there", called, places)
         assert one.result("there") == (1, False, False)
-        monkeypatch.setattr(module, "is_several", lambda: True)
-        assert places() == (1, False, False)
 
     def test_nothing_is_prepared_while_others_wait_for_a_task(self):
         done = []

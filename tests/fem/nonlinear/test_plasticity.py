@@ -120,12 +120,9 @@ def assembled_by_dolfinx(body, points, stress, tangent):
     import ufl
     from dolfinx import fem
     from dolfinx.fem.petsc import assemble_matrix, assemble_vector
-    from mpi4py import MPI
 
     vertices, corner = np.unique(body.mesh.triangles[:, :3], return_inverse=True)
-    domain = compat.triangle_mesh(
-        MPI.COMM_SELF, corner.reshape(-1, 3), body.mesh.points[vertices], 1
-    )
+    domain = compat.triangle_mesh(corner.reshape(-1, 3), body.mesh.points[vertices], 1)
     space = compat.continuous_space(domain, 2, (2,))
     places, _ = basix.make_quadrature(basix.CellType.triangle, 2)
     shape = np.column_stack([1.0 - places.sum(axis=1), places])

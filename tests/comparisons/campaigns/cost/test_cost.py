@@ -141,11 +141,6 @@ class TestCommand:
         out, err = capsys.readouterr()
         assert out == "" and words in err and err.count("\n") == 1
 
-    def test_several_processes_are_refused(self, monkeypatch, tmp_path):
-        monkeypatch.setattr("comparisons.campaigns.cost.cost.is_several", lambda: True)
-        with pytest.raises(ValueError, match="allowed without mpirun"):
-            cost(resolved(SMOOTH), tmp_path / "out", 1)
-
     def test_an_interrupt_leaves_nothing(self, monkeypatch, tmp_path):
         def stopped(*arguments):
             raise KeyboardInterrupt

@@ -127,14 +127,6 @@ def test_a_map_holds_no_times(undisturbed):
     assert len(times) == 4 and min(times) > 0.0
 
 
-def test_ranks_make_the_same_map(scene, undisturbed, tmp_path, launch):
-    arguments = ("-m", "comparisons.cli", "map", scene, *ASKED, "--out", tmp_path / "out")
-    end = launch(2, *arguments)
-    assert end.returncode == 0, end.stderr
-    assert (tmp_path / "out" / MAP).read_bytes() == (undisturbed / MAP).read_bytes()
-    assert end.stdout.count("made by: crosscheck map") == 1
-
-
 def test_a_dask_cluster_makes_the_same_map(scene, undisturbed, tmp_path):
     distributed = pytest.importorskip(
         "distributed", reason="Dask is not installed: pip install distributed"

@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 from scenes import NEO_HOOKEAN, judging
 
-from comparisons.common.mpi import RANKS
 from comparisons.studies.model_error.selection import FLOW, SHARE_OF_TOLERANCE, select_effects
 
 RIGID = {"roller": {"rigid": True}}
@@ -62,12 +61,6 @@ def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_wi
     selection = chosen(problem_with(**tables))
     assert "flow is taken at small strains" in selection.impossible["finite_strain"]
     assert selection.not_modelled("peak_pressure")["finite_strain"] > 0.0
-
-
-def test_under_mpirun_finite_strain_is_not_solved(problem_with, monkeypatch):
-    assert "finite_strain" in chosen(problem_with(**RIGID)).added
-    monkeypatch.setenv(RANKS[0], "0")
-    assert "one process" in chosen(problem_with(**RIGID)).impossible["finite_strain"]
 
 
 def test_a_cap_stands_for_flow_only_where_nothing_flows(problem_with):
