@@ -26,7 +26,6 @@ UNIT = HertzContact(1.0, 1.0, 0.5 * np.pi, 1.0, 2.0)
 FARTHEST = 6.0  # half-widths ahead and behind: beyond, no |txz| or difference decides
 POINTS = 1201
 DEPTHS, ZOOMS = 41, 6  # of a search whose step shrinks to 2/40 of the range each time
-VANISHES = 1e-12  # of the largest square of stresses: what decides nothing
 HALVINGS = 60  # of the bracket of r
 
 
@@ -44,43 +43,6 @@ def shakedown_limit(friction: float) -> tuple[float, float]:
         best, step = depth[shear.argmax()], depth[1] - depth[0]
         low, high = max(0.0, best - step), best + step
     return float(1.0 / shear.max()), float(best)
-
-
-def peak_carried(
-    depth: np.ndarray,
-    rest: np.ndarray,
-    flow: np.ndarray,
-    friction: float = 0.0,
-    poissons_ratio: float = 0.3,
-) -> float:
-    """Largest p0/k under which nothing flows, by von Mises, where every place along the surface has
-    the same stresses left in it: by Melan's theorem a lower bound of the limit.
-
-    depth  z/a (n,) >= 0
-    rest   residual less back stress sx, sz, txz, sy (n, 4) over k, k of the virgin metal
-    flow   yield stress in shear (n,) over that
-
-    0 where the rest flows by itself."""
-    x = _places()
-    stress = hertz_stress(UNIT, x, np.asarray(depth)[:, None], friction)
-    parts = stress.sx, stress.sz, stress.txz, stress.sy(poissons_ratio)
-    elastic = np.stack(parts, axis=-1)
-    rest = np.broadcast_to(rest[:, None], elastic.shape)
-    # (3/2) s:s of p0/k times the elastic stresses and the rest, quadratic in p0/k
-    square, both = _product(elastic, elastic), _product(elastic, rest)
-    left = 3.0 * flow[:, None] ** 2 - _product(rest, rest)
-    if np.any(left <= 0.0):
-        return 0.0
-    stressed = square > VANISHES * square.max()
-    square, both, left = (part[stressed] for part in (square, both, left * np.ones_like(square)))
-    return float(((np.sqrt(both**2 + square * left) - both) / square).min())
-
-
-def _product(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """(3/2) s:t of the deviators of stresses sx, sz, txz, sy (…, 4)."""
-    normal, shear = [0, 1, 3], one[..., 2] * other[..., 2]
-    apart = one[..., normal] - one[..., normal].mean(axis=-1, keepdims=True)
-    return 1.5 * (apart * other[..., normal]).sum(axis=-1) + 3.0 * shear
 
 
 def _places() -> np.ndarray:

@@ -119,23 +119,6 @@ class Hardening:
             return slopes[np.searchsorted(at, strain, side="right") - 1]
         return np.full(np.shape(strain), self.modulus)
 
-    def work(self, strain: np.ndarray) -> np.ndarray:
-        """Integral of the flow stress [J/m^3] to equivalent plastic strains k >= 0, of any shape:
-        what flow takes, but for the back stress's part H'/3 ep : ep."""
-        k, start = np.asarray(strain), self.yield_stress
-        if self.voce is not None:
-            saturated, rate = self.voce
-            return saturated * k + (saturated - start) * np.expm1(-rate * k) / rate
-        if self.ludwik is not None:
-            strength, exponent = self.ludwik
-            return start * k + strength * k ** (exponent + 1.0) / (exponent + 1.0)
-        if self.table is not None:
-            at, stress = np.array(self.table).T
-            done = np.append(0.0, np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(at)))
-            last = np.searchsorted(at, k, side="right") - 1
-            return done[last] + 0.5 * (stress[last] + self.stress(k)) * (k - at[last])
-        return (start + 0.5 * self.modulus * k) * k
-
     def increment(self, trial: np.ndarray, before: np.ndarray, stiffness: float) -> np.ndarray:
         """dk > 0 (m,) with  trial - stiffness dk = stress(before + dk)  for trial equivalent
         stresses (m,) [Pa] above the flow stress at k = `before` (m,), and a stiffness [Pa] > 0."""

@@ -53,7 +53,6 @@ ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
 CODE = (
     *LEVEL_CODE,
     *(f"comparisons/studies/{name}" for name in ("model_error", "scatter", "statistics")),
-    "comparisons/studies/subsurface/cycles",
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
@@ -155,14 +154,13 @@ def posed(
 
 
 def planned(scene: Solved, levels: Forecast | None = None) -> list[str]:
-    """What a run of a scene will do and what it takes, by the laws of cost: its levels; studies
-    that take as long, or why one is left out."""
+    """What a run of a scene will do and what it takes, by the laws of cost: its levels; why a study
+    is left out."""
     said = [(levels or forecast(scene.problem, scene.plan)).text]
     for study in STUDIES:
         if study.applies(scene):
             why_not = study.needs(scene)
-            takes = study.planned(scene) if why_not is None else f"is left out: it {why_not}"
-            said += [f"{study.name} {takes}"] if takes else []
+            said += [] if why_not is None else [f"{study.name} is left out: it {why_not}"]
     return said
 
 

@@ -30,7 +30,7 @@ COMMON = (*FILTER, "periodic")  # fields of every variety
 WHOLE = 1e-9  # relative: how near a length is to whole wavelengths
 # Sections that need a single contact under a roller, and fields that bend a body or its surface:
 # the bodies of a periodic surface are linear, its roughness is in the gap.
-NOT_PERIODIC = ("running_in", "scatter", "statistics", "heat", "partial_slip", "cycles", "answers")
+NOT_PERIODIC = ("running_in", "scatter", "statistics", "heat", "partial_slip", "answers")
 ON_ONE_PERIOD = {
     "finite_element.deformation": "linear",
     "finite_element.plastic": False,

@@ -21,14 +21,13 @@ from comparisons.studies.friction import PARTIAL_SLIP, coupling
 from comparisons.studies.ladder.layered import STUDY as LAYERED
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies.subsurface import quiescent_zone, yielding
-from comparisons.studies.subsurface.cycles import CYCLES
 
 # In the order in which they are done, and their figures shown.
 STUDIES = (
     *(contact.STUDY, comparison.STUDY, LAYERED, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
-    *(PARTIAL_SLIP, CYCLES, published.STUDY, ladder.STUDY),
+    *(PARTIAL_SLIP, published.STUDY, ladder.STUDY),
 )
 
 

@@ -164,12 +164,10 @@ class Study:
     quantities: Mapping[str, Quantity]
     # what it finds; the second argument holds the findings of earlier studies by name
     solve: "Callable[[Solved, Mapping[str, Findings], Tasks], Findings]"
-    # whether the scene asks for it; before anything is solved, as the next two
+    # whether the scene asks for it; before anything is solved, as the next one
     applies: Callable[[Solved], bool] = lambda solved: True
     # why it cannot be done, though asked for
     needs: Callable[[Solved], str | None] = lambda solved: None
-    # what it takes beside the levels, said before anything is solved
-    planned: Callable[[Solved], str | None] = lambda solved: None
     # makes known to the tasks what `solve` will ask for; again once more is solved, and known tasks
     # stay as they are
     begin: "Callable[[Solved, Tasks], None]" = lambda solved, tasks: None

@@ -133,17 +133,12 @@ def on_vertices(compliance: FiniteElementCompliance) -> BodyTerms:
 
 
 class ElasticContact:
-    """Contact on a compliance C (count, count) [m^2/Pa] of both surfaces together, and `near`
-    another one that is like it. Equilibria of hats in contact are found by generalised conjugate
-    residuals (`fem.contact.system`), preconditioned by the inverse of what is shifted."""
+    """Contact on a compliance C (count, count) [m^2/Pa] of both surfaces together. Equilibria of
+    hats in contact are found by generalised conjugate residuals (`fem.contact.system`),
+    preconditioned by its inverse on all hats."""
 
-    def __init__(
-        self,
-        flexible: np.ndarray | Condensed | ShiftInvariant,
-        near: ShiftInvariant,
-        weights: np.ndarray,
-    ) -> None:
-        self.flexible, self._near, self._weights = flexible, near, weights
+    def __init__(self, flexible: ShiftInvariant, weights: np.ndarray) -> None:
+        self.flexible, self._weights = flexible, weights
 
     def __call__(self, gap: np.ndarray, load: float, start: np.ndarray) -> tuple[np.ndarray, float]:
         """Pressure (count,) [Pa] and approach [m] under a load [N/m] > 0, for a weighted gap
@@ -190,10 +185,10 @@ class ElasticContact:
     def _inverse(self, system: ContactSystem) -> Callable[[np.ndarray], np.ndarray]:
         """Nearly solves a system."""
         hats, share = system.hats, self._weights[system.hats] / system.width
-        sunk = self._near.inverse(share, hats)
+        sunk = self.flexible.inverse(share, hats)
 
         def solved(right: np.ndarray) -> np.ndarray:
-            moved = self._near.inverse(right[:-1], hats)
+            moved = self.flexible.inverse(right[:-1], hats)
             approach = (share @ moved - right[-1] * system.compliance) / (share @ sunk)
             return np.append((moved - approach * sunk) / system.compliance, approach)
 

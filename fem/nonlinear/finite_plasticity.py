@@ -100,11 +100,6 @@ class FinitePlasticBody(PlasticBody):
         inside = np.column_stack([cauchy[:, 0, 0], cauchy[:, 1, 1], cauchy[:, 0, 1]])
         return inside, across / strain.volume
 
-    def balance(self, displacement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Logarithmic elastic strain and the stress conjugate to it, as of `PlasticBody`."""
-        unflowed, left = self._unflowed(self.state)
-        return self._balance(self._strain(displacement, unflowed).strain, left)
-
     def _unflowed(self, state: PlasticState) -> tuple[np.ndarray | None, PlasticState]:
         """Q (3m, 2, 2), None for I, and the state with the plastic strain that is not in it."""
         if self.metal.hardening.kinematic or not state.strain.any():

@@ -95,17 +95,11 @@ def return_mapping(metal: ElasticPlastic, strain: np.ndarray, before: PlasticSta
     return PlasticStep(PlasticState(plastic, equivalent), yields, softening)
 
 
-def stress(
-    metal: ElasticPlastic, strain: np.ndarray, state: PlasticState
-) -> tuple[np.ndarray, np.ndarray]:
-    """sx, sz, txz (k, 3) and sy (k,) [Pa] of a strain (k, 3) exx, ezz, gxz in a state."""
-    return stress_of(metal.elastic.shear_modulus, metal.elastic.poissons_ratio, strain, state)
-
-
 def stress_of(
     shear: float | np.ndarray, nu: float | np.ndarray, strain: np.ndarray, state: PlasticState
 ) -> tuple[np.ndarray, np.ndarray]:
-    """`stress` of a shear modulus [Pa] and a Poisson's ratio, or of those of every point (k,)."""
+    """sx, sz, txz (k, 3) and sy (k,) [Pa] of a strain (k, 3) exx, ezz, gxz in a state, by the shear
+    modulus [Pa] and Poisson's ratio, or by those of every point (k,)."""
     volume = strain[:, 0] + strain[:, 1]
     mean = 2.0 * shear * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)) * volume
     deviator = np.asarray(2.0 * shear)[..., None] * (strain @ DEVIATOR.T - state.strain)
@@ -155,11 +149,8 @@ class PlasticBody:
 
     def step(self, displacement: np.ndarray) -> PlasticStep:
         """The step from the accepted state to a displacement (n, 2) [m]."""
-        return self._mapped(self.strain(displacement))
-
-    def _mapped(self, strain: np.ndarray) -> PlasticStep:
-        """The step from the accepted state to a strain (3m, 3)."""
-        return return_mapping(self.metal, np.where(self._coated[:, None], 0.0, strain), self.state)
+        strain = np.where(self._coated[:, None], 0.0, self.strain(displacement))
+        return return_mapping(self.metal, strain, self.state)
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal force (n, 2) [N/m] and its derivative (2n, 2n) [Pa] at a displacement (n, 2).
@@ -190,16 +181,6 @@ class PlasticBody:
     ) -> tuple[np.ndarray, np.ndarray]:
         """sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m] in a state."""
         return stress_of(self._shear, self._ratio, self.strain(displacement), state)
-
-    def balance(self, displacement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Elastic strain exx, ezz, gxz, eyy (3m, 4) in the accepted state and the stress xx, zz,
-        xz, yy (3m, 4) [Pa] that works on it."""
-        return self._balance(self.strain(displacement), self.state)
-
-    def _balance(self, strain: np.ndarray, state: PlasticState) -> tuple[np.ndarray, np.ndarray]:
-        across = state.strain[:, 0] + state.strain[:, 1]
-        elastic = np.column_stack([strain - [1.0, 1.0, 2.0] * state.strain, across])
-        return elastic, np.column_stack(stress_of(self._shear, self._ratio, strain, state))
 
     def force_of(self, stress: np.ndarray) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] in balance with sx, sz, txz (3m, 3) [Pa]."""

@@ -188,7 +188,6 @@ class _FiniteHistory(LoadHistory):
         scale = np.abs(self._force(state)).max()
         free = unloaded(self.body, displacement - linear, scale)
         self.state = replace(state, displacements=(free,))
-        self._book(np.zeros_like(state.pressure))
 
     def _both(self, state: "_Start") -> np.ndarray:
         """Displacements (n + m, 2) [m] of both bodies, moved back along x."""
@@ -275,18 +274,8 @@ class _FiniteHistory(LoadHistory):
         if self._opposite is not None:
             self._contact.response.parts[1].accept(state.roller)
         self.state = state
-        self._book(state.pressure)
         linear = self._linear(state.pressure, self.body.state)
         both = state.displacements[0], state.roller
         self._beyond = [u - v for u, v in zip(both, linear, strict=True)]
         gap, _ = self._contact.contact.loaded(self._both(state), state.pressure)
         self._gap = gap - self._nearly.flexible @ state.pressure
-
-    def _book(self, pressure: np.ndarray) -> None:
-        [moved] = self.state.displacements
-        force = np.zeros_like(moved)
-        if pressure.any():
-            force = self._force(self.state)
-        if self._contact.compliance.far is not None:  # it moves the support
-            force = np.where(self.body.held, self.body.force(moved), force)
-        self._account.add(force, moved)

@@ -32,7 +32,6 @@ from fem.contact.nonlinear import ContactState
 from fem.contact.system import ReusedFactor
 from fem.contact.terms import LinearContact
 from fem.nonlinear.condensed import Condensed, ElasticContact, ShiftInvariant, on_vertices
-from fem.nonlinear.energy import Energies, EnergyAccount
 from fem.nonlinear.newton import ACCURACY, RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
@@ -85,7 +84,6 @@ class PlasticContact:
     displacement: np.ndarray  # (n, 2) [m] of the body's nodes
     state: PlasticState  # of the metal at the body's 3m points
     iterations: int  # linear contacts solved since the load before
-    energies: Energies  # [J/m] of the body since it was virgin
 
 
 def press_plastically(
@@ -137,20 +135,18 @@ class LoadHistory:
         self._compliance, self._gap, self._weights = compliance, gap, weights
         self._friction, self._travel = friction, travel
         self.body = self.kind(compliance.body, metal)
-        self._account = EnergyAccount(self.body)
-        alone = both = Condensed(partial(compliance.columns, friction=friction), len(weights))
-        self._flexible = None
+        alone = Condensed(partial(compliance.columns, friction=friction), len(weights))
+        self._flexible, both = None, [alone]
         if roller is not None:
             # its z points away from the body; on it the traction acts towards -x
             self._flexible = alone
             if friction or not _alike(roller, compliance):
                 columns = partial(roller.columns, friction=-friction)
                 self._flexible = Condensed(columns, len(weights))
-            both = Condensed(lambda hats: alone.of(hats) + self._flexible.of(hats), len(weights))
+            both = [alone, self._flexible]
         touching = np.flatnonzero(guess > 0.0)
-        near = ShiftInvariant(both.of, len(weights), touching)
-        self._elastic = ElasticContact(both, near, weights)
-        self._nearly = ElasticContact(near, near, weights)
+        near = ShiftInvariant(lambda hats: sum(one.of(hats) for one in both), len(gap), touching)
+        self._nearly = ElasticContact(near, weights)
         self._offset = np.zeros_like(gap)  # of its gap, which makes it right in the last contact
         self._bodies = [(self.body, LinearContact(compliance, friction))]
         self.state = ContactState((np.zeros(self.body.held.shape),), guess, approach=0.0)
@@ -177,10 +173,7 @@ class LoadHistory:
         """What was reached by linear contacts, under a load or without the roller."""
         pressure = self.state.pressure if load else np.zeros_like(self.state.pressure)
         displacement, state = self.state.displacements[0], self.body.state
-        now, energies = self.state, self._account.now
-        return PlasticContact(
-            load, pressure, now.approach, displacement, state, iterations, energies
-        )
+        return PlasticContact(load, pressure, self.state.approach, displacement, state, iterations)
 
     def to(self, target: float) -> int:
         """Linear contacts that lead to a load [N/m]."""
@@ -194,9 +187,8 @@ class LoadHistory:
             load, start = self._next(target, step, least)
             step = abs(load - before.load)
             try:
-                contacts += self._to_plastic(
-                    load, start, RESIDUAL if load == target else ON_THE_WAY
-                )
+                residual = RESIDUAL if load == target else ON_THE_WAY
+                end, count = self._solved(start, load, None, residual)
             except FemError as failure:
                 failures += 1
                 if step <= least or failures > MOST_FAILURES:
@@ -207,6 +199,8 @@ class LoadHistory:
                         raise FemError(why) from error
                 step = max(least, 0.5 * step)
                 continue
+            self._accept(end)
+            contacts += count
             moved = edge_travel(before.pressure, self.state.pressure)
             step *= min(LONGER, self._travel / moved) if moved else LONGER
             step = float(np.clip(step, least, most))
@@ -269,7 +263,6 @@ class LoadHistory:
         _, *others = self.state.displacements
         free = _released(self.body, self.state.displacements[0])
         self.state = replace(self.state, displacements=(free, *others))
-        self._book(np.zeros_like(self.state.pressure))
 
     def _elastically(self, target: float) -> int:
         """Elastic contacts that lead towards a load [N/m] as far as nothing flows: the way there
@@ -323,12 +316,6 @@ class LoadHistory:
         beyond = stiffness * (after - before) + metal.hardening.stress(after)
         return float((beyond / metal.hardening.stress(before)).max())
 
-    def _to_plastic(self, load: float, start: ContactState, residual: float) -> int:
-        """Linear contacts that lead to a load [N/m] in one increment. Raises FemError."""
-        end, contacts = self._solved(start, load, None, residual)
-        self._accept(end)
-        return contacts
-
     def _solved(
         self, start: ContactState, load: float | None, approach: float | None, residual: float
     ) -> tuple[ContactState, int]:
@@ -354,21 +341,8 @@ class LoadHistory:
         flowed = self.body.plastic_force(plastic)
         change = self.body.body.solve(flowed - self.body.plastic_force(self.body.state))
         gap = self._gap + self._offset + self._compliance.weighted(change)
-        return self._moved(self._nearly, gap, load, flowed)
-
-    def _frozen(self, load: float, plastic: PlasticState) -> ContactState | None:
-        """The contact of the bodies in a plastic state that does not change; None: not found."""
-        flowed = self.body.plastic_force(plastic)
-        gap = self._gap + self._compliance.weighted(self.body.body.solve(flowed))
-        return self._moved(self._elastic, gap, load, flowed)
-
-    def _moved(
-        self, elastic: ElasticContact, gap: np.ndarray, load: float, flowed: np.ndarray
-    ) -> ContactState | None:
-        """The contact under a load [N/m] from a weighted gap (count,) [m^2] without pressure, of a
-        body moved by forces (n, 2) [N/m], too; None: not found."""
         try:
-            pressure, approach = elastic(gap, load, self.state.pressure)
+            pressure, approach = self._nearly(gap, load, self.state.pressure)
         except FemError:
             return None
         moved = self.body.body.solve(self._compliance.load(pressure, self._friction) + flowed)
@@ -382,12 +356,6 @@ class LoadHistory:
         self._offset -= self._nearly.flexible @ state.pressure
         if self._flexible is not None:
             self._offset += self._flexible @ state.pressure
-        self._book(state.pressure)
-
-    def _book(self, pressure: np.ndarray) -> None:
-        """Enter into the account what led to the state, whose pressures (count,) [Pa] are these."""
-        force = self._compliance.load(pressure, self._friction)
-        self._account.add(force, self.state.displacements[0])
 
 
 def edge_travel(before: np.ndarray, after: np.ndarray) -> float:

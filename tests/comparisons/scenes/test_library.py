@@ -193,7 +193,6 @@ def test_every_scene_is_named_here():
         "ground-run-in",
         "ground-running-in",
         "ground-unrun",
-        "rolling-shakedown",
         "rough-statistics",
         "self-affine",
         "sinusoid",

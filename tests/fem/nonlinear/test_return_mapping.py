@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 from analytic.material import Material
 from analytic.material.hardening import Hardening
-from fem.nonlinear.plasticity import ElasticPlastic, PlasticState, return_mapping, stress
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticState, return_mapping, stress_of
 
 E, Y = 200.0, 0.5
 HARDENING = [0.0, 15.0]
@@ -28,6 +28,11 @@ def law(request):
 
 def metal(hardening=0.0, poisson=0.3, unit=1.0):
     return ElasticPlastic(Material(E * unit, poisson), Hardening(Y * unit, hardening * unit))
+
+
+def stress(law, strain, state):
+    """Stress (k, 3) and sy (k,) of strains (k, 3)."""
+    return stress_of(law.elastic.shear_modulus, law.elastic.poissons_ratio, strain, state)
 
 
 def led(law, path):
