@@ -24,7 +24,7 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.units import describe
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, models_named
-from comparisons.output.flat_csv import Row, long_rows, rows_of
+from comparisons.output.flat_csv import Row, judged_rows, rows_of, rows_tables
 from comparisons.output.headline import verdict_of
 from comparisons.output.page.plots import Plots
 from comparisons.output.result_json import content_of, result_of
@@ -69,12 +69,12 @@ class Printed(ABC):
 class RunFigures(Printed, Figures):
     """Every number of a run that is a result, with its uncertainty and verdict."""
 
-    rows: list[Row]  # the figures as records, one each (`comparisons.output.flat_csv`, long)
+    rows: list[Row]  # the figures as records, one each (`comparisons.output.flat_csv`)
 
     @classmethod
     def of_run(cls, run: study.Run) -> "RunFigures":
         made = cls(run.figures)
-        made.rows = long_rows(result_of(run), _name(run))
+        made.rows = rows_of(result_of(run), _name(run))
         return made
 
     def frame(self) -> "DataFrame":
@@ -162,9 +162,9 @@ class FinishedRun(Printed):
 
     @property
     def rows(self) -> list[Row]:
-        """The compared figures as records, one a friction coefficient and quantity, as `table` of
-        the command line has them (`comparisons.output.flat_csv`)."""
-        return rows_of(result_of(self.outcome), _name(self.outcome))
+        """The figures as records, as `table` of the command line has them
+        (`comparisons.output.flat_csv`)."""
+        return self.figures.rows
 
     @property
     def plot(self) -> Plots:
@@ -227,23 +227,12 @@ class FinishedRun(Printed):
 
 @dataclass(frozen=True, repr=False)
 class FigureTable(Printed):
-    """Figures of several runs, as records (`comparisons.output.flat_csv`)."""
+    """Figures of several runs, as records (`comparisons.output.flat_csv`); prints the judged."""
 
     rows: tuple[Row, ...]
 
     def _table(self) -> "RenderableType":
-        from comparisons.output.terminal import PLAIN, SHORT, plain_table
-
-        numbers = ("mu", "half-plane", "finite elements", "model error")
-        table = plain_table("run", "quantity", numbers=numbers)
-        for row in self.rows:
-            cells = [row["title"], SHORT[row["quantity"]], f"{row['friction']:g}"]
-            for value in (row["half_plane"], row["finite_element"]):
-                cells.append("" if value is None else with_unit(value, row["unit"]))
-            error = row["model_error"]
-            cells.append("" if error is None else percent(error, signed=True))
-            table.add_row(*(cell.translate(PLAIN) for cell in cells))
-        return table
+        return rows_tables(judged_rows(self.rows), name="title")
 
 
 @dataclass(frozen=True, repr=False)
@@ -373,7 +362,7 @@ def read(folder: str | os.PathLike) -> FinishedRun:
 
 
 def compare(*runs: FinishedRun) -> FigureTable:
-    """The figures of several runs, a row for each run, friction coefficient and quantity."""
+    """The figures of several runs, a row each."""
     if not runs:
         raise InputError("compare: is given no run; allowed is at least one")
     return FigureTable(tuple(row for run in runs for row in run.rows))
@@ -445,7 +434,8 @@ def sweep(
     >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
     >>> smooth = {"roller": {"radius": 8e-3, **steel}, "body": steel, "load": {"per_length": 1e6}}
     >>> loads = sweep(smooth, {"load": [1e6, 4e6]}, workers=1)
-    >>> peaks = [row["half_plane"] for row in loads.rows if row["quantity"] == "peak_pressure"]
+    >>> contact = [row for row in loads.rows if row["study"] == "contact"]
+    >>> peaks = [row["value"] for row in contact if row["quantity"] == "peak_pressure"]
     >>> round(peaks[1] / peaks[0], 4)
     2.0"""
     from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request

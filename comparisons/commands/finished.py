@@ -2,44 +2,13 @@
 `table` puts many into one table."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from typer import Argument, Option
 
 from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, show, show_either, show_json
 from comparisons.common.errors import ExitStatus, InputError, tell
-
-if TYPE_CHECKING:
-    from rich.table import Table
-
-# Columns of `table` on the terminal: of both kinds those that a person compares runs by.
-WIDE = ("run", "friction", "quantity", "half_plane", "model_error", "model_error_uncertainty")
-WIDE += ("tolerance", "model_error_verdict")
-LONG = ("run", "study", "quantity", "source", "against", "friction", "value", "unit")
-LONG += ("uncertainty", "verdict")
-RELATIVE = ("model_error", "model_error_uncertainty", "tolerance", "uncertainty")
-
-
-def _runs_table(rows: list[dict], columns: tuple[str, ...]) -> "Table":
-    """Some columns of the rows, numbers in four digits with their unit."""
-    from comparisons.common.numbers import percent, significant, with_unit
-    from comparisons.output.terminal import plain_table, plain_text
-
-    table = plain_table(
-        *(name.replace("model_error", "error").replace("_", " ") for name in columns)
-    )
-    for row in rows:
-        cells = []
-        for name in columns:
-            value = row[name]
-            if isinstance(value, float) and name in RELATIVE:
-                value = percent(value)
-            elif isinstance(value, float) and name in ("half_plane", "value"):
-                value = with_unit(value, row["unit"]) if row["unit"] else significant(value)
-            cells.append("" if value is None else plain_text(str(value)))
-        table.add_row(*cells)
-    return table
 
 
 @job
@@ -91,29 +60,26 @@ def table(
     folders: Annotated[
         list[Path], Argument(metavar="DIR...", help="Folders with runs in or below them.")
     ],
-    out: Annotated[Path | None, Option(help="FILE.csv, with all columns.")] = None,
-    long: Annotated[
-        bool, Option("--long", help="A row a figure, of every study: value, uncertainty, bounds.")
-    ] = False,
-    raw: Annotated[bool, Option("--csv", help="Print all columns as CSV.")] = False,
-    as_json: Annotated[bool, Option("--json", help="Print the rows as JSON.")] = False,
+    out: Annotated[Path | None, Option(help="FILE.csv, with every figure.")] = None,
+    raw: Annotated[bool, Option("--csv", help="Print every figure as CSV.")] = False,
+    as_json: Annotated[bool, Option("--json", help="Print every figure as JSON.")] = False,
 ) -> int:
-    """Put the figures of many runs into one table. A row a run, friction and quantity."""
+    """Put the figures of many runs into one table. Shows what is judged."""
     from comparisons.output import flat_csv as flat
 
     if raw and as_json:
         raise InputError("table: allowed is one of --csv, --json")
     if out is not None:
-        flat.check_ending(out)
-    rows, columns = flat.tidy_rows(folders, long), flat.LONG_COLUMNS if long else flat.COLUMNS
+        flat.check_place(out)
+    rows = flat.tidy_rows(folders)
     if out is not None:
-        flat.write_table(out, rows, columns)
+        flat.write_table(out, rows)
     if as_json:
         show_json(rows)
     elif raw:
-        print(flat.as_csv(rows, columns), end="")
+        print(flat.as_csv(rows), end="")
     elif out is None:
-        show(_runs_table(rows, LONG if long else WIDE))
+        show(flat.rows_tables(flat.judged_rows(rows)))
     else:
         runs = len({row["run"] for row in rows})
         print(f"{len(rows)} rows of {runs} run{'s' * (runs != 1)} in {out}")

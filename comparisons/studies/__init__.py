@@ -31,13 +31,14 @@ STUDIES = (
 )
 
 
-# Those that have rows of the wide table, by name.
-TABLED = {name: study.quantities[name] for study in STUDIES for name in study.tabled}
-
-
 def meaning(figure: Figure) -> Quantity:
-    """What a figure is of; of another program's study its name in words."""
-    for study in STUDIES:
-        if study.name == figure.study and figure.quantity in study.quantities:
-            return study.quantities[figure.quantity]
-    return Quantity(figure.quantity.replace("_", " "))
+    """What a figure is of."""
+    return quantity_of(figure.study, figure.quantity)
+
+
+def quantity_of(study: str, name: str) -> Quantity:
+    """A study's quantity by its name; of another program's study its name in words."""
+    for known in STUDIES:
+        if known.name == study and name in known.quantities:
+            return known.quantities[name]
+    return Quantity(name.replace("_", " "))

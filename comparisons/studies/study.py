@@ -175,8 +175,6 @@ class Study:
     # what draws its pictures, by name; None where there is nothing to draw
     pictures: Mapping[str, Callable[[Run], object]] = field(default_factory=dict)
     data: type | None = None  # of its findings' `data`
-    # quantities that have a row of the wide table, by both models
-    tabled: tuple[str, ...] = ()
     # files of its own in the run's folder, by path: columns (n,) of a CSV by their headings
     files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = lambda run: {}
     # its lines of the terminal, each with its name

@@ -13,6 +13,7 @@ from comparisons.drawing import style
 from comparisons.drawing.curves import distinct, over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
 from comparisons.scenes.scene import dimension_of
+from comparisons.studies import contact
 from comparisons.studies.subsurface import quiescent_zone
 from comparisons.studies.subsurface.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
 
@@ -91,10 +92,10 @@ class Axis:
 def sweep_figure(content: dict) -> "Figure":
     """Each figure over the first swept field, a line for each combination of the others; over
     placements, mean and standard deviation of the first line as a band."""
-    rows = [row for point in content["points"] for row in point["rows"]]
-    names = [name for name in DRAWN if any(row["quantity"] == name for row in rows)]
     axes = [Axis.of(**swept) for swept in content["over"]]
-    lines = {name: _lines(content, name, axes) for name in names}
+    every = {name: _lines(content, name, axes) for name in DRAWN}
+    lines = {name: known for name, known in every.items() if known}
+    names = list(lines)
     line = next(iter(lines[names[0]].values()), ())
     sample = axes[0].field == POSITION and len(line) > 2  # other values are chosen
     labels = [*filter(None, lines[names[0]]), *([BAND] if sample else ())]
@@ -118,17 +119,18 @@ def _lines(content: dict, name: str, axes: list[Axis]) -> dict[str, list[tuple[f
     are several: by the half-plane, or the model that the sweep is of."""
     model = "finite_element" if "half_plane" not in content["models"] else "half_plane"
     points = content["points"]
-    several = len({row["friction"] for point in points for row in point["rows"]}) > 1
+    wanted = {"study": contact.NAME, "quantity": name, "source": model}.items()
+    known = [[row for row in point["rows"] if wanted <= row.items()] for point in points]
+    several = len({row["friction"] for rows in known for row in rows}) > 1
     several = several and all(axis.field != FRICTION for axis in axes)
     lines: dict[str, list[tuple[float, float]]] = {}
-    for point in points:
+    for point, rows in zip(points, known, strict=True):
         first, *others = point["values"]
         at = axes[0].places[axes[0].values.index(first)]
         words = [axis.said(value) for axis, value in zip(axes[1:], others, strict=True)]
-        for row in point["rows"]:
-            if row["quantity"] == name and row[model] is not None:
-                friction = [f"friction {plain(row['friction'])}"] if several else []
-                lines.setdefault(", ".join([*words, *friction]), []).append((at, row[model]))
+        for row in rows:
+            friction = [f"friction {plain(row['friction'])}"] if several else []
+            lines.setdefault(", ".join([*words, *friction]), []).append((at, row["value"]))
     return lines
 
 

@@ -29,12 +29,15 @@ from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.figure import Figure, Findings, grouped
-from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.posing import problem_of
-from comparisons.output.flat_csv import COLUMNS, harmless, rows_of
+from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
 from comparisons.output.result_json import result_of
 from comparisons.scenes.scene import Scene
-from comparisons.studies import TABLED
+from comparisons.studies import contact, quantity_of
+from comparisons.studies.friction import PARTIAL_SLIP
+from comparisons.studies.heat import STUDY as HEAT
+from comparisons.studies.study import MODEL_ERROR
 from comparisons.studies.subsurface import quiescent_zone
 
 if TYPE_CHECKING:
@@ -42,14 +45,14 @@ if TYPE_CHECKING:
 
 SWEEP, TABLE = "sweep.json", "sweep.csv"
 FILES = (SWEEP, TABLE, PICTURE, ZONES)
-SCHEMA = 1
+SCHEMA = 2
 SHORT = {"position": POSITION, "friction": FRICTION}  # beside "load", whichever it is
 MOST = 10_000  # points
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *(f"comparisons/{name}" for name in ("figures", "studies", "output")))
 CODE += tuple(f"comparisons/campaigns/{name}.py" for name in ("grid", "sweep/sweep"))
-SCATTERED = ("half_plane", "finite_element", "model_error")  # figures whose scatter is stated
+NAMED = ("study", "quantity", "source", "friction")  # of the figures whose scatter is stated
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
 
 
@@ -219,27 +222,20 @@ def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
 
 
 def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
-    """By quantity, friction coefficient (None where it is swept) and figure: number of values,
-    mean, standard deviation of the sample, smallest and largest."""
+    """By what names a figure, friction None where it is swept: number of values, mean, standard
+    deviation of the sample, smallest and largest."""
     order = {name: number for number, name in enumerate(QUANTITIES)}
-    known = [
-        (row["quantity"], None if over_friction else row["friction"], figure, row[figure])
-        for point in points
-        for row in point["rows"]
-        for figure in SCATTERED
-        if row[figure] is not None
-    ]
-    groups = grouped(known, itemgetter(slice(3)))
-    groups.sort(key=lambda group: (order.get(group[0][0], len(order)), group[0][1] or 0.0))
+    swept = {"friction": None} if over_friction else {}
+    known = [row | swept for point in points for row in point["rows"] if _is_scattered(row)]
+    groups = grouped(known, itemgetter(*NAMED))
+    groups.sort(key=lambda g: (order.get(g[0]["quantity"], len(order)), g[0]["friction"] or 0.0))
     spreads = []
     for group in groups:
-        (quantity, friction, figure, _), values = group[0], [value for *_, value in group]
+        values = [row["value"] for row in group]
         deviation = float(np.std(values, ddof=1)) if len(values) > 1 else None
         spreads.append(
             {
-                "quantity": quantity,
-                "friction": friction,
-                "figure": figure,
+                **{name: group[0][name] for name in NAMED},
                 "count": len(values),
                 "mean": float(np.mean(values)),
                 "standard_deviation": deviation,
@@ -250,8 +246,17 @@ def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
     return spreads
 
 
+def _is_scattered(row: Row) -> bool:
+    """Whether a row is a figure by a model or a model error, of what models are compared by."""
+    study, model = row["study"], row["source"] in MODELS
+    if study in (PARTIAL_SLIP.name, HEAT.name):
+        return model and row["against"] is None
+    compared = (study, row["against"]) in ((contact.NAME, None), (MODEL_ERROR, WHOLE))
+    return model and compared and row["quantity"] in QUANTITIES
+
+
 def sweep_csv(content: dict) -> str:
-    """A row for each point, friction coefficient and quantity: the swept fields, and the columns of
+    """A row for each figure of each point: the swept fields, and the columns of
     `comparisons.output.flat_csv`."""
     fields = [axis["field"] for axis in content["over"]]
     rows = (
@@ -288,9 +293,9 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
 
 def _cells(row: dict) -> tuple[str, ...]:
     """The scatter of an error in its per cent, of a figure in per cent of the mean."""
-    quantity = (QUANTITIES | TABLED)[row["quantity"]]
+    quantity = quantity_of(row["study"], row["quantity"])
     deviation, mean = row["standard_deviation"], row["mean"]
-    relative = row["figure"] == "model_error" or quantity.of_pair
+    relative = row["study"] == MODEL_ERROR
     spread = ""
     if deviation is not None:
         spread = percent(deviation if relative or mean == 0.0 else deviation / abs(mean))
@@ -301,7 +306,7 @@ def _cells(row: dict) -> tuple[str, ...]:
     friction = "" if row["friction"] is None else f"{row['friction']:g}"
     return (
         quantity.short or quantity.label,
-        row["figure"].replace("_", " "),
+        row["study" if relative else "source"].replace("_", " "),
         friction,
         mean,
         spread,

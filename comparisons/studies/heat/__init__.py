@@ -1,7 +1,7 @@
 """The heat of friction: flash temperatures by both models, and the verdict on their difference."""
 
 from comparisons.studies.heat import show
-from comparisons.studies.heat.study import COMPARED, NAME, QUANTITIES, HeatStudy, begin, solve
+from comparisons.studies.heat.study import NAME, QUANTITIES, HeatStudy, begin, solve
 from comparisons.studies.study import Study
 
 STUDY = Study(
@@ -11,7 +11,6 @@ STUDY = Study(
     applies=lambda solved: solved.problem.scene.heat is not None,
     begin=begin,
     data=HeatStudy,
-    tabled=COMPARED,
     blocks=show.blocks,
     pictures=show.PICTURES,
     files=show.files,

@@ -144,7 +144,7 @@ def test_terminal_page_and_tables_have_it(folder):
     assert "bears on the whole contact" in (folder / "terminal.txt").read_text()
     page = (folder / "out/report.html").read_text()
     assert "Mean pressure" in page and "A note." in page
-    rows = csv.DictReader(command(folder, "table", "--csv", "--long", "out").splitlines())
+    rows = csv.DictReader(command(folder, "table", "--csv", "out").splitlines())
     [row] = [row for row in rows if row["quantity"] == "mean_pressure"]
     assert row["unit"] == "Pa" and float(row["uncertainty"]) > 0.0
 

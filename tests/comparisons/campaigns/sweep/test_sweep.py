@@ -31,6 +31,10 @@ def request(over, tables=WAVES):
     return sweep_request(scene_of(tables), over, ("half_plane",))
 
 
+def values_of(swept, study, quantity):
+    return [r["value"] for r in swept.rows if (r["study"], r["quantity"]) == (study, quantity)]
+
+
 def test_placements_keep_the_contact_on_the_trace():
     asked = request(["position=5"])
     [values] = asked.fields.values()
@@ -64,10 +68,9 @@ def test_each_point_is_the_scene_with_its_values():
     place, load = swept.content["points"][1]["values"]
     alone = WAVES | {"load": {"hertz_peak_pressure": load, "position": place, "friction": [0.0]}}
     there = crosscheck.run(alone, "half-plane").rows
-    expected = {row["quantity"]: row["half_plane"] for row in there}
     rows = [r for r in swept.rows if (r["load.position"], r["load.hertz_peak_pressure"])
             == (place, load)]  # fmt: skip
-    assert {row["quantity"]: row["half_plane"] for row in rows} == expected
+    assert [row["value"] for row in rows] == [row["value"] for row in there]
     assert "4 scenes (2 of load.position x 2 of load.hertz_peak_pressure), 0 failed" in repr(swept)
 
 
@@ -75,8 +78,8 @@ def test_the_scatter_is_that_of_the_values():
     swept = crosscheck.sweep(WAVES, "friction=0:0.2:2", workers=1)
     assert [row["friction"] for row in swept.content["scatter"]] == [None] * 3
     values = np.array([1.0, 2.0, 6.0])
-    rows = [[{"quantity": "peak_pressure", "friction": 0.0, "half_plane": v,
-              "finite_element": None, "model_error": None}] for v in values]  # fmt: skip
+    named = {"study": "contact", "quantity": "peak_pressure", "source": "half_plane"}
+    rows = [[named | {"against": None, "friction": 0.0, "value": v}] for v in values]
     [one] = scatter([{"rows": part} for part in rows], over_friction=False)
     assert (one["count"], one["mean"], one["smallest"], one["largest"]) == (3, 3.0, 1.0, 6.0)
     assert one["standard_deviation"] == pytest.approx(np.sqrt((4.0 + 1.0 + 9.0) / 2.0))
@@ -86,7 +89,7 @@ def test_pressure_follows_the_root_of_the_load():
     """Hertz's law along a sweep of the load, both ends with their units."""
     smooth = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6}}
     swept = crosscheck.sweep(smooth, "load=0.5 kN/mm:2 kN/mm:4", workers=1)
-    peaks = [r["half_plane"] for r in swept.rows if r["quantity"] == "peak_pressure"]
+    peaks = values_of(swept, "contact", "peak_pressure")
     assert np.diff(np.log(peaks)) == pytest.approx(
         0.5 * np.diff(np.log([0.5, 1, 1.5, 2])), abs=1e-4
     )
@@ -249,7 +252,7 @@ def test_figures_of_further_studies_are_swept():
     tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "partial_slip": {"load": 0.5}}
     tables["load"] = {"per_length": 1e6, "friction": [0.3]}
     swept = crosscheck.sweep(tables, "partial_slip.load=0.19,0.51,0.84", workers=1)
-    lengths = [row["half_plane"] for row in swept.rows if row["quantity"] == "stick_length"]
+    lengths = values_of(swept, "partial_slip", "stick_length")
     half_width = problem_of(scene_of(tables)).hertz.half_width
     assert lengths == pytest.approx(np.array([1.8, 1.4, 0.8]) * half_width, rel=2e-3)
     assert "length that sticks" in repr(swept)
