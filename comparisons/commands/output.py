@@ -11,7 +11,7 @@ from pathlib import Path
 from time import monotonic
 
 from comparisons.common.errors import tell
-from comparisons.common.progress import Lasting, ProgressCallback, Step
+from comparisons.common.progress import Early, Lasting, ProgressCallback, Step
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 SILENCE = 60.0  # seconds between lines of progress where no terminal shows it
@@ -43,8 +43,11 @@ def progress() -> Iterator[ProgressCallback]:
         task = shown.add_task("", total=None)
 
         def callback(stage: str) -> None:
-            if isinstance(stage, Lasting):
-                shown.console.print(stage, markup=False, highlight=False, soft_wrap=True)
+            if isinstance(stage, Early | Lasting):
+                from comparisons.output.terminal import PLAIN
+
+                line = stage.translate(PLAIN)
+                shown.console.print(line, markup=False, highlight=False, soft_wrap=True)
                 return
             if isinstance(stage, Step):
                 shown.update(task, total=1.0, completed=stage.done)

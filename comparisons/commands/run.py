@@ -4,8 +4,7 @@ import gc
 import math
 import sys
 from collections.abc import Sequence
-from contextlib import nullcontext, suppress
-from difflib import get_close_matches
+from contextlib import nullcontext
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
@@ -21,31 +20,23 @@ from comparisons.commands.arguments import (
     json_option,
     out_option,
 )
-from comparisons.commands.output import progress, show, show_either
+from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus, InputError, drop, tell
-from comparisons.figures.quantity import HYPHENATED, UP_TO, models_named
+from comparisons.figures.quantity import HYPHENATED, models_named
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
-    from rich.table import Table
-
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
-    from comparisons.studies.ladder.planned import PlannedRung
     from comparisons.studies.study import Run
 
 
-HERTZ = "hertz"  # nothing is solved
 BOTH = ",".join(HYPHENATED.values())
 Tolerance = Annotated[
     str | None,
     Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
-]
-UpTo = Annotated[
-    str | None,
-    Option(help=f"No model beyond {HERTZ}, {', '.join(UP_TO)}; nor the first that holds."),
 ]
 Workers = Annotated[
     str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
@@ -65,7 +56,6 @@ def run(
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Models = BOTH,
     tolerance: Tolerance = None,
-    up_to: UpTo = None,
     junit: Junit = None,
     workers: Workers = None,
     answer: Answers = None,
@@ -88,19 +78,14 @@ def run(
     began = perf_counter()
     chosen = models_named(models, "--models")
     asked = _read(scene, answer or (), tolerance)
-    asked = asked if up_to in (None, HERTZ) else _limited(asked, up_to)
     surface = surface_of(asked)
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
     if plan:
         return _say_plan(asked, surface, chosen)
-    if up_to == HERTZ:
-        return _hertz_alone(asked, surface)
     directory = out or RESULTS / asked.name
     _check_places(directory, junit, chosen)
     _say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
-    if sys.stderr.isatty():
-        _say_first_answer(asked, surface)
     with progress() as callback, _workers(workers) as opens:
         solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
     gone = _say_answer(solved, details, as_json)  # before the report is drawn
@@ -166,35 +151,14 @@ def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) 
     """What a run would do, by the laws of cost: levels, and steps with what makes them needless."""
     from comparisons.output.terminal import PLAIN
     from comparisons.runs.run import planned, posed
-    from comparisons.studies.ladder.limits import limited
-    from comparisons.studies.ladder.planned import planned_rungs
     from comparisons.studies.study import unsolved
 
-    scene, models = limited(scene, models)
     problem, plan = posed(scene, surface, models)
     for line in planned(unsolved(problem, plan)):
         print(line.translate(PLAIN))
     for step in plan.skipped:
         print(f"skipped: {step.step}: {step.because}".translate(PLAIN))
-    if rungs := planned_rungs(problem, plan):
-        show(_table_of(rungs))
     return ExitStatus.DONE
-
-
-def _table_of(rungs: "Sequence[PlannedRung]") -> "Table":
-    from rich.table import Table
-
-    from comparisons.common.numbers import with_unit
-
-    table = Table(
-        title="Models, from the cheapest to the whole, by estimates", title_justify="left"
-    )
-    for column in ("model", "computed", "expected", "when, or why not"):
-        table.add_column(column)
-    for rung in rungs:
-        seconds = "" if rung.seconds is None else with_unit(rung.seconds, "s", 2)
-        table.add_row(rung.words, rung.computed, seconds, rung.why)
-    return table
 
 
 def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":
@@ -204,28 +168,6 @@ def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":
     from comparisons.common.executors import cluster
 
     return cluster(scheduler)
-
-
-def _limited(scene: "Scene", up_to: str) -> "Scene":
-    """The scene up to a rung. Raises InputError for one that there is not."""
-    allowed = HERTZ, *UP_TO
-    if up_to not in allowed:
-        near = get_close_matches(up_to, allowed, n=1)
-        nearby = f"the nearest is {near[0]}; " if near else ""
-        raise InputError(
-            f"--up-to: there is no model {up_to}; {nearby}allowed are {', '.join(allowed)}"
-        )
-    return scene.changed("budget.up_to", up_to)
-
-
-def _hertz_alone(scene: "Scene", surface: "SceneSurface") -> int:
-    """Whether Hertz's closed form suffices, by estimates; nothing is solved or written."""
-    from comparisons.models.posing import problem_of
-    from comparisons.studies.ladder.estimated import hertz_alone
-
-    holds, line = hertz_alone(problem_of(scene, surface))
-    show(line)
-    return ExitStatus.DONE if holds else ExitStatus.INCONCLUSIVE
 
 
 def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) -> None:
@@ -248,21 +190,6 @@ def _say_warnings(warnings: list[str]) -> None:
 
     for warning in warnings:
         tell(f"plausibility warning: {warning.translate(PLAIN)}")
-
-
-def _say_first_answer(scene: "Scene", surface: "SceneSurface") -> None:
-    """What maps or estimates say of the model error; not of a surface that must be run in first,
-    nor under a load that must be found first, nor of a contact that has no solution: the run says
-    why."""
-    if scene.running_in is not None or scene.load.kind == "approach":
-        return
-    from analytic.contact.problem import ContactError
-    from comparisons.campaigns.maps.answer import first_answer
-    from comparisons.models.posing import problem_of
-
-    with suppress(ContactError):
-        for line in first_answer(problem_of(scene, surface)):
-            tell(line)
 
 
 def _print(directory: Path) -> None:

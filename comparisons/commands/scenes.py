@@ -1,7 +1,6 @@
 """Scene files: `crosscheck scenes` lists those that come along, `init` writes one for a measured
 profile, `deck` hands one to another code."""
 
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -90,10 +89,9 @@ def init(
 
 
 def _say_what_was_made(made: "FirstScene", options: Mapping[str, object]) -> None:
-    """What was seen in the profile, assumed beside the options, and the first answer."""
-    from comparisons.campaigns.init.show import init_table
-    from comparisons.campaigns.maps.answer import first_answer
-    from comparisons.models.posing import problem_of
+    """What was seen in the profile, assumed beside the options, and the half-plane's answer on the
+    coarsest level."""
+    from comparisons.campaigns.init.show import first_lines, init_table
     from comparisons.output.terminal import PLAIN
 
     show(init_table(made))
@@ -106,9 +104,8 @@ def _say_what_was_made(made: "FirstScene", options: Mapping[str, object]) -> Non
     }
     if assumed := [f"{name} = {value}" for name, value in examples.items() if value]:
         print(f"assumed as examples, put in yours: {', '.join(assumed)}")
-    unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
-    for line in first_answer(problem_of(made.scene)):
-        print(line if unicode else line.translate(PLAIN))
+    for line in first_lines(made.scene):
+        print(line.translate(PLAIN))
 
 
 @job

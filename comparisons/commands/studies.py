@@ -94,7 +94,7 @@ def map_of(
         request_of,
         show_finished,
     )
-    from comparisons.campaigns.maps.place import problem_named, unlike
+    from comparisons.campaigns.maps.mark import problem_named, unlike
 
     marked = mark and problem_named(mark)
     solves = again or any(option is not None for option in (points, x, y, workers))

@@ -116,18 +116,6 @@ def percent_as_written(value: float) -> str:
     return f"{100.0 * value:.6g} %"
 
 
-def with_uncertainty(value: float, uncertainty: float, unit: str, other: float) -> str:
-    """A figure [SI] with its uncertainty in one digit, or two where that is a 1 or a 2, beside the
-    half-plane's with as many decimals."""
-    scale, decimals = scale_of([value, other], unit), 4
-    if uncertainty:
-        size = uncertainty / scale.factor
-        last = _leading(size, 2)
-        decimals = max(0, (size < 3.0 * 10.0**last) - last)
-    one, half, two = (f"{size / scale.factor:.{decimals}f}" for size in (value, uncertainty, other))
-    return f"{one} ± {half} {scale.name} (half-plane {two})"
-
-
 def plain(value: float | None) -> str:
     """A number of the scene: no digit more than it has, at most six."""
     return UNKNOWN if value is None else f"{value:.6g}".replace("-", MINUS)

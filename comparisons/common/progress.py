@@ -61,6 +61,10 @@ class Lasting(str):
     """A line that is to stay where stages come and go."""
 
 
+class Early(str):
+    """A line that is to stay on a terminal alone: a part of the answer, before the rest."""
+
+
 def within(callback: ProgressCallback, start: float, stop: float) -> ProgressCallback:
     """The callback of a part of a task that takes the task from the share `start` to `stop`."""
 

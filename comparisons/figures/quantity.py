@@ -26,10 +26,6 @@ def _one(hertz: "HertzContact") -> float:
 
 _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")
 
-# Models from the cheapest on that a run may end with: the half-plane, that with what an operator
-# carries, that on its deformed surface, linear finite elements, finite deformation, and the whole.
-UP_TO = ("half-plane", "operators", "deformed", "linear", "finite", "whole")
-
 
 @dataclass(frozen=True)
 class Quantity:

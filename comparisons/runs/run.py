@@ -27,7 +27,6 @@ from comparisons.common.provenance import (
 )
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, Tasks, tasks_here
 from comparisons.figures.figure import Findings
-from comparisons.figures.quantity import MODELS
 from comparisons.models.forecast import Forecast, forecast
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
@@ -41,9 +40,7 @@ from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
-from comparisons.studies.ladder.limits import limited, may_stop_early
-from comparisons.studies.ladder.show import SUFFICES
-from comparisons.studies.study import LADDER, Run, Solved, studied, unsolved
+from comparisons.studies.study import Run, Solved, studied, unsolved
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -97,16 +94,12 @@ def solve_scene(
     """Solve a scene, compare and judge. Its files are written by `finish`. Until then what is
     solved is kept beside `out`: a run that is stopped goes on from there.
 
-    models    of half_plane, finite_element; fewer where budget.up_to asks for no more
+    models    of half_plane, finite_element
     callback  gets each stage as it begins
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved, SolverError where the finite elements find
     no solution or a process ends amid a task, MemoryError where the process may not have what they
     take, ModuleNotFoundError without their libraries; nothing is kept then."""
-    scene, models = limited(scene, models)
-    if may_stop_early(scene, models):
-        first = solve_scene(scene, None, MODELS[:1], callback, known=known)
-        models = MODELS[:1] if first.findings[LADDER].said(SUFFICES) else models
     _check_libraries(models)
     surface = known.surface or surface_of(scene)
     try:

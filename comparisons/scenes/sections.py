@@ -22,7 +22,7 @@ from comparisons.common.units import (
     describe,
     to_si,
 )
-from comparisons.figures.quantity import QUANTITIES, UP_TO
+from comparisons.figures.quantity import QUANTITIES
 from comparisons.scenes.fields import (
     Extent,
     ExtentField,
@@ -351,10 +351,8 @@ class ResolutionSection(SceneSection):
 class BudgetSection(SceneSection):
     """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
     whether it computes `effects` that the scene's finite elements do not model, and where "all",
-    those too that cannot change a verdict; and up to which of the models UP_TO it goes, no further
-    than the first that is known to hold."""
+    those too that cannot change a verdict."""
 
     time: Annotated[float, Number(TIME, above=0.0)] = 300.0
     memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
     effects: Annotated[bool | str, Truth(("all",))] = True
-    up_to: Annotated[str, OneOf(UP_TO)] = UP_TO[-1]

@@ -13,11 +13,9 @@ import numpy as np
 from rich.console import Console
 
 from comparisons.campaigns.init.first_scene import write_first_scene
-from comparisons.campaigns.init.show import init_table
-from comparisons.campaigns.maps.answer import first_answer
+from comparisons.campaigns.init.show import first_lines, init_table
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.progress import no_progress
-from comparisons.models.posing import problem_of
 from comparisons.output.flat_csv import as_csv, tidy_rows
 from comparisons.output.page.redraw import draw_again
 from comparisons.output.page.saved import read_run
@@ -54,7 +52,7 @@ def look(path: Path) -> str:
     """What becomes of a profile that `init` looks at."""
     made = write_first_scene(path, None, {}, force=True)
     shown = Console(file=io.StringIO(), width=100)
-    shown.print(init_table(made), *first_answer(problem_of(made.scene)))
+    shown.print(init_table(made), *first_lines(made.scene))
     return "a scene of it"
 
 

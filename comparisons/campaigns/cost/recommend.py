@@ -20,7 +20,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 
 ALL = "all"
-RUNGS = {OPERATOR: "operators", DEFORMED: "deformed", LINEAR: "linear"}  # names for `--up-to`
+RUNGS = (OPERATOR, DEFORMED, LINEAR)  # models that `run` compares beside the scene's own
 ELEMENTS_OF_RUN = ("P1", "P2", "P3")  # finite elements that a scene can have `run` solve with
 
 Tolerances = dict[str, float]
@@ -183,7 +183,7 @@ def _sentence(
         parts.append(f"{lead} {_words(best, tolerances)}")
         if lead.startswith("cheapest"):
             rung = best.method.element
-            how = f"run --up-to {RUNGS[rung]} has it" if rung in RUNGS else "run cannot solve by it"
+            how = "run compares it" if rung in RUNGS else "run cannot solve by it"
             parts[-1] += f" ({how})"
     if chance:
         parts.append(f"by chance it is met cheaper by {chance}")

@@ -12,6 +12,7 @@ from analytic.surface.roughness import bearing_curve, power_spectrum
 from analytic.surface.roughness_standard import SECTIONS
 from comparisons.campaigns.init.guess import ProfileFields
 from comparisons.common.numbers import scale_of, significant, with_unit
+from comparisons.common.progress import Stages
 from comparisons.drawing.style import WIDE, drawing, figure, svg
 from comparisons.output.page.tables.problem import in_mm, sections_text, standard_text
 from comparisons.output.plausibility import warnings_about_surface
@@ -99,6 +100,16 @@ def init_table(made: FirstScene) -> "RenderableType":
         *(Text(line.translate(PLAIN)) for line in warnings),
         *map(Text, (*guesses, *ends, f"next    crosscheck run {made.path}")),
     )
+
+
+def first_lines(scene: Scene) -> tuple[str, str]:
+    """The half-plane's answer on the coarsest level, and estimates of what it leaves out."""
+    from comparisons.models.half_plane import half_plane_level
+    from comparisons.models.posing import problem_of
+    from comparisons.studies.model_error.study import early_lines
+
+    problem = problem_of(scene)
+    return early_lines(problem, half_plane_level(problem, problem.pitches[0], None, Stages()))
 
 
 def _two_columns(info: ProfileInfo) -> list[str]:

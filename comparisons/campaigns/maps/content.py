@@ -32,17 +32,11 @@ def differences(content: dict, quantity: str) -> np.ndarray:
     return _values(content, quantity, "difference")
 
 
-def uncertainties(content: dict, quantity: str) -> np.ndarray:
-    """(ny, nx) of the relative model errors, nan where unknown."""
-    return _values(content, quantity, "uncertainty")
-
-
-def errors(content: dict) -> tuple[np.ndarray, np.ndarray]:
-    """(ny, nx) size of the model error, and with its uncertainty added; infinite where unknown."""
+def points_within(content: dict, tolerance: float) -> int:
+    """How many points have a model error that is within a tolerance with all its uncertainty."""
     quantity = content["quantity"]
-    unsure = _values(content, quantity, "uncertainty")
-    error = np.where(np.isfinite(unsure), np.abs(differences(content, quantity)), np.inf)
-    return error, np.where(np.isfinite(unsure), error + unsure, np.inf)
+    largest = np.abs(differences(content, quantity)) + _values(content, quantity, "uncertainty")
+    return int(np.count_nonzero(largest <= tolerance))
 
 
 def _values(content: dict, quantity: str, name: str) -> np.ndarray:
@@ -59,14 +53,6 @@ def places(axis: dict, *values: float) -> np.ndarray:
 
 
 def scaled(error: np.ndarray | float, content: dict) -> np.ndarray | float:
-    """As a map is drawn and interpolated: nearly logarithmic for either sign, straight up to what
-    its groups say; `unscaled` takes it back."""
-    return np.arcsinh(np.asarray(error) / _straight(content))
-
-
-def unscaled(value: np.ndarray | float, content: dict) -> np.ndarray | float:
-    return _straight(content) * np.sinh(value)
-
-
-def _straight(content: dict) -> float:
-    return max(GROUPS[content[axis]["group"]].straight for axis in "xy")
+    """As a map is drawn: nearly logarithmic for either sign, straight up to what its groups say."""
+    straight = max(GROUPS[content[axis]["group"]].straight for axis in "xy")
+    return np.arcsinh(np.asarray(error) / straight)

@@ -59,8 +59,6 @@ class Group:
     finite_element: Mapping[str, object] = field(default_factory=dict)
     section: str | None = None  # that a scene must have
     early: bool = False  # the group changes a
-    vanishes: bool = True  # the effect goes to zero with the group
-    material: bool = False  # a property of materials, no size of an effect
     # up to which errors a map's scale is straight: larger where they change sign amid the map
     straight: float = 1e-3
 

@@ -12,9 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.grid import FAILED, SOLVED, Point, failures, points_of, solved_in
-from comparisons.campaigns.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
+from comparisons.campaigns.maps.content import (
+    BELOW,
+    INCONCLUSIVE,
+    SIGNIFICANT,
+    points_within,
+    significance,
+)
 from comparisons.campaigns.maps.groups import (
-    GROUPS,
     Axis,
     axis_of,
     counts_of,
@@ -22,10 +27,11 @@ from comparisons.campaigns.maps.groups import (
     scene_with,
     usual_axes,
 )
+from comparisons.campaigns.maps.mark import mark_of
 from comparisons.campaigns.maps.point import NOT_CONVERGED, TOLERANCES, solve_point
-from comparisons.campaigns.maps.rule import rules_of
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import check_writable, publish
+from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.quantity import QUANTITIES, label
@@ -34,7 +40,7 @@ from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.scene import Origin, Scene
 
 if TYPE_CHECKING:
-    from rich.console import Group
+    from rich.text import Text
 
     from comparisons.campaigns.maps.picture import Mark
 
@@ -162,35 +168,6 @@ def _files(content: dict, mark: "Mark | None") -> dict[str, str]:
     return {PICTURE: map_picture(content, mark), MAP: as_json(content)}
 
 
-def misfit(content: dict, scene: Scene) -> str:
-    """Why a scene is not of a map's kind, or nothing: a place on it would tell nothing of it."""
-    if ("profile" in content["scene"]) != (scene.profile is not None):
-        kinds = ("rough", "smooth") if scene.profile is not None else ("smooth", "rough")
-        return "is {}, and the map is of a {} surface".format(*kinds)
-    return ""
-
-
-def mark_of(content: dict, problem: Problem) -> "Mark":
-    """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
-    where a group has no value for a scene, or one off the map, or the scene is none of the map's
-    kind."""
-    if why := misfit(content, problem.scene):
-        raise InputError(f"--mark: {problem.scene.name} {why}; allowed is a scene of its kind")
-    values = []
-    for axis in (content["x"], content["y"]):
-        name, (low, *_, high) = axis["group"], axis["values"]
-        value = GROUPS[name].value_of(problem)
-        if value is None:
-            raise InputError(f"--mark: {problem.scene.name} has no {name} to be marked at")
-        if not low <= value <= high:
-            raise InputError(
-                f"--mark: {problem.scene.name} lies off the map: its {axis['symbol']} is "
-                f"{value:.2g}; allowed is {low:g} to {high:g}"
-            )
-        values.append(value)
-    return problem.scene.name, (values[0], values[1])
-
-
 def exit_status(content: dict) -> ExitStatus:
     """3 where a solver did not converge at a point."""
     failed = any(NOT_CONVERGED in why for why in failures(content["points"]))
@@ -205,7 +182,7 @@ def map_content(request: MapRequest, answers: list[dict]) -> dict:
         | significance(answer, request.quantity)
         for point, answer in zip(request.points, answers, strict=True)
     ]
-    content = {
+    return {
         "schema": SCHEMA,
         "command": request.command,
         "scene": request.tables,
@@ -217,7 +194,6 @@ def map_content(request: MapRequest, answers: list[dict]) -> dict:
         "points": points,
         "versions": versions(),
     }
-    return content | {"rules": rules_of(content)}
 
 
 def showing(content: dict, quantity: str) -> dict:
@@ -230,26 +206,18 @@ def showing(content: dict, quantity: str) -> dict:
             f"--quantity: {quantity} is not on this map; allowed are {', '.join(allowed)}"
         )
     points = [point | significance(point, quantity) for point in content["points"]]
-    content = content | {"quantity": quantity, "points": points}
-    return content | {"rules": rules_of(content)}
+    return content | {"quantity": quantity, "points": points}
 
 
-def map_table(content: dict, out: Path | None) -> "Group":
-    """The rules of thumb, and how many points are of which kind."""
-    from rich.console import Group
-    from rich.table import Table
+def map_table(content: dict, out: Path | None) -> "Text":
+    """How many points are within each tolerance, and of which kind."""
     from rich.text import Text
 
     points = content["points"]
     kinds = Counter(point.get("error", point["status"]) for point in points)
-    what = label(content["quantity"])
-    rules = Table(title=f"Where the half-plane's model error in the {what} stays small")
-    for name in ("tolerance", "rule", "its points", "largest error there", "all within"):
-        rules.add_column(name, justify="left" if name == "rule" else "right")
-    for rule in content["rules"]:
-        largest = "" if rule["largest_error"] is None else f"{100.0 * rule['largest_error']:.2g} %"
-        counts = str(rule["points_inside"]), largest, str(rule["points_within"])
-        rules.add_row(f"{100.0 * rule['tolerance']:g} %", rule["law"], *counts)
+    within = ", ".join(
+        f"{percent_as_written(t)} at {points_within(content, t)}" for t in content["tolerances"]
+    )
     account = {
         SIGNIFICANT: "with a larger error than its numerical uncertainty",
         BELOW: "below the first tolerance",
@@ -257,10 +225,11 @@ def map_table(content: dict, out: Path | None) -> "Group":
         FAILED: "failed",
     }
     counts = ", ".join(f"{kinds[kind]} {words}" for kind, words in account.items() if kinds[kind])
-    return Group(
-        rules,
-        Text(f"{len(points)} points: {counts}"),
-        *(Text(f"failed, {count}: {why}") for why, count in failures(points).most_common()),
-        Text(f"made by: {content['command']}"),
-        *([] if out is None else [Text(f"map: {out / MAP}, {out / PICTURE}")]),
-    )
+    lines = [
+        f"model error of the half-plane, {label(content['quantity'])}: within {within} points",
+        f"{len(points)} points: {counts}",
+        *(f"failed, {count}: {why}" for why, count in failures(points).most_common()),
+        f"made by: {content['command']}",
+        *([] if out is None else [f"map: {out / MAP}, {out / PICTURE}"]),
+    ]
+    return Text("\n".join(lines))

@@ -39,7 +39,7 @@ from comparisons.studies.subsurface.yielding import FlowAssessment
 HERTZ, HALF_PLANE, OPERATORS, DEFORMED = "hertz", "half_plane", "operators", "deformed"
 LINEAR, FINITE, FLOW = "linear", "finite", "flow"
 OTHER = MODELS[1]  # the finite elements of the scene
-# Kinds of rungs, from the cheapest on; `--up-to` takes these names with hyphens.
+# Kinds of rungs, from the cheapest on.
 KINDS = {
     HERTZ: "Hertz's closed form",
     HALF_PLANE: "half-plane",
@@ -148,7 +148,7 @@ class Ladder:
         return tuple(renamed(figure, name) for figure in judged)
 
     def _hertz(self) -> Rung | None:
-        if closed_form(self.solved.problem) is None:
+        if (smooth := closed_form(self.solved.problem)) is None:
             return None
         began, problem, window = perf_counter(), self.solved.problem, self.solved.window
         errors, finite_elements = [], self.solved.runs[OTHER]
@@ -163,7 +163,7 @@ class Ladder:
                 errors.append(solutions.of_exact(row.quantity, levels, numerical))
         seconds = perf_counter() - began
         figures = self._figures(HERTZ, errors)
-        return Rung(HERTZ, HERTZ, closed_form_words(problem), figures, seconds, 0.0)
+        return Rung(HERTZ, HERTZ, f"{smooth.name}'s closed form", figures, seconds, 0.0)
 
     def _half_plane(self) -> Rung:
         run = self.solved.runs["half_plane"]
@@ -262,10 +262,6 @@ def operator_runs(
             return None
         runs |= dict.fromkeys(group, ModelRun(OPERATORS, levels))
     return runs
-
-
-def closed_form_words(problem: Problem) -> str:
-    return f"{closed_form(problem).name}'s closed form"
 
 
 def has_norms(problem: Problem) -> bool:

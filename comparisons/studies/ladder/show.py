@@ -11,10 +11,8 @@ from comparisons.studies.ladder.rungs import verdict_of
 from comparisons.studies.study import LADDER, Run
 
 RUNGS = "rungs"  # series: what each rung took
-# Statements: the cheapest rung that holds, and what says so; why none does; the next one to try,
-# and what it drops.
-SUFFICES, BY, NONE, ESCALATE_TO, NEXT = "suffices", "by", "none", "escalate to", "next"
-ESTIMATES = "estimates"  # of all that a model leaves out
+# Statements: the cheapest rung that holds; why none does; the next one to try, and what it drops.
+SUFFICES, NONE, ESCALATE_TO, NEXT = "suffices", "none", "escalate to", "next"
 NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
 figure that is nearest to its tolerance or surely farthest beyond, with its uncertainty. A model
 holds where every judged figure does. The last row is what is not known of the whole model itself.
@@ -42,8 +40,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
         return []
     by_name = {row["rung"]: _text(row, words, errors) for row, words, errors in rungs}
     if (name := findings.said(SUFFICES)) is not None:
-        by = f", by {findings.said(BY)}" if findings.said(BY) == ESTIMATES else ""
-        return [("cheapest that holds", f"{by_name[name]}{by}")]
+        return [("cheapest that holds", by_name[name])]
     left = [row["rung"] for row, _, errors in rungs if verdict_of(errors) != "fails"]
     why = f", {said}" if (said := findings.said(NONE)) else ""
     beside = f"; cheapest that was not refuted: {by_name[left[0]]}" if left else ""

@@ -11,7 +11,6 @@ from comparisons.figures.quantity import WHOLE
 from comparisons.studies import comparison
 from comparisons.studies.friction import coupling
 from comparisons.studies.ladder import show
-from comparisons.studies.ladder.estimated import estimated_rungs
 from comparisons.studies.ladder.operators import carried_deformed
 from comparisons.studies.ladder.rungs import HALF_PLANE, Ladder, Rung, announce_operators
 from comparisons.studies.model_error.catalogue import EFFECTS
@@ -23,7 +22,7 @@ from comparisons.studies.subsurface import yielding
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Announce the half-plane on the deformed surface, once the half-plane is solved, where the
     effects that this selects deform the bodies: it then waits for no finite elements."""
-    if not solved.plan.compares or list(solved.runs) != [HALF_PLANE]:
+    if list(solved.runs) != [HALF_PLANE]:
         return
     moved = coupling.coupled(solved, tasks).changes if solved.plan.coupling else ()
     whole = selected_effects(solved, moved).whole
@@ -34,21 +33,17 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    flow = before[yielding.NAME]
-    if not solved.plan.compares:
-        rungs = estimated_rungs(solved, before, flow.data, tasks)
-        return _findings(rungs, flow.data.beyond_doubt, None)
-    budget = before[MODEL_ERROR].data
+    flow, budget = before[yielding.NAME].data, before[MODEL_ERROR].data
     if not budget.solutions:
         why = budget.unsplit or "the whole model has no solution"
         return Findings(statements=(Statement(WHY_NOT, why),))
     compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
-    ladder = Ladder(solved, budget, tasks, tuple(compared), flow.data)
+    ladder = Ladder(solved, budget, tasks, tuple(compared), flow)
     return _findings(ladder.rungs(), ladder.flows, before[MODEL_ERROR])
 
 
-def _findings(rungs: Sequence[Rung], flows: str, errors: Findings | None) -> Findings:
-    """With what suffices; `errors` of the half-plane, None where no whole is solved."""
+def _findings(rungs: Sequence[Rung], flows: str, errors: Findings) -> Findings:
+    """With what suffices; `errors` of the half-plane."""
     figures = tuple(figure for rung in rungs for figure in rung.figures)
     columns = {
         "rung": Column(tuple(rung.name for rung in rungs)),
@@ -60,7 +55,7 @@ def _findings(rungs: Sequence[Rung], flows: str, errors: Findings | None) -> Fin
     return Findings(figures, series, tuple(_statements(rungs, errors, flows)))
 
 
-def _statements(rungs: Sequence[Rung], errors: Findings | None, flows: str) -> list[Statement]:
+def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Statement]:
     holding = [] if flows else [rung for rung in rungs if rung.verdict == "holds"]
     half_plane = next(rung for rung in rungs if rung.name == HALF_PLANE)
     said = []
@@ -68,17 +63,13 @@ def _statements(rungs: Sequence[Rung], errors: Findings | None, flows: str) -> l
         said.append(Statement(show.NONE, "flow"))
     elif holding:
         said.append(Statement(show.SUFFICES, holding[0].name))
-        said.append(Statement(show.BY, show.ESTIMATES if errors is None else "the whole model"))
-    elif errors is None:
-        said.append(Statement(show.NONE, "what the models leave out is not bounded by estimates"))
     elif rungs[-1].verdict == "inconclusive":
         said.append(Statement(show.NONE, "the whole model is not known to the tolerance"))
     dearer = rungs[rungs.index(half_plane) + 1 :]
     possible = [rung.name for rung in (*holding, *dearer) if rung.verdict != "fails"]
     if half_plane.verdict != "holds" and not flows and possible:
         said.append(Statement(show.ESCALATE_TO, possible[0]))
-        assumption = None if errors is None else _worth_dropping(errors)
-        if assumption is not None:
+        if (assumption := _worth_dropping(errors)) is not None:
             said.append(Statement(show.NEXT, assumption))
     return said
 
@@ -98,9 +89,8 @@ def _reach(figure: Figure) -> float:
 
 
 def _applies(solved: Solved) -> bool:
-    """Where something is judged by two models, or by estimates, as `budget.up_to` asks."""
-    alone = solved.plan.models == (HALF_PLANE,) and solved.problem.scene.budget.up_to != WHOLE
-    return bool(solved.problem.scene.tolerances) and (solved.plan.compares or alone)
+    """Where something is judged by two models."""
+    return solved.plan.compares and bool(solved.problem.scene.tolerances)
 
 
 STUDY = Study(

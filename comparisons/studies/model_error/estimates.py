@@ -16,7 +16,6 @@ import math
 from collections.abc import Iterable
 
 from analytic.material import dundurs_constants
-from analytic.material.third_order import peak_change
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import Problem
@@ -340,23 +339,3 @@ def _plastic_flow(problem: Problem, peak: float) -> Sizes:
     stress = UNCAPPED_STRESS * beyond + FIRST_AT_SURFACE
     stresses = dict.fromkeys((*STRESSES, *NORMS), stress) | {"tau1_max_depth": max(1.0, stress)}
     return _equal(UNCAPPED * beyond) | stresses
-
-
-# What the half-plane on its deformed surface still leaves out of finite deformation. Of the third
-# order, in peak pressure and length: below 0.4 (p/E)^2 on waves and ground surfaces up to p/E of
-# 0.05, 2 (p/E)^2 under a law that changes the second order by 0.9 p/E. Of friction: 0.07 % at
-# friction 0.1. Stresses are of first order under the right pressures: 0.6 p/E in tau1.
-DRAGGED, STRESSED = 1.0, 0.8
-
-
-def beyond_second_order(problem: Problem, peak: float) -> Sizes:
-    """Of finite deformation, where the contact is known to second order; `peak` [Pa]. Norms of
-    fields and depths are as sure as without."""
-    scene = problem.scene
-    bodies = [scene.body.material] + [scene.roller.material] * (not scene.roller.rigid)
-    strain = peak / min(body.youngs_modulus for body in bodies)
-    law = 1.0 + max(abs(peak_change(body.law, body)) for body in bodies)
-    size = (law * strain) ** 2 + DRAGGED * max(scene.load.friction) * strain
-    known = ("peak_pressure", "contact_length", "contact_ratio")
-    stresses = dict.fromkeys(("tau1_max", "txz_max_abs"), size + STRESSED * law * strain)
-    return _finite_deformation(problem, peak, set()) | dict.fromkeys(known, size) | stresses

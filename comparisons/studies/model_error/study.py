@@ -1,28 +1,40 @@
 """The half-plane's model error: what separates it from finite elements with every effect.
 
 In: the comparison of both models, the couplings. Out: a judged figure a quantity, its effects, and
-the whole model's levels. The effects begin as soon as the half-plane is solved."""
+the whole model's levels. The effects begin as soon as the half-plane is solved, whose answer is
+said then, beside estimates of what it leaves out."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
+from comparisons.common.numbers import with_unit
+from comparisons.common.progress import Early
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import QUANTITIES
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
 from comparisons.studies import comparison
+from comparisons.studies.contact import values_of
 from comparisons.studies.friction import coupling
+from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error import show
 from comparisons.studies.model_error.account import NAME, findings_of
+from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.error_budget import (
     ErrorBudget,
     announce_effects,
     error_budget,
 )
+from comparisons.studies.model_error.estimates import estimates
 from comparisons.studies.study import Solved, Study
+
+SAID_EARLY = ("peak_pressure", "contact_length", "tau1_max")
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
-    """Announce the effects once the half-plane is solved; with the finite elements beside it, which
-    then leave a figure open, the whole model's further levels, too."""
+    """Announce the effects once the half-plane is solved, and say what it answers; with the finite
+    elements beside it, which then leave a figure open, the whole model's further levels, too."""
     if "half_plane" in solved.runs:
         more = tasks.held(NAME, NAME, lambda: _announced(solved, tasks))
         if "finite_element" in solved.runs:
@@ -31,13 +43,49 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
     moved = coupling.coupled(solved, tasks).changes if solved.plan.coupling else ()
-    return announce_effects(solved, moved, tasks)
+    more = announce_effects(solved, moved, tasks)
+    for line in early_lines(solved.problem, solved.runs["half_plane"].finest, moved):
+        tasks.callback(Early(line))
+    return more
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     moved = before[coupling.NAME].data.changes if coupling.NAME in before else ()
     budget = error_budget(solved, before[comparison.NAME].figures, moved, tasks)
     return findings_of(budget, solved.problem)
+
+
+def early_lines(
+    problem: Problem, level: Level, couplings: tuple[Coupling, ...] = ()
+) -> tuple[str, str]:
+    """The half-plane's figures on a level, at the largest friction coefficient, and what it may
+    leave out, by estimates: these are larger than what they stand for, and no verdict.
+
+    couplings  of the half-plane, where they are known"""
+    friction, scene = max(problem.scene.load.friction), problem.scene
+    known = values_of(level, problem, friction)
+    figures = {name: known[name] for name in SAID_EARLY if name in known}
+    said = [
+        f"{QUANTITIES[name].short} {with_unit(value, QUANTITIES[name].unit)}"
+        for name, value in figures.items()
+    ]
+    # half-planes do not flow, though the scene's finite elements may
+    elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": False}))
+    pressure = level.under(friction).solution.pressure
+    mean = float(pressure @ pressure / pressure.sum())
+    every = estimates(elastic, float(pressure.max()), mean, (), couplings).items()
+    sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
+    left = [_bound(name, [of.get(name, 0.0) for of in sizes.values()]) for name in figures]
+    most = max(sizes, key=lambda effect: max(sizes[effect].get(name, 0.0) for name in figures))
+    return (
+        f"half-plane: {', '.join(said)}",
+        f"left out, by estimates at most: {', '.join(left)}, mostly {EFFECTS[most].label}",
+    )
+
+
+def _bound(quantity: str, sizes: list[float]) -> str:
+    total, name = sum(sizes), QUANTITIES[quantity].short
+    return f"{name} {100.0 * total:.2g} %" if total < 1.0 else f"{name} 100 % or more"
 
 
 STUDY = Study(

@@ -12,7 +12,7 @@ from scenes import QUICK, changed, problem, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
-from comparisons.common.progress import Lasting
+from comparisons.common.progress import Early, Lasting
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.plan import make_plan
@@ -28,8 +28,14 @@ pytestmark = pytest.mark.usefixtures("undrawn")
 
 
 @pytest.fixture(scope="module")
-def smooth(tmp_path_factory):
-    return run(resolved(QUICK), tmp_path_factory.mktemp("smooth") / "out", MODELS)
+def said() -> list[str]:
+    """What the run of `smooth` says."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def smooth(tmp_path_factory, said):
+    return run(resolved(QUICK), tmp_path_factory.mktemp("smooth") / "out", MODELS, said.append)
 
 
 def figures(outcome) -> dict:
@@ -97,6 +103,14 @@ class TestSmooth:
         rows = {row.quantity: row for row in smooth.figures.of(study="comparison")}
         for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
             assert abs(rows[name].value) <= rows[name].numerical, name
+
+    def test_the_half_plane_s_answer_is_said_before_finite_elements_are_solved(self, smooth, said):
+        figures, left = (line for line in said if isinstance(line, Early))
+        assert figures.startswith("half-plane: peak pressure 4.150 GPa, contact length 1.089 mm, ")
+        assert left.startswith("left out, by estimates at most: peak pressure 8 %, contact length")
+        assert left.endswith(" %, mostly finite deformation")
+        stages = [line for line in said[: said.index(left)] if "finite elements: contact" in line]
+        assert stages == []
 
     def test_checks_and_iterations(self, smooth):
         for model in MODELS:

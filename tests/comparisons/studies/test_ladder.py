@@ -7,19 +7,12 @@ import json
 from dataclasses import replace
 
 import pytest
-from scenes import RUBBER, changed, problem, refound, resolved
+from scenes import changed, refound
 
-from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
-from comparisons.figures.quantity import MODELS
-from comparisons.models.plan import make_plan
 from comparisons.output.result_json import content_of
-from comparisons.runs.run import run
 from comparisons.studies.ladder import show
-from comparisons.studies.ladder.estimated import hertz_alone
-from comparisons.studies.ladder.limits import limited
-from comparisons.studies.ladder.planned import FLOWS, planned_rungs
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT
 
 STIFFER = 1.01
@@ -108,96 +101,3 @@ def test_a_model_that_fails_is_shown_by_an_error_that_fails(wavy_outcome):
     rows = block.items[0].rows
     assert (rows[0][4], rows[1][4]) == ("fails", "inconclusive")
     assert float(rows[0][3].split()[0]) < 10.0 < float(rows[1][3].split()[0])
-
-
-@pytest.mark.parametrize(
-    ("load", "name"), [(1e3, "hertz"), (1e6, None)], ids=["light load", "heavy load"]
-)
-def test_estimates_say_what_holds_where_no_whole_is_solved(finish, smooth_tables, load, name):
-    """And that none is known to hold where they exceed a tolerance."""
-    tables = smooth_tables | {"load": {"per_length": load}, "budget": {"up_to": "half-plane"}}
-    alone = finish(tables, ("half_plane",))
-    assert alone.findings[LADDER].said(show.SUFFICES) == name
-    [(_, line)] = show.lines(alone)
-    assert line.endswith("by estimates") == (name is not None)
-    assert (hertz_alone(alone.problem)[0]) == (name is not None)
-
-
-def planned(tables, models=MODELS):
-    posed = problem(tables)
-    return planned_rungs(posed, make_plan(posed, models))
-
-
-def test_what_is_computed_is_planned(wavy_outcome):
-    """Of the finished run every model by its name; the table of the plan begins with Hertz."""
-    rows = planned_rungs(wavy_outcome.problem, wavy_outcome.plan)
-    computed = {row.words for row in rows if row.computed != "no"}
-    solved = wavy_outcome.findings[LADDER].table(show.RUNGS).rows()
-    assert {row["model"] for row in solved} <= computed
-    assert (rows[0].words, rows[0].seconds) == ("Hertz's closed form", 0.0)
-    assert all((row.seconds is None) == (row.computed == "no") for row in rows)
-
-
-def test_a_plan_says_why_a_model_is_not_computed(smooth_tables, wavy_tables):
-    why = {row.words: row.why for row in planned(changed(smooth_tables, load={"per_length": 1e2}))}
-    assert why["half-plane with what an operator carries"].startswith("does not apply")
-    assert why["finite deformation"].startswith("does not apply: finite deformation is ")
-    limited_tables = changed(wavy_tables, budget={"up_to": "operators"})
-    rows = planned(limited_tables, MODELS[:1])
-    assert rows[-1].why == "beyond --up-to operators" == rows[3].why
-    layer = changed(smooth_tables, body={"thickness": 1e-3})
-    [row] = [row for row in planned(layer) if row.words == "half-plane with layer"]
-    assert row.computed == "if needed" and 0.0 < row.seconds < 1.0
-    soft = changed(smooth_tables, body={"yield_stress": 1e8}, budget={"up_to": "deformed"})
-    [row] = [row for row in planned(soft, MODELS[:1]) if "deformed" in row.words]
-    assert row.why == FLOWS and row.seconds is None
-    unjudged = make_plan(problem(layer), MODELS[1:])
-    assert planned_rungs(problem(layer), unjudged) == []
-
-
-def test_an_operator_refutes_a_half_plane_without_finite_elements(finish):
-    """A thin layer of rubber, as in the library."""
-    tables = {
-        "roller": {"radius": 50e-3, "rigid": True},
-        "body": {**RUBBER, "poissons_ratio": 0.495, "thickness": 2e-3},
-        "load": {"per_length": 5e3},
-        "budget": {"up_to": "operators"},
-    }
-    known = finish(tables, ("half_plane",)).figures.of(study=LADDER)
-    assert "fails" in {figure.verdict for figure in known.of(source="half_plane")}
-    assert {figure.verdict for figure in known.of(source="operators")} == {"inconclusive"}
-    up_to = {"budget": {"up_to": "half-plane"}}
-    below = finish(tables | up_to, ("half_plane",)).figures.of(study=LADDER)
-    assert not below.of(source="operators")
-
-
-def test_no_estimate_bounds_roughness_or_coupling_in_hertz(wavy_outcome, smooth_tables):
-    assert not hertz_alone(wavy_outcome.problem)[0]
-    roller = {"radius": 8e-3, "rigid": True}
-    load = {"per_length": 1e3, "friction": 0.3, "coupled": True}
-    assert "coupling" in hertz_alone(problem(smooth_tables | {"roller": roller, "load": load}))[1]
-
-
-def test_a_run_goes_no_further_than_its_budget(smooth_tables):
-    """Without flow and finite deformation up to linear ones; with a half-plane that holds alone."""
-    yielding = {**smooth_tables["body"], "yield_stress": 1e9}
-    tables = smooth_tables | {"body": yielding, "finite_element": {"plastic": True}}
-    scene = resolved(changed(tables, budget={"up_to": "linear"}))
-    linear, models = limited(scene, MODELS)
-    assert (linear.finite_element.plastic, linear.budget.effects, models) == (False, False, MODELS)
-    assert limited(scene.changed("budget.up_to", "operators"), MODELS)[1] == ("half_plane",)
-    assert limited(scene.changed("budget.up_to", "whole"), MODELS) == (
-        scene.changed("budget.up_to", "whole"),
-        MODELS,
-    )
-    light = resolved(smooth_tables | {"load": {"per_length": 1e3}, "budget": {"up_to": "linear"}})
-    assert list(run(light, None, MODELS).runs) == ["half_plane"]
-
-
-def test_an_unknown_model_is_answered_in_one_line(capsys):
-    assert main(["run", "smooth", "--up-to", "half-plan"]) == ExitStatus.BAD_INPUT
-    said = capsys.readouterr().err
-    assert said.startswith("crosscheck: --up-to: there is no model half-plan; the nearest is half-")
-    assert said.count("\n") == 1
-    assert main(["run", "smooth", "--up-to", "moon"]) == ExitStatus.BAD_INPUT
-    assert "no model moon; allowed are hertz, half-plane, operators," in capsys.readouterr().err
