@@ -216,11 +216,6 @@ def test_digits_in_groups_are_shown_as_they_are(tmp_path):
     assert '"1,000,000"' in refusal(path, **SCALES)
 
 
-def test_a_loop_of_links_is_called_one(tmp_path):
-    (tmp_path / "a.csv").symlink_to(tmp_path / "a.csv")
-    assert "a loop of symbolic links" in refusal(tmp_path / "a.csv", **SCALES)
-
-
 @pytest.mark.parametrize(("scale", "pitch"), [(1.0, 1e-300), (1.0, 1e290), (1e309, 1e-6)])
 def test_scales_of_no_size_are_refused(scale, pitch):
     rows = scale * np.array(MAP[::3])
