@@ -4,9 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from text_profiles import read_measured
 
 import analytic.surface.readers.instruments as instruments
-from analytic.surface.readers.files import MissingUnitError, profile_of, read_measured
+from analytic.surface.readers.files import MissingUnitError, profile_of
 from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.topography import MapLine, Topography
 
