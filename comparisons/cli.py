@@ -22,10 +22,12 @@ from comparisons.common.errors import ExitStatus, InputError, SolverError, drop,
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 LIMITS = (errno.ENOMEM, errno.EAGAIN, errno.EMFILE, errno.ENFILE)  # of the system, that are reached
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
-# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map, a
-# sweep and a cost study have processes of their own, and end them.
+# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map and a
+# sweep have processes of their own, and end them.
 WATCHED = {
-    "run": "finished levels are kept, the same command goes on from there",
+    **dict.fromkeys(
+        ("cost", "run"), "finished levels are kept, the same command goes on from there"
+    ),
     "rerun": "nothing was changed, the same command starts again",
     **dict.fromkeys(
         ("stability", "verify"), "finished cases are kept, the same command goes on from there"
