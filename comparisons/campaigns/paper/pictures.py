@@ -131,7 +131,6 @@ def trace_picture(run: Run, scales: Scales) -> Picture:
         f"{load_text(run.problem)}; p₀ = {with_unit(hertz.peak_pressure, 'Pa')}, "
         f"a = {with_unit(hertz.half_width, 'm')}. Beyond the contact the surfaces are "
         "the half-plane's.",
-        wide=True,
     )
 
 
@@ -157,8 +156,8 @@ def pressure_picture(run: Run, scales: Scales, surface: str) -> Picture:
     )
 
 
-def _picture(drawn: "Figure", alternative: str, caption: str, wide: bool = False) -> Picture:
-    return style.picture(drawn, alternative, caption, data=False, wide=wide)
+def _picture(drawn: "Figure", alternative: str, caption: str) -> Picture:
+    return style.picture(drawn, alternative, caption, data=False)
 
 
 def _panels(width: float, height: float) -> "tuple[Figure, tuple[Axes, Axes]]":
