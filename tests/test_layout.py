@@ -39,8 +39,8 @@ ROOMS = {
     "analytic": "running_in exact heat layers statistics contact stress operators surface "
     "grid profile stress_state material numerics",
     "fem": "heat nonlinear contact compliance stress body solver compat",
-    "comparisons": "cli commands notebook campaigns runs output studies drawing models scenes "
-    "figures common",
+    "comparisons": "cli commands examples notebook campaigns runs output studies drawing models "
+    "scenes figures common",
 }
 MOST_ENTRIES = 16  # of a folder
 # scipy.signal with its scipy.stats takes a sixth of a second

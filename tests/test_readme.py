@@ -170,7 +170,7 @@ def test_commands_in_passing_work(tmp_path):
         for command in re.findall(r"`\./crosscheck ([^`]+)`", README + GUIDE + REFERENCE + LIMITS)
         if not command.startswith(("-", "test", "COMMAND"))
     }
-    studies = {"run", "cost", "map", "sweep", "verify", "stability", "paper", "rerun"}
+    studies = {"run", "cost", "map", "sweep", "verify", "stability", "rerun"}
     assert named == {"scenes", "materials", "deck", "doctor", "init", "report", "table", *studies}
     for arguments in (["scenes"], *([name, "--help"] for name in sorted(named - {"scenes"}))):
         done = call(arguments, tmp_path)

@@ -1,5 +1,4 @@
-"""Studies, each with files of its own: `crosscheck cost`, `map` and `sweep` of a scene, and `paper`
-of four that come along."""
+"""Studies of a scene, each with files of its own: `crosscheck cost`, `map` and `sweep`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -37,20 +36,25 @@ MAPPED = "As for `run`, or the name of a finished map."
 def cost(
     scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
+    repeats: Annotated[int, Option(help="Times that each setting is measured.")] = 3,
+    whole: Annotated[
+        bool, Option("--whole", help="Against the whole model: every effect that matters.")
+    ] = False,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
-    """Show error against time of every method. Names the cheapest for each tolerance."""
-    from comparisons.campaigns.cost.cost import COST, PICTURE, cost_table
-    from comparisons.campaigns.cost.cost import cost as solved_cost
+    """Measure error against time of every method. Names the cheapest for each tolerance."""
+    from comparisons.campaigns.cost.cost import cost as measured_cost
+    from comparisons.campaigns.cost.show import cost_table
     from comparisons.scenes.scene import Scene
 
     asked = Scene.read(scene)
     directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
-        solved = solved_cost(asked, directory, callback)
-    show_written(as_json, directory / COST, lambda: cost_table(solved))
+        study = measured_cost(asked, directory, repeats, callback, whole=whole)
+    path = directory / "cost.json"
+    show_written(as_json, path, lambda: cost_table(study))
     if not as_json:
-        print(f"cost: {directory / COST}, {directory / PICTURE}")
+        print(f"diagrams {directory / 'cost.html'}, figures {path}")
     return ExitStatus.DONE
 
 
@@ -136,21 +140,3 @@ def sweep(
         content = make_sweep(request, directory, workers, callback)
     show_either(as_json, content, lambda: sweep_table(content, directory))
     return ExitStatus.DONE
-
-
-@job
-def paper(
-    out: Annotated[Path | None, out_option("page", "paper")] = None,
-    effects: Annotated[
-        bool, Option("--effects", help="compute the half-plane's model error beside each claim")
-    ] = False,
-    as_json: Annotated[bool, json_option("paper.json")] = False,
-) -> int:
-    """Compute Bailey and Sayles' (1991) figures anew. Judges each claim by its number."""
-    from comparisons.campaigns.paper.page import paper_table
-    from comparisons.campaigns.paper.reproduce import paper as reproduced
-
-    with progress() as callback:
-        claims = reproduced(out or RESULTS / "paper", callback=callback, effects=effects)
-    show_either(as_json, claims.as_dict(), lambda: paper_table(claims))
-    return claims.exit_status

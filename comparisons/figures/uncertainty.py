@@ -17,7 +17,7 @@ One rule composes them: every part bounds an error of unknown sign, and bounds a
 Roots of sums of squares would need errors that are independent of each other. These are not: both
 models have the same pressure elements, all levels the same solver and block, and an error that
 refinement has not shown yet shows in several parts at once. So it is for a model's figures, for
-effects and model errors, for points of maps and for claims of the paper.
+effects and model errors, and for points of maps.
 
 A difference of two solutions on the same pressure elements, or its norm, is a figure with a
 sequence of its own: what these elements leave out is in both. Against exact answers (zero, in 40

@@ -41,7 +41,6 @@ class Levels:
 
     models: int  # of each model
     effects: int | None = None  # of the effects, at most
-    all_points: bool = False  # with stresses at all points of the window on every level
 
 
 @dataclass(frozen=True)

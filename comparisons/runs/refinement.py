@@ -150,10 +150,9 @@ class _Levels:
         self.scene, self.problem, self.plan, self.tasks = scene, scene.problem, scene.plan, tasks
         self.task = partial(_LevelTask, scene.problem, scene.plan, scene.window)
         levels = scene.problem.levels
-        self.all_points = levels is not None and levels.all_points  # of every level
         # the finest level, unless more turn out to be needed
         self.last = len(scene.problem.pitches) if levels is None else levels.models
-        check = partial(self.task, "finite_element", 1, sparse=not self.all_points)
+        check = partial(self.task, "finite_element", 1, sparse=True)
         self.checks = [check(half_block=True)] if self.plan.domain_check else []
         if self.plan.increments_check:
             self.checks += [check(times=times) for times in LONGER]
@@ -189,7 +188,7 @@ class _Levels:
         beside the finest one of the effects."""
         both = name == "half_plane" and self.plan.compares
         shown = min(self.last, LEAST_LEVELS) if both else self.last
-        return self.task(name, number, sparse=number < shown and not self.all_points)
+        return self.task(name, number, sparse=number < shown)
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)

@@ -1,6 +1,7 @@
 """Rough sphere against reference digits, rough cylinder against another discretisation; limits."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from analytic.exact.hertz import hertz_from_load
 from analytic.operators.half_plane import HalfPlane
 from analytic.statistics import rough_bodies
 from analytic.statistics.nominally_flat import Summits, nominally_flat, tail_integral
-from analytic.statistics.rough_bodies import rough_contact, rough_cylinder
+from analytic.statistics.rough_bodies import bearing_of, rough_contact, rough_cylinder
 
 SPHERES = json.loads((DATA / "g_greenwood.json").read_text())["GT"]
 SUMMITS = Summits(density=5e8, radius=200e-6, deviation=0.5e-6)
@@ -137,3 +138,28 @@ def test_the_separation_has_the_datum_that_it_says():
     logarithm = np.log(np.maximum(contact.rho, 1e-300))
     sink = -2.0 / np.pi * np.sum(contact.steps * contact.pressure * logarithm)
     assert contact.h[0] - contact.d == pytest.approx(sink, abs=1e-3)
+
+
+def real_pressure_on_sphere(load, **changes):
+    """Mean real pressure over E* on a rough sphere under a load T."""
+    summits = replace(SUMMITS, **changes)
+    contact = rough_contact("sphere", load, bearing_of(summits, RADIUS))
+    return contact.mean_real_pressure * np.sqrt(summits.deviation / summits.radius)
+
+
+@pytest.mark.parametrize(
+    ("changes", "factor"), [({}, 1.79), ({"density": 940e6}, 1.62), ({"deviation": 0.94e-6}, 1.62)]
+)
+def test_load_hardly_moves_the_mean_real_pressure(changes, factor):
+    """Three decades of load (Seireg 1998, fig. 4.5); a smooth sphere's grows by 10."""
+    heavy, light = (real_pressure_on_sphere(load, **changes) for load in (100.0, 0.1))
+    assert heavy / light == pytest.approx(factor, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"deviation": 0.75e-6}, {"density": 350e6}, {"radius": 140e-6}]
+)
+def test_rougher_fewer_and_sharper_summits_bear_by_more_pressure(changes):
+    """And so by less area, against the words of Seireg's third conclusion."""
+    load = 10.0 * (SUMMITS.deviation / changes.get("deviation", SUMMITS.deviation)) ** 1.5
+    assert real_pressure_on_sphere(load, **changes) > 1.02 * real_pressure_on_sphere(10.0)

@@ -1,1 +1,0 @@
-"""Bailey and Sayles (1991): their figures, and their claims with the numbers that judge them."""

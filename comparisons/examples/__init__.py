@@ -1,0 +1,1 @@
+"""Scripts that take the public face alone: `import comparisons as crosscheck`."""
