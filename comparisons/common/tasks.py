@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from multiprocessing.connection import Connection
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import SolverError
@@ -27,11 +27,6 @@ from comparisons.common.processes import (
     uncollected,
 )
 from comparisons.common.progress import ProgressCallback, Step, machine_memory, no_progress
-
-if TYPE_CHECKING:
-    from comparisons.common.executors import ExecutorWorker
-
-    Worker = ProcessWorker | ExecutorWorker
 
 Held = TypeVar("Held")
 
@@ -75,7 +70,8 @@ class Here:
 
 Work = Callable[..., object]  # work(here, *args)
 Preparation = Callable[[], object]  # what it raises comes again where it is needed
-Opens = Callable[[Callable[[Connection], None]], "Worker"]  # opens(serve)
+# opens(serve) a worker: a process, or what has its methods (`comparisons.common.executors`)
+Opens = Callable[[Callable[[Connection], None]], ProcessWorker]
 
 
 @dataclass
@@ -113,11 +109,13 @@ class Tasks:
     # preparations of workers for their tasks
     there: Sequence[Preparation] = ()
     _waiting: dict[str, _Task] = field(default_factory=dict)
-    _running: dict["Worker", str] = field(default_factory=dict)
+    _running: dict[ProcessWorker, str] = field(default_factory=dict)
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
     _unkept: dict[str, object] = field(default_factory=dict)
     _tasks: dict[str, _Task] = field(default_factory=dict)
-    _workers: dict["Worker", object] = field(default_factory=dict)  # with what their tasks share
+    _workers: dict[ProcessWorker, object] = field(
+        default_factory=dict
+    )  # with what their tasks share
     _has_begun: bool = False
     _done: float = 0.0
     _share: float = 0.0
@@ -255,7 +253,7 @@ class Tasks:
                     worker.send(task.work, *task.args)
                 break
 
-    def _order(self, worker: "Worker") -> list[str]:
+    def _order(self, worker: ProcessWorker) -> list[str]:
         """The queue of a worker."""
         last = self._workers[worker]
         others = {shares for other, shares in self._workers.items() if other is not worker} - {None}
@@ -285,7 +283,7 @@ class Tasks:
                 self._answer(self._running.pop(worker), *content)
         self._hand_out()
 
-    def _lose(self, worker: "Worker") -> None:
+    def _lose(self, worker: ProcessWorker) -> None:
         """A process has ended: what it had in hand waits again, once."""
         key = self._running.pop(worker)
         del self._workers[worker]
