@@ -5,13 +5,11 @@ job to do; `main` does it, so that every error and interrupt of the work ends in
 command needs beyond the standard library its job imports: `crosscheck --help` loads typer alone."""
 
 import errno
-import logging
 import os
 import sys
 import traceback
 import warnings
 from collections.abc import Sequence
-from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
@@ -19,14 +17,17 @@ from typing import Annotated
 import typer
 
 from comparisons.commands import checks, doctor, finished, materials, run, scenes, studies
-from comparisons.common.errors import ExitStatus, InputError, SolverError, address_space, drop, tell
+from comparisons.common.errors import ExitStatus, InputError, SolverError, drop, tell
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
+LIMITS = (errno.ENOMEM, errno.EAGAIN, errno.EMFILE, errno.ENFILE)  # of the system, that are reached
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
-# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map, a
-# sweep and a cost study have processes of their own, and end them.
+# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map and a
+# sweep have processes of their own, and end them.
 WATCHED = {
-    "run": "finished levels are kept, the same command goes on from there",
+    **dict.fromkeys(
+        ("cost", "run"), "finished levels are kept, the same command goes on from there"
+    ),
     "rerun": "nothing was changed, the same command starts again",
     **dict.fromkeys(
         ("stability", "verify"), "finished cases are kept, the same command goes on from there"
@@ -94,12 +95,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (default: the process's own) and return the exit status."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers
-        logging.getLogger("matplotlib").setLevel(logging.ERROR)  # where no home can be written
     if COMPLETION in os.environ:
         return app(prog_name="crosscheck")  # answers the shell, and exits
     is_own = arguments is None
     if is_own:
-        _open_streams()
+        for name in ("stdout", "stderr"):
+            if getattr(sys, name) is None:  # closed: the next file would get its number
+                setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
+        sys.stdout.reconfigure(errors="backslashreplace")  # a title in Latin-1, a unit in ASCII
         # the cores are for processes: figures are the same on every machine, none waits for another
         os.environ.setdefault("OMP_NUM_THREADS", "1")
         # nobody's plugins look into scenes: to search for them takes longer than to read one
@@ -110,16 +113,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         return watched(lambda: _carry_out(arguments), WATCHED[arguments[0]])
     return _carry_out(arguments)
-
-
-def _open_streams() -> None:
-    """Replace streams that were closed, and let the output take every character.
-
-    Else the next file that is opened gets a closed stream's number, and what libraries print."""
-    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
-        if getattr(sys, name) is None:
-            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode))
-    sys.stdout.reconfigure(errors="backslashreplace")  # a title in Latin-1, a unit in ASCII
 
 
 def _check_places(arguments: list[str]) -> None:
@@ -157,10 +150,13 @@ def _carry_out(arguments: list[str]) -> int:
             return _end(ExitStatus.BAD_INPUT, f"{said} (see crosscheck --help)")
         if (missing := getattr(error, "name", None)) in FINITE_ELEMENT_LIBRARIES:
             return _end(ExitStatus.BAD_INPUT, NO_FINITE_ELEMENTS.format(missing, sys.executable))
-        status = _defect(error)
+        try:
+            sys.stdout.flush()
+        except OSError:
+            drop(sys.stdout)
+        status = _status_of(error)
         if os.environ.get(TRACEBACK):
-            with suppress(OSError):
-                traceback.print_exc()
+            traceback.print_exc()
             return int(status)
         return _end(status, f"{_account(error, status)} (set {TRACEBACK}=1 for the traceback)")
 
@@ -185,52 +181,22 @@ def _is_interrupt(error: BaseException) -> bool:
     return error is not None
 
 
-def _defect(error: Exception) -> ExitStatus:
-    try:
-        sys.stdout.flush()
-    except OSError:
-        drop(sys.stdout)
-    if _limit(error):
-        return ExitStatus.OUT_OF_MEMORY
-    out_of_memory = (
-        isinstance(error, MemoryError),
-        getattr(error, "errno", None) == errno.ENOMEM,
-        "INFOG(1)=-13" in str(error),  # MUMPS, while it solves
-        # where the system maps no more memory, libraries say that a part of them is not there
-        isinstance(error, ImportError) and (address_space() or "failed to map" in str(error)),
-        address_space() and "can't start new thread" in str(error),
-    )
-    if any(out_of_memory):
+def _status_of(error: Exception) -> ExitStatus:
+    """The status of an error that is not the user's."""
+    limit = isinstance(error, OSError) and error.errno in LIMITS
+    # MUMPS says so while it solves
+    if limit or isinstance(error, MemoryError) or "INFOG(1)=-13" in str(error):
         return ExitStatus.OUT_OF_MEMORY
     return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
 
 
-def _limit(error: Exception) -> str:
-    """What the system lets the user have too few of, or nothing."""
-    number = getattr(error, "errno", None)
-    if number in (errno.EMFILE, errno.ENFILE) or "Too many open files" in str(error):
-        return "open files (ulimit -n)"
-    threads = "can't start new thread" in str(error) and not address_space()
-    return "processes (ulimit -u)" if number == errno.EAGAIN or threads else ""
-
-
 def _account(error: Exception, status: ExitStatus) -> str:
-    """An error that is not the user's, and where in the program it was raised."""
-    if limit := _limit(error):
-        return f"the system allows this user no more {limit}; allowed is a higher limit"
-    if status == ExitStatus.OUT_OF_MEMORY:
-        limit = address_space()
-        remedy = "allowed is a smaller scene (budget.memory, resolution, stress.points)"
-        if limit:
-            remedy = f"the process may have {limit / 1e9:.3g} GB of address space (ulimit -v)"
-        return f"out of memory: {str(error) or type(error).__name__}; {remedy}"
-    if isinstance(error, OSError):
-        return f"{error.filename or 'standard output'}: {error.strerror or error}"
+    """An error that is not the user's: Python's message, and of a defect where it was raised."""
+    said = f"{type(error).__name__}: {error}"
+    if status != ExitStatus.DEFECT:
+        return said
     place = traceback.extract_tb(error.__traceback__)[-1]
-    return (
-        f"internal error: {type(error).__name__}: {error} "
-        f"in {Path(place.filename).name}, line {place.lineno}"
-    )
+    return f"internal error: {said} in {Path(place.filename).name}, line {place.lineno}"
 
 
 if __name__ == "__main__":

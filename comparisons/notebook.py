@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.cost.recommend import Cost
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, write_whole
 from comparisons.common.numbers import percent, with_unit
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.console import Console, RenderableType
 
+    from comparisons.campaigns.cost.cost import Cost
     from comparisons.models.level import Level
 
 AnyScene = Scene | Mapping | str | os.PathLike
@@ -239,22 +239,18 @@ class FigureTable(Printed):
 class CostStudy(Printed):
     """Error against time of every method on one scene."""
 
-    study: Cost
+    study: "Cost"
 
-    def plot(self, quantity: str = "peak_pressure") -> "list[Axes]":
-        """The diagram of a quantity."""
-        from comparisons.campaigns.cost.show import cost_picture
+    def plot(self) -> "list[Axes]":
+        """The diagram, a panel a quantity."""
+        from comparisons.campaigns.cost.cost import cost_figure
         from comparisons.drawing.style import collected_figures
 
-        if quantity not in self.study.references:
-            allowed = ", ".join(self.study.references)
-            raise InputError(f"quantity: is {quantity}; allowed is {allowed}")
-        with collected_figures() as drawn:
-            cost_picture(self.study, quantity)
-        return drawn[0].axes
+        with collected_figures():
+            return cost_figure(self.study).axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.cost.show import cost_table
+        from comparisons.campaigns.cost.cost import cost_table
 
         return cost_table(self.study)
 
@@ -371,18 +367,15 @@ def compare(*runs: FinishedRun) -> FigureTable:
 def cost(
     scene: AnyScene,
     *,
-    repeats: int = 3,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> CostStudy:
     """Error against run time of every method that applies: what `crosscheck cost` does. It takes
-    minutes. `out` keeps what was measured, and goes on from there."""
-    from comparisons.campaigns.cost.cost import cost as measured
+    minutes. `out` keeps what is solved, and goes on from there."""
+    from comparisons.campaigns.cost.cost import cost as solved
 
-    if not isinstance(repeats, int):
-        raise InputError(f"repeats: is {describe(repeats)}; allowed is a whole number from 1")
     with _folder(out, "cost") as place:
-        return CostStudy(measured(scene_of(scene), place, repeats, progress))
+        return CostStudy(solved(scene_of(scene), place, progress))
 
 
 def map(

@@ -1,8 +1,6 @@
 """Plane-strain finite elements: surface compliance, stresses, an independent contact solver."""
 
 import os
-import tempfile
-from contextlib import suppress
 
 from meshes.build import LAUNCHER_VARIABLES
 
@@ -11,11 +9,6 @@ from meshes.build import LAUNCHER_VARIABLES
 _QUIET = "-no_signal_handler"
 if _QUIET not in os.environ.get("PETSC_OPTIONS", ""):
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} {_QUIET}".strip()
-
-# Open MPI ends the process where TMPDIR is full or no folder to write in; Python finds another.
-if "TMPDIR" in os.environ:
-    with suppress(FileNotFoundError):  # there is none
-        os.environ["TMPDIR"] = tempfile.gettempdir()
 
 # One process solves a body. What srun or mpirun set for it would make it, and all that it forks,
 # the same rank of a job.

@@ -1,10 +1,11 @@
-"""Profiles in text files alone, by the readers of text: no other reader is asked."""
+"""Profiles in files: of text alone, where no other reader is asked, or of any kind."""
 
 from pathlib import Path
 
 from analytic.profile import MAX_SAMPLES
 from analytic.surface.readers.columns import profile_in
 from analytic.surface.readers.dropouts import MeasuredProfile
+from analytic.surface.readers.files import open_measured, profile_of
 from analytic.surface.readers.text import read_table
 
 # What `ground_texture` makes the ground profiles that come along of, without a run.
@@ -18,3 +19,10 @@ def read_profile(path, *, max_samples: int = MAX_SAMPLES, **how) -> MeasuredProf
     """The profile in a text file of one or two columns; `how` as `profile_in` has it."""
     table = read_table(Path(path), 100 * max_samples + 2**20, how.get("spacing") is not None)
     return profile_in(table, max_samples=max_samples, **how)
+
+
+def read_measured(path, *, columns=None, channel=None, **how) -> MeasuredProfile:
+    """The profile in a file of any kind: `open_measured`, then `profile_of`, which takes `how`."""
+    one_column = how.get("spacing") is not None
+    opened = open_measured(path, columns=columns, channel=channel, one_column=one_column)
+    return profile_of(opened, **how)

@@ -80,9 +80,8 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
         return Finding(name, True, done.stdout.strip().splitlines()[-1])
     if done.returncode < 0:
         return Finding(name, False, f"crashes ({signal.Signals(-done.returncode).name})")
-    lines = [line.strip() for line in done.stderr.splitlines() if any(map(str.isalpha, line))]
-    named = [line for line in lines if "Error: " in line]
-    return Finding(name, False, [f"ends with {done.returncode}", *lines[-1:], *named[-1:]][-1])
+    lines = done.stderr.strip().splitlines() or [f"ends with {done.returncode}"]
+    return Finding(name, False, lines[-1])
 
 
 def findings_table(findings: Sequence[Finding]) -> "Table":

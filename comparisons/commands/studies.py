@@ -36,25 +36,20 @@ MAPPED = "As for `run`, or the name of a finished map."
 def cost(
     scene: SceneName,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
-    repeats: Annotated[int, Option(help="Times that each setting is measured.")] = 3,
-    whole: Annotated[
-        bool, Option("--whole", help="Against the whole model: every effect that matters.")
-    ] = False,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
-    """Measure error against time of every method. Names the cheapest for each tolerance."""
-    from comparisons.campaigns.cost.cost import cost as measured_cost
-    from comparisons.campaigns.cost.show import cost_table
+    """Show error against time of every method. Names the cheapest for each tolerance."""
+    from comparisons.campaigns.cost.cost import COST, PICTURE, cost_table
+    from comparisons.campaigns.cost.cost import cost as solved_cost
     from comparisons.scenes.scene import Scene
 
     asked = Scene.read(scene)
     directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
-        study = measured_cost(asked, directory, repeats, callback, whole=whole)
-    path = directory / "cost.json"
-    show_written(as_json, path, lambda: cost_table(study))
+        solved = solved_cost(asked, directory, callback)
+    show_written(as_json, directory / COST, lambda: cost_table(solved))
     if not as_json:
-        print(f"diagrams {directory / 'cost.html'}, figures {path}")
+        print(f"cost: {directory / COST}, {directory / PICTURE}")
     return ExitStatus.DONE
 
 

@@ -3,7 +3,6 @@
 import difflib
 import os
 import re
-import resource
 import sys
 from collections.abc import Iterable
 from enum import IntEnum
@@ -44,12 +43,6 @@ class SceneError(InputError):
 
 class SolverError(OneLineError, RuntimeError):
     """A solver did not converge; the command line ends with status 3."""
-
-
-def address_space() -> int | None:
-    """Bytes of address space that the process may have, None without a limit."""
-    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
-    return None if limit == resource.RLIM_INFINITY else limit
 
 
 def nearest(name: str, names: Iterable[str], alike: float = 0.0) -> str | None:

@@ -4,7 +4,6 @@ Unfinished files are inside the folder where it exists: its parent need not be w
 moves to another file system. Else they are beside it: the folder appears with the results."""
 
 import csv
-import errno
 import fcntl
 import glob
 import io
@@ -32,7 +31,6 @@ RECORD = "record.json"  # of a run: its "files" are this program's
 # Those whose own record is <name>.json.
 STUDIES = ("benchmarks", "cost", "map", "stability", "sweep", "verify")
 RECORDS = (RECORD, *(f"{name}.json" for name in STUDIES))
-LARGEST_RECORD = 2**28  # bytes; a larger one is nobody's that this program knows
 PART = ".part"  # ends the name of a file that is not whole yet
 
 
@@ -81,28 +79,19 @@ def claim(out: Path, name: str) -> None:
 
 def _record(path: Path) -> dict:
     """A JSON object in a file; empty where there is none."""
-    with suppress(OSError, ValueError, RecursionError):
-        if path.stat().st_size <= LARGEST_RECORD:
-            content = json.loads(path.read_bytes())
-            return content if isinstance(content, dict) else {}
+    with suppress(OSError, ValueError):
+        content = json.loads(path.read_bytes())
+        return content if isinstance(content, dict) else {}
     return {}
 
 
 def check_writable(out: Path, files: tuple[str, ...] = OWN_FILES) -> None:
     """Raise InputError unless `out` is, or can be made, a folder to write `files` in, by name or
     pattern, and holds none of them that somebody else wrote."""
-    try:  # the longest name that is used beside it
-        os.lstat(out.parent / f".{out.name}.part-12345678")
-    except OSError as error:
-        if error.errno == errno.ENAMETOOLONG:
-            raise _cannot(out, f"{error.strerror}; allowed is a shorter name") from error
     place = out
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
     _check_folder(out, place)
-    for unready in (_unfinished(out), *_unfinished(out).glob("*")):
-        if unready.is_symlink():
-            raise _cannot(out, f"{unready} is a symbolic link; allowed is a folder, or none")
     for folder in (_unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)
@@ -170,28 +159,13 @@ def whole_file(path: Path) -> Iterator[Path]:
     is interrupted, `path` stays as it was."""
     part = path.with_name(f".{path.name}.{os.getpid()}{PART}")
     _remove_abandoned(path.parent.glob(f".{glob.escape(path.name)}.*{PART}"))
-    with _naming(part, path):
-        part.touch()
+    part.touch()
     with _held(part):
         try:
-            with _naming(part, path):
-                yield part
-                os.replace(part, path)
+            yield part
+            os.replace(part, path)
         finally:
             part.unlink(missing_ok=True)
-
-
-@contextmanager
-def _naming(part: Path, path: Path) -> Iterator[None]:
-    """Let an error of the system name what was to be written, not the unfinished file or folder
-    `part` in its place, nor nothing, as a full disk does."""
-    try:
-        yield
-    except OSError as error:
-        named = Path(os.fsdecode(error.filename)) if error.filename else part
-        if named.is_relative_to(part):
-            error.filename = str(path / named.relative_to(part))
-        raise
 
 
 @contextmanager
@@ -238,7 +212,7 @@ def published(out: Path, files: tuple[str, ...] = OWN_FILES) -> Iterator[Path]:
     files  names or patterns of those that are removed where they are not made again
     If the block fails or is interrupted nothing in `out` changes."""
     check_writable(out, files)
-    with _scratch(out) as scratch, _naming(scratch, out):
+    with _scratch(out) as scratch:
         yield scratch
         made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
         made.sort(key=lambda name: str(name) not in RECORDS)  # first what claims the others

@@ -1,9 +1,9 @@
 """One way to have work done: tasks by key, side by side in workers, or one after the other here.
 
-A level, an effect, some samples, a point of a map, a case, a setting of a cost study and a picture
-are tasks. The number of processes and the order of work change no answer, and what is kept is not
-computed again. Where a process ends amid a task, the task is tried again while nothing else runs. A
-process that ends then was ended by its task (`ProcessEnded`)."""
+A level, an effect, some samples, a point of a map, a case and a picture are tasks. The number of
+processes and the order of work change no answer, and what is kept is not computed again. Where a
+process ends amid a task, the task is tried again while nothing else runs. A process that ends then
+was ended by its task (`ProcessEnded`)."""
 
 import math
 import multiprocessing

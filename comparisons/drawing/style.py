@@ -7,7 +7,7 @@ line style, for grey printers.
 import base64
 import io
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -62,7 +62,6 @@ class Picture:
     source: str  # data URI
     alternative: str  # what it shows, for those who cannot see it
     caption: str  # what it shows and how to read it
-    narrow: str | None = None  # data URI of a version for narrow screens
     wide: bool = False  # across the page
     field: str | None = None  # JSON: which field is drawn where, for values under the pointer
     data: tuple[str, str] | None = None  # words of a link to its curves as CSV, and their data URI
@@ -233,25 +232,21 @@ def data_uri(drawn: "Figure") -> str:
 
 
 def picture(
-    drawn: "Figure | Callable[[float], Figure]",
+    drawn: "Figure",
     alternative: str,
     caption: str,
     data: bool | tuple[str, str] = True,
     field: str | None = None,
 ) -> Picture:
-    """What is drawn with its words: a figure, or what draws one so many inches wide, once for wide
-    and once for narrow screens.
+    """A figure with its words.
 
     data  whether its curves are offered as CSV, or words of a link and what it leads to"""
-    several = callable(drawn)
-    figure = drawn(WIDE) if several else drawn
     return Picture(
-        source=data_uri(figure),
-        data=csv_link(figure) if data is True else data or None,
-        narrow=data_uri(drawn(COLUMN)) if several else None,
+        source=data_uri(drawn),
+        data=csv_link(drawn) if data is True else data or None,
         alternative=alternative,
         caption=caption,
-        wide=several,
+        wide=drawn.get_figwidth() > COLUMN,
         field=field,
     )
 

@@ -14,7 +14,6 @@ import numpy as np
 from analytic.profile import Profile
 from analytic.surface.readers.files import MeasuredProfile
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.files import LARGEST_RECORD
 from comparisons.common.provenance import digest, machine, made, versions
 from comparisons.figures.quantity import MODELS
 from comparisons.models.level import ModelRun
@@ -162,8 +161,6 @@ def _trace(path: Path, profile: dict) -> KnownTrace:
 def read_table(path: Path) -> dict:
     """The table in a file of a run's folder. Raises InputError where there is none."""
     try:
-        if (size := path.stat().st_size) > LARGEST_RECORD:
-            raise InputError(f"{path}: has {size} bytes; allowed are {LARGEST_RECORD}")
         content = json.loads(path.read_bytes().decode("utf-8"), parse_constant=_no_number)
     except FileNotFoundError:
         raise InputError(
@@ -171,8 +168,6 @@ def read_table(path: Path) -> dict:
         ) from None
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}; allowed is a file") from None
-    except InputError:
-        raise
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: is not JSON: {error}; allowed is what a run wrote") from None
     if not isinstance(content, dict):

@@ -2,9 +2,6 @@
 
 In: a scene. Out: a finished run, and its folder."""
 
-import errno
-import os
-import resource
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -14,7 +11,7 @@ from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
-from comparisons.common.errors import InputError, SceneError, SolverError, address_space
+from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.files import unfinished
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import (
@@ -53,8 +50,6 @@ CODE = (
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
-LEAST_OPEN_FILES = 32  # of finite elements: MPI crashes with fewer
-LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, and a small scene
 LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
 GOES_ON = "finished levels are kept, the same command goes on from there"
 WRITES_AGAIN = "nothing was written, but all is solved and kept: the same command writes the files"
@@ -98,9 +93,10 @@ def solve_scene(
     callback  gets each stage as it begins
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved, SolverError where the finite elements find
-    no solution or a process ends amid a task, MemoryError where the process may not have what they
-    take, ModuleNotFoundError without their libraries; nothing is kept then."""
-    _check_libraries(models)
+    no solution or a process ends amid a task, ModuleNotFoundError without their libraries; nothing
+    is kept then."""
+    if "finite_element" in models and find_spec("dolfinx") is None:
+        raise ModuleNotFoundError("finite elements take dolfinx", name="dolfinx")
     surface = known.surface or surface_of(scene)
     try:
         with _tasks_of(scene, models) as tasks:
@@ -155,21 +151,6 @@ def planned(scene: Solved, levels: Forecast | None = None) -> list[str]:
             why_not = study.needs(scene)
             said += [] if why_not is None else [f"{study.name} is left out: it {why_not}"]
     return said
-
-
-def _check_libraries(models: tuple[str, ...]) -> None:
-    """Raise MemoryError, OSError or ModuleNotFoundError where the finite elements' libraries would
-    fail amid the work, each in its own words."""
-    if "finite_element" not in models:
-        return
-    if find_spec("dolfinx") is None:
-        raise ModuleNotFoundError("finite elements take dolfinx", name="dolfinx")
-    if 0 <= resource.getrlimit(resource.RLIMIT_NOFILE)[0] < LEAST_OPEN_FILES:
-        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
-    allowed = address_space()
-    if allowed is not None and allowed < LEAST_ADDRESS_SPACE:
-        least = LEAST_ADDRESS_SPACE / 1e9
-        raise MemoryError(f"finite elements take at least {least:.3g} GB of address space")
 
 
 def _problem(
@@ -265,10 +246,9 @@ def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, objec
 
 
 def _for_finite_elements() -> list[Preparation]:
-    from fem.solver.compilation import load_dolfinx, see_to_cache
+    from fem.solver.compilation import load_dolfinx
     from meshes.build import start_worker
 
-    see_to_cache()  # of all processes that start from here
     level = partial(import_module, "comparisons.models.finite_element.level")
     return [start_worker, load_dolfinx, level]
 

@@ -97,17 +97,15 @@ def picture(run: Run) -> style.Picture | None:
         return None
     said = running_in_in_words(run.problem.scene, surface)
     words = f"The surface before and after running-in{{}}. {said}"
-    return style.picture(
-        lambda width: _drawn(run, width), words.format(""), words.format(", heights stretched")
-    )
+    return style.picture(_drawn(run), words.format(""), words.format(", heights stretched"))
 
 
-def _drawn(run: Run, width: float) -> "Figure":
+def _drawn(run: Run) -> "Figure":
     problem, run_in = run.problem, run.problem.surface.run_in
     x = np.linspace(*problem.extent, POINTS)
     before, profile = run_in.before.spline()(x), run_in.profile.spline()(x)
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
-    drawn, [axes] = panels(width, [(0.35, 2.34)], right=0.02 * width, foot=0.51)
+    drawn, [axes] = panels(style.WIDE, [(0.35, 2.34)], right=0.02 * style.WIDE, foot=0.51)
     axes.plot(x / along.factor, before / up.factor, label="before running-in", **LINE_BEFORE)
     axes.plot(x / along.factor, profile / up.factor, label="after", **LINE_AFTER)
     axes.set_ylabel(f"height [{up.name}]")

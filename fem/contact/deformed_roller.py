@@ -32,7 +32,7 @@ from fem.body.sums import matrix_of
 from fem.body.surface import along_edges, hat_points, place_on
 from fem.body.triangle import edge_shapes, edge_slopes
 from fem.contact.rigid_roller import HatsOnSurface
-from fem.contact.terms import ContactTerms, Drag, Response
+from fem.contact.terms import ContactTerms, Response
 from fem.solver.mumps import FemError
 
 
@@ -156,9 +156,7 @@ class PairContact:
         stiffness = matrix_of(turning, row, 2 * node, (size, size))
         return ContactTerms(gap, gradient, force, stiffness)
 
-    def at(
-        self, displacement: np.ndarray, pressure: np.ndarray, traction: np.ndarray | None = None
-    ) -> ContactTerms:
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
         surface, on, x, place = self._under_hats(displacement)
         rise, slope, bend = surface(x)
@@ -175,23 +173,14 @@ class PairContact:
         load = diags(on.weight * (on.hats @ pressure))
         turning = turn_z - diags(slope) @ turn_x
         mixed = turning.T @ load @ along
-        stiffness, drag = along.T @ (load @ diags(bend)) @ along + mixed + mixed.T, None
-        if traction is not None or not self.frictionless:
-            sliding = (along.T @ weighted - down.T @ diags(slope) @ weighted).tocsr()
-            factor, pull = (self._friction, pressure) if traction is None else (1.0, traction)
-            if traction is None:
-                force = gradient + factor * sliding
-            else:
-                undeformed = self._roller.surface.x[node]
-                part = (turn * undeformed).sum(axis=1)  # dY/dx
-                where = weighted.T @ (edge_shapes(t) * undeformed).sum(axis=1)
-                lever = weighted.T @ ((1.0 + slope**2) / part)
-                drag = Drag(sliding, where, (along.T @ diags(part) @ weighted).tocsr(), lever)
-            pull = diags(on.weight * (on.hats @ pull))
-            slides = turn_x.T @ pull @ along + turn_z.T @ (pull @ diags(slope)) @ along
-            slides = slides + down.T @ pull @ (turning + diags(bend) @ along)
-            stiffness = stiffness - factor * slides
-        return ContactTerms(gap, gradient, force.tocsr(), stiffness.tocsr(), drag)
+        stiffness = along.T @ (load @ diags(bend)) @ along + mixed + mixed.T
+        if not self.frictionless:
+            sliding = along.T @ weighted - down.T @ diags(slope) @ weighted
+            force = gradient + self._friction * sliding
+            slides = turn_x.T @ load @ along + turn_z.T @ (load @ diags(slope)) @ along
+            slides = slides + down.T @ load @ (turning + diags(bend) @ along)
+            stiffness = stiffness - self._friction * slides
+        return ContactTerms(gap, gradient, force.tocsr(), stiffness.tocsr())
 
     def _met(self, displacement: np.ndarray) -> tuple:
         """Points under hats, their x and z [m], where on the roller's edges they are, its height,

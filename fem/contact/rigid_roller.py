@@ -19,7 +19,7 @@ from scipy.sparse import diags
 from fem.body.elasticity import ElasticBody
 from fem.body.sums import matrix_of
 from fem.body.surface import hat_points
-from fem.contact.terms import ContactTerms, Drag
+from fem.contact.terms import ContactTerms
 
 # s, s' and s'' of places x
 Roller = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
@@ -100,26 +100,17 @@ class CurrentContact:
         force += on.z.T @ (load * (1.0 - self._friction * slope))
         return on.hats.T @ (on.weight * (on.z @ place + rise)), force
 
-    def at(
-        self, displacement: np.ndarray, pressure: np.ndarray, traction: np.ndarray | None = None
-    ) -> ContactTerms:
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms as of `fem.contact.terms.Contact`, on the deformed surface."""
         on, place = self._points, (self._undeformed + displacement).ravel()
-        x = on.x @ place
-        rise, slope, bend = self._roller(x)
+        rise, slope, bend = self._roller(on.x @ place)
         gap = on.hats.T @ (on.weight * (on.z @ place + rise))
         along, down = on.x.T @ diags(slope) @ on.weighted, on.z.T @ on.weighted
         force = gradient = (along + down).tocsr()
-        bend = bend * on.weight
-        turning, drag = on.x.T @ diags(bend * (on.hats @ pressure)) @ on.x, None
-        if traction is not None or not self.frictionless:
-            travel = on.x.T @ on.weighted
-            sliding = (travel - on.z.T @ diags(slope) @ on.weighted).tocsr()
-            factor, pull = (self._friction, pressure) if traction is None else (1.0, traction)
-            if traction is None:
-                force = gradient + factor * sliding
-            else:
-                where, lever = on.weighted.T @ x, on.weighted.T @ (1.0 + slope**2)
-                drag = Drag(sliding, where, travel.tocsr(), lever)
-            turning = turning - factor * (on.z.T @ diags(bend * (on.hats @ pull)) @ on.x)
-        return ContactTerms(gap, gradient, force.tocsr(), turning.tocsr(), drag)
+        load = diags(bend * on.weight * (on.hats @ pressure))
+        turning = on.x.T @ load @ on.x
+        if not self.frictionless:
+            sliding = on.x.T @ on.weighted - on.z.T @ diags(slope) @ on.weighted
+            force = gradient + self._friction * sliding
+            turning = turning - self._friction * (on.z.T @ load @ on.x)
+        return ContactTerms(gap, gradient, force.tocsr(), turning.tocsr())

@@ -66,19 +66,6 @@ class ContactTerms:
     gradient: csr_matrix  # (2n, count) [m] its derivative with respect to u
     force: csr_matrix  # (2n, count) [m] nodal forces of unit hats; `gradient` without friction
     stiffness: csr_matrix | None = None  # (2n, 2n) [Pa] derivative of force @ pressure; None: zero
-    drag: "Drag | None" = None  # where tractions are prescribed beside pressures
-
-
-@dataclass(frozen=True)
-class Drag:
-    """How the roller lies along the body's surface, and tractions on it. Y is the x [m], in the
-    undeformed roller, of what is opposite a point of the body."""
-
-    force: csr_matrix  # (2n, count) [m] nodal forces of unit tractions towards +x on the body
-    place: np.ndarray  # (count,) [m^2] integral phi_i Y dX
-    travel: csr_matrix  # (2n, count) [m] its derivative with respect to u
-    # (count,) [m] integral phi_i f dX: a traction along the common tangent does f dY of work
-    lever: np.ndarray
 
 
 class Contact(Protocol):
@@ -87,9 +74,7 @@ class Contact(Protocol):
     frictionless: bool
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
-        """Terms at a displacement (n, 2) [m] and a pressure (count,) [Pa]. On deformed surfaces
-        any traction (count,) [Pa] may follow, in place of friction: `stiffness` is that of both,
-        and `drag` is there."""
+        """Terms at a displacement (n, 2) [m] and a pressure (count,) [Pa]."""
 
     def loaded(
         self, displacement: np.ndarray, pressure: np.ndarray

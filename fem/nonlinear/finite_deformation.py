@@ -70,7 +70,6 @@ class FiniteDeformation:
     solution: NonlinearSolution
     initial_gap: np.ndarray  # (count,) [m] that of the undeformed bodies, the approach apart
     load: float
-    traction: np.ndarray | None = None  # (count,) [Pa] beside that of friction, as `pressure`
 
     def __post_init__(self) -> None:
         state = self.solution.state
@@ -103,15 +102,10 @@ class FiniteDeformation:
             now = x + np.interp(x, self.body.top.x, self._moved[:, 0])
             return self.roller(now)[1], np.ones_like(x)
 
-        load = SurfaceLoad(
-            self.body, self.hats, self.pressure, self.friction, direction, traction=self.traction
-        )
+        load = SurfaceLoad(self.body, self.hats, self.pressure, self.friction, direction)
         x = self.body.top.x
         pressure = np.interp(x, self.hats, np.pad(self.pressure, 1)) / self._stretched(x)
-        shear = self.friction * pressure
-        if self.traction is not None:
-            shear = shear + np.interp(x, self.hats, np.pad(self.traction, 1)) / self._stretched(x)
-        return CauchyRecovery(self.body, self.displacement, load, pressure, shear)
+        return CauchyRecovery(self.body, self.displacement, load, pressure)
 
     @cached_property
     def _moved(self) -> np.ndarray:
@@ -179,7 +173,7 @@ class FiniteContact:
         for _ in range(MOST_SETTINGS if np.isinf(hardness) else MOST_CAPS):
             problem, wanted = [(self.response, self.contact)], (asked, approach, cap)
             start = constant, self.weights, state
-            begun = self.begun(asked, approach, hardness)
+            begun = self._begun(asked, approach, hardness)
             solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
             state, deformed = solution.state, self.deformed(solution)
             moved, asked, is_settled = self.settled(state, load, asked)
@@ -249,7 +243,7 @@ class FiniteContact:
             pieces[place], aside = piece - (mean, 0.0), max(aside, abs(mean))
         return np.vstack(pieces), aside
 
-    def begun(
+    def _begun(
         self, load: float | None, approach: float | None, hardness: float
     ) -> Callable[[float], ContactState]:
         """The linear solution under any part of the load."""

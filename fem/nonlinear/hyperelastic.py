@@ -109,8 +109,8 @@ class CauchyRecovery(Recovery):
 
     The recovered linear stress of the same displacement, plus its difference from Cauchy's stress,
     of second order and averaged over the elements around a point. `load` is that of the linear
-    theory. `pressure` and `shear` (t,) [Pa] on the deformed surface at the points of `body.top`
-    are the stresses across the surface.
+    theory. `pressure` (t,) [Pa] on the deformed surface at the points of `body.top`, and the load's
+    friction times it, are the stresses across the surface.
 
     estimate  sx, sz, txz (k, 3) [Pa] at all nodes: means of the elements around them
     across    stress across the plane (k,) [Pa] at the nodes, of these means"""
@@ -121,7 +121,6 @@ class CauchyRecovery(Recovery):
         displacement: np.ndarray,
         load: SurfaceLoad,
         pressure: np.ndarray,
-        shear: np.ndarray,
     ) -> None:
         gradient = gradients(
             body.points[body.mesh.triangles], displacement[body.elements], reference_nodes(2)
@@ -137,7 +136,7 @@ class CauchyRecovery(Recovery):
         top = body.top.point
         along = along_surface(body.top.x, body.points[top] + body.at_points(displacement)[top])
         self._tangent = along / np.linalg.norm(along, axis=1)[:, None]
-        self._pressure, self._shear = pressure, shear
+        self._pressure, self._friction = pressure, load.friction
         nodes = stress_nodes(body)
         node = nodes.at_surface(top)
         self._place = np.full(len(nodes.point), -1)  # of the nodes on the surface, along it
@@ -145,7 +144,7 @@ class CauchyRecovery(Recovery):
         surface_stress = Recovery(body, displacement).at(node) + self._second_order[node]
         known = self._on_surface(np.arange(len(top)), surface_stress) - self._second_order[node]
         forces = load.pressure, load.friction, load.direction
-        matched = _MatchedLoad(body, load.hats, *forces, known, traction=load.traction)
+        matched = _MatchedLoad(body, load.hats, *forces, known)
         super().__init__(body, displacement, matched)
 
     @property
@@ -163,9 +162,9 @@ class CauchyRecovery(Recovery):
 
     def _on_surface(self, place: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Stresses (q, 3) at points of the surface, with the tractions there."""
-        t = self._tangent[place]
+        t, pressure = self._tangent[place], self._pressure[place]
         s_tt, _, _ = to_surface(t, stress)
-        return from_surface(t, s_tt, -self._pressure[place], self._shear[place])
+        return from_surface(t, s_tt, -pressure, self._friction * pressure)
 
 
 @dataclass(frozen=True)

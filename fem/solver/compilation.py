@@ -18,7 +18,7 @@ from functools import cache
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from tempfile import TemporaryDirectory, gettempdir, mkdtemp
+from tempfile import TemporaryDirectory
 from typing import TypeVar
 
 import numpy as np
@@ -60,29 +60,9 @@ def uninterrupted() -> Iterator[None]:
 @cache
 def load_dolfinx() -> None:
     """Import dolfinx and the compiled packages below it. Its wheel needs MPI in the process."""
-    see_to_cache()
     with uninterrupted(), compat.quick_versions():
         for name in ("mpi4py.MPI", "dolfinx.mesh", "dolfinx.fem.petsc"):
             importlib.import_module(name)
-
-
-def see_to_cache() -> Path:
-    """dolfinx, as it is imported, takes a folder for compiled forms below XDG_CACHE_HOME or the
-    home. Where neither can be written, it gets one in the folder for temporary files. The folder,
-    unless the user's settings of dolfinx name another one."""
-    try:
-        wanted = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics")
-        wanted.mkdir(parents=True, exist_ok=True)
-        TemporaryDirectory(dir=wanted).cleanup()
-        return wanted
-    except (OSError, RuntimeError):  # no home at all
-        this_users = Path(gettempdir(), f"crosscheck-{os.getuid()}")
-        this_users.mkdir(mode=0o700, exist_ok=True)
-        if this_users.is_symlink() or this_users.stat().st_uid != os.getuid():
-            this_users = Path(mkdtemp(prefix="crosscheck-"))
-        os.environ["XDG_CACHE_HOME"] = str(this_users)
-        os.environ.setdefault("XDG_CONFIG_HOME", str(this_users))  # a home may be no folder
-        return this_users / "fenics"
 
 
 def compiled(make: Callable[[], Result]) -> Result:
@@ -108,7 +88,8 @@ def c_function(source: Path, name: str) -> Callable[..., None]:
     made_of = text, sys.version, platform.machine(), *COMPILER
     key = hashlib.sha256("\n".join(made_of).encode()).hexdigest()[:16]
     module = f"{source.stem}_{key}"
-    ready = see_to_cache() / (module + EXTENSION_SUFFIXES[0])
+    forms = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics")
+    ready = forms / (module + EXTENSION_SUFFIXES[0])
     with uninterrupted():
         if not ready.exists():
             from cffi import FFI, VerificationError
@@ -117,8 +98,8 @@ def c_function(source: Path, name: str) -> Callable[..., None]:
             head = re.search(rf"^void {name}\(.*?\)", text, re.DOTALL | re.MULTILINE)
             ffi.cdef(head.group() + ";")
             ffi.set_source(module, text, extra_compile_args=list(COMPILER), libraries=["m"])
-            ready.parent.mkdir(parents=True, exist_ok=True)
-            with TemporaryDirectory(dir=ready.parent) as folder:
+            forms.mkdir(parents=True, exist_ok=True)
+            with TemporaryDirectory(dir=forms) as folder:
                 try:
                     os.replace(ffi.compile(tmpdir=folder), ready)  # whole, whoever else does it
                 except VerificationError as error:

@@ -1,6 +1,5 @@
 """The command line: what it hands on, what it prints where, and how it ends."""
 
-import errno
 import json
 import os
 import subprocess
@@ -114,17 +113,13 @@ def interrupted_import() -> ImportError:
         (
             OSError(28, "No space left on device", "results/a"),
             74,
-            "crosscheck: results/a: No space left on device (set CROSSCHECK_TRACEBACK=1 for the tr",
+            "crosscheck: OSError: [Errno 28] No space left on device: 'results/a' (set CROSSCHECK_",
         ),
+        (OSError(24, "Too many open files"), 71, "crosscheck: OSError: [Errno 24] Too many open f"),
         (
             MemoryError("Unable to allocate 9 GB"),
             71,
-            "crosscheck: out of memory: Unable to allocate 9 GB; allowed is a smaller scene (budg",
-        ),
-        (
-            ImportError("a.so: failed to map segment from shared object"),
-            71,
-            "crosscheck: out of memory: a.so: failed to map segment from shared object; allowed",
+            "crosscheck: MemoryError: Unable to allocate 9 GB (set CROSSCHECK_TRACEBACK=1 for the",
         ),
         (
             ZeroDivisionError("two\nlines"),
@@ -135,7 +130,7 @@ def interrupted_import() -> ImportError:
         (
             RuntimeError("reported by MUMPS in solve phase: INFOG(1)=-13"),
             71,
-            "crosscheck: out of memory: ",
+            "crosscheck: RuntimeError: reported by MUMPS",
         ),
     ],
     ids=lambda value: type(value).__name__,
@@ -309,89 +304,7 @@ def test_a_full_disc_is_one_line():
         done = printing_to(full, ["scenes"])
     assert done.returncode == ExitStatus.CANNOT_WRITE
     assert done.stderr.count("\n") == 1
-    assert done.stderr.startswith("crosscheck: standard output: No space left on device")
-
-
-def with_streams(redirections: str, arguments: list[str]) -> subprocess.CompletedProcess:
-    program = f'exec "$0" -m comparisons.cli "$@" {redirections}'
-    return subprocess.run(
-        ["sh", "-c", program, sys.executable, *arguments],
-        cwd=PROJECT,
-        env={name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
-@pytest.mark.parametrize("redirections", ["2>/dev/full", "2>&-", "2>&- >&-", "2>/dev/full >&-"])
-@pytest.mark.parametrize(
-    ("arguments", "status"),
-    [
-        (["run", "absent.toml"], ExitStatus.BAD_INPUT),
-        (["report", "absent"], ExitStatus.BAD_INPUT),
-        (["scenes"], ExitStatus.DONE),
-    ],
-)
-def test_the_status_does_not_depend_on_who_reads_standard_error(redirections, arguments, status):
-    assert with_streams(redirections, arguments).returncode == status
-
-
-def test_what_cannot_be_told_leaves_its_status(tmp_path):
-    """Both streams full, and a plausibility warning in between."""
-    (tmp_path / "large.toml").write_text(SMALL.replace("0.01", "8"))
-    arguments = ["run", str(tmp_path / "large.toml"), "--models", "half-plane", "--out"]
-    done = with_streams("2>/dev/full", [*arguments, str(tmp_path / "out")])
-    assert (done.returncode, done.stderr) == (ExitStatus.DONE, "")
-    assert "peak pressure" in done.stdout
-    done = with_streams(">/dev/full 2>/dev/full", [*arguments, str(tmp_path / "out")])
-    assert done.returncode == ExitStatus.CANNOT_WRITE
-
-
-def test_too_little_address_space_is_no_missing_library(tmp_path):
-    arguments = ["run", "smooth", "--out", str(tmp_path / "out")]
-    code = (
-        "import resource, sys; limit = 3 * 10**8\n"
-        "resource.setrlimit(resource.RLIMIT_AS, (limit, limit))\n"
-        f"from comparisons.cli import main; sys.exit(main({arguments!r}))"
-    )
-    done = python(code, check=False)
-    assert done.returncode == ExitStatus.OUT_OF_MEMORY
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("crosscheck: out of memory: finite elements take at least 1 GB")
-    assert "0.3 GB of address space (ulimit -v)" in line
-
-
-@pytest.mark.parametrize(
-    ("allowed", "status", "said"),
-    [
-        (2 * 10**9, ExitStatus.OUT_OF_MEMORY, "thread; the process may have 2 GB of address space"),
-        (None, ExitStatus.OUT_OF_MEMORY, "no more processes (ulimit -u); allowed is a higher"),
-    ],
-)
-def test_a_thread_that_has_no_place(solver, capsys, monkeypatch, allowed, status, said):
-    solver.raises = RuntimeError("can't start new thread")
-    monkeypatch.setattr("comparisons.cli.address_space", lambda: allowed)
-    assert main(["run", "smooth"]) == status
-    assert said in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("number", "said"), [(errno.EMFILE, "open files (ulimit -n)"), (errno.EAGAIN, "(ulimit -u)")]
-)
-def test_a_limit_of_the_system_is_named(solver, capsys, number, said):
-    solver.raises = OSError(number, os.strerror(number))
-    assert main(["run", "smooth"]) == ExitStatus.OUT_OF_MEMORY
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("crosscheck: the system allows this user no more") and said in line
-
-
-def test_too_few_files_are_named_before_mpi_crashes_on_them(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.runs.run.LEAST_OPEN_FILES", 10**9)
-    assert main(["run", "smooth", "--out", str(tmp_path / "out")]) == ExitStatus.OUT_OF_MEMORY
-    (line,) = capsys.readouterr().err.splitlines()
-    assert "no more open files (ulimit -n); allowed is a higher limit" in line
-    assert list(tmp_path.iterdir()) == []
+    assert done.stderr.startswith("crosscheck: OSError: [Errno 28] No space left on device")
 
 
 def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(tmp_path):

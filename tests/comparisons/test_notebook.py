@@ -107,11 +107,7 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
         (lambda: crosscheck.compare(), "is given no run"),
         (lambda: crosscheck.read("nowhere"), "nowhere: is no folder"),
         (lambda: crosscheck.map("smooth", "8"), "--points"),
-        (lambda: crosscheck.cost("smooth", repeats=0), "--repeats"),
-        (
-            lambda: crosscheck.cost("smooth", repeats="3"),
-            'repeats: is "3"; allowed is a whole number',
-        ),
+        (lambda: crosscheck.cost("periodic"), "profile.periodic: is true"),
         (
             lambda: crosscheck.run("smooth", 5),
             "models: is 5; allowed are half-plane, finite-element",

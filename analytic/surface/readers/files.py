@@ -45,7 +45,7 @@ SAME_UNIT = 1e-9  # relative
 
 
 class MissingUnitError(ProfileError):
-    """The file does not say what only the caller can; `field` of `read_measured` is missing."""
+    """The file does not say what only the caller can; `field` of `profile_of` is missing."""
 
     def __init__(self, path: object, field: str, message: str) -> None:
         self.field = field
@@ -58,7 +58,6 @@ def open_measured(
     columns: Sequence[str | int] | None = None,
     channel: str | None = None,
     one_column: bool = False,
-    max_samples: int = MAX_SAMPLES,
 ) -> ProfileTable | Topography:
     """What a file holds: a table of one or two columns, or a topography.
 
@@ -76,7 +75,7 @@ def open_measured(
     is_binary = NOT_TEXT.search(head.decode("latin-1")) and not wide_encoding(head)
     if channel is not None or is_binary:
         return _by_library(path, columns, channel)
-    most_bytes = BYTES_PER_SAMPLE * max_samples + BYTES_OF_HEADER
+    most_bytes = BYTES_PER_SAMPLE * MAX_SAMPLES + BYTES_OF_HEADER
     try:
         return read_table(path, most_bytes, one_column, columns)
     except NotTextError:
@@ -101,21 +100,6 @@ def _by_library(
     return measured
 
 
-def read_measured(
-    path: str | Path,
-    *,
-    columns: Sequence[str | int] | None = None,
-    channel: str | None = None,
-    spacing: float | None = None,
-    max_samples: int = MAX_SAMPLES,
-    **how: object,
-) -> MeasuredProfile:
-    """The profile in a file: `open_measured`, then `profile_of`, which has the other arguments."""
-    which = {"columns": columns, "channel": channel, "one_column": spacing is not None}
-    opened = open_measured(path, **which, max_samples=max_samples)
-    return profile_of(opened, spacing=spacing, max_samples=max_samples, **how)
-
-
 def profile_of(
     opened: ProfileTable | Topography,
     *,
@@ -124,7 +108,6 @@ def profile_of(
     spacing: float | None = None,
     dropouts: str = "refuse",
     chosen: MapLine | None = None,
-    max_samples: int = MAX_SAMPLES,
 ) -> MeasuredProfile:
     """The profile in what a file holds.
 
@@ -137,8 +120,7 @@ def profile_of(
     if isinstance(opened, Topography):
         return _from_topography(opened, x_scale, height_scale, spacing, dropouts, chosen)
     scales = {"x_scale": x_scale or 1.0, "height_scale": height_scale or 1.0}
-    how = {"spacing": spacing, "dropouts": dropouts, "max_samples": max_samples}
-    read = profile_in(opened, **scales, **how)
+    read = profile_in(opened, **scales, spacing=spacing, dropouts=dropouts)
     refuse_line(opened.path, chosen)
     because = f"is {opened.format}, from whose header no unit is taken"
     _check_given(opened.path, x_scale or spacing, height_scale, because)

@@ -1,6 +1,5 @@
 """What is in the file of a profile: its bytes or its lines, bounded, and why it cannot be used."""
 
-import errno
 import gzip
 import re
 import zlib
@@ -59,8 +58,6 @@ def regular_file(path: Path) -> int:
 def unreadable(path: Path, error: Exception) -> ProfileError:
     """The error to raise where the system does not let a file be read."""
     reason = getattr(error, "strerror", None) or str(error)
-    if getattr(error, "errno", None) == errno.ELOOP:
-        reason = "a loop of symbolic links"
     return ProfileError(path, f"cannot be read ({reason})")
 
 

@@ -58,7 +58,7 @@ def pressed_finitely(
     no solution, and where contact reaches the grid's ends only at finite deformation."""
     rough = operator.rough
     finite = finite_contact(problem, operator, linear, constraints, model)
-    refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "at finite deformation")
+    _refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "at finite deformation")
     counts = {
         "increments": len(finite.solution.residuals),
         "newton_steps": finite.solution.iterations,
@@ -110,7 +110,7 @@ def _deformed(
     )
 
 
-def refuse_cut_off(
+def _refuse_cut_off(
     problem: Problem, grid: HatGrid, pressure: np.ndarray, linear: np.ndarray, how: str
 ) -> None:
     """Raise FemError where pressures (count,) [Pa] reach the grid's ends, and the linear ones do
@@ -124,13 +124,13 @@ def refuse_cut_off(
         raise FemError(f"the contact {how} reaches beyond {beyond}")
 
 
-def unpressed_contact(
-    problem: Problem, operator: MutualCompliance, start: np.ndarray, friction: float
+def _unpressed_contact(
+    problem: Problem, operator: MutualCompliance, start: np.ndarray
 ) -> FiniteContact:
     """Both bodies at finite strains; `start` (count,) [Pa] is the linear pressure of the load."""
     rough, is_rigid = operator.rough, problem.scene.roller.rigid
     roller = roller_of(problem) if is_rigid else operator.parts[1].compliance
-    bodies = rough.body, rough.hats, roller
+    bodies, friction = (rough.body, rough.hats, roller), problem.scene.load.friction[0]
     return FiniteContact(*bodies, start, friction, rough.far, is_disc(problem))
 
 
@@ -143,8 +143,8 @@ def finite_contact(
 ) -> FiniteDeformation:
     """The contact by the linear model and the linear bodies' own factors; where the strains are too
     large for that, by Newton's method. Raises FemError where that finds none either."""
-    friction, start = problem.scene.load.friction[0], linear.pressure
-    contact = unpressed_contact(problem, operator, start, friction)
+    start = linear.pressure
+    contact = _unpressed_contact(problem, operator, start)
     if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
         return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
     bodies, load = FiniteCompliance(contact), constraints.load
@@ -187,7 +187,7 @@ def pressed_plastically(
     body, (loaded, released) = press_plastically(
         rough, metal, gap, weights, loads, linear.pressure, friction, roller, travel
     )
-    refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
+    _refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
     moved = rough.weighted(loaded.displacement)
     both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
     counts = {
@@ -226,12 +226,12 @@ def pressed_plastically_finitely(
     elastic part follows Hencky's law. Pressures are as of `pressed_finitely`, where it flows as of
     `pressed_plastically`. Raises FemError as both."""
     scene, rough = problem.scene, operator.rough
-    contact = unpressed_contact(problem, operator, linear.pressure, scene.load.friction[0])
+    contact = _unpressed_contact(problem, operator, linear.pressure)
     metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
     loads = constraints.load, 0.0
     body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel)
     finite = pressed.deformed
-    refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
+    _refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
     counts = {
         "linear_contacts": pressed.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},

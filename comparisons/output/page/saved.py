@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from analytic.stress_state import StressState
-from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
+from comparisons.common.cache import decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import WHOLE
 from comparisons.models.level import Level, ModelRun
@@ -91,7 +91,7 @@ def _read(path: Path) -> dict:
                 return decoded(outline["run"], arrays, kinds)
     except FileNotFoundError:
         raise InputError(f"{path.parent}: holds no {path.name}; {REMEDY}") from None
-    except DAMAGED as error:
+    except Exception as error:
         raise InputError(f"{path}: cannot be read: {str(error)[:LONGEST]}; {REMEDY}") from None
     raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {REMEDY}")
 

@@ -40,6 +40,9 @@ class PartialSlipSection(SceneSection):
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         if not any(scene.load.friction):
             yield "partial_slip", "is given without friction; allowed with load.friction above 0"
+        if scene.finite_element.deformation == "finite":
+            problem = 'is of small strains; allowed with finite_element.deformation = "linear"'
+            yield "partial_slip", problem
 
 
 SECTION = PartialSlipSection

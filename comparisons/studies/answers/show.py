@@ -137,23 +137,21 @@ def answer_pictures(run: Run) -> list[style.Picture]:
 def _pressures(run: Run, answers: Mapping[str, Answer]) -> style.Picture:
     words = f"Contact pressures of the models and, wide and pale, of {', '.join(answers)}"
     caption = f"{words}; below, what these differ from the {LABELS[reference_of(run)]} by."
-    return style.picture(lambda width: _drawn(run, answers, width), words, caption)
+    return style.picture(_drawn(run, answers), words, caption)
 
 
-def _drawn(run: Run, answers: Mapping[str, Answer], width: float) -> "Drawn":
+def _drawn(run: Run, answers: Mapping[str, Answer]) -> "Drawn":
     half_width = run.problem.hertz.half_width
-    drawn, axes = panels(width, PANELS)
+    drawn, axes = panels(style.WIDE, PANELS)
     ends = np.concatenate([np.array(run.problem.extent), [-1.1 * half_width, 1.1 * half_width]])
     across, unit = (float(ends.min()), float(ends.max())), Scale(half_width, "a")
     contact.draw_pressures(axes[0], run, across, unit)
     for number, (name, answer) in enumerate(answers.items()):
         look = {"color": COLOURS[number % len(COLOURS)], "linewidth": 1.0, "label": name}
         _curves(axes, run, answer, look)
-    wide = width > 0.75 * style.WIDE
-    axes[0].set_ylim(0.0, (1.25 if wide else 1.7) * axes[0].dataLim.y1)
-    corner = (1.0, 1.0) if wide else (1.0, 0.92)  # below the load in words
-    look = {"loc": "upper right", "bbox_to_anchor": corner, **style.BEHIND_LEGEND}
-    axes[0].legend(ncols=4 if wide else 2, **look)
+    axes[0].set_ylim(0.0, 1.25 * axes[0].dataLim.y1)
+    look = {"loc": "upper right", "bbox_to_anchor": (1.0, 1.0), **style.BEHIND_LEGEND}
+    axes[0].legend(ncols=4, **look)
     axes[1].set_ylabel("Δp/p₀")
     over(axes, "x/a", [end / half_width for end in across])
     return drawn

@@ -47,8 +47,6 @@ class SlippedLevel:
     is_stepped: bool  # whether the loads come by increments
     material: Material  # of the body's surface
     slips: np.ndarray  # (m, n) [m] of the roller over the body since the first touch
-    # (n,) [m] where the grid's nodes are at the end, on deformed surfaces; None: where they were
-    place: np.ndarray | None = None
     # [m] of the body's surface under the roller at the end; None: it has no base
     lowering: float | None = None
     tau1: Extremum | None = None  # largest, at the end; with [stress]
@@ -62,20 +60,14 @@ class SlippedLevel:
         """Largest residual of all states."""
         return max(state.residual for state in self.states)
 
-    @property
-    def now(self) -> np.ndarray:
-        """x (n,) [m] of the grid's nodes at the end."""
-        return self.grid.x if self.place is None else self.place
-
     def figures(self, path: tuple[float, ...]) -> dict[str, float]:
         """At the end of a path of loads."""
         normal, stuck = self.states[-1].normal, float(np.ptp(self.zones[-1], axis=1).sum())
         edges = contact_patches(self.grid.x, normal.pressure, normal.gap)
-        contact = np.interp(edges, self.grid.x, self.now)
         touching = self.grid.x[normal.pressure > 0.0]
         known = {
             "stick_length": stuck,
-            "stick_ratio": stuck / float(np.ptp(contact, axis=1).sum()),
+            "stick_ratio": stuck / float(np.ptp(edges, axis=1).sum()),
             "tangential_displacement": float(self.displacements[-1]),
             "energy_lost": float(self.energies[-1]),
             "slip_amplitude": float(self.amplitude(path, np.append(touching, edges)).max()),
@@ -208,18 +200,6 @@ def steps_of(problem: Problem, unlike: bool, increments: int) -> Iterator[tuple[
         first = ()
 
 
-class Way:
-    """What slips (n,) [m] on the way to a load, under one normal load: where it begins is read
-    from it as from a gap, whatever the steps."""
-
-    def __init__(self) -> None:
-        self.slip, self._pressed = np.zeros(1), None
-
-    def go(self, loads: Loads, slip: np.ndarray) -> None:
-        self.slip = slip + (self.slip if loads.normal == self._pressed else 0.0)
-        self._pressed = loads.normal
-
-
 def slipped_level(
     problem: Problem, grid: HatGrid, pair: SurfacePair, increments: int
 ) -> SlippedLevel:
@@ -227,13 +207,16 @@ def slipped_level(
     states, energies, moved, slips = [], [], [], []
     slipped = np.zeros(grid.count)
     for steps in steps_of(problem, pair.raised is not None, increments):
-        way = Way()
+        # what slips on the whole way, under one normal load: where it begins is read from it as
+        # from a gap, whatever the steps
+        on_the_way, pressed = np.zeros(grid.count), None
         for loads in steps:
             state = stepped(pair, state, loads)
             work += state.work
             slipped = slipped + state.slip
-            way.go(loads, state.slip)
-        states.append(replace(state, slip=way.slip))
+            on_the_way = state.slip + (on_the_way if loads.normal == pressed else 0.0)
+            pressed = loads.normal
+        states.append(replace(state, slip=on_the_way))
         slips.append(slipped)
         energies.append(work)
         carried = pair.carried(state.normal.pressure, state.traction)

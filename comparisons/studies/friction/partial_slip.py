@@ -6,7 +6,7 @@ loads as series. At the scene's largest friction coefficient."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -17,12 +17,11 @@ from comparisons.figures.figure import (
     Figure,
     Figures,
     Findings,
-    Part,
     Series,
     Statement,
     columns_of,
 )
-from comparisons.figures.quantity import MODELS, WHOLE, Quantity
+from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import (
     PRESSURE_PER_RESIDUAL,
     Uncertainty,
@@ -32,7 +31,6 @@ from comparisons.figures.uncertainty import (
     of_increments,
 )
 from comparisons.models.level import Level
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
@@ -42,14 +40,7 @@ from comparisons.studies.friction.half_planes import (
     half_plane_slip,
 )
 from comparisons.studies.friction.outside import outside_figures
-from comparisons.studies.model_error.catalogue import (
-    ModelVariant,
-    contained,
-    kinematic,
-    problem_with,
-)
 from comparisons.studies.study import CONVERGED, WHY_NOT, Solved
-from fem.solver.mumps import FemError
 
 NAME = "partial_slip"
 QUANTITIES = {
@@ -68,7 +59,7 @@ QUANTITIES = {
     "traction_l2": Quantity("tractions, relative L2 difference", of_pair=True),
 }
 COMPARED = tuple(QUANTITIES)[:9]  # judged where both models have them
-EFFECT_LEVELS = 2  # of what finite deformation changes
+OF_FLOW = "of a body that flows what sticks is not known: remove plastic"
 LENGTHS = "stick_length", "stick_ratio"  # read with the grid's resolution
 # Of the largest stress of the surface: how well it is read at an end of contact, where it is a cusp
 # (`analytic.contact.end_stress`; 8e-4 off the exact one at 77 elements to a half-width)
@@ -123,24 +114,12 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     at, models, said = {"friction": friction_of(problem)}, {}, []
     for name, solve_level in solvers(solved).items():
         tasks.callback(f"partial slip: {name.replace('_', ' ')}")
-        try:
-            models[name] = _model_slip(solved, name, solve_level)
-        except FemError as error:
-            said.append(Statement(WHY_NOT, f"there is no solution: {error}", name, at))
-            continue
+        models[name] = _model_slip(solved, name, solve_level)
         settled = all(s.converged for level in models[name].levels for s in level.states)
         said.append(Statement(CONVERGED, "yes" if settled else "no", name, at))
-    why = why_not_on_finite_elements(problem)
-    if "finite_element" in solved.runs and why is not None:
-        said.append(Statement(WHY_NOT, why, "finite_element", at))
+    if problem.scene.finite_element.plastic and "finite_element" in solved.runs:
+        said.append(Statement(WHY_NOT, OF_FLOW, "finite_element", at))
     figures, series = list(_figures(solved, models)), []
-    if wants_finite_strain(solved) and set(models) == set(MODELS):
-        tasks.callback("partial slip: finite deformation")
-        try:
-            figures += list(_errors_against_whole(solved, models, figures))
-        except FemError as error:
-            why = f"of finite deformation there is no solution: {error}"
-            said.append(Statement(WHY_NOT, why, "finite_element", at))
     for name, model in models.items():
         series += _series(
             name, model.finest, path, at, Figures(figures).of(source=name, against=None)
@@ -162,25 +141,11 @@ def solvers(solved: Solved) -> dict[str, Solve]:
     solvers: dict[str, Solve] = {}
     if "half_plane" in solved.runs:
         solvers["half_plane"] = lambda level, count: half_plane_slip(problem, level, window, count)
-    if "finite_element" in solved.runs and why_not_on_finite_elements(problem) is None:
+    if "finite_element" in solved.runs and not problem.scene.finite_element.plastic:
         from comparisons.studies.friction.finite_elements import finite_element_slip
 
         solvers["finite_element"] = partial(finite_element_slip, problem, solved.plan, window)
     return solvers
-
-
-def why_not_on_finite_elements(problem: Problem) -> str | None:
-    """Why they have no partial slip of a scene; None: they have."""
-    scene = problem.scene
-    if scene.finite_element.plastic:
-        return "of a body that flows what sticks is not known: remove plastic"
-    if scene.finite_element.deformation == "linear":
-        return None
-    if scene.partial_slip.bulk_stress:
-        return "a bulk stress is of small strains: remove bulk_stress, or deformation"
-    if scene.body.hardness is not None:
-        return "a hardness caps pressures at small strains alone: remove hardness, or deformation"
-    return None
 
 
 def _model_slip(solved: Solved, name: str, solve_level: Solve) -> ModelSlip:
@@ -228,56 +193,6 @@ def _figures(solved: Solved, models: Mapping[str, ModelSlip]) -> Iterator[Figure
                 bounds=(-slip.tolerance, slip.tolerance),
                 **common,
             )
-
-
-def wants_finite_strain(solved: Solved) -> bool:
-    """Whether to compute what finite deformation changes beside a scene of small strains."""
-    scene = solved.problem.scene
-    if scene.budget.effects != "all" or scene.finite_element.deformation == "finite":
-        return False
-    return why_not_on_finite_elements(_strained(solved.problem)) is None
-
-
-def _strained(problem: Problem) -> Problem:
-    """With finite deformation in the finite elements beside what they have."""
-    effects = contained(problem.scene) | kinematic(problem.scene)
-    return problem_with(problem, ModelVariant(effects))
-
-
-def _errors_against_whole(
-    solved: Solved, models: Mapping[str, ModelSlip], figures: list[Figure]
-) -> Iterator[Figure]:
-    """Of the half-plane, (half-plane - whole) / whole: the whole is the finite elements and what
-    finite deformation changes in them on the first levels, on the same pressure elements."""
-    from comparisons.studies.friction.finite_elements import finite_element_slip
-
-    problem, slip = _strained(solved.problem), solved.problem.scene.partial_slip
-    solve_level = partial(finite_element_slip, problem, make_plan(problem, MODELS), None)
-    levels = solved.runs["finite_element"].levels[:EFFECT_LEVELS]
-    strained = ModelSlip(
-        tuple(solve_level(level, slip.increments) for level in levels),
-        fewer=solve_level(levels[0], slip.increments // 2),
-    )
-    small = models["finite_element"]
-    small = replace(small, levels=small.levels[: len(levels)], smaller=None)
-    for error in Figures(figures).of(source=MODELS[0], against=MODELS[1]):
-        name, after = error.quantity, strained.finest.figures(slip.path)
-        if name not in after:
-            continue
-        change = after[name] - small.finest.figures(slip.path)[name]
-        elastic = models["finite_element"].finest.figures(slip.path)[name]
-        whole = abs(elastic + change) or error.scale
-        unsure = _uncertainty(slip.path, name, whole, (strained, small)).total
-        left = error.numerical * error.scale / whole
-        yield replace(
-            error,
-            against=WHOLE,
-            value=(error.value * error.scale - change) / whole,
-            scale=whole,
-            uncertainty=Uncertainty({"numerical": left, "finite_strain": unsure}),
-            parts=(Part("finite_strain", change / whole, unsure),),
-            levels=(),
-        )
 
 
 def _uncertainty(
@@ -353,7 +268,7 @@ def _series(
 def _curves(problem: Problem, level: SlippedLevel) -> SlipCurves:
     friction = friction_of(problem)
     return SlipCurves(
-        x=level.now,
+        x=level.grid.x,
         limit=np.array([friction * state.normal.pressure for state in level.states]),
         traction=np.array([state.traction for state in level.states]),
         slip=np.array([state.slip for state in level.states]),

@@ -27,7 +27,7 @@ from comparisons.drawing.curves import (
     over,
     panels,
 )
-from comparisons.figures.quantity import LABELS, MODELS, WHOLE
+from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.studies.friction.half_planes import friction_of, last_visit
 from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES
 from comparisons.studies.study import WHY_NOT, Run
@@ -92,12 +92,6 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
             length = with_unit(figure.value, QUANTITIES["stick_length"].unit)
             said = f"{length}, {moved} ± {uncertainty} against the {LABELS[last(run)]}, {verdict}"
             facts.append((f"sticks ({figure.source}, from outside)", said))
-    for figure in known.of(against=WHOLE):
-        moved, uncertainty, _, verdict = judged_cells(figure)
-        [part] = figure.parts
-        said = f"{percent(part.value, signed=True)} ± {percent(part.uncertainty)}; with it the "
-        said += f"half-plane is {moved} ± {uncertainty} off, {verdict}"
-        facts.append((f"finite deformation: {QUANTITIES[figure.quantity].label}", said))
     why = run.findings[NAME].said(WHY_NOT)
     return facts + ([("not modelled", why)] if why else [])
 

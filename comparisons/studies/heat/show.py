@@ -167,14 +167,15 @@ def surfaces_picture(run: Run) -> style.Picture | None:
     )
     caption += " Last, σx of the body's surface; wide and pale: without heat." * bool(stresses)
     words = f"Rise of both surfaces' temperatures over x. Largest: {largest}."
-    return style.picture(lambda width: _surfaces(run, width), words, caption)
+    return style.picture(_surfaces(run), words, caption)
 
 
-def _surfaces(run: Run, width: float) -> "Figure":
+def _surfaces(run: Run) -> "Figure":
     """Rise, heat and stresses; pale: of the roller, all heat, without heat."""
     contacts, stresses = run.data(NAME).contacts, run.data(NAME).stresses
-    abreast, room = names_above(width, 2 * len(contacts))
-    drawn, axes = panels(width, [(room, 2.2), (0.2, 0.98), (0.2, 1.5)][: 3 if stresses else 2])
+    abreast, room = names_above(style.WIDE, 2 * len(contacts))
+    rows = [(room, 2.2), (0.2, 0.98), (0.2, 1.5)][: 3 if stresses else 2]
+    drawn, axes = panels(style.WIDE, rows)
     unit = scale_of(next(iter(contacts.values())).x, "m")
 
     def plot(panel: "Axes", part: str, values: dict[str, Curve], pale: bool) -> None:

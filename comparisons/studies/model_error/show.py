@@ -327,9 +327,8 @@ def model_error_picture(run: Run) -> style.Picture | None:
         for panel in panels
     )
     lines = "; broken lines: the tolerance" if judged else ""
-    most = max(1, int((style.WIDE - NAMES) / WIDTH))
     return style.picture(
-        lambda width: _drawn(panels, most if width == style.WIDE else 1),
+        _drawn(panels),
         f"The half-plane's model error, step by step. {said}.",
         "How the half-plane's model error comes about, in per cent of the whole model's "
         "figure: it starts with the half-plane's difference from finite elements without any of "
@@ -362,9 +361,9 @@ def _large(panel: Waterfall) -> list[tuple[str, float]]:
     return [(name, size) for name, size in panel.steps.items() if abs(size) >= least]
 
 
-def _drawn(panels: list[Waterfall], columns: int) -> "Drawn":
-    """All panels with the same rows, so many side by side."""
-    columns = min(columns, len(panels))
+def _drawn(panels: list[Waterfall]) -> "Drawn":
+    """All panels with the same rows, as many side by side as there is room for."""
+    columns = min(int((style.WIDE - NAMES) / WIDTH), len(panels))
     worth = {name for panel in panels for name, _ in _large(panel)}
     names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), *WORDS.values()]
     rows = [name for name in names if name in worth]

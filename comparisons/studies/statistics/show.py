@@ -209,18 +209,15 @@ def _asperities(run: Run) -> style.Picture:
     caption = f"Patches of contact ({LABELS[patches.source]}) {said}."
     alternative = f"The profile and its patches of contact, {said}."
     return style.picture(
-        lambda width: _kinds_along(run.problem, patches, counts, width),
-        alternative,
-        caption,
-        data=False,
+        _kinds_along(run.problem, patches, counts), alternative, caption, data=False
     )
 
 
-def _kinds_along(problem: Problem, patches: Series, counts: list[str], width: float) -> "Figure":
+def _kinds_along(problem: Problem, patches: Series, counts: list[str]) -> "Figure":
     x, spline = np.linspace(*problem.extent, POINTS), problem.surface.profile.spline()
     along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
-    abreast, room = names_above(width, len(KINDS))
-    drawn, [axes] = panels(width, [(room, 2.34)], foot=0.51)
+    abreast, room = names_above(style.WIDE, len(KINDS))
+    drawn, [axes] = panels(style.WIDE, [(room, 2.34)], foot=0.51)
     axes.plot(x / along.factor, spline(x) / up.factor, **{**style.OUTLINE, "linewidth": 0.7})
     for (kind, colour), label in zip(KINDS.items(), counts, strict=True):
         ends = [(p["start"], p["stop"]) for p in patches.rows() if p["kinds.exact"] == kind]

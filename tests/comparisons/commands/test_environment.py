@@ -114,10 +114,3 @@ def test_a_scene_need_not_be_named_in_utf_8(tmp_path, monkeypatch):
         with redirect_stdout(stdout):
             assert main(arguments) == 0, arguments
     assert b"r%E9sultats/report.html" in (tmp_path / summary).read_bytes()
-
-
-@pytest.mark.parametrize("place", ["/proc", "/dev/null/absent"])
-def test_mpi_begins_wherever_temporary_files_cannot_be(tmp_path, place):
-    pytest.importorskip("mpi4py")
-    done = command("-c", "import fem; from mpi4py import MPI", cwd=tmp_path, TMPDIR=place)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -8,7 +8,7 @@ import pytest
 from scenes import SMOOTH, problem
 
 from comparisons.campaigns.cases import Case, answers_of, carry_out
-from comparisons.campaigns.cost import measure as cost_measure
+from comparisons.campaigns.cost import cost as cost_of_methods
 from comparisons.campaigns.maps import map as map_of_groups
 from comparisons.common import provenance
 from comparisons.common.progress import no_progress
@@ -52,7 +52,7 @@ def project(tmp_path, monkeypatch):
     """A project with one function in every place that shapes a cached result, and in two more."""
     places = {
         *CODE,
-        *cost_measure.CODE,
+        *cost_of_methods.CODE,
         *map_of_groups.CODE,
         "comparisons/output",
         "comparisons/cli.py",
@@ -71,11 +71,13 @@ LAW = '"""A law."""\n\ndef half(x):\n    """Of x."""\n    return x / 2\n'
 
 
 def keys() -> tuple[str, str, str]:
-    """Of levels, of a cost study and of a map."""
+    """Of levels, of a scene by all methods, and of a map."""
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
     levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key()
-    cost, points = (provenance.program_code(*kind.CODE) for kind in (cost_measure, map_of_groups))
+    cost, points = (
+        provenance.program_code(*kind.CODE) for kind in (cost_of_methods, map_of_groups)
+    )
     return levels, cost, points
 
 
@@ -88,7 +90,7 @@ def keys() -> tuple[str, str, str]:
         ("analytic/law.py", "levels cost map"),
         ("comparisons/studies/model_error/law.py", "levels map"),
         ("comparisons/studies/law.py", "map"),
-        ("comparisons/campaigns/cost/measure.py", "cost"),
+        ("comparisons/campaigns/cost/methods.py", "cost"),
         ("comparisons/campaigns/maps/point.py", "map"),
     ],
 )
@@ -100,5 +102,5 @@ def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, pla
 
 
 def test_every_place_that_shapes_a_result_is_there():
-    for place in {*CODE, *cost_measure.CODE, *map_of_groups.CODE}:
+    for place in {*CODE, *cost_of_methods.CODE, *map_of_groups.CODE}:
         assert (provenance.PROJECT / place).exists(), place

@@ -350,16 +350,6 @@ def test_report_npz_of_an_earlier_state_is_drawn_or_refused_in_one_line(spoilabl
     assert refused > 20
 
 
-@pytest.mark.parametrize("name", ["result.json", "record.json"])
-@pytest.mark.parametrize("command", ["rerun", "report"])
-def test_a_file_of_three_gigabytes_is_not_read(spoilable, capsys, command, name):
-    with (spoilable / name).open("ab") as file:
-        file.truncate(3 * 10**9)
-    assert main([command, str(spoilable)]) == 2
-    complaint = capsys.readouterr().err
-    assert f"{name}: has 3000000000 bytes; allowed are 268435456" in complaint
-
-
 def test_no_such_folder(tmp_path, capsys):
     assert main(["rerun", str(tmp_path / "none")]) == 2
     assert "none: is no folder; allowed is the folder of a finished run" in capsys.readouterr().err

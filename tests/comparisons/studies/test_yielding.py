@@ -9,7 +9,12 @@ from comparisons.common.errors import ExitStatus
 from comparisons.output.headline import headline, verdict_of
 from comparisons.output.junit import run_cases_of
 from comparisons.runs.run import run
-from comparisons.studies.subsurface.yielding import flow_assessment, flow_sentence, flow_table
+from comparisons.studies.subsurface.yielding import (
+    blocks,
+    flow_assessment,
+    flow_sentence,
+    flow_table,
+)
 
 GOLDEN = 0.5 * (1.0 + 5.0**0.5)
 SHEAR = GOLDEN**-2.5  # largest principal shear over the peak pressure, without friction
@@ -100,6 +105,8 @@ def test_a_rough_body_at_its_cap(wavy_outcome, finish):
     assert low.data("yield").worst.at_hardness == pytest.approx(share, rel=1e-12)
     assert flow_sentence(low).startswith("flow is the cap alone")
     assert low.data("yield").beyond_doubt == ""
+    [block] = blocks(low)
+    assert "only roughly: 2.4 Y to 3 Y, here 960 MPa to 1.2 GPa, fit" in block.items[1].text
 
 
 def test_plasticity_indices_of_a_wave(wavy_outcome):

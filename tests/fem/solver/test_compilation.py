@@ -60,20 +60,6 @@ def run(cache, poissons_ratio=0.3, bodies=1):
     return output + complaint
 
 
-def test_without_a_home_that_can_be_written_forms_are_kept_in_a_temporary_folder(tmp_path):
-    code = (
-        "from fem import compat; from fem.solver.compilation import load_dolfinx\n"
-        "load_dolfinx(); print(compat.form_cache())"
-    )
-    gone = {"HOME": "/dev/null", "XDG_CACHE_HOME": "", "TMPDIR": str(tmp_path)}
-    how = {"cwd": PROJECT, "env": os.environ | gone, "capture_output": True, "text": True}
-    done = subprocess.run([sys.executable, "-c", code], check=False, **how)
-    assert done.returncode == 0, done.stderr
-    said = done.stderr.splitlines()  # nothing but MPI's, that it misses its settings
-    assert all("mca-params.conf: Not a directory" in line for line in said), said
-    assert done.stdout.strip() == f"{tmp_path}/crosscheck-{os.getuid()}/fenics"
-
-
 def test_a_cold_compile_is_silent_and_serves_later_processes(tmp_path):
     """Of bodies of other materials, too."""
     assert run(tmp_path, bodies=2) == ""

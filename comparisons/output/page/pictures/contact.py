@@ -65,7 +65,7 @@ def pressure_picture(run: Run) -> style.Picture:
         for name, level in levels.items()
     )
     return style.picture(
-        lambda width: _drawn(run, across, width, 5.2),
+        _drawn(run, across, style.WIDE, 5.2),
         f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
         f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
         f"Largest pressure: {peaks}. {_norm(run)}"

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 ABREAST = 4  # panels across a wide page
 HEAD, TITLE, TALL, FOOT = 0.34, 0.36, 1.5, 0.5  # inches: legend, a panel's title, panel, its axis
-LEFT, BETWEEN, LINE = 0.62, 0.5, 0.17  # inches
+LEFT, BETWEEN = 0.62, 0.5  # inches
 LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
 # The difference is often the finite elements' error alone: pale around their line.
 LOOKS = style.LINES | {DIFFERENCE: {**style.PALE, "color": style.DIFFERENCE["color"]}}
@@ -38,7 +38,7 @@ def convergence_picture(run: Run) -> style.Picture | None:
         return None
     said = "; ".join(f"{s.name}, {NAMES[s.source]}: {s.known.behaviour}" for s in known)
     return style.picture(
-        lambda width: _drawn(panels, width),
+        _drawn(panels),
         f"Error over element size of each judged figure. {said}.",
         "Distance from the extrapolated value over the size of the pressure elements, both "
         "logarithmic; without marks, the formal order. A bar: the stated uncertainty of "
@@ -47,15 +47,12 @@ def convergence_picture(run: Run) -> style.Picture | None:
     )
 
 
-def _drawn(panels: list[list[JudgedSequence]], width: float) -> "Figure":
-    wide = width == style.WIDE
-    most = ABREAST if wide else ABREAST // 2
-    abreast = -(-len(panels) // -(-len(panels) // most))  # rows of about equal lengths
-    head = HEAD if wide else HEAD + 2.0 * LINE  # where names take three lines
-    heights = [(TITLE + (FOOT if row else head), TALL) for row in range(-(-len(panels) // abreast))]
-    drawn = style.figure(width, sum(map(sum, heights)) + FOOT)
+def _drawn(panels: list[list[JudgedSequence]]) -> "Figure":
+    abreast = -(-len(panels) // -(-len(panels) // ABREAST))  # rows of about equal lengths
+    heights = [(TITLE + (FOOT if row else HEAD), TALL) for row in range(-(-len(panels) // abreast))]
+    drawn = style.figure(style.WIDE, sum(map(sum, heights)) + FOOT)
     rows = [heights[: -(-(len(panels) - side) // abreast)] for side in range(abreast)]
-    sides = columns(drawn, rows, LEFT, width - LEFT, BETWEEN)
+    sides = columns(drawn, rows, LEFT, style.WIDE - LEFT, BETWEEN)
     for number, panel in enumerate(panels):
         axes = sides[number % abreast][number // abreast]
         _draw(axes, panel)
@@ -67,8 +64,7 @@ def _drawn(panels: list[list[JudgedSequence]], width: float) -> "Figure":
     for axes in drawn.axes:
         handles, labels = axes.get_legend_handles_labels()
         entries = dict(zip(labels, handles, strict=True)) | entries
-    beside = len(entries) if wide else 2
-    room = {"ncols": beside, "columnspacing": 1.6, "borderaxespad": 0.2}
+    room = {"ncols": len(entries), "columnspacing": 1.6, "borderaxespad": 0.2}
     drawn.legend(entries.values(), entries, loc="upper left", **room)
     return drawn
 

@@ -3,10 +3,9 @@ of x is one, and rounded or uneven steps are not."""
 
 import numpy as np
 import pytest
-from text_profiles import read_profile
+from text_profiles import read_measured, read_profile
 
 from analytic.surface.readers.dropouts import gaps
-from analytic.surface.readers.files import read_measured
 from analytic.surface.readers.source import ProfileError
 
 

@@ -6,9 +6,10 @@ import zipfile
 
 import numpy as np
 import pytest
+from text_profiles import read_measured
 
 from analytic.surface.readers.arrays import read_arrays
-from analytic.surface.readers.files import MissingUnitError, open_measured, read_measured
+from analytic.surface.readers.files import MissingUnitError, open_measured
 from analytic.surface.readers.source import LONGEST_LINE, MAX_LINES, ProfileError
 from analytic.surface.readers.text import ColumnsError
 from analytic.surface.readers.topography import MapLine

@@ -47,7 +47,7 @@ def test_heights_that_are_all_the_same_have_no_radius(folder, capsys):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="a shell closes the stream")
-@pytest.mark.parametrize(("closed", "words"), [(">&-", ""), ("<&-", "smooth-sliding")])
+@pytest.mark.parametrize(("closed", "words"), [(">&-", ""), ("2>&-", "smooth-sliding")])
 def test_a_closed_stream_is_no_defect(closed, words):
     done = subprocess.run(
         ["sh", "-c", f'"$0" -m comparisons.cli scenes {closed}', sys.executable],

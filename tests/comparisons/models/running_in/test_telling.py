@@ -67,16 +67,15 @@ class TestTelling:
         )
         shown = picture(outcome)
         run_in = outcome.problem.surface.run_in
-        assert len(figures) == 2  # wide and narrow
-        for figure in figures:
-            [axes] = figure.axes
-            lines = {line.get_label(): line.get_xydata() for line in axes.lines}
-            assert axes.get_xlabel() == "x [µm]" and axes.get_ylabel() == "height [nm]"
-            for label, profile in (("before running-in", run_in.before), ("after", run_in.profile)):
-                points = lines[label]
-                assert points[:, 1] * 1e-9 == pytest.approx(
-                    profile.spline()(points[:, 0] * 1e-6), abs=1e-15
-                )
+        [figure] = figures
+        [axes] = figure.axes
+        lines = {line.get_label(): line.get_xydata() for line in axes.lines}
+        assert axes.get_xlabel() == "x [µm]" and axes.get_ylabel() == "height [nm]"
+        for label, profile in (("before running-in", run_in.before), ("after", run_in.profile)):
+            points = lines[label]
+            assert points[:, 1] * 1e-9 == pytest.approx(
+                profile.spline()(points[:, 0] * 1e-6), abs=1e-15
+            )
         said = running_in_in_words(outcome.problem.scene, outcome.problem.surface)
         assert shown.caption.endswith(said)
         assert f"In {len(run_in.passes)} passes ({run_in.sweeps} sweeps over 5 places)" in said

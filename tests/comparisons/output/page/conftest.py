@@ -41,7 +41,7 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list) -> None:
         self.attributes += [(tag, name, value) for name, value in attrs]
-        if tag == "img" and ("class", "narrow") not in attrs:  # the same once more, for telephones
+        if tag == "img":
             self.images.append(dict(attrs))
         if tag == "section":
             self.sections.append(dict(attrs)["id"])

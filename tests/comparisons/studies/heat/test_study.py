@@ -178,7 +178,7 @@ def test_thermal_stresses_in_every_output(stressed):
     )
     said = "; ".join(text for _, text in lines(stressed))
     assert "199." in said and "without)" in said and "agree" in said
-    rows = {row["quantity"]: row for row in rows_of(result, "made")}
+    rows = {row["quantity"]: row for row in rows_of(result, "made") if not row["against"]}
     assert rows["tau1_heated"]["unit"] == "Pa" and rows["tau1_depth_heated"]["unit"] == "m"
     assert heat_table(read_run(stressed.directory)) == heat_table(stressed)
 

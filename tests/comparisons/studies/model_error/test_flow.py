@@ -14,7 +14,6 @@ from comparisons.output.headline import headline
 from comparisons.runs.run import run
 from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.selection import FLOW
-from comparisons.studies.subsurface.yielding import blocks as yield_blocks
 
 SCENE = {
     "roller": {"radius": 8e-3, "rigid": True},
@@ -74,18 +73,6 @@ def test_the_verdict_says_what_flow_takes(beside):
     taken = 100.0 * error.value / (1.0 + error.value)
     assert f"flow takes {taken:.0f} % off the peak pressure and adds" in said.sentence
     assert said.next.startswith("take the whole model's peak pressure 2.")
-
-
-def test_the_cap_by_peak_is_what_the_whole_bears(beside, switched_on):
-    caps = [
-        outcome.figures.one(study="yield", quantity="cap_over_yield", source="cap by peak")
-        for outcome in (beside, switched_on)
-    ]
-    bears = beside.model_errors.one(quantity="peak_pressure").scale / 1e9
-    assert [cap.value for cap in caps] == pytest.approx([bears, bears], rel=1e-9)
-    assert caps[0].numerical == pytest.approx(caps[1].numerical, rel=1e-6)
-    rows = {row[0]: row for row in yield_blocks(beside)[0].items[2].rows}
-    assert rows["cap by peak"][3].startswith(f"{bears:.3g} ±")
 
 
 def test_flow_beside_linear_elements_is_of_quadratic_ones(beside):

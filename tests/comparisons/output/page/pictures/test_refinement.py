@@ -25,7 +25,7 @@ def moving(outcome: Run) -> list:
 
 @pytest.fixture(scope="module")
 def panels(wavy_outcome: Run, drawn_by) -> list:
-    [figure, _], _ = drawn_by(convergence_picture, wavy_outcome)
+    [figure], _ = drawn_by(convergence_picture, wavy_outcome)
     return figure.axes
 
 
@@ -89,6 +89,6 @@ def test_levels_that_are_equal_are_said_to_be(smooth_outcome: Run, drawn_by):
     solved = replace(smooth_outcome.solved, runs=runs)
     alone = {"contact": contact.solve(solved, {}, None)}  # of each model
     settled = replace(smooth_outcome, solved=solved, findings=alone)
-    [figure, _], picture = drawn_by(convergence_picture, settled)
+    [figure], picture = drawn_by(convergence_picture, settled)
     words = [text.get_text() for axes in figure.axes for text in axes.texts]
     assert "no change but rounding" in words and "settled" in picture.alternative

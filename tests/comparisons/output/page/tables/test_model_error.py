@@ -151,16 +151,16 @@ class TestWaterfalls:
     def test_bars_hang_on_each_other_and_the_last_is_the_error(self, split: Run):
         with collected_figures() as figures:
             picture = model_error_picture(judged_by(split, {"peak_pressure": 0.02}))
-        for figure in figures:  # wide and narrow
-            [axes] = figure.axes
-            rows = [tick.get_text() for tick in axes.get_yticklabels()]
-            assert rows[-1] == "model error" and "finite strain" not in rows
-            bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
-            for (_, end), (start, _) in pairwise(bars[:-1]):
-                assert start == pytest.approx(end)
-            assert bars[0][0] == bars[-1][0] == 0.0
-            assert bars[-2][1] == pytest.approx(-3.1) and bars[-1][1] == pytest.approx(-3.1)
-            pyplot.close(figure)
+        [figure] = figures
+        [axes] = figure.axes
+        rows = [tick.get_text() for tick in axes.get_yticklabels()]
+        assert rows[-1] == "model error" and "finite strain" not in rows
+        bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
+        for (_, end), (start, _) in pairwise(bars[:-1]):
+            assert start == pytest.approx(end)
+        assert bars[0][0] == bars[-1][0] == 0.0
+        assert bars[-2][1] == pytest.approx(-3.1) and bars[-1][1] == pytest.approx(-3.1)
+        pyplot.close(figure)
         assert "peak pressure: −3.1 %" in picture.alternative
         assert "deformed gap +1.2 %" in picture.alternative
 
