@@ -42,13 +42,8 @@ class Forecast:
     finite_flow: float | None = None
 
     @property
-    def seconds(self) -> float:
-        """Of all that may be solved, one after the other."""
-        return sum(level.seconds for level in self.levels) + self.seconds_of_flow
-
-    @property
     def seconds_asked(self) -> float:
-        """The same of the levels to begin with."""
+        """Of the levels to begin with and of flow, one after the other."""
         return sum(level.seconds for level in self.levels[: self.asked]) + self.seconds_of_flow
 
     @property

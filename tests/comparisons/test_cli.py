@@ -12,6 +12,7 @@ from scenes import PROJECT
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
+from comparisons.common.progress import Early
 from comparisons.figures.quantity import MODELS
 from comparisons.scenes.files import scene_titles
 
@@ -39,6 +40,7 @@ class Run:
     def run(self, scene, out, models, progress, *further):
         self.calls.append((scene, out, models))
         progress("solving [with] care")
+        progress(Early("half-plane: 3 µm"))
         if self.raises:
             raise self.raises
         return types.SimpleNamespace(
@@ -53,7 +55,9 @@ def solver(monkeypatch, tmp_path):
     run = Run()
     monkeypatch.setattr("comparisons.runs.run.solve_scene", lambda *asked: run.run(*asked))
     monkeypatch.setattr("comparisons.runs.run.finish", lambda *_: None)
-    table = types.SimpleNamespace(summary=lambda outcome, details: "peak pressure agree")
+    table = types.SimpleNamespace(
+        summary=lambda outcome, details: "peak pressure agree", PLAIN={ord("µ"): "u"}
+    )
     monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
     monkeypatch.setattr("comparisons.output.result_json.content_of", lambda run: run.result)
     monkeypatch.setattr("comparisons.output.plausibility.warnings_about_result", lambda outcome: [])
@@ -193,7 +197,7 @@ def test_progress_is_shown_to_a_terminal(solver, capsys, monkeypatch):
     assert main(["run", "smooth"]) == 0
     out, err = capsys.readouterr()
     assert out.startswith("peak pressure agree\nwritten: ")
-    assert "solving [with] care" in err
+    assert "solving [with] care" in err and "half-plane: 3 um" in err
 
 
 def test_scenes_are_listed_with_their_titles(capsys):

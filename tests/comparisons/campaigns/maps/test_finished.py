@@ -11,11 +11,14 @@ from comparisons.campaigns.maps.picture import map_picture
 from comparisons.campaigns.maps.point import TOLERANCES, solve_point
 from comparisons.common.provenance import versions
 
-NAMES = ("curvature-thickness", "ratio-thickness", "slope-wavelength", "thickness-friction")
-NAMES += ("modulus-coating",)
 # A point of each that costs little and whose error is well above its uncertainty: column, row.
-CHEAP = {"curvature-thickness": (9, 9), "slope-wavelength": (9, 0), "thickness-friction": (9, 9)}
-CHEAP |= {"ratio-thickness": (9, 9), "modulus-coating": (9, 8)}
+CHEAP = {
+    "curvature-thickness": (9, 9),
+    "modulus-coating": (9, 8),
+    "ratio-thickness": (9, 9),
+    "slope-wavelength": (9, 0),
+    "thickness-friction": (9, 9),
+}
 
 
 @cache
@@ -29,15 +32,14 @@ def asked_for(name: str):
     return request_of(scene, **{name.removeprefix("--"): value for name, value in values.items()})
 
 
-@pytest.fixture(params=NAMES)
+@pytest.fixture(params=CHEAP)
 def finished(request) -> tuple[str, dict]:
     return request.param, finished_map(request.param)
 
 
 def test_each_map_has_its_scene_and_picture():
-    files = {path.name for path in FINISHED.iterdir()}
-    assert {name for name in files if name.endswith(".json")} == {f"{n}.json" for n in NAMES}
-    assert files >= {f"{name}.{end}" for name in NAMES for end in ("toml", "svg")}
+    files = {f"{name}.{end}" for name in CHEAP for end in ("json", "toml", "svg")}
+    assert {path.name for path in FINISHED.iterdir()} == files
 
 
 def test_the_command_asks_for_the_same_points(finished):

@@ -16,34 +16,29 @@ from comparisons.campaigns.maps.picture import map_figure, map_picture
 from comparisons.drawing.style import drawing
 
 
-@pytest.fixture
-def made(smooth_map) -> dict:
-    return smooth_map(lambda x, y: 0.02 * (x / 0.3) ** 2 * (y / 0.1))
+def map_of(error, uncertainty: float = 1e-4) -> dict:
+    """The content of a map with that error, a function of x and y."""
+    x = axis_of("a_over_thickness=0.03:3", 9, "--x")
+    y = axis_of("friction_dundurs=0.01:1", 7, "--y")
+
+    def point(x: float, y: float) -> dict:
+        figures = {"difference": error(x, y), "uncertainty": uncertainty}
+        place = {"x": x, "y": y, "status": SOLVED, "error": SIGNIFICANT}
+        return place | {"quantities": {"peak_pressure": figures}}
+
+    return {
+        "quantity": "peak_pressure",
+        "scene": {"title": "Made"},
+        "x": x,
+        "y": y,
+        "tolerances": [0.01, 0.02, 0.05, 0.1],
+        "points": [point(u, v) for v in y["values"] for u in x["values"]],
+    }
 
 
 @pytest.fixture
-def smooth_map():
-    """smooth_map(error): the content of a map with that error, of x and y."""
-
-    def content(error, uncertainty: float = 1e-4) -> dict:
-        x = axis_of("a_over_thickness=0.03:3", 9, "--x")
-        y = axis_of("friction_dundurs=0.01:1", 7, "--y")
-
-        def point(x: float, y: float) -> dict:
-            figures = {"difference": error(x, y), "uncertainty": uncertainty}
-            place = {"x": x, "y": y, "status": SOLVED, "error": SIGNIFICANT}
-            return place | {"quantities": {"peak_pressure": figures}}
-
-        return {
-            "quantity": "peak_pressure",
-            "scene": {"title": "Made"},
-            "x": x,
-            "y": y,
-            "tolerances": [0.01, 0.02, 0.05, 0.1],
-            "points": [point(u, v) for v in y["values"] for u in x["values"]],
-        }
-
-    return content
+def made() -> dict:
+    return map_of(lambda x, y: 0.02 * (x / 0.3) ** 2 * (y / 0.1))
 
 
 class TestPicture:
@@ -54,8 +49,8 @@ class TestPicture:
     @pytest.mark.parametrize(
         ("error", "shown"), [(-0.09, "−9.0"), (0.47, "+47"), (-0.0102, "−1.0"), (1e-4, "+0.010")]
     )
-    def test_errors_are_stated_in_two_digits(self, smooth_map, error, shown):
-        axes = self.drawn(smooth_map(lambda x, y: error, 1e-9))
+    def test_errors_are_stated_in_two_digits(self, error, shown):
+        axes = self.drawn(map_of(lambda x, y: error, 1e-9))
         assert {text.get_text() for text in axes.texts} == {shown}
 
     def test_only_significant_errors_have_a_colour(self, made):
@@ -78,24 +73,24 @@ class TestPicture:
             "failed",
         ]
 
-    def test_colours_are_of_the_error(self, smooth_map):
+    def test_colours_are_of_the_error(self):
         """One band a colour, and a larger error is darker."""
-        axes = self.drawn(smooth_map(lambda x, y: -0.004 * x / 0.03))
+        axes = self.drawn(map_of(lambda x, y: -0.004 * x / 0.03))
         colours = [cell.get_facecolor()[:3] for cell in axes.patches[:9]]
         brightness = np.array(colours) @ [0.299, 0.587, 0.114]
         assert np.all(np.diff(brightness) <= 0.0) and brightness[-1] < brightness[0] - 0.3
 
     @pytest.mark.parametrize("sign", [1.0, -1.0])
-    def test_lines_are_where_the_error_is_the_tolerance(self, smooth_map, sign):
-        axes = self.drawn(smooth_map(lambda x, y: sign * 0.01 * x / 0.2))
+    def test_lines_are_where_the_error_is_the_tolerance(self, sign):
+        axes = self.drawn(map_of(lambda x, y: sign * 0.01 * x / 0.2))
         places = [
             path.vertices[:, 0].mean() for line in axes.collections for path in line.get_paths()
         ]
         assert np.allclose(10.0 ** np.array(sorted(places)), [0.2, 0.4, 1.0, 2.0], rtol=0.02)
 
     @pytest.mark.parametrize(("largest", "count"), [(0.009, None), (0.03, 2), (0.2, 4)])
-    def test_the_legend_names_the_lines_that_are_drawn(self, smooth_map, largest, count):
-        legend = self.drawn(smooth_map(lambda x, y: -largest * x / 4.0)).get_legend()
+    def test_the_legend_names_the_lines_that_are_drawn(self, largest, count):
+        legend = self.drawn(map_of(lambda x, y: -largest * x / 4.0)).get_legend()
         words = None if legend is None else [text.get_text() for text in legend.get_texts()]
         lines = [f"error of {share} %" for share in (1, 2, 5, 10)]
         assert words == (None if count is None else lines[:count])
@@ -120,8 +115,8 @@ def test_an_error_is_held_against_its_uncertainty(difference, uncertainty, kind)
     assert significance(point, "peak_pressure") == {"error": kind}
 
 
-def test_points_are_within_a_tolerance_with_all_their_uncertainty(smooth_map):
-    content = smooth_map(lambda x, y: -0.01 * x / 0.3, 0.002)
+def test_points_are_within_a_tolerance_with_all_their_uncertainty():
+    content = map_of(lambda x, y: -0.01 * x / 0.3, 0.002)
     inside = sum(0.01 * x / 0.3 + 0.002 <= 0.02 for x in content["x"]["values"])
     assert points_within(content, 0.02) == 7 * inside < 63
     content["points"][0] = {"x": 0.0, "y": 0.0, "status": FAILED, "why": "…"}
