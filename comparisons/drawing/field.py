@@ -183,9 +183,9 @@ def draw_fields(
     scale: ColourScale,
     height: float | None = None,
     difference: tuple[str, ColourScale] | None = None,
-) -> "tuple[Figure, list[Axes]]":
+) -> "Figure":
     """One or two fields of `height` inches, to scale without, above one scale; of two also the
-    first less the second, with its title, above another. The axes from top to bottom."""
+    first less the second, with its title, above another."""
     to_scale = float(np.clip(WIDTH * np.ptp(z) / np.ptp(x), LOW, TALL))
     drawn, places, bars = layout(len(panels), height or to_scale)
     rows = [(panel, scale) for panel in panels]
@@ -202,4 +202,4 @@ def draw_fields(
         of = rows[row][1]
         colour_bar(drawn, bar, shown[row], of.label, of.bands)
     places[-1].set_xlabel("x/a")
-    return drawn, places
+    return drawn

@@ -63,7 +63,6 @@ class Picture:
     alternative: str  # what it shows, for those who cannot see it
     caption: str  # what it shows and how to read it
     wide: bool = False  # across the page
-    field: str | None = None  # JSON: which field is drawn where, for values under the pointer
     data: tuple[str, str] | None = None  # words of a link to its curves as CSV, and their data URI
 
 
@@ -236,7 +235,6 @@ def picture(
     alternative: str,
     caption: str,
     data: bool | tuple[str, str] = True,
-    field: str | None = None,
 ) -> Picture:
     """A figure with its words.
 
@@ -247,7 +245,6 @@ def picture(
         alternative=alternative,
         caption=caption,
         wide=drawn.get_figwidth() > COLUMN,
-        field=field,
     )
 
 

@@ -14,8 +14,7 @@ from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.models.forecast import forecast
 from comparisons.output.headline import headline
-from comparisons.output.page.field_values import Explorer, field_explorer
-from comparisons.output.page.html import inline, rendered
+from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.tables import verification
@@ -48,15 +47,12 @@ NOTES = verification.WORDING["how_to_read"]
 
 def render(run: Run) -> str:
     """The page of a finished run; equal runs give equal text."""
-    script, policy = inline("field_values.js")
-    explorer, pictures = field_explorer(run), draw(run)
-    shown = [_shown(block, pictures) for block in sections(run, explorer)]
+    pictures = draw(run)
+    shown = [_shown(block, pictures) for block in sections(run)]
     [first, *others] = (HYPHENATED[name] for name in run.runs)
     return rendered(
         "page.html.j2",
-        script=script,
-        policy=policy,
-        explorer=explorer,
+        policy=STYLES,
         title=run.problem.scene.title,
         headline=headline(run),
         models="half-plane against finite elements" if others else f"{first} model only",
@@ -104,9 +100,9 @@ def _drawn(here: Here, name: str) -> object:
         return PICTURES[name](here.shared)
 
 
-def sections(run: Run, explorer: Explorer | None) -> list[Block]:
+def sections(run: Run) -> list[Block]:
     """One block a section, which the studies' blocks are parts of."""
-    blocks = [*_before(run), *_stresses(run, explorer), *_after(run)]
+    blocks = [*_before(run), *_stresses(run), *_after(run)]
     for study in STUDIES:
         if study.name in run.findings:
             blocks += study.blocks(run)
@@ -144,7 +140,7 @@ def _of_layered(run: Run, words: str) -> str:
     return NOTES[words].format(body) if first_model(run) != "half-plane" else ""
 
 
-def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
+def _stresses(run: Run) -> Iterator[Block]:
     if run.window is None:
         return
     frictions = run.problem.scene.load.friction
@@ -159,7 +155,7 @@ def _stresses(run: Run, explorer: Explorer | None) -> Iterator[Block]:
     near = replace(of_friction(deciding, "near"), heading="", abreast=False)
     down = Box("columns down", (near, Pictures(("sections",))))
     on_screens = Box("on-screens", tuple(of_friction(k, "fields", "near") for k in others))
-    items = Note(note), of_friction(deciding, "fields"), down, on_screens, explorer
+    items = Note(note), of_friction(deciding, "fields"), down, on_screens
     yield Block("stresses", items, "Subsurface stresses")
 
 

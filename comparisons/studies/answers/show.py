@@ -187,7 +187,7 @@ def _shear(run: Run, name: str, answer: Answer) -> style.Picture:
     else:
         shown = [FieldPanel(" = ".join(names), fields[1])]
         said = f"which coincide within {significant(np.nanmax(np.abs(apart)), 2)} p₀"
-    drawn, _ = draw_fields(x, z, shown, scale, difference=difference)
+    drawn = draw_fields(x, z, shown, scale, difference=difference)
     words = f"Principal shear stress τ₁ of {name} and of the {names[1]}, friction "
     words += f"{plain(stress.friction)}, {said}."
     return style.picture(drawn, words, words, data=False)

@@ -211,7 +211,7 @@ def below_pictures(run: Run) -> list[style.Picture]:
         at = f"{significant(values.max())} K at x = {significant(x[column], 3)} a"
         panel = FieldPanel(f"{name}: largest {at}", values, (x[column], z[row]))
         scale = ColourScale.over("rise [K]", [values], "magma")
-        drawn, _ = draw_fields(x, z, [panel], scale, HEIGHT)
+        drawn = draw_fields(x, z, [panel], scale, HEIGHT)
         words = f"Rise of temperature below the surface of the {name}"
         alternative, caption = f"{words}; {panel.title}.", f"{words}, as a half-space."
         pictures.append(style.picture(drawn, alternative, caption, data=False))

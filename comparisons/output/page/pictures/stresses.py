@@ -2,7 +2,6 @@
 there is no other: fields on one colour scale, their difference on its own, and sections over depth,
 after Bailey and Sayles (1991), figure 11."""
 
-import json
 import math
 from dataclasses import dataclass
 from operator import sub
@@ -97,21 +96,14 @@ def _pictures(
     apart = [sub(*m.values()) for m, p in zip(fields, shown, strict=True) if len(p) > 1]
     of_differences = ColourScale.of_differences(f"Δ{label}", apart) if apart else None
     pictures = []
-    for number, (friction, models) in enumerate(zip(frictions, fields, strict=True)):
-        panels, difference, notes = shown[number], None, ""
+    for friction, models, panels in zip(frictions, fields, shown, strict=True):
+        difference, notes = None, ""
         if len(panels) > 1:
             difference = " − ".join(LABELS[name] for name in models), of_differences
         if len(models) > 1:
             end = of_differences.bands[-1] if difference else None
             notes = _difference_said(x, z, sub(*models.values()), end)
-        drawn, axes = draw_fields(x, z, panels, scale, height, difference)
-        pointed = {
-            "component": COMPONENTS.index(component),
-            "friction": number,
-            "boxes": [_box(panel) for panel in axes],
-            "x": [round(float(end), 6) for end in x[[0, -1]]],
-            "z": [round(float(end), 6) for end in z[[0, -1]]],
-        }
+        drawn = draw_fields(x, z, panels, scale, height, difference)
         words = f"{component.words.capitalize()} {component.symbol} {place}"
         words += f", friction {plain(friction)}"
         striped = ", stripes what is negative" if component.signed or difference else ""
@@ -121,8 +113,7 @@ def _pictures(
             notes += " Of the whole model each point stands where it was before loading."
         alternative = f"{words}. {'; '.join(panel.title for panel in panels)}.{notes}"
         caption = f"{words}; + marks the largest value{striped}.{notes}"
-        look = {"data": False, "field": json.dumps(pointed)}
-        pictures.append(style.picture(drawn, alternative, caption, **look))
+        pictures.append(style.picture(drawn, alternative, caption, data=False))
     return pictures
 
 
@@ -157,12 +148,6 @@ def _panel(
     )
     inside = extreme.z <= run.window.z[len(values) - 1]
     return FieldPanel(title, values, mark if inside else None)
-
-
-def _box(axes: "Axes") -> list[float]:
-    """Left, top, width and height of a field as shares of the picture, from its upper left."""
-    place = axes.get_position()
-    return [round(v, 4) for v in (place.x0, 1.0 - place.y1, place.width, place.height)]
 
 
 def _difference_said(

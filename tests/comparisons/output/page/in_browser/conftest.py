@@ -146,9 +146,6 @@ class Tab:
         self.ask("Input.dispatchKeyEvent", type="keyDown", text=text, **named)
         self.ask("Input.dispatchKeyEvent", type="keyUp", **named)
 
-    def point(self, x: float, y: float) -> None:
-        self.ask("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
-
     def complaints(self) -> list[str]:
         """What the browser's console holds against the page."""
         problems = []
