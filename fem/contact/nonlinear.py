@@ -20,17 +20,14 @@ Nomenclature
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from fem.compliance.condensed import Condensed
 from fem.contact.system import ContactSystem, ReusedFactor
 from fem.contact.terms import Contact, ContactTerms, Response
 from fem.solver.mumps import FemError, solve_once
-
-if TYPE_CHECKING:
-    from fem.nonlinear.condensed import Condensed
 
 # Largest of three residuals: forces over the contact's forces, where the rounding of a stiff body
 # counts as little as what it moves; complementarity over the pressure; load over the load. Rounding
@@ -152,7 +149,7 @@ class ContactProblem:
     constant: np.ndarray
     weights: np.ndarray
     hardness: float | np.ndarray  # of all hats, or (count,) of each
-    flexible: "np.ndarray | Condensed | None" = None  # C (count, count); None: zero
+    flexible: np.ndarray | Condensed | None = None  # C (count, count); None: zero
     factor: ReusedFactor | None = None  # solves its systems; None: each has its own
 
     @cached_property
@@ -343,7 +340,6 @@ def solve_nonlinear_contact(
     approach: float | None = None,
     hardness: float | np.ndarray = np.inf,
     begin: Callable[[float], ContactState] | None = None,
-    flexible: np.ndarray | None = None,
 ) -> NonlinearSolution:
     """Contact under a `load` P [N/m], or at an `approach` d [m], from a given state.
 
@@ -356,7 +352,6 @@ def solve_nonlinear_contact(
     hardness   H [Pa], cap on the pressure, of all hats or (count,) of each
     begin      guess of the solution under a part of the load, for bodies at rest that `start` in
                proportion does not lead on
-    flexible   C (count, count) [m^2/Pa] of further bodies, linear, as a dense matrix
 
     The load is the sum of the pressures; the vertical part of the friction's tractions, of the
     order of friction times slope, is neglected as in the linear theory. Raises ValueError for
@@ -366,7 +361,7 @@ def solve_nonlinear_contact(
         raise ValueError("give either the load or the approach")
     if load is not None and not 0.0 < load < np.sum(hardness * weights):
         raise ValueError(f"a load of {load:g} N/m is not between zero and what the hats can bear")
-    problem = ContactProblem(bodies, gap, weights, hardness, flexible)
+    problem = ContactProblem(bodies, gap, weights, hardness)
     first, goal = (start.load, load) if approach is None else (start.approach, approach)
     at_rest = start.load == 0.0
     state, done, step, histories, cuts = start, 0.0, 1.0, [], 0

@@ -16,16 +16,13 @@ stiffness k [Pa]. Where the approach is prescribed the last row and column are m
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import bmat, csr_matrix
 
+from fem.compliance.condensed import Condensed, ShiftInvariant
 from fem.contact.terms import ContactTerms
 from fem.solver.mumps import Factor, FemError
-
-if TYPE_CHECKING:
-    from fem.nonlinear.condensed import Condensed
 
 # Steps of the residuals that a factorisation costs, of 17 000 to 56 000 unknowns.
 FACTOR_WORTH = 12
@@ -49,7 +46,7 @@ class ContactSystem:
     symmetric  whether the system is"""
 
     bodies: Sequence[BodyTerms]
-    flexible: "np.ndarray | Condensed | None"
+    flexible: np.ndarray | Condensed | ShiftInvariant | None
     weights: np.ndarray
     hats: np.ndarray
     stiff: float

@@ -23,10 +23,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from fem.compliance.condensed import Condensed
 from fem.contact.nonlinear import ContactProblem, ContactState, newton
 from fem.contact.system import ReusedFactor
 from fem.contact.terms import Contact, ContactTerms, LinearContact, LinearResponse, Response
-from fem.nonlinear.condensed import Condensed
 from fem.solver.mumps import FemError
 
 # Forces over the contact's forces, and of a contact on deformed surfaces complementarity over the

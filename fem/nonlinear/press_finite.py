@@ -18,9 +18,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fem.compliance.condensed import Condensed
 from fem.contact.nonlinear import ContactState, NonlinearSolution
 from fem.contact.terms import ContactTerms
-from fem.nonlinear.condensed import Condensed
 from fem.nonlinear.finite_deformation import (
     LEANING,
     MOST_SETTINGS,

@@ -27,11 +27,12 @@ import numpy as np
 from analytic.stress_state import StressState, von_mises
 from fem.body.sums import nodal_sums
 from fem.body.triangle import GAUSS, reference_nodes
+from fem.compliance.condensed import Condensed, ShiftInvariant
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState
 from fem.contact.system import ReusedFactor
 from fem.contact.terms import LinearContact
-from fem.nonlinear.condensed import Condensed, ElasticContact, ShiftInvariant, on_vertices
+from fem.nonlinear.elastic_contact import ElasticContact, on_vertices
 from fem.nonlinear.newton import ACCURACY, RESIDUAL, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once

@@ -6,11 +6,12 @@ import pytest
 from analytic.material import Material
 from analytic.material.hardening import Hardening
 from fem.body.elasticity import Support, elastic_body
+from fem.compliance.condensed import ShiftInvariant
 from fem.compliance.operator import FiniteElementCompliance
-from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
+from fem.contact.nonlinear import state_at_rest
 from fem.contact.terms import LinearContact, LinearResponse
-from fem.nonlinear import condensed
-from fem.nonlinear.condensed import ElasticContact, ShiftInvariant, on_vertices
+from fem.nonlinear import elastic_contact
+from fem.nonlinear.elastic_contact import ElasticContact, on_vertices
 from fem.nonlinear.newton import newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
 from fem.solver.mumps import FemError
@@ -29,7 +30,7 @@ def compliance(structured_block):
 
 def solve(bodies, flexible=None):
     rest = state_at_rest(bodies, np.ones(len(X)))
-    return solve_nonlinear_contact(bodies, GAP, WEIGHTS, rest, 1.0, flexible=flexible).state
+    return newton_by_contacts(bodies, GAP, WEIGHTS, rest, 1.0, flexible=flexible)[0]
 
 
 COUNT = 120
@@ -84,26 +85,15 @@ def test_many_rough_hats_settle_from_all_in_contact():
 
 
 def test_equations_that_do_not_converge_are_solved_directly(dense, monkeypatch):
-    monkeypatch.setattr(condensed, "MOST_RESIDUALS", 1)
+    monkeypatch.setattr(elastic_contact, "MOST_RESIDUALS", 1)
     flexible = half_plane_like(0.3)
     pressure, _ = ElasticContact(flexible, np.ones(COUNT))(ROUGH, 0.3, np.ones(COUNT))
     expected, _ = dense(flexible[ALL], ROUGH, np.ones(COUNT), 0.3)
     np.testing.assert_allclose(pressure, expected, atol=1e-9 * expected.max())
 
 
-def test_shifted_columns_are_those_of_any_compliance_that_does_not_depend_on_the_place():
-    count, far = 40, np.arange(-39.0, 40.0)
-    place = np.arange(count)
-    exact = (np.exp(-(far**2) / 50.0) + 0.1 * np.arctan(far))[place[:, None] - place + count - 1]
-    shifted = ShiftInvariant(lambda hats: exact[:, hats], count, place[10:30])
-    pressure = np.random.default_rng(1).uniform(size=count)
-    np.testing.assert_allclose(shifted @ pressure, exact @ pressure, rtol=1e-12)
-    block = np.ix_(place[3:9], place[20:])
-    np.testing.assert_allclose(shifted[block], exact[block], rtol=1e-12)
-
-
 def test_a_contact_that_does_not_settle_is_an_error(monkeypatch):
-    monkeypatch.setattr(condensed, "MOST_EXCHANGES", 1)
+    monkeypatch.setattr(elastic_contact, "MOST_EXCHANGES", 1)
     with pytest.raises(FemError, match="did not settle in 1 exchanges"):
         ElasticContact(half_plane_like(0.0), np.ones(COUNT))(ROUGH, 0.3, np.ones(COUNT))
 
