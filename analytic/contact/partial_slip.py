@@ -25,7 +25,7 @@ first order in its length. Pressing unlike bodies makes tractions by itself (Spe
     d       tangential displacement of the roller in the step [m]   w    weights [m]
     e       strain of the body along x by a load elsewhere          P, Q  loads per length [N/m]"""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -96,15 +96,6 @@ class SlipState:
     work: float  # of friction in the step, per length [J/m]
     residual: float  # worst of both problems
     converged: bool
-
-
-def history(pair: SurfacePair, steps: Iterable[Loads]) -> Iterator[SlipState]:
-    """The states after each step, from bodies that do not touch.
-    Raises ValueError for a tangential load that friction cannot hold."""
-    state = None
-    for loads in steps:
-        state = stepped(pair, state, loads)
-        yield state
 
 
 def stepped(pair: SurfacePair, before: SlipState | None, loads: Loads) -> SlipState:

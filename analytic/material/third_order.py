@@ -1,5 +1,5 @@
 """Third-order elastic constants of an isotropic solid: their conventions, what they do to a
-contact, and the strain up to which a law of elasticity is one.
+contact, and at which strains a law of elasticity is one.
 
     W = lambda/2 I1^2 + mu tr E^2 + terms of third order in Green's strain E:
         (l + 2m)/3 I1^3 - 2m I1 I2 + n I3                          Murnaghan 1937
@@ -14,8 +14,7 @@ and Kelly, Phys. Rev. 92 (1953) 1145 (pressure derivatives); Knowles and Sternbe
 Nomenclature: lambda, mu Lame's constants [Pa], K bulk modulus [Pa], nu Poisson's ratio, p0 peak
 pressure of a smooth contact by Hertz [Pa], E Young's modulus [Pa]."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -45,7 +44,6 @@ PRESSURE_DERIVATIVES = ("bulk_by_pressure", "shear_by_pressure")
 # peak. Finite elements at a/R = 0.05 under a rigid roller, nu from 0.05 to 0.49, give them within
 # 4 % and 10 %.
 VOLUME, SHAPE, LENGTH_OVER_PEAK = 0.491, 0.261, -0.77
-SMALLEST_STEP = 1e-4  # of the strain, in the search for a limit; the largest strain is 1
 
 
 def murnaghan_constants(
@@ -113,39 +111,6 @@ def peak_change(law: Law, material: Material) -> float:
     ell, m, _ = np.subtract(third_order(law, material), third_order(Law(), material)) / shear
     volume = VOLUME * (1.0 - 2.0 * nu) ** 3 * (ell + 0.5 * m)
     return float(-(volume + SHAPE * (1.0 - 2.0 * nu) * m) * (1.0 + nu) / (1.0 - nu))
-
-
-@dataclass(frozen=True)
-class StrainLimit:
-    """Strains at which ellipticity in plane strain is lost: `compression` e of the stretches
-    1 - e and 1, `shear` g of the stretches 1 + g/2 and 1 - g/2; infinite if not below 1."""
-
-    compression: float
-    shear: float
-
-
-def strain_limit(law: Law, material: Material) -> StrainLimit:
-    """Where the law stops being one of a stable solid: beyond, the acoustic tensor of some
-    direction in the plane is no longer positive and a uniform strain falls apart into bands."""
-
-    def limit(stretches: Callable[[float], tuple[float, float]]) -> float:
-        strains = np.arange(SMALLEST_STEP, 1.0, SMALLEST_STEP)
-        lost = np.flatnonzero(~is_elliptic(law, material, *stretches(strains)))
-        if not lost.size:
-            return np.inf
-        low, high = strains[lost[0]] - SMALLEST_STEP, strains[lost[0]]
-        while high - low > 1e-12:
-            middle = 0.5 * (low + high)
-            if is_elliptic(law, material, *stretches(np.array([middle])))[0]:
-                low = middle
-            else:
-                high = middle
-        return float(high)
-
-    return StrainLimit(
-        compression=limit(lambda e: (1.0 - e, np.ones_like(e))),
-        shear=limit(lambda g: (1.0 + 0.5 * g, 1.0 - 0.5 * g)),
-    )
 
 
 def is_elliptic(law: Law, material: Material, first: np.ndarray, second: np.ndarray) -> np.ndarray:

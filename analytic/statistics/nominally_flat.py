@@ -46,13 +46,6 @@ def tail_integral(n: float, h: ArrayLike) -> np.ndarray:
     return np.sum(2.0 * half * WEIGHTS * v ** (2.0 * n + 1.0) * density, axis=-1)
 
 
-def nominally_flat(summits: Summits, modulus: float, h: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """p [Pa] and f at separations h. Summits never merge: beyond some tenths f is off."""
-    scale = summits.density * modulus * np.sqrt(summits.radius) * summits.deviation**1.5
-    area = np.pi * summits.density * summits.radius * summits.deviation
-    return 4.0 / 3.0 * scale * tail_integral(1.5, h), area * tail_integral(1.0, h)
-
-
 def persson_fraction(pressure: ArrayLike, modulus: float, rms_slope: float) -> np.ndarray:
     """f of a plane-strain surface at mean pressures [Pa], by Persson's theory.
     erf(p / sqrt(2 V)), V = (E* s')^2 / 4 the variance of the pressure that closes all gaps, s' the

@@ -1,7 +1,8 @@
 """Rough sphere (Greenwood and Tripp 1967) and rough cylinder: summits on a body that gives way.
 
-Every place bears as a nominally flat surface there (`nominally_flat`), and its pressure sinks the
-bulk as an elastic half-space: a compact nonlinear integral equation, solved by Newton's method.
+Every place bears as a nominally flat surface there (`analytic.statistics.nominally_flat`), and its
+pressure sinks the bulk as an elastic half-space: a compact nonlinear integral equation, solved by
+Newton's method.
 
     R radius of the body [m]     r  distance from its centre or axis [m]   P load [N] or [N/m]
     rho = r / sqrt(2 R s)        p* = p / (E* sqrt(s / 8R)) = m F_3/2(h)   h = d + rho^2 + w

@@ -204,3 +204,11 @@ def place_on(edges: np.ndarray, x: np.ndarray) -> np.ndarray:
     length, bend = _length_and_bend(edges)
     slope, gone = length + bend, x - edges[:, 0]
     return 2.0 * gone / (slope + np.sqrt(np.maximum(slope**2 - 4.0 * bend * gone, 0.0)))
+
+
+def values_at(surface: Surface, x: np.ndarray) -> csr_matrix:
+    """Matrix (m, k) that gives values at x (m,) [m] from those at the surface's nodes (k,)."""
+    edge = np.searchsorted(surface.edges[1:, 0], x)
+    shape = edge_shapes(place_on(surface.edges[edge], x), surface.degree)
+    column = surface.degree * edge[:, None] + np.arange(surface.degree + 1)
+    return matrix_of(shape, np.arange(len(x))[:, None], column, (len(x), len(surface.x)))

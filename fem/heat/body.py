@@ -36,7 +36,6 @@ class ThermalBody:
 
     coating     its material is a ThermalMaterial
     radius      of the disc [m], infinite for a flat body
-    capacity    integral N_a rho c N_b [J/(m K)]
     conduction  integral grad N_a . k grad N_b [W/(m K)]
     convection  integral N_a rho c w . grad N_b [J/(m^2 K)], times the velocity of the surface
     """
@@ -46,7 +45,6 @@ class ThermalBody:
     coating: Coating | None
     radius: float
     numbering: Nodes
-    capacity: csr_matrix
     conduction: csr_matrix
     convection: csr_matrix
 
@@ -113,7 +111,6 @@ def thermal_body(
         coating,
         radius,
         numbering,
-        capacity=matrix("capacity", quadrature, heat),
         conduction=matrix("conduction", quadrature_degree(degree, curved), conductivity),
         convection=matrix("convection", quadrature, heat, curvature),
     )
@@ -125,8 +122,6 @@ def _form(kind: str, space: "FunctionSpace", points: int, factor, curvature=None
 
     t, s = ufl.TrialFunction(space), ufl.TestFunction(space)
     measure = ufl.dx(domain=space.mesh, metadata={"quadrature_degree": points})
-    if kind == "capacity":
-        return factor * t * s * measure
     if kind == "conduction":
         return factor * ufl.inner(ufl.grad(t), ufl.grad(s)) * measure
     x, z = ufl.SpatialCoordinate(space.mesh)

@@ -1,8 +1,8 @@
 """Conduction in a body whose material moves past the contact: the operator and its steady state.
 
-    rho c (dT/dt + V w . grad T) = div(k grad T),   k dT/dn = flux in at the surface,
+    rho c V w . grad T = div(k grad T),   k dT/dn = flux in at the surface,
 
-in the frame of the contact; discretised C dT/dt + A T = f. Temperatures T rise from the bulk's.
+in the frame of the contact; discretised A T = f. Temperatures T rise from the bulk's.
 
 Where a half-plane goes on beyond the mesh ("open"), what leaves is that of a line source at
 `centre`, whose temperature (Carslaw and Jaeger 1959, section 10.7) is
@@ -22,7 +22,6 @@ over the largest temperature with a uniform band |x| < l (Jaeger), block 10 l, V
 Equal elements of l/128 that grow right behind the band leave 0.08 to 0.1 in the wake.
 """
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, get_args
@@ -35,7 +34,6 @@ from fem.body.sums import matrix_of
 from fem.body.surface import boundary_points
 from fem.body.triangle import edge_shapes
 from fem.heat.body import ThermalBody
-from fem.heat.transient import march
 from fem.solver.mumps import Factor
 
 Boundary = Literal["held", "insulated", "open"]
@@ -45,7 +43,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What the body meets below, on its two sides, and on its surface beside the flux.
+    """What the body meets below and on its two sides; its surface beside the flux is insulated.
 
     "held"       temperatures are given, those of the bulk unless others are
     "insulated"  no heat passes by conduction; moving material carries its own out
@@ -55,7 +53,6 @@ class Surroundings:
 
     base: Boundary = "held"
     sides: Flanks = "flow"
-    top: Literal["insulated", "held"] = "insulated"
 
     def __post_init__(self) -> None:
         for name, allowed in (("base", Boundary), ("sides", Flanks)):
@@ -87,7 +84,7 @@ class Conduction:
         self.body, self.velocity, self.surroundings = body, velocity, surroundings
         flat = body.numbering.flat
         side = boundary_points(flat, body.mesh.spec)
-        kinds = {"bottom": surroundings.base, "top": surroundings.top}
+        kinds = {"bottom": surroundings.base}
         for name, inwards in (("left", velocity > 0.0), ("right", velocity < 0.0)):
             kind = surroundings.sides
             flow = "held" if inwards or not velocity else "insulated"
@@ -135,10 +132,3 @@ class Conduction:
         temperature = np.where(free, 0.0, 0.0 if held is None else held)
         temperature[free] = self._factor.solve((load - self.matrix @ temperature)[free])
         return temperature
-
-    def transient(
-        self, load: Callable[[float], np.ndarray], times: np.ndarray, start: np.ndarray
-    ) -> Iterator[np.ndarray]:
-        """As of `fem.heat.transient.march`."""
-        system = self.matrix, self.held, load, times, start
-        return march(self.body.capacity, *system, symmetric=not self.velocity)

@@ -4,25 +4,23 @@ Both bodies have the same temperature on the contact and no other exchange; what
 there goes into one or the other. With q the flux into body 1 on hats phi_i over the contact,
 Q = mu p V that of the friction and B_j = integral N_a phi_i dx of body j:
 
-    C_1 dT_1/dt + A_1 T_1 - B_1 q = 0
-    C_2 dT_2/dt + A_2 T_2 + B_2 q = B_2 Q
-    B_1^T T_1 - B_2^T T_2         = (b_2 - b_1) integral phi_i dx
+    A_1 T_1 - B_1 q       = 0
+    A_2 T_2 + B_2 q       = B_2 Q
+    B_1^T T_1 - B_2^T T_2 = 0
 
-as one system. T_j rises from the bulk temperature b_j [K]. Hats are cut off at the ends of a patch,
-where the fluxes jump. The surfaces' meshes need not match each other or the hats.
+as one system. T_j rises from the bulk temperature of both [K]. Hats are cut off at the ends of a
+patch, where the fluxes jump. The surfaces' meshes need not match each other or the hats.
 """
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import block_diag, bmat, csr_matrix
+from scipy.sparse import bmat, csr_matrix
 
 from fem.body.sums import matrix_of
 from fem.body.surface import Surface, hat_points
 from fem.heat.body import ThermalBody
 from fem.heat.conduction import Conduction
-from fem.heat.transient import march
 from fem.solver.mumps import solve_once
 
 # Of hats over the spacing of the finer surface's nodes; with a quarter the fluxes alternate.
@@ -31,7 +29,7 @@ LEAST_PITCH = 0.8
 
 @dataclass(frozen=True)
 class Partition:
-    """Heat and temperatures of both bodies at one time.
+    """Heat and temperatures of both bodies.
 
     x           (m,) [m] nodes of the hats in contact      flux   (2, m) [W/m^2] into each body
     temperature (n_1,), (n_2,) [K] rises at the nodes      share  of all heat that body 1 takes
@@ -83,40 +81,14 @@ class FrictionalHeat:
         self._matrix = bmat(rows, format="csr")
         self._held = np.concatenate([*(side.held for side in bodies), np.zeros(count, dtype=bool)])
 
-    def steady(self, heat: np.ndarray, bulk: tuple[float, float] = (0.0, 0.0)) -> Partition:
+    def steady(self, heat: np.ndarray) -> Partition:
         """Partition of `heat` (m,) [W/m^2] at x, linear between. FemError: nothing holds a body."""
-        free, whole = ~self._held, np.zeros(len(self._held))
-        inner = self._matrix[free][:, free]
-        whole[free] = solve_once(inner, self._load(heat, bulk)[free], symmetric=False)
-        return self._parted(whole, heat)
-
-    def transient(
-        self,
-        heat: Callable[[float], np.ndarray],
-        times: np.ndarray,
-        bulk: tuple[float, float] = (0.0, 0.0),
-    ) -> Iterator[Partition]:
-        """Partitions at `times` (k,) [s] of the heat (m,) [W/m^2] at each, with both bodies at
-        their bulk temperatures at the first, where the partition is not known (NaN)."""
-        count = self._sizes[2]
-        stored = [*(side.body.capacity for side in self.bodies), csr_matrix((count, count))]
-        capacity, start = block_diag(stored, format="csr"), np.zeros(len(self._held))
-        system = capacity, self._matrix, self._held, lambda t: self._load(heat(t), bulk)
-        states = march(*system, times, start)
-        for time, state in zip(times, states, strict=True):
-            if time == times[0]:
-                state[-count:] = np.nan
-            yield self._parted(state, heat(time))
-
-    def _load(self, heat: np.ndarray, bulk: tuple[float, float]) -> np.ndarray:
-        first, second = self._hats
-        apart = (bulk[1] - bulk[0]) * np.asarray(first.sum(axis=0)).ravel()
-        parts = [np.zeros(self._sizes[0]), second @ heat[self.nodes], apart]
-        return np.concatenate(parts)
-
-    def _parted(self, state: np.ndarray, heat: np.ndarray) -> Partition:
-        first, second, taken = np.split(state, np.cumsum(self._sizes)[:-1])
-        heat, width = heat[self.nodes], np.asarray(self._hats[0].sum(axis=0)).ravel()
+        free, heat, ends = ~self._held, heat[self.nodes], np.cumsum(self._sizes)[:-1]
+        whole, load = np.zeros((2, len(free)))
+        load[slice(*ends)] = self._hats[1] @ heat
+        whole[free] = solve_once(self._matrix[free][:, free], load[free], symmetric=False)
+        first, second, taken = np.split(whole, ends)
+        width = np.asarray(self._hats[0].sum(axis=0)).ravel()
         share = float(width @ taken / (width @ heat)) if np.any(heat) else np.nan
         return Partition(
             self.x[self.nodes], np.stack([taken, heat - taken]), (first, second), share

@@ -9,7 +9,6 @@ from scipy.interpolate import CubicSpline
 
 from analytic.stress_state import StressState
 from fem.body.elasticity import MeshedBody
-from fem.body.surface import Direction, straight_down
 from fem.body.triangle import shapes
 from fem.stress.kinks import Kinks
 from fem.stress.recovery import (
@@ -70,32 +69,16 @@ class NodalStress:
         return MaterialStress(*self.values.T, self.poissons_ratio)
 
 
-def nodal_stress(
-    body: MeshedBody,
-    displacement: np.ndarray,
-    hats: np.ndarray,
-    pressure: np.ndarray,
-    friction: float = 0.0,
-    direction: Direction = straight_down,
-    beside: Beside | None = None,
-) -> NodalStress:
-    """Stresses under the displacement (n, 2) [m] due to a pressure and its sliding traction.
-
-    `pressure` (count,) [Pa], `hats`, `friction` and `direction` as in `fem.compliance.operator`.
-    They give the stresses across the surface: on a flat one sz = -p and txz = -friction p exactly.
-    The stress along the surface and all stresses below it are recovered from the displacement
-    (`fem.stress.recovery`). `beside` gives what the hats leave out of the stresses [Pa] of the
-    pressure that they stand for, at x [m] and depths [m] below the surface.
-    """
-    load = SurfaceLoad(body, hats, pressure, np.array([friction]), direction)
-    return nodal_stresses(displacement[:, None], load, beside and (beside,))[0]
-
-
 def nodal_stresses(
     displacement: np.ndarray, load: SurfaceLoad, beside: Sequence[Beside] | None = None
 ) -> tuple[NodalStress, ...]:
-    """`nodal_stress` for each of c friction coefficients of a load, with displacements (n, c, 2)
-    [m]: together they cost little more than one."""
+    """Stresses under the displacements (n, c, 2) [m] due to a load's pressure and its sliding
+    traction, one for each of c friction coefficients: together they cost little more than one.
+
+    The load gives the stresses across the surface: on a flat one sz = -p and txz = -friction p
+    exactly. The stress along the surface and all stresses below it are recovered from the
+    displacement (`fem.stress.recovery`). `beside` (c) gives what the hats leave out of the stresses
+    [Pa] of the pressure that they stand for, at x [m] and depths [m] below the surface."""
     further = beside and FurtherStress(load.surface, tuple(beside))
     recovery = _LoadedRecovery(displacement, load, further)
     shape = recovery.nodes, recovery.nodes.of_triangles(load.body.poissons_ratio)

@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from blocks import hooke
+from nodal_stress import nodal_stress
 from scenes import hat_nodes
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
@@ -15,7 +16,7 @@ from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.exact_load import forces_of
 from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
-from fem.stress.stress import NodalStress, evaluate, nodal_stress
+from fem.stress.stress import NodalStress, evaluate
 from meshes.block import BlockMesh, BlockSpec, add_midpoints, structured
 from meshes.build import build_block
 

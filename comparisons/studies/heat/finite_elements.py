@@ -28,10 +28,10 @@ from comparisons.studies.heat.half_space import (
 )
 from fem.body.coating import Coating
 from fem.body.elasticity import elastic_body
+from fem.body.surface import values_at
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.partition import FrictionalHeat
-from fem.heat.surface_heat import values_at
 from fem.heat.thermal_stress import thermal_stress
 from fem.stress.maximum import maximum
 from fem.stress.stress import evaluate_all

@@ -4,18 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from exact_partial_slip import SlippingContact, pressed_stick_ratio
 
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.partial_slip import (
-    Loads,
-    half_planes,
-    history,
-    pressed_in,
-    stick_zones,
-)
+from analytic.contact.partial_slip import Loads, half_planes, pressed_in, stepped, stick_zones
 from analytic.contact.patches import contact_patches
 from analytic.exact.hertz import hertz_from_load
-from analytic.exact.partial_slip import SlippingContact, pressed_stick_ratio
 from analytic.grid import HatGrid, roller_gap
 
 MODULUS, RADIUS, LOAD, FRICTION, SHARE = 115e9, 8e-3, 4e5, 0.3, 0.6
@@ -39,6 +33,14 @@ def pair_of(elements: float, place: float = 0.0, beta: float = 0.0, wave: float 
     smooth = roller_gap(RADIUS)
     gap = grid.hat_integrals(lambda x: smooth(x - off) - height(x))
     return grid, off, half_planes(grid, gap, MODULUS, beta, FRICTION)
+
+
+def history(pair, steps):
+    """The states after each step, from bodies that do not touch."""
+    state = None
+    for loads in steps:
+        state = stepped(pair, state, loads)
+        yield state
 
 
 def swept(*shares: float, strain: float = 0.0) -> list[Loads]:

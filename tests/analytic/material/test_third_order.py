@@ -3,6 +3,7 @@ acoustic tensor of every direction."""
 
 import numpy as np
 import pytest
+from strain_limits import strain_limit
 
 from analytic.material import LAWS, Law, Material
 from analytic.material.third_order import (
@@ -10,7 +11,6 @@ from analytic.material.third_order import (
     murnaghan_constants,
     murnaghan_errors,
     peak_change,
-    strain_limit,
     third_order,
 )
 

@@ -4,15 +4,11 @@ import json
 
 import numpy as np
 import pytest
+from rough_planes import nominally_flat
 from scenes import DATA
 from scipy.integrate import quad
 
-from analytic.statistics.nominally_flat import (
-    Summits,
-    nominally_flat,
-    persson_fraction,
-    tail_integral,
-)
+from analytic.statistics.nominally_flat import Summits, persson_fraction, tail_integral
 
 REFERENCE = json.loads((DATA / "g_greenwood.json").read_text())
 SUMMITS = Summits(density=3e9, radius=20e-6, deviation=0.4e-6)

@@ -5,13 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rough_planes import nominally_flat
 from scenes import DATA
 from scipy.optimize import root
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.operators.half_plane import HalfPlane
 from analytic.statistics import rough_bodies
-from analytic.statistics.nominally_flat import Summits, nominally_flat, tail_integral
+from analytic.statistics.nominally_flat import Summits, tail_integral
 from analytic.statistics.rough_bodies import bearing_of, rough_contact, rough_cylinder
 
 SPHERES = json.loads((DATA / "g_greenwood.json").read_text())["GT"]

@@ -6,9 +6,10 @@ from math import inf
 from pathlib import Path
 
 import pytest
+from strain_limits import strain_limit
 
 import comparisons
-from analytic.material.third_order import peak_change, strain_limit
+from analytic.material.third_order import peak_change
 from comparisons.cli import main
 from comparisons.commands.materials import solids_table
 from comparisons.scenes.materials import bounding_solids, classes, solids

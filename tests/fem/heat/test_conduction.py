@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from heat_loads import flux_load
 from moving_band import band_maximum, band_surface
 from scenes import DATA
 
@@ -13,7 +14,6 @@ from fem.body.surface import boundary_points
 from fem.body.triangle import collapsed_gauss, jacobians, shapes
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
-from fem.heat.surface_heat import flux_load
 from meshes.block import BlockSpec, MeshError, real_points
 from meshes.build import build_block
 from meshes.real_shape import bent, rounded

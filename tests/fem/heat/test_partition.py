@@ -4,16 +4,16 @@ from functools import cache
 
 import numpy as np
 import pytest
-from doubling_times import doubling_times
+from heat_loads import flux_load
 from moving_band import band_surface
 
 from analytic.heat.moving_source import HeatedSurface
 from analytic.heat.partition import divided
 from analytic.material import ThermalMaterial
+from fem.body.surface import values_at
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.partition import FrictionalHeat
-from fem.heat.surface_heat import flux_load, values_at
 from meshes.build import build_block
 from meshes.thermal_layer import thermal_spec
 
@@ -137,30 +137,14 @@ def test_temperatures_are_equal_in_contact_and_not_beside_it():
     pair = half_plane(1.0, size=0.05), half_plane(-20.0, 2.0)
     system = FrictionalHeat(pair, X, contact)
     heat = np.where(np.isin(X, system.x), 1.0, 0.0)
-    heated = system.steady(heat, bulk=(10.0, 30.0))
+    heated = system.steady(heat)
     places = np.column_stack([0.5 * (X[1:] + X[:-1]), np.zeros(40)])
-    first, second = (
-        bulk + side.body.at(places, rise)
-        for side, rise, bulk in zip(pair, heated.temperature, (10.0, 30.0), strict=True)
-    )
+    sides = zip(pair, heated.temperature, strict=True)
+    first, second = (side.body.at(places, rise) for side, rise in sides)
     apart = np.abs(first - second)
     inner = np.all([np.roll(contact, k) for k in range(-3, 4)], axis=0)
     assert apart[inner].max() < 0.005 * np.ptp(first)
     assert apart[~contact].max() > 0.2 * np.ptp(first)
-
-
-def test_bodies_heated_in_time_share_by_effusivity(structured_block):
-    """One-dimensional: the surfaces touch all along, nothing has come to the base yet."""
-    z, x = np.concatenate([[0.0], np.geomspace(1e-3, 10.0, 50)]), np.linspace(-1.0, 1.0, 3)
-    materials = ThermalMaterial(1.0, 1.0, 1.0), ThermalMaterial(4.0, 9.0, 1.0)
-    bodies = [thermal_body(structured_block(x, z), material) for material in materials]
-    pair = tuple(Conduction(body, 0.0, Surroundings("held", "insulated")) for body in bodies)
-    times = doubling_times(1e-5, 0.1, 16)
-    *_, last = FrictionalHeat(pair, x).transient(lambda t: np.full(3, 7.0), times)
-    assert last.share == pytest.approx(1.0 / 7.0, rel=1e-4)
-    exact = 2.0 * np.sqrt(times[-1] / np.pi) * 1.0  # 1/7 of 7 into effusivity 1
-    for body, rise in zip(bodies, last.temperature, strict=True):
-        assert rise[body.surface.point] == pytest.approx(exact, rel=1e-4)
 
 
 def test_what_is_refused():

@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from nodal_stress import nodal_stress
 from pressed_bodies import press, press_finitely
 from scenes import hat_nodes
 
@@ -17,7 +18,6 @@ from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.rigid_roller import circle
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.stress.recovery import stress_nodes
-from fem.stress.stress import nodal_stress
 from meshes.block import BlockSpec
 from meshes.build import build_block
 

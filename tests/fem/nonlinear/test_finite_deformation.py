@@ -5,6 +5,7 @@ Lengths in half-widths of the contact that Hertz expects, stresses in Young's mo
 
 import numpy as np
 import pytest
+from nodal_stress import nodal_stress
 from pressed_bodies import press, press_finitely
 from scenes import hat_nodes
 
@@ -19,7 +20,6 @@ from fem.contact.rigid_roller import CurrentContact, circle, parabola
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.solver.mumps import FemError
 from fem.stress.maximum import highest_node
-from fem.stress.stress import nodal_stress
 from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.real_shape import roughen

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from nodal_stress import nodal_stress
 
 from analytic.exact.hertz import hertz_extremes
 from analytic.material import Material
@@ -11,7 +12,7 @@ from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import straight_down
 from fem.stress.maximum import NEAR, Samples, maxima, maximum
-from fem.stress.stress import at_nodes, nodal_stress, nodal_stresses
+from fem.stress.stress import at_nodes, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
 

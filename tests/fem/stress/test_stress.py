@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from layer_stresses import layer_field
+from nodal_stress import nodal_stress
 from scenes import hat_nodes
 from scipy.integrate import trapezoid
 from scipy.interpolate import CubicSpline
@@ -14,7 +15,7 @@ from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.triangle import shapes
 from fem.compliance.operator import FiniteElementCompliance
-from fem.stress.stress import at_nodes, evaluate, nodal_stress, nodal_stresses, within
+from fem.stress.stress import at_nodes, evaluate, nodal_stresses, within
 from fem.stress.surface_load import SurfaceLoad
 from meshes.block import BlockSpec
 from meshes.build import build_block

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scenes
+from exact_partial_slip import SlippingContact
 
 import comparisons as crosscheck
-from analytic.exact.partial_slip import SlippingContact
 from comparisons.campaigns.decks.write import write_deck
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure, Figures

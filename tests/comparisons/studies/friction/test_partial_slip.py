@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from exact_partial_slip import SlippingContact
 from scenes import STEEL, changed, problem, resolved
 
-from analytic.exact.partial_slip import SlippingContact
 from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages

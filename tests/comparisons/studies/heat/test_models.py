@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from heat_loads import flux_load
 from moving_band import band_maximum, band_mean
 from scenes import BOTH_CONDUCT, STEEL, problem
 
@@ -17,7 +18,6 @@ from comparisons.studies.heat.finite_elements import finite_element_heat
 from comparisons.studies.heat.half_space import half_space_heat, peclet_numbers, what_it_contains
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
-from fem.heat.surface_heat import flux_load
 from meshes.build import build_block
 from meshes.thermal_layer import thermal_spec
 
