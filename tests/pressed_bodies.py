@@ -3,7 +3,6 @@
 import numpy as np
 
 from fem.body.elasticity import ElasticBody
-from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState, NonlinearSolution, solve_nonlinear_contact
 from fem.contact.rigid_roller import Roller
@@ -20,7 +19,6 @@ def press_finitely(
     approach: float | None = None,
     friction: float = 0.0,
     hardness: float = np.inf,
-    far: FarField | None = None,
 ) -> FiniteDeformation:
     """Press a body by a roller whose lowest point is at x = 0, by Newton's method.
 
@@ -31,7 +29,7 @@ def press_finitely(
     Others as of `FiniteContact`; Newton's method starts from the linear solution under `start`.
     Raises FemError if it does not converge, ValueError for a load that the hats cannot bear.
     """
-    contact = FiniteContact(body, hats, roller, start, friction, far)
+    contact = FiniteContact(body, hats, roller, start, friction)
     return contact.by_newton(load, approach, hardness)
 
 

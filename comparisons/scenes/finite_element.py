@@ -7,11 +7,10 @@ from typing import Annotated, Self
 from comparisons.common.units import DIMENSIONLESS
 from comparisons.scenes.fields import Number, OneOf, SceneSection, Truth
 
-HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
+BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
 # Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
 # stresses at the edge of a contact half as large again as the largest below it.
 QUADRATIC_UP_TO = 0.49
-HALF_PLANE_BLOCK = 20.0  # half-widths: the series of the far field is exact to round-off there
 
 
 class FiniteElementSection(SceneSection):
@@ -30,12 +29,9 @@ class FiniteElementSection(SceneSection):
     deformation: Annotated[str, OneOf(("linear", "finite"))] = "linear"
     plastic: Annotated[bool, Truth()] = False  # the body yields where its yield stress is reached
     element: Annotated[str, OneOf(("P1", "P2", "P3"))] | None = None  # degree of displacements
-    # held: an unbounded body ends at a fixed boundary | half-plane: at one that moves as a
-    # half-plane does there
-    far_field: Annotated[str, OneOf(("held", "half-plane"))] = "held"
-    # width and depth, in Hertz half-widths, of the stand-in for an unbounded body; element size
-    # gained per distance from the contact
-    block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] | None = None
+    # width and depth, in Hertz half-widths, of the stand-in for an unbounded body, which ends at a
+    # fixed boundary; element size gained per distance from the contact
+    block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] = BLOCK
     growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
@@ -70,8 +66,6 @@ class FiniteElementSection(SceneSection):
             update["geometry"] = geometry = "rough" if strained else "flat"
         if self.gap is None:
             update["gap"] = "displaced" if geometry == "rough" else "reference"
-        if self.block is None:
-            update["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
         if self.coupled is None:
             # where [load] says so of both models, at finite deformation, and where a body flows
             slides = max(scene.load.friction) > 0.0
@@ -84,21 +78,13 @@ class FiniteElementSection(SceneSection):
 
     def _conflicts(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         """Fields of this section that do not fit the rest of the scene, and what is wrong."""
-        roller, body, load, profile = scene.roller, scene.body, scene.load, scene.profile
-        coated, finite = scene.coating is not None, self.deformation == "finite"
-        far = self.far_field == "half-plane"
+        body, load, profile = scene.body, scene.load, scene.profile
+        finite = self.deformation == "finite"
         apart = max(load.friction) > 0.0 and self.coupled is False
         if self.geometry == "rough" and profile is None:
             yield "geometry", 'is "rough" for a smooth body; allowed with [profile]'
-        if self.plastic and far:
-            yield "far_field", 'is "half-plane" for a body that yields; allowed is "held"'
-        if self.roller_body == "disc" and roller.rigid:
+        if self.roller_body == "disc" and scene.roller.rigid:
             yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
-        for bound in ("thickness", "width"):
-            if far and getattr(body, bound) is not None:
-                yield "far_field", f'is "half-plane", but the body has a {bound}; allowed is "held"'
-        if far and coated:
-            yield "far_field", 'is "half-plane", but the body has a coating; allowed is "held"'
         if self.plastic and body.yield_stress is None:
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
         if finite and profile is not None and self.geometry == "flat":

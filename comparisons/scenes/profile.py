@@ -38,7 +38,6 @@ ON_ONE_PERIOD = {
     "finite_element.gap": "reference",
     "finite_element.roller_shape": "parabola",
     "finite_element.roller_body": "half-plane",
-    "finite_element.far_field": "held",
     "finite_element.coupled": False,
     "load.coupled": False,
     "body.width": None,

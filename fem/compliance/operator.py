@@ -1,7 +1,6 @@
 """Surface compliance of a finite-element body as an operator on hat pressures.
 
-C = B^T K^-1 B is symmetric and positive definite; each application takes one back-substitution. A
-far field (`fem.compliance.far_field`) adds the symmetric part of the boundary's displacement.
+C = B^T K^-1 B is symmetric and positive definite; each application takes one back-substitution.
 Nomenclature: p hat pressures [Pa], K stiffness [Pa], B nodal forces of unit hats [m]
 (`fem.body.surface`)."""
 
@@ -12,7 +11,6 @@ from scipy.sparse import csr_matrix
 
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import Direction, hat_forces, straight_down, tangent_of
-from fem.compliance.far_field import FarField
 
 # Right-hand sides that are solved at once for the dense matrix; more only cost memory.
 BATCH = 32
@@ -25,22 +23,17 @@ class FiniteElementCompliance:
                 tied sides (count + 1,) from one side to the other, the last the first
     direction   function of x [m] that gives the force (d_x, d_z) per length of x of a unit
                 pressure; None: (0, 1). On a rough boundary (slope, 1) of the smooth roller
-    far         gives the body's boundary the half-plane's displacement; None: the support holds it
     normal      B of the pressure, (2k, count)
     tangential  B of a sliding traction towards +x, (2k, count)
 
     Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface."""
 
     def __init__(
-        self,
-        body: ElasticBody,
-        hats: np.ndarray,
-        direction: Direction | None = None,
-        far: FarField | None = None,
+        self, body: ElasticBody, hats: np.ndarray, direction: Direction | None = None
     ) -> None:
         direction = straight_down if direction is None else direction
         self._periodic = body.ties is not None
-        self.body, self.hats, self.far = body, hats, far
+        self.body, self.hats = body, hats
         self.count = len(hats) - (1 if self._periodic else 2)
         self.normal = hat_forces(body.surface, hats, direction, self._periodic)
         self._means = self.normal.T.tocsr()  # faster than a transposed view at each product
@@ -54,28 +47,21 @@ class FiniteElementCompliance:
     def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """integral(phi_i u dx) (count,) [m^2], u along the direction of pressure, into the body.
         With `friction` the traction friction * pressure acts too, and C is not symmetric."""
-        force = self._force(pressure, friction)
-        moved = self.weighted(self.body.solve(self._load(force)))
-        return moved if self.far is None else moved + self._means @ self.far.symmetric(force)
+        return self.weighted(self.displacement(pressure, friction))
 
     def moved(self, pressure: np.ndarray, traction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Weighted displacements (count,) [m^2] along the pressure, into the body, and along the
         traction, under a pressure and any traction (count,) [Pa] towards +x."""
-        force = self.normal @ pressure + self.tangential @ traction
-        moved = self.body.solve(self._load(force))[self.body.surface.point].ravel()
-        if self.far is not None:
-            moved = moved + self.far.symmetric(force)
+        moved = self.displacement_of(pressure, traction)[self.body.surface.point].ravel()
         return self._means @ moved, self.tangential.T @ moved
 
     def displacement_of(self, pressure: np.ndarray, traction: np.ndarray) -> np.ndarray:
         """`displacement` under a pressure and any traction (count,) [Pa] towards +x."""
-        load = self._load(self.normal @ pressure + self.tangential @ traction)
-        return self.body.solve(load) if self.far is None else self.far.displacement(load)
+        return self.body.solve(self._load(self.normal @ pressure + self.tangential @ traction))
 
     def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
-        load = self.load(pressure, friction)
-        return self.body.solve(load) if self.far is None else self.far.displacement(load)
+        return self.body.solve(self.load(pressure, friction))
 
     def load(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] of a pressure (count,) [Pa] and its sliding traction."""
@@ -99,8 +85,6 @@ class FiniteElementCompliance:
             load = np.zeros((count, *self.body.nodes.shape))
             load[:, self.body.surface.point] = force.T.reshape(count, -1, 2)
             moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
-            if self.far is not None:
-                moved = moved + self.far.symmetric(force)
             rows.append((self._means @ moved).T)
         return np.vstack(rows).T
 

@@ -23,7 +23,6 @@ from functools import cached_property
 import numpy as np
 
 from fem.body.elasticity import ElasticBody
-from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.deformed_roller import DeformedSurface, PairContact, TwoBodies
 from fem.contact.nonlinear import (
@@ -126,8 +125,6 @@ class FiniteContact:
     start      (count,) [Pa] linear pressure under the same load
     friction   q = friction p along the common tangent, towards +x on the body
     disc       whether an elastic roller is one, its rim the boundary with the contact
-    far        gives the body's outer boundary the half-plane's displacement under `start`; None:
-               the support holds it. An elastic roller has its own
     gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
     compliance of the body on the hats, without flow"""
 
@@ -138,10 +135,9 @@ class FiniteContact:
         roller: Roller | FiniteElementCompliance,
         start: np.ndarray,
         friction: float = 0.0,
-        far: FarField | None = None,
         disc: bool = False,
     ) -> None:
-        compliance = FiniteElementCompliance(body, hats, far=far)
+        compliance = FiniteElementCompliance(body, hats)
         self.body, self.hats, self.friction, self.start = body, hats, friction, start
         self.roller, self.elastic, self.compliance = roller, (body,), compliance
         self._disc = disc
@@ -389,6 +385,5 @@ def _turned(
 def _started(
     compliance: FiniteElementCompliance, pressure: np.ndarray, friction: float
 ) -> np.ndarray:
-    """The linear displacement (n, 2) [m], at held nodes that of a far field or none."""
-    moved = compliance.displacement(pressure, friction)
-    return moved if compliance.far else np.where(compliance.body.held, 0.0, moved)
+    """The linear displacement (n, 2) [m], none at held nodes."""
+    return np.where(compliance.body.held, 0.0, compliance.displacement(pressure, friction))

@@ -241,14 +241,11 @@ class _FiniteHistory(LoadHistory):
         self, pressure: np.ndarray, plastic: PlasticState, near: np.ndarray | None = None
     ) -> tuple[np.ndarray, np.ndarray]:
         """Displacements (n, 2), (m, 2) [m] of both bodies at small strains, held nodes included;
-        `near` is that of the body where no far field moves these."""
-        compliance, displacement = self._contact.compliance, near
-        if compliance.far is not None:
-            displacement = compliance.displacement(pressure, self._friction)
-            displacement = displacement + self.body.body.solve(self.body.plastic_force(plastic))
-        elif near is None:
-            force = compliance.load(pressure, self._friction) + self.body.plastic_force(plastic)
-            displacement = self.body.body.solve(force)
+        `near` is that of the body where it is known."""
+        displacement = near
+        if near is None:
+            force = self._contact.compliance.load(pressure, self._friction)
+            displacement = self.body.body.solve(force + self.body.plastic_force(plastic))
         if self._opposite is None:
             return displacement, self._still[1]
         return displacement, self._opposite.displacement(pressure, -self._friction)

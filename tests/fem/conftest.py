@@ -14,7 +14,6 @@ from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Material
 from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.exact_load import forces_of
-from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import NodalStress, evaluate
 from meshes.block import BlockMesh, BlockSpec, add_midpoints, structured
@@ -124,7 +123,6 @@ class Pressed:
         half_width: float = 4000.0,
         depth: float = 4000.0,
         poisson: float = 0.3,
-        far: bool = False,
         **held,
     ) -> None:
         self.hertz = hertz_from_peak_pressure(1.0, 0.5, 1.0)
@@ -136,8 +134,7 @@ class Pressed:
         reach = edges + 8
         self.x = pitch * np.arange(-reach, reach + 1)
         hats = hat_nodes(self.x[0], pitch, len(self.x))
-        field = FarField(self.body, hats[0], hats[-1]) if far else None
-        self.compliance = FiniteElementCompliance(self.body, hats, far=field)
+        self.compliance = FiniteElementCompliance(self.body, hats)
         self.gap = pitch * (self.x**2 + pitch**2 / 6.0)
         self.weights = np.full(len(self.x), pitch)
         self.pressure, self.approach = dense_contact(

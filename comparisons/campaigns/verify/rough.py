@@ -79,19 +79,15 @@ def rough_scenes(
     resolutions = spread(half_planes, ELEMENTS) + spread(len(bodies) - half_planes, MESHED)
     scenes = []
     for seed, (body, elements) in enumerate(zip(bodies, resolutions, strict=True)):
-        held = seed % 2 or body != HALF_PLANE
-        settings = {} if held else {"far_field": "half-plane"}
         contact = rough_contact(seed, body, MANY if seed < half_planes else FEW)
-        scene = rough_scene(_name(seed, body, contact), contact, elements, settings)
+        scene = rough_scene(_name(seed, body, contact), contact, elements)
         reference = partial(_no_error, scene) if body == HALF_PLANE else fine_half_plane
         asked = {"models": ("half_plane",)} if seed < half_planes else {"half_plane": reference}
         scenes.append(replace(scene, **asked))
     return tuple(scenes)
 
 
-def rough_scene(
-    name: str, contact: ManufacturedContact, elements: float, finite_element: Mapping[str, object]
-) -> ExactScene:
+def rough_scene(name: str, contact: ManufacturedContact, elements: float) -> ExactScene:
     """The scene of a contact, with so many elements on half a mean patch on the third level."""
     tables = {
         "roller": {"radius": roller_radius(contact), **elastic_table(contact.roller)},
@@ -104,7 +100,6 @@ def rough_scene(
             "points": [60, 20],
         },
         "resolution": {"pitch": 4.0 * _half_patch(contact) / elements},
-        "finite_element": dict(finite_element),
         "tolerance": LOOSE | LOOSE_STRESS,
         "budget": {"effects": False},
     }

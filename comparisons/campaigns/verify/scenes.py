@@ -105,13 +105,9 @@ def half_plane_scenes(rounds: int = HALF_PLANE_ROUNDS) -> tuple[ExactScene, ...]
 
 
 def finite_element_scenes() -> tuple[ExactScene, ...]:
-    """Fewer, with other far boundaries, sizes, growths and degrees of the finite elements."""
-    near, *others = (
-        {"far_field": "half-plane"},
-        {"far_field": "half-plane", "element": "P3"},
-        {"block": 200.0, "growth": 0.1},
-    )
-    asked = product([near], rollers(FRICTIONS, (0.5,), (0.8,)))
+    """Fewer, with other sizes, growths and degrees of the finite elements."""
+    others = {"element": "P3"}, {"block": 200.0, "growth": 0.1}
+    asked = product([{}], rollers(FRICTIONS, (0.5,), (0.8,)))
     fewer = product(others, rollers(FRICTIONS[::2], (0.5,), (0.8,)))
     return _resolved("finite_element", [*asked, *fewer])
 

@@ -13,11 +13,8 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
 from comparisons.models.finite_element.bodies import BodyPair
-from comparisons.models.finite_element.roller import is_disc
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
-from fem.body.elasticity import ElasticBody
-from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.rigid_roller import Roller, circle, parabola
 
@@ -94,20 +91,14 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
     if settings.gap == "displaced":
         down, up = roller_normal(problem), roller_normal(problem, mirrored=True)
 
-    def compliance(body: ElasticBody, direction: Direction | None) -> FiniteElementCompliance:
-        far, unbounded = None, body is bodies.rough or not is_disc(problem)
-        if settings.far_field == "half-plane" and unbounded and body.support.sides == "fixed":
-            far = FarField(body, hats[0], hats[-1])
-        return FiniteElementCompliance(body, hats, direction, far)
-
-    rough, share = compliance(bodies.rough, down), bodies.roller_share
+    rough, share = FiniteElementCompliance(bodies.rough, hats, down), bodies.roller_share
     if bodies.roller is not None:
-        roller = compliance(bodies.roller, up)
+        roller = FiniteElementCompliance(bodies.roller, hats, up)
         return MutualCompliance(
             (BodyShare(rough, 1.0, friction), BodyShare(roller, 1.0, -friction, -1.0))
         )
     if share and settings.gap == "displaced":
-        roller = compliance(bodies.rough, up)
+        roller = FiniteElementCompliance(bodies.rough, hats, up)
         return MutualCompliance(
             (BodyShare(rough, 1.0, friction), BodyShare(roller, share, -friction, -1.0))
         )

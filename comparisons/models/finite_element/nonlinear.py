@@ -130,8 +130,8 @@ def _unpressed_contact(
     """Both bodies at finite strains; `start` (count,) [Pa] is the linear pressure of the load."""
     rough, is_rigid = operator.rough, problem.scene.roller.rigid
     roller = roller_of(problem) if is_rigid else operator.parts[1].compliance
-    bodies, friction = (rough.body, rough.hats, roller), problem.scene.load.friction[0]
-    return FiniteContact(*bodies, start, friction, rough.far, is_disc(problem))
+    friction = problem.scene.load.friction[0]
+    return FiniteContact(rough.body, rough.hats, roller, start, friction, is_disc(problem))
 
 
 def finite_contact(

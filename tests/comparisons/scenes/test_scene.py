@@ -106,7 +106,6 @@ def test_a_bare_scene_has_the_defaults():
         deformation="linear",
         plastic=False,
         element="P2",
-        far_field="held",
         block=400.0,
         growth=0.2,
     )
@@ -144,7 +143,6 @@ def test_everything_that_can_be_said():
         deformation="linear",
         plastic=False,
         element="P3",
-        far_field="held",
         block=200.0,
         growth=0.1,
     )

@@ -89,10 +89,6 @@ class TestGroups:
         assert coating.thickness == pytest.approx(0.2 * half_width)
         assert coating.youngs_modulus == pytest.approx(0.5 * RIGID["body"]["youngs_modulus"])
 
-    def test_a_body_of_its_own_size_has_a_held_far_boundary(self):
-        tables = RIGID | {"finite_element": {"far_field": "half-plane"}}
-        assert set_to(tables, a_over_thickness=1.0).scene.finite_element.far_field == "held"
-
     @pytest.mark.parametrize(
         ("tables", "group", "what"),
         [

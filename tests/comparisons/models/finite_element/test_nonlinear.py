@@ -76,7 +76,7 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
             "geometry": "rough",
             "deformation": "finite",
             "coupled": True,
-            "far_field": "half-plane",
+            "block": 20.0,
             **shape,
         },
     }

@@ -10,7 +10,6 @@ from scenes import changed, problem
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
@@ -101,16 +100,6 @@ def test_the_check_of_the_far_boundary_leaves_a_disc_as_it_is_held(support):
     assert plan.domain_check and pairs[0].rough.support != pairs[1].rough.support
     assert pairs[0].roller.support == pairs[1].roller.support
     assert np.array_equal(pairs[0].roller.held, pairs[1].roller.held)
-
-
-def test_the_far_field_of_a_half_plane_is_given_to_the_body_alone():
-    scene = posed("polymer", 0.15, "opposite", far_field="half-plane", deformation="linear")
-    plan, grid = make_plan(scene, ("finite_element",)), scene.grid(scene.pitches[0])
-    refinement = Refinement(scene.pitches[0])
-    near = np.array([[-1.0, 1.0]]) * scene.hertz.half_width
-    pair = bodies_of(scene, plan, refinement, near, Stages(), BodyCache())
-    rough, roller = mutual_compliance(scene, pair, grid).parts
-    assert rough.compliance.far is not None and roller.compliance.far is None
 
 
 def test_there_is_no_far_boundary_where_every_body_has_its_own():

@@ -25,7 +25,6 @@ TABLES = {
     "load": {"hertz_peak_pressure": 1e9, "friction": FRICTION},
     "stress": {"points": [41, 11]},
     "resolution": {"levels": 2},
-    "finite_element": {"far_field": "half-plane"},
     "budget": {"effects": False, "time": 1e-6},
 }
 

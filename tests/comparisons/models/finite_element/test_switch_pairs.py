@@ -41,7 +41,6 @@ SWITCHES = {
     },
     "P1": {"finite_element": {"element": "P1"}},
     "P3": {"finite_element": {"element": "P3"}},
-    "far": {"finite_element": {"far_field": "half-plane"}},
     "coated": {"coating": {"thickness": 3e-5, "youngs_modulus": 400e9, "poissons_ratio": 0.2}},
     "layer": {"body": {"thickness": 3e-4}},
     "width": {"body": {"width": 4e-3}},
@@ -56,10 +55,6 @@ REFUSED = {
         ("finite", "P3"),
         ("plastic", "P1"),
         ("plastic", "P3"),
-        ("plastic", "far"),
-        ("far", "coated"),
-        ("far", "layer"),
-        ("far", "width"),
     ]
 }
 

@@ -84,13 +84,6 @@ def test_an_elastic_disc_is_a_little_stiffer_than_the_half_plane_that_stands_for
     assert -7e-4 < change[1] < -2e-4
 
 
-@pytest.mark.parametrize("roller", ["rigid", "elastic"])
-def test_a_small_block_with_the_far_field_is_the_large_one(roller):
-    tables = {"rigid": RIGID, "elastic": ELASTIC}[roller]
-    small = figures(tables, {"far_field": "half-plane"})
-    assert small == pytest.approx(plain(roller), abs=2e-4)
-
-
 def test_cubic_elements_err_less_and_linear_ones_more():
     errors = {
         element: abs(figures(RIGID, {"element": element})[0] - 1.0)

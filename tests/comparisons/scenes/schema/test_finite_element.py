@@ -33,8 +33,7 @@ def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict)
     ("as_written", "follows"),
     [
         ({}, {"gap": "reference", "block": 400.0}),
-        ({"far_field": "half-plane"}, {"block": 20.0}),
-        ({"far_field": "half-plane", "block": 40}, {"block": 40.0}),
+        ({"block": 40}, {"block": 40.0}),
     ],
 )
 def test_what_follows_from_other_fields(as_written, follows):
@@ -99,18 +98,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
     ("tables", "as_written", "sections", "complaint"),
     [
         (RIGID, {"roller_body": "disc"}, {}, 'roller_body: is "disc", but the roller is rigid'),
-        (
-            ELASTIC,
-            {"far_field": "half-plane"},
-            {"body": {"thickness": 1e-3}},
-            'far_field: is "half-plane", but the body has a thickness',
-        ),
-        (
-            ELASTIC,
-            {"far_field": "half-plane"},
-            {"coating": {"thickness": 1e-5, **STEEL}},
-            'far_field: is "half-plane", but the body has a coating',
-        ),
         (ELASTIC, {"plastic": True}, {}, "plastic: is true, but the body has no yield stress"),
         (
             ELASTIC,
@@ -132,12 +119,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, coupled_there):
             "coupled: is false at finite deformation",
         ),
         (ELASTIC, {"geometry": "rough"}, {}, 'geometry: is "rough" for a smooth body'),
-        (
-            ELASTIC,
-            {"plastic": True, "far_field": "half-plane"},
-            {"body": {"yield_stress": 1e9}},
-            'far_field: is "half-plane" for a body that yields',
-        ),
         (
             ELASTIC,
             {"plastic": True, "coupled": False},
