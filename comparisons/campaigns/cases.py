@@ -186,10 +186,6 @@ def summary_row(group: str, name: str, model: str, *figures: Figure) -> Row:
     return Row(Case(group, name, model, tuple), figures, None, 0.0)
 
 
-def carried_out(case: Case) -> Row:
-    return Row(case, *_solved(case.solve))
-
-
 def _solved(solve: Callable[[], Iterable[Figure]]) -> tuple[CaseFigures, str | None, float]:
     """Figures, the message of what was raised, and seconds of the processor."""
     start, figures, error = process_time(), (), None

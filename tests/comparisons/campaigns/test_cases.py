@@ -17,7 +17,6 @@ from comparisons.campaigns.cases import (
     Row,
     answers_of,
     bounded,
-    carried_out,
     carry_out,
     junit_of,
     order_figure,
@@ -47,7 +46,8 @@ RAISES = Case("tests", "raises", "finite_element", failing)
 
 
 def row(*figures: Figure) -> Row:
-    return carried_out(case(*figures))
+    [row] = rows_of([case(*figures)])
+    return row
 
 
 @pytest.mark.parametrize(
@@ -75,14 +75,6 @@ def test_a_row_without_a_figure_fails_and_says_why():
     assert not row().holds and row().faults == ["half_plane, tests, made: no figures"]
 
 
-def test_an_interrupt_is_no_row():
-    def stop() -> None:
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        carried_out(Case("tests", "stops", "half_plane", stop))
-
-
 def test_a_case_that_ends_its_process_is_a_row(monkeypatch):
     monkeypatch.setattr(tasks, "cores", lambda: 2)
     for worth in ("WORTH_A_FORK", "WORTH_A_START"):
@@ -98,13 +90,6 @@ def test_what_is_kept_of_a_stopped_command_is_not_computed_again(tmp_path):
     (row,) = rows_of([again], kept=answers_of(tmp_path, "verify", [again]))
     assert row.figures == first.figures and row.holds
     assert answers_of(tmp_path, "verify", [good, RAISES]).load("1") is None  # of other cases
-
-
-def test_the_decisive_figure_is_the_first_or_the_one_that_fails_by_most():
-    right, wrong, worse = figure(0.5), figure(3.0), figure(np.nan)
-    assert row(right, figure(0.6)).decisive is right
-    assert row(right, wrong).decisive is wrong
-    assert row(wrong, worse).decisive is worse
 
 
 @pytest.fixture

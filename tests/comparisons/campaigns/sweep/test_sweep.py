@@ -15,7 +15,6 @@ from comparisons.common.errors import InputError
 from comparisons.drawing import style
 from comparisons.models.posing import problem_of
 from comparisons.notebook import scene_of
-from comparisons.scenes.surface import surface_of
 
 WAVES = {
     "roller": {"radius": 8e-3, "rigid": True},
@@ -204,29 +203,20 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
         ("load=1 m,2 m", "a pressure"),
         ("load.position=0:1:100000", "from 2 to 10000"),
         ("title.x=1", "title is no table"),
+        (["friction=0,1", "load.friction=0.2,0.3"], "given twice"),
+        ([], "is missing"),
     ],
 )
 def test_wrong_sweeps_are_one_line(over, said):
+    asked = [over] if isinstance(over, str) else over
     with pytest.raises(InputError) as refused:
-        request([over], WAVES | {"title": "Waves"})
+        request(asked, WAVES | {"title": "Waves"})
     assert said in str(refused.value) and "\n" not in str(refused.value)
 
 
-def test_a_smooth_scene_has_no_placements_and_a_field_is_swept_once(capsys, tmp_path):
-    assert main(["sweep", "smooth", "--over", "position=4", "--out", str(tmp_path / "a")]) == 2
-    assert "a smooth scene is the same everywhere" in capsys.readouterr().err
-    with pytest.raises(InputError, match="given twice"):
-        request(["friction=0,1", "load.friction=0.2,0.3"])
-    with pytest.raises(InputError, match="is missing"):
-        request([])
-    assert not (tmp_path / "a").exists()
-
-
-def test_a_named_scene_is_changed_anywhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    scene = crosscheck.Scene.read("ground-polished")
-    elsewhere = scene.changed("load.friction", 0.2)
-    assert surface_of(elsewhere).info.samples == surface_of(scene).info.samples
+def test_a_smooth_scene_has_no_placements():
+    with pytest.raises(InputError, match="a smooth scene is the same everywhere"):
+        sweep_request(scene_of("smooth"), ["position=4"], ("half_plane",))
 
 
 def test_stresses_as_arrays():

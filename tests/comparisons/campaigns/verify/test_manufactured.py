@@ -29,14 +29,6 @@ def test_orders(kind, degree):
     assert [figure for figure in figures if not holds(figure)] == []
 
 
-@pytest.mark.parametrize("kind", BODIES)
-def test_bodies_are_what_their_names_say(kind):
-    mesh, coating = BODIES[kind]
-    body = elastic_body(mesh(8), BODY, Support(), coating=coating)
-    assert body.curved == ("rough" in kind)
-    assert (body.coating is not None) == ("coated" in kind)
-
-
 @pytest.mark.parametrize("degree", [1, 2, 3])
 def test_the_stiffness_quadrature_adds_little_even_on_steep_boundaries(monkeypatch, degree):
     """Slope 0.8, six edges to a wave. In the energy norm, against the error of the elements; a
