@@ -58,7 +58,7 @@ def pressed_finitely(
     no solution, and where contact reaches the grid's ends only at finite deformation."""
     rough = operator.rough
     finite = finite_contact(problem, operator, linear, constraints, model)
-    _refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "at finite deformation")
+    refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "at finite deformation")
     counts = {
         "increments": len(finite.solution.residuals),
         "newton_steps": finite.solution.iterations,
@@ -110,7 +110,7 @@ def _deformed(
     )
 
 
-def _refuse_cut_off(
+def refuse_cut_off(
     problem: Problem, grid: HatGrid, pressure: np.ndarray, linear: np.ndarray, how: str
 ) -> None:
     """Raise FemError where pressures (count,) [Pa] reach the grid's ends, and the linear ones do
@@ -187,7 +187,7 @@ def pressed_plastically(
     body, (loaded, released) = press_plastically(
         rough, metal, gap, weights, loads, linear.pressure, friction, roller, travel
     )
-    _refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
+    refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
     moved = rough.weighted(loaded.displacement)
     both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
     counts = {
@@ -231,7 +231,7 @@ def pressed_plastically_finitely(
     loads = constraints.load, 0.0
     body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel)
     finite = pressed.deformed
-    _refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
+    refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
     counts = {
         "linear_contacts": pressed.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
