@@ -13,7 +13,7 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.notebook import run
 from comparisons.scenes.fields import SceneSection, allowed, file_fields
-from comparisons.scenes.finite_element import HELD_BLOCK
+from comparisons.scenes.finite_element import BLOCK
 from comparisons.scenes.profile import COMMON, VARIETIES
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies import STUDIES
@@ -186,7 +186,7 @@ class TestReference:
 
 class TestMethod:
     def test_the_block_is_as_wide_as_it_says(self):
-        assert "400 a wide and deep" in TEXT["method"] and HELD_BLOCK == 400
+        assert "400 a wide and deep" in TEXT["method"] and BLOCK == 400
 
     def test_fields_that_drop_an_assumption_are_a_scenes(self):
         """Each is known: a value that it cannot have is refused with what is allowed."""
