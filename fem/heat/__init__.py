@@ -1,1 +1,1 @@
-"""Heat conduction on a mesh: moving and transient sources, partition between two bodies."""
+"""Heat conduction on a mesh: moving sources, partition between two bodies."""
