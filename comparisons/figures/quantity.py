@@ -1,7 +1,7 @@
 """The models and the figures that are compared: their names in result.json, and in words.
 
-Figures of one model are numbers per level; figures of a pair are relative L2 norms of the
-difference of two fields on the same points, with the finite elements as the reference."""
+Figures of one model are numbers per level; norms are relative L2 norms of the difference of two
+models' fields on the same points, with the finite elements as the reference."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -39,7 +39,6 @@ class Quantity:
     # square-root edge of a contact governs, or how well it is found, and of the place of a maximum:
     # there the slope of the stress, of order 1, is zero
     formal_order: float = 1.0
-    of_pair: bool = False  # a norm of a difference, no figure of one model
     needs_stress: bool = False  # only with a [stress] table
     short: str = ""  # enough for 80 columns of a terminal
     # what tables show it over beside its unit: so many times `scale`, and the symbol of that
@@ -51,11 +50,6 @@ def _stress(label: str, short: str) -> Quantity:
     return Quantity(label, "Pa", _pressure, 2.0, needs_stress=True, short=short, over=over)
 
 
-def _norm(label: str, short: str, needs_stress: bool = True) -> Quantity:
-    words, stress = f"{label}, relative L2 difference", needs_stress
-    return Quantity(words, of_pair=True, needs_stress=stress, short=f"{short}, L2")
-
-
 # Of every run, compared and judged.
 QUANTITIES: dict[str, Quantity] = {
     "peak_pressure": Quantity(
@@ -64,8 +58,6 @@ QUANTITIES: dict[str, Quantity] = {
     "contact_length": Quantity(
         "contact length", "m", _half_width, short="contact length", over=(2.0, "× 2a")
     ),
-    "contact_ratio": Quantity("contact length over Hertz 2a", short="contact ratio"),
-    "pressure_l2": _norm("pressures", "pressure", needs_stress=False),
     "tau1_max": _stress("largest principal shear stress", "tau1 max"),
     "tau1_max_depth": Quantity(
         *("depth of the largest principal shear", "m", _half_width),
@@ -74,9 +66,15 @@ QUANTITIES: dict[str, Quantity] = {
         over=(1.0, "a"),
     ),
     "txz_max_abs": _stress("largest orthogonal shear stress", "|txz| max"),
-    "tau1_field_near": _norm("tau1 down to 0.1 a", "tau1 near"),
-    "tau1_field_deep": _norm("tau1 deeper than 0.5 a", "tau1 deep"),
 }
+# Of every comparison, shown and not judged; that of tau1 over the common window of the fields.
+NORMS = {
+    "pressure_l2": Quantity("pressures, relative L2 difference", short="pressure, L2"),
+    "tau1_l2": Quantity(
+        "field of tau1, relative L2 difference", needs_stress=True, short="tau1, L2"
+    ),
+}
+COMPARED = QUANTITIES | NORMS
 
 _SYMBOLS = {
     "tau1_max": "largest principal shear stress τ₁",
@@ -87,14 +85,14 @@ _SYMBOLS = {
 
 def label(quantity: str) -> str:
     """A quantity of result.json in words; a name that is none stays as it is."""
-    if quantity not in QUANTITIES:
+    if quantity not in COMPARED:
         return quantity.replace("_", " ")
-    return _SYMBOLS.get(quantity, QUANTITIES[quantity].label.replace("tau1", "τ₁"))
+    return _SYMBOLS.get(quantity, COMPARED[quantity].label.replace("tau1", "τ₁"))
 
 
-def error_text(quantity: str, value: float, uncertainty: float | None = None) -> str:
-    """A relative error in per cent, signed but for norms, in digits that are certain."""
-    return percent(value, signed=not QUANTITIES[quantity].of_pair, uncertainty=uncertainty)
+def error_text(value: float, uncertainty: float | None = None) -> str:
+    """A relative error in per cent with its sign, in digits that are certain."""
+    return percent(value, signed=True, uncertainty=uncertainty)
 
 
 def models_named(names: str | Sequence[str], option: str) -> tuple[str, ...]:

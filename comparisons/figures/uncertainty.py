@@ -46,7 +46,6 @@ PRESSURE_PER_RESIDUAL = 2e3
 # Of a pitch: how well `contact_patches` finds the edge of a smooth contact between two nodes, at
 # any place of it and on every level (0.047 at worst in 280 contacts).
 EDGE_FOUND = 0.05
-LENGTHS = ("contact_length", "contact_ratio")  # quantities that are read with that resolution
 
 
 @dataclass(frozen=True)
@@ -133,9 +132,3 @@ def difference_of_figures(figure: float, ratio: float, reference: float) -> floa
     reference  relative uncertainty of the reference. It counts |ratio| times, to first order, and
                once at least: a figure that vanishes says nothing of its reference."""
     return figure + max(1.0, abs(ratio)) * reference
-
-
-def difference_of_norms(refined: float, domain: float, parts: tuple[float, ...]) -> float:
-    """Of the norm of the half-plane against the whole model: by its refinement and far boundary,
-    or, as norms may agree by chance, after the triangle's inequality by its `parts`."""
-    return max(refined + domain, sum(parts))

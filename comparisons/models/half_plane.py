@@ -19,11 +19,10 @@ from comparisons.models.level import (
     ExpectedCost,
     Level,
     StressResult,
-    stress_result,
     under_each,
 )
 from comparisons.models.problem import Problem, ends_of, half_plane_of, patches_of, pressed_on
-from comparisons.models.window import FieldPoints, Window, search_window
+from comparisons.models.window import Window, search_window
 
 # Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.
 SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
@@ -56,9 +55,9 @@ def half_plane_level(
     pitch: float,
     window: Window | None,
     stages: Stages,
-    fields: FieldPoints = "all",
+    fields: bool = True,
 ) -> Level:
-    """Solve one level: contact, and in a window the largest stresses and `fields`."""
+    """Solve one level: contact, and in a window the largest stresses and, for `fields`, all."""
     grid = problem.grid(pitch)
 
     def solve(problem: Problem) -> Level:
@@ -75,7 +74,7 @@ def half_plane_on(
     frictions: tuple[float, ...],
     window: Window | None,
     stages: Stages,
-    fields: FieldPoints = "all",
+    fields: bool = True,
 ) -> Level:
     """The half-plane on any pressure elements.
 
@@ -107,14 +106,13 @@ def _stresses(
     frictions: tuple[float, ...],
     level: Level,
     window: Window,
-    fields: FieldPoints,
+    fields: bool,
 ) -> tuple[StressResult, ...]:
-    """Extremes off the grid and, where asked for, `fields` on the window, one set a friction."""
+    """Extremes off the grid and, for `fields`, all on the window, one set a friction."""
     x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)
     ends = beside_hats(problem, level)
     searched = field_on(level, search_window(problem, window), ends)
-    at = {"all": window, "sparse": window.sparse, "none": None}[fields]
-    shown = None if at is None else field_on(level, at, ends)
+    shown = field_on(level, window, ends) if fields else None
     nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
         how = {"beside": ends.at(friction), "cells": problem.asperities}
@@ -122,7 +120,7 @@ def _stresses(
         extremes = {"tau1": largest.tau1, "txz": largest.txz_abs, "von_mises": largest.von_mises}
         maxima = {"tau1": largest.cells["tau1"], "txz": largest.cells["txz_abs"]}
         field = None if shown is None else shown.at(friction).stress
-        results.append(stress_result(friction, extremes, field, maxima, window))
+        results.append(StressResult(friction, extremes, maxima, field))
     return tuple(results)
 
 

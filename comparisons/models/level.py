@@ -17,7 +17,6 @@ from comparisons.common.errors import SceneError
 from comparisons.common.progress import machine_memory
 from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.problem import Problem, mean_height
-from comparisons.models.window import Window
 from fem.body.coating import Coating
 from meshes.block import BlockMesh
 
@@ -78,11 +77,9 @@ class StressResult:
     friction: float
     # largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
     extremes: dict[str, Extremum]
-    field: StressState | None  # (m, k) on the common window; None where that is not asked for
     # largest tau1 and |txz| of each asperity: value, x and z (3, k); empty where there is one
     maxima: dict[str, np.ndarray] = field(default_factory=dict)
-    # [Pa] at the window's `sparse` points, for norms; None where maxima alone are asked for
-    sparse_tau1: np.ndarray | None = None
+    field: StressState | None = None  # (m, k) on the common window, where that is asked for
 
     @property
     def tau1(self) -> np.ndarray | None:
@@ -98,20 +95,6 @@ class StressResult:
         maxima[0] = 0.0
         maxima[:, np.searchsorted(cells, largest.x)] = abs(largest.value), largest.x, largest.z
         return maxima
-
-
-def stress_result(
-    friction: float,
-    extremes: dict[str, Extremum],
-    field: StressState | None,
-    maxima: dict[str, np.ndarray],
-    window: Window,
-) -> StressResult:
-    """With a field at all points of the window, at its `sparse` ones, or none."""
-    tau1 = None if field is None else field.tau1
-    if tau1 is not None and tau1.shape == (len(window.z), len(window.x)):
-        return StressResult(friction, extremes, field, maxima, window.sparsely(tau1))
-    return StressResult(friction, extremes, None, maxima, tau1)
 
 
 def highest(maxima: np.ndarray) -> Extremum:

@@ -1,7 +1,6 @@
 """The points of the stress fields: where models and levels are compared, and searched."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -12,15 +11,7 @@ from comparisons.models.problem import Problem
 FIRST_DEPTH = 0.25  # of the third level's pitch: the layer next to the surface
 FINEST_SPACING = 1.0 / 16.0  # of the third level's pitch; finer points would show nothing new
 MOST_COLUMNS = 2**18  # of the coarsest pitch across a window: where extremes are searched
-NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-widths
-# Between columns whose norms are compared, at most, where the window has more: of a Hertz
-# half-width, and in coarsest pitches, a tenth of the shortest wave each.
-COMPARED_SPACING, COMPARED_PITCHES = 1.0 / 32.0, 4.0
-MANY_DEPTHS = 100  # of which every second one is compared
 SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searched
-
-# Where stresses are computed beside their maxima: at all points of a window, or those of `sparse`.
-FieldPoints = Literal["all", "sparse", "none"]
 
 
 @dataclass(frozen=True)
@@ -31,7 +22,6 @@ class Window:
     x: np.ndarray
     z: np.ndarray
     extent: float  # [m] extremes are searched at |x| <= extent, whatever the density of x
-    every: int = 1  # each n-th column, x = 0 among them, is one of `sparse`
 
     def stride(self, pitch: float) -> int:
         """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
@@ -40,31 +30,6 @@ class Window:
     def subdivisions(self, pitch: float) -> int:
         """Parts into which x divides a pitch [m], 1 where x is coarser."""
         return 2 ** max(0, -self._octaves(pitch))
-
-    @property
-    def sparse(self) -> "Window":
-        """Some of the columns and depths, for norms: on the shipped scenes these change by at most
-        5 %, less than half of what they are uncertain."""
-        return Window(self.x[self._columns], self.z[self._rows], self.extent)
-
-    def sparsely(self, field: np.ndarray) -> np.ndarray:
-        """A field (m, k) of this window at the points of `sparse`."""
-        return field[self._rows, self._columns]
-
-    @property
-    def _rows(self) -> slice:
-        return slice(None, None, 2 if len(self.z) >= MANY_DEPTHS else 1)
-
-    @property
-    def _columns(self) -> slice:
-        return slice((len(self.x) // 2) % self.every, None, self.every)
-
-    def compared(self, half_width: float) -> dict[str, np.ndarray]:
-        """Which depths (m,) are those of the near and of the deep field, whose norms are compared.
-
-        half_width  [m] of the Hertz contact"""
-        depth = self.z / half_width
-        return {"near": depth < NEAR, "deep": depth > DEEP}
 
     def _octaves(self, pitch: float) -> int:
         return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
@@ -111,9 +76,7 @@ def window_of(problem: Problem) -> Window:
     first = min(FIRST_DEPTH * finest, depth / (rows - 1))
     step = min(coarsest, spacing)
     extent = step * np.floor(half_range / step * (1.0 + 1e-12))
-    widest = min(COMPARED_SPACING * half_width, COMPARED_PITCHES * coarsest)
-    every = 2 ** max(0, int(np.floor(np.log2(widest / spacing))))
-    return Window(x, graded_depths(depth, rows, first), extent, every)
+    return Window(x, graded_depths(depth, rows, first), extent)
 
 
 def search_window(problem: Problem, window: Window) -> Window:

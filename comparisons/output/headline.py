@@ -187,7 +187,7 @@ def _said(error: Figure, several: bool) -> str:
     """An error of the half-plane as a clause: what, how much, tolerance, uncertainty."""
     stress = QUANTITIES[error.quantity].needs_stress
     where = f" at friction {plain(error.friction)}" if several and stress else ""
-    size = error_text(error.quantity, error.value, error.numerical)
+    size = error_text(error.value, error.numerical)
     if by_law := law_range(error):
         size = f"{by_law} by the law of elasticity"
     return (
@@ -298,7 +298,7 @@ def _figures_of_whole(run: Run) -> str:
         f"{label(error.quantity)} "
         f"{with_unit(figure_of_whole(run, error), QUANTITIES[error.quantity].unit)}"
         for error in run.model_errors
-        if error.friction == friction and not QUANTITIES[error.quantity].of_pair
+        if error.friction == friction
     ]
     where = f" (friction {plain(friction)})" if len(run.problem.scene.load.friction) > 1 else ""
     return f"take the whole model's {', '.join(shown)}{where}" if shown else "take the whole model"

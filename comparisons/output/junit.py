@@ -94,6 +94,6 @@ def _said(figure: Figure) -> str:
             for size in (figure.value, figure.bounds[1] * figure.scale)
         )
         return f"{figure.verdict}: {value} with an uncertainty of {unsure}, at most {most}"
-    size = percent(figure.value, signed=not quantity.of_pair, uncertainty=figure.total)
+    size = percent(figure.value, signed=True, uncertainty=figure.total)
     allowed = f"tolerance {percent_as_written(figure.tolerance)}"
     return f"{figure.verdict}: {size} with an uncertainty of {unsure}, {allowed}"

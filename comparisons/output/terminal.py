@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import percent, with_unit
-from comparisons.figures.quantity import LABELS, QUANTITIES, error_text
+from comparisons.figures.quantity import COMPARED, LABELS, error_text
 from comparisons.models.smooth import scale_words
 from comparisons.output.headline import headline
 from comparisons.output.page.tables.comparison import comparison_rows, figure_rows, first_model
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-SHORT = {name: quantity.short for name, quantity in QUANTITIES.items()}
+SHORT = {name: quantity.short for name, quantity in COMPARED.items()}
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
 # Any terminal shows these.
@@ -66,7 +66,7 @@ def agreement_line(run: Run) -> str:
         return ""
     apart = max(judged, key=lambda row: abs(row.value))
     unsure = max(judged, key=lambda row: row.numerical)
-    difference = error_text(apart.quantity, apart.value, apart.numerical)
+    difference = error_text(apart.value, apart.numerical)
     return (
         f"{first_model(run).capitalize()} and finite elements that assume the same agree: largest "
         "difference "

@@ -88,7 +88,6 @@ class _LevelTask:
     number: int  # from 1, coarse to fine
     half_block: bool = False
     times: int = 1
-    sparse: bool = False  # whether stresses are wanted at the window's sparse points alone
 
     @property
     def pitch(self) -> float:
@@ -118,10 +117,10 @@ class _LevelTask:
         if self.name == "half_plane":
             from comparisons.models.half_plane import half_plane_level
 
-            how = self.problem, self.pitch, self.window, stages, "sparse" if self.sparse else "all"
+            how = self.problem, self.pitch, self.window, stages
             return half_plane_level(*how)
         from comparisons.models.finite_element.bodies import BodyCache
-        from comparisons.models.finite_element.level import LevelOptions, finite_element_level
+        from comparisons.models.finite_element.level import finite_element_level
         from comparisons.models.finite_element.mesh import Refinement
         from fem.nonlinear.press_plastic import TRAVEL
 
@@ -139,7 +138,6 @@ class _LevelTask:
             self.window,
             stages,
             here.held("bodies", self.pitch, BodyCache),
-            LevelOptions(fields=not is_check, sparse=self.sparse),
         )
 
 
@@ -149,10 +147,7 @@ class _Levels:
     def __init__(self, scene: Solved, tasks: Tasks) -> None:
         self.scene, self.problem, self.plan, self.tasks = scene, scene.problem, scene.plan, tasks
         self.task = partial(_LevelTask, scene.problem, scene.plan, scene.window)
-        levels = scene.problem.levels
-        # the finest level, unless more turn out to be needed
-        self.last = len(scene.problem.pitches) if levels is None else levels.models
-        check = partial(self.task, "finite_element", 1, sparse=True)
+        check = partial(self.task, "finite_element", 1)
         self.checks = [check(half_block=True)] if self.plan.domain_check else []
         if self.plan.increments_check:
             self.checks += [check(times=times) for times in LONGER]
@@ -166,7 +161,7 @@ class _Levels:
         others will take."""
         asked = range(1, len(self.problem.pitches) + 1)
         if "half_plane" in self.levels:  # first, while nothing else is in memory
-            for task in (self.numbered("half_plane", number) for number in asked):
+            for task in (self.task("half_plane", number) for number in asked):
                 cost = task.expected(self.patches)
                 refuse_too_large(self.problem, cost, "half-plane pressures", task.pitch)
                 if task.number == 1 or not self.is_short(task, cost):  # those: beside the others
@@ -176,19 +171,10 @@ class _Levels:
             if self.problem.scene.finite_element.plastic:
                 self.patches = flowing_contact(self.problem)
         if "finite_element" in self.levels:
-            affordable = self.affordable(asked)
-            self.last = min(self.last, max(affordable, default=1))
-            for number in reversed(affordable):  # idle processes begin with the longest
-                self.add(self.numbered("finite_element", number))
+            for number in reversed(self.affordable(asked)):  # idle processes begin with the longest
+                self.add(self.task("finite_element", number))
             for task in self.checks:
                 self.add(task)
-
-    def numbered(self, name: str, number: int) -> _LevelTask:
-        """A level of a model, with stresses at all points where it may be the finest, or be shown
-        beside the finest one of the effects."""
-        both = name == "half_plane" and self.plan.compares
-        shown = min(self.last, LEAST_LEVELS) if both else self.last
-        return self.task(name, number, sparse=number < shown)
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)
@@ -210,7 +196,7 @@ class _Levels:
     def wait(self, number: int, models: Iterable[str]) -> None:
         """Have the levels of the models up to a number."""
         missing = [
-            self.numbered(name, level)
+            self.task(name, level)
             for name in models
             for level in range(len(self.levels[name]) + 1, number + 1)
         ]
@@ -238,23 +224,13 @@ class _Levels:
 
     def checked(self, solved: Solved, why: str) -> Solved:
         """With the far boundary at half the distance, longer increments, and why that is all."""
-        again = [*filter(None, map(self._check, self.checks))]
-        runs = {name: self._with_fields(run) for name, run in solved.runs.items()}
+        again, runs = [*filter(None, map(self._check, self.checks))], dict(solved.runs)
         if again:
             far = again.pop(0) if self.plan.domain_check else None
             runs["finite_element"] = replace(
                 runs["finite_element"], far_boundary_check=far, longer_increments=tuple(again)
             )
         return replace(solved, runs=runs, refinement=why)
-
-    def _with_fields(self, run: ModelRun) -> ModelRun:
-        """With stresses at all points of the finest level, solved again where a finer one had been
-        expected."""
-        if all(stress.field is not None for stress in run.finest.stresses):
-            return run
-        task = self.task(run.name, len(run.levels))
-        self.tasks.add(f"{task.key}-fields", task.solve)
-        return replace(run, levels=(*run.levels[:-1], self.tasks.result(f"{task.key}-fields")))
 
     def _check(self, task: _LevelTask) -> Level | None:
         """A check; None of the longest increments, which Newton's method may not bear."""
@@ -292,7 +268,7 @@ def unresolved(solved: Solved) -> dict[str, float]:
     problem, largest = solved.problem, {}
     tolerance = problem.scene.tolerances
     for friction in problem.scene.load.friction:
-        sizes = discretisations(solved.runs, problem, friction, solved.window)
+        sizes = discretisations(solved.runs, problem, friction)
         for name, size in sizes.items():
             if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:
                 largest[name] = max(size, largest.get(name, 0.0))

@@ -315,12 +315,8 @@ class ToleranceSection(SceneSection):
     peak_pressure: Fraction = 0.02
     contact_length: Fraction = 0.02
     tau1_max: Fraction = 0.02
-    contact_ratio: Fraction | None = None
-    pressure_l2: Fraction | None = None
     tau1_max_depth: Fraction | None = None
     txz_max_abs: Fraction | None = None
-    tau1_field_near: Fraction | None = None
-    tau1_field_deep: Fraction | None = None
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         for name in OF_STRESS:

@@ -1,18 +1,18 @@
-"""Both models against each other: differences of figures and norms, and their verdicts.
+"""Both models against each other: differences of figures, and their verdicts; norms beside them.
 
 In: solved levels of both models on the same pressure elements. Out: a judged figure a quantity and
-friction coefficient, (half-plane - finite elements) / finite elements or a relative L2 norm."""
+friction coefficient, (half-plane - finite elements) / finite elements, and plain ones, the relative
+L2 norms of the pressures' difference and of that of tau1 on the common window."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings
 from comparisons.figures.norm import relative_l2
-from comparisons.figures.quantity import MODELS, QUANTITIES
+from comparisons.figures.quantity import COMPARED, MODELS, NORMS, QUANTITIES
 from comparisons.figures.uncertainty import (
-    LENGTHS,
     Uncertainty,
     iteration,
     numerical,
@@ -36,46 +36,35 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 def compared(
     problem: Problem, runs: Mapping[str, ModelRun], window: Window | None
 ) -> tuple[Figure, ...]:
-    """Every quantity of finished runs of both models, in the order of friction, then QUANTITIES."""
-    pair, frictions = [runs[model] for model in MODELS], problem.scene.load.friction
-    return tuple(
-        figure
-        for friction in frictions
-        for figure in differences_of(*pair, problem, friction, window).values()
-    )
+    """Every quantity and norm of finished runs of both models, in the order of friction."""
+    figures, pair = [], [runs[model] for model in MODELS]
+    for friction in problem.scene.load.friction:
+        figures += differences_of(*pair, problem, friction).values()
+        figures += norms_of(*pair, friction, window)
+    return tuple(figures)
 
 
 def differences_of(
-    half_plane: ModelRun,
-    finite_element: ModelRun,
-    problem: Problem,
-    friction: float,
-    window: Window | None,
+    half_plane: ModelRun, finite_element: ModelRun, problem: Problem, friction: float
 ) -> dict[str, Figure]:
     """By quantity. The differences are figures of their own: both models have the same pressure
     elements, and what these leave out, is in both."""
     half_plane, finite_element = half_plane.under(friction), finite_element.under(friction)
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
-    history = [differences(one, other, problem, friction, window) for one, other in pairs]
-    first, coarsest = finite_element.levels[0], half_plane.levels[0]
+    history = [differences(one, other, problem, friction) for one, other in pairs]
+    coarsest = half_plane.levels[0]
     repeated = by_repetition(
-        finite_element, lambda level: differences(coarsest, level, problem, friction, window)
-    )
-    # two norms may be equal by chance: theirs is the norm of what the repetition changes
-    repeated |= by_repetition(
-        finite_element, lambda level: norms(level, first, problem, friction, window)
+        finite_element, lambda level: differences(coarsest, level, problem, friction)
     )
     finest = half_plane.finest, finite_element.finest
     reference, made = values_of(finite_element.finest, problem, friction), {}
     for name, difference in history[-1].items():
         quantity, tolerance = QUANTITIES[name], problem.scene.tolerances.get(name)
-        resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
+        resolution = relative_resolution(*finest) if name == "contact_length" else 0.0
         values = tuple(of_level[name] for of_level in history)
         order = formal_order(name, finest, problem, friction)
         convergence = grid_convergence(values, order, resolution)
-        unsolved = iteration(*finest)
-        if not quantity.of_pair:
-            unsolved *= max(1.0, abs(1.0 + difference))
+        unsolved = iteration(*finest) * max(1.0, abs(1.0 + difference))
         parts = unsolved, convergence.uncertainty, *repeated[name]
         made[name] = Figure(
             study=NAME,
@@ -84,7 +73,7 @@ def differences_of(
             value=difference,
             at={"friction": friction},
             against="finite_element",
-            scale=abs(reference.get(name, 0.0)) or quantity.scale(problem.hertz),
+            scale=abs(reference[name]) or quantity.scale(problem.hertz),
             uncertainty=numerical(*parts, convergence),
             bounds=(-tolerance, tolerance) if tolerance else None,
             levels=values,
@@ -92,15 +81,40 @@ def differences_of(
     return made
 
 
+def norms_of(
+    half_plane: ModelRun, finite_element: ModelRun, friction: float, window: Window | None
+) -> Iterator[Figure]:
+    """The norms of both models' difference. They may be equal by chance: what a repetition changes
+    counts by its own norm."""
+    half_plane, finite_element = half_plane.under(friction), finite_element.under(friction)
+    pairs = zip(half_plane.levels, finite_element.levels, strict=True)
+    history = [norms(one, other, friction, window) for one, other in pairs]
+    first = finite_element.levels[0]
+    repeated = by_repetition(finite_element, lambda level: norms(level, first, friction, window))
+    unsolved = iteration(half_plane.finest, finite_element.finest)
+    for name, size in history[-1].items():
+        values = tuple(of_level[name] for of_level in history)
+        convergence = grid_convergence(values, NORMS[name].formal_order)
+        parts = unsolved, convergence.uncertainty, *repeated[name]
+        yield Figure(
+            study=NAME,
+            quantity=name,
+            source="half_plane",
+            value=size,
+            at={"friction": friction},
+            against="finite_element",
+            uncertainty=numerical(*parts, convergence),
+            levels=values,
+        )
+
+
 def differences(
-    level: Level, reference: Level, problem: Problem, friction: float, window: Window | None
+    level: Level, reference: Level, problem: Problem, friction: float
 ) -> dict[str, float]:
     """(level - reference) / reference of every figure, over the Hertz contact's where the
-    reference's vanishes, and the norms; in the order of QUANTITIES."""
+    reference's vanishes."""
     one, other = (values_of(known, problem, friction) for known in (level, reference))
-    sizes = norms(level, reference, problem, friction, window)
-    sizes |= relative_differences(one, other, problem)
-    return {name: sizes[name] for name in QUANTITIES if name in sizes}
+    return relative_differences(one, other, problem)
 
 
 def relative_differences(
@@ -115,14 +129,13 @@ def relative_differences(
 
 
 def norms(
-    level: Level, reference: Level, problem: Problem, friction: float, window: Window | None
+    level: Level, reference: Level, friction: float, window: Window | None
 ) -> dict[str, float]:
-    """The compared quantities of a pair of levels on the same pressure elements: relative L2."""
+    """The norms of a pair of levels on the same pressure elements."""
     stresses = [known.stress(friction) for known in (level, reference)]
     return pair_norms(
         (level.solution.pressure, reference.solution.pressure),
-        tuple(None if stress is None else stress.sparse_tau1 for stress in stresses),
-        problem,
+        tuple(None if stress is None else stress.tau1 for stress in stresses),
         window,
     )
 
@@ -130,33 +143,19 @@ def norms(
 def pair_norms(
     pressures: tuple[np.ndarray, np.ndarray],
     tau1: tuple[np.ndarray | None, np.ndarray | None],
-    problem: Problem,
     window: Window | None,
 ) -> dict[str, float]:
-    """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k) at
-    the window's sparse points, None without one; the second of each is the reference."""
+    """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k) on
+    the window, None without one; the second of each is the reference."""
     sizes = {"pressure_l2": relative_l2(*pressures)}
     if all(field is not None for field in tau1):
-        sizes |= field_norms(*tau1, problem, window)
+        thickness = np.gradient(window.z)[:, None]  # of the layer that each depth stands for
+        sizes["tau1_l2"] = relative_l2(*tau1, thickness)
     return sizes
 
 
-def field_norms(
-    tau1: np.ndarray, reference: np.ndarray, problem: Problem, window: Window
-) -> dict[str, float]:
-    """Relative L2 norms of the difference of two fields (m, k) at the window's sparse points, by
-    their depths."""
-    at = window.sparse
-    weights = layer_thickness(at.z)[:, None]
-    return {
-        f"tau1_field_{name}": relative_l2(tau1[part], reference[part], weights[part])
-        for name, part in at.compared(problem.hertz.half_width).items()
-        if np.any(part)
-    }
-
-
 def discretisations(
-    runs: dict[str, ModelRun], problem: Problem, friction: float, window: Window | None
+    runs: dict[str, ModelRun], problem: Problem, friction: float
 ) -> dict[str, float]:
     """The discretisation uncertainty that refinement is to lower: the difference's, which is
     judged, or SHOWN times a model's own, whose figures are shown, where that is larger; of one
@@ -164,7 +163,7 @@ def discretisations(
     by_model = [uncertainties(run, problem, friction) for run in runs.values()]
     if len(runs) == 1:
         return {name: _left(stated) for name, stated in by_model[0].items()}
-    pair = differences_of(*runs.values(), problem, friction, window)
+    pair = differences_of(*runs.values(), problem, friction)
     sizes = {name: _left(difference.uncertainty) for name, difference in pair.items()}
     for name in by_model[0]:
         larger = max(_left(stated[name]) for stated in by_model)
@@ -176,9 +175,4 @@ def _left(stated: Uncertainty) -> float:
     return stated.parts["discretisation"]
 
 
-def layer_thickness(depths: np.ndarray) -> np.ndarray:
-    """Thickness (m,) [m] that each of the ascending depths (m,) [m] stands for in an integral."""
-    return np.gradient(depths) if len(depths) > 1 else np.ones(1)
-
-
-STUDY = Study(NAME, QUANTITIES, solve, applies=lambda solved: solved.plan.compares)
+STUDY = Study(NAME, COMPARED, solve, applies=lambda solved: solved.plan.compares)

@@ -17,7 +17,6 @@ from comparisons.figures.figure import Column, Figure, Findings, Series, Stateme
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import (
-    LENGTHS,
     Uncertainty,
     far_boundary,
     iteration,
@@ -35,6 +34,7 @@ if TYPE_CHECKING:
 
 NAME = "contact"
 QUANTITIES = COMPARED | {
+    "contact_ratio": Quantity("contact length over Hertz 2a"),
     "von_mises_max": Quantity("largest von Mises stress", "Pa"),
     "contact_ratio_extent": Quantity("contact length over its extent"),
     "peak_position": Quantity("place of the peak pressure", "m"),
@@ -45,7 +45,8 @@ MARKERS = {"half_plane": "o", "finite_element": "x", "whole": "d"}  # of nodes
 MOST_MARKED = 150  # nodes of a close-up: more would be a band
 AT_HARDNESS = 1.0 - 1e-9  # times the hardness: a pressure held there
 # What is read of the same field or patches is as uncertain.
-AS_UNCERTAIN = {"von_mises_max": "tau1_max", "contact_ratio_extent": "contact_length"}
+AS_UNCERTAIN = {"von_mises_max": "tau1_max"}
+AS_UNCERTAIN |= dict.fromkeys(("contact_ratio", "contact_ratio_extent"), "contact_length")
 UNITS = {"pitch": "m", "seconds": "s", "expected_seconds": "s"}  # of what a level took
 UNITS |= {"peak_memory": "byte", "expected_memory": "byte"}
 AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
@@ -74,7 +75,6 @@ def values_of(level: Level, problem: Problem, friction: float) -> dict[str, floa
     values = {
         "peak_pressure": float(level.solution.pressure.max()),
         "contact_length": level.contact_length,
-        "contact_ratio": level.contact_length / (2.0 * problem.hertz.half_width),
     }
     stress = level.stress(friction)
     if stress is not None:
@@ -102,9 +102,8 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
     for name, value in history[-1].items():
         values = [of_level[name] for of_level in history]
         resolution = 0.0
-        if name in LENGTHS:
+        if name == "contact_length":
             resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
-            resolution *= value / run.finest.contact_length
         order = formal_order(name, run.levels, problem, friction)
         convergence = grid_convergence(values, order, resolution)
         scale = abs(value) or COMPARED[name].scale(problem.hertz)
@@ -198,6 +197,7 @@ def _further(
     level = run.finest
     peak = peak_position(level)
     values = {
+        "contact_ratio": level.contact_length / (2.0 * problem.hertz.half_width),
         "contact_ratio_extent": level.contact_length / level.extent,
         "peak_position": peak,
         "load_per_length": level.solution.load,

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 # Names of statements: why a study was not done, and whether a solution converged, "yes" or "no".
 WHY_NOT, CONVERGED = "not done", "converged"
-REPEATED = "contact_ratio"  # says again what the contact length says
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
 SCATTER = "scatter"  # the study of uncertain inputs
 COMPARISON = "comparison"  # the study that judges the models against each other
@@ -131,11 +130,6 @@ class Run:
         name, last = list(self.levels(friction).items())[-1]
         first = next(iter(self.runs.values())).under(friction)
         return {first.name: first.beside(last), name: last}
-
-    def shows(self, quantity: str) -> bool:
-        """Whether a figure has a row beside the contact length, which stands over Hertz's: the
-        contact ratio, that over a constant, has one only where it is judged."""
-        return quantity != REPEATED or quantity in self.problem.scene.tolerances
 
     @property
     def deciding_friction(self) -> float:

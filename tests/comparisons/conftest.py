@@ -31,7 +31,7 @@ from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.style import Picture
 from comparisons.figures.quantity import MODELS, QUANTITIES
-from comparisons.models.level import Level, MeshField, ModelRun, StressResult, stress_result
+from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
@@ -96,12 +96,8 @@ def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressRe
         field = hertz_stress(hertz, window.x, window.z[:, None], friction)
         deepest = Extremum(2.0 * known.tau1.value, known.tau1.x, known.tau1.z)
         results.append(
-            stress_result(
-                friction,
-                {"tau1": known.tau1, "txz": txz, "von_mises": deepest},
-                field,
-                {},
-                window,
+            StressResult(
+                friction, {"tau1": known.tau1, "txz": txz, "von_mises": deepest}, field=field
             )
         )
     return tuple(results)

@@ -105,16 +105,17 @@ def solved(
     """A level, without its mesh; `half_block` holds an unbounded body at half the distance."""
     window, stages = window_of(problem) if problem.scene.stress is not None else None, Stages()
     if method.element == HAT:
-        return half_plane_level(problem, pitch, window, stages)
+        return half_plane_level(problem, pitch, window, stages, fields=False)
     if method.element in (OPERATOR, DEFORMED):
         return _by_operator(problem, pitch, window, method.element == DEFORMED)
-    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
     problem = method.posed(problem)
     plan, refinement = make_plan(problem, (method.model,)), Refinement(pitch, half_block)
-    level = finite_element_level(problem, plan, refinement, window, stages)
-    return replace(level, mesh=None, mesh_field=None)
+    options = LevelOptions(fields=False)
+    level = finite_element_level(problem, plan, refinement, window, stages, options=options)
+    return replace(level, mesh=None)
 
 
 def _by_operator(problem: Problem, pitch: float, window: Window | None, deformed: bool) -> Level:

@@ -71,22 +71,22 @@ def is_open(error: Figure) -> bool:
 def errors_of(problem: Problem, runs: Runs, window: Window | None) -> tuple[Figures, Values]:
     """The model error in each quantity, and the values of both models on the finest level."""
     friction = max(problem.scene.load.friction)
-    errors = differences_of(*runs.values(), problem, friction, window)
+    errors = differences_of(*runs.values(), problem, friction)
     values = {name: values_of(run.finest, problem, friction) for name, run in runs.items()}
     return Figures(errors.values()), values
 
 
 def _entry(error: Figure, values: Values) -> dict[str, float | None]:
-    """Values by model, None of a norm of both; and the difference, of unknown uncertainty None."""
+    """Values by model, and the difference; an uncertainty that is not known is None."""
     known = np.isfinite(error.numerical)
-    return {model: _significant(values[model].get(error.quantity)) for model in MODELS} | {
+    return {model: _significant(values[model][error.quantity]) for model in MODELS} | {
         "difference": round(error.value, DECIMALS),
         "uncertainty": round(error.numerical, DECIMALS) if known else None,
     }
 
 
-def _significant(value: float | None) -> float | None:
-    return None if value is None else float(f"{value:.{FIGURES}g}")
+def _significant(value: float) -> float:
+    return float(f"{value:.{FIGURES}g}")
 
 
 def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Runs]:
@@ -97,7 +97,7 @@ def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Ru
 
     def solved(pitch: float, half_block: bool = False) -> Level:
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
-        options = LevelOptions(fields=False, sparse=True)
+        options = LevelOptions(fields=False)
         return finite_element_level(
             problem, plan, refinement, window, Stages(), body_cache, options
         )
@@ -118,7 +118,7 @@ def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Ru
             if number <= least:
                 raise
             break  # what is finer than the scene asks for need not be possible
-        half_plane.append(half_plane_level(problem, pitch, window, Stages(), "sparse"))
+        half_plane.append(half_plane_level(problem, pitch, window, Stages(), fields=False))
         if number >= least:
             yield {
                 "half_plane": ModelRun("half_plane", tuple(half_plane)),

@@ -52,8 +52,7 @@ class LevelOptions:
     """What one level does that others need not."""
 
     approach: float | None = None  # [m] from first touch, prescribed in place of the load
-    fields: bool = True  # give the stresses at all points of the mesh, too
-    sparse: bool = False  # give the field at the window's sparse points alone
+    fields: bool = True  # give all stresses on the window and the mesh, not the largest alone
 
 
 def finite_element_level(
@@ -116,7 +115,7 @@ def _level(
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
         frictions, asperities = problem.scene.load.friction, problem.asperities
-        how = asperities, options.fields, options.sparse
+        how = asperities, options.fields
         stresses, mesh_field = stresses_of(pressed, frictions, window, *how)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 

@@ -14,7 +14,6 @@ from comparisons.models.level import (
     RecoverableField,
     StressResult,
     highest,
-    stress_result,
 )
 from comparisons.models.problem import Problem, ends_of, mean_height, patches_of
 from comparisons.models.window import Window
@@ -119,22 +118,21 @@ def stresses_of(
     frictions: tuple[float, ...],
     window: Window,
     asperities: tuple[float, ...] = (),
-    on_mesh: bool = True,
-    sparse: bool = False,
+    fields: bool = True,
 ) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     """Extremes and fields on the window, one set a friction coefficient, and all on the mesh.
 
     asperities  (k,) [m] where one ends and the next begins: each has its own largest stresses
-    on_mesh     whether stresses at all of the mesh's points are wanted; else they are computed
-                only where the window needs them, or where they may be the largest
-    sparse      whether the field is wanted at the window's `sparse` points alone
+    fields      whether these are wanted; else stresses are computed only where they may be the
+                largest
     """
     nodal = pressed.stresses(frictions)
     body, results = pressed.body, []
     bounds = (-window.extent, window.extent, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
-    at = window.sparse if sparse else window
-    shown = evaluate_all(body, nodal, *np.meshgrid(at.x, at.z))
+    shown = [None] * len(frictions)
+    if fields:
+        shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
     for friction, stresses, on_window in zip(frictions, nodal, shown, strict=True):
         samples = Samples(body, stresses)
         searched = bounds, asperities, samples
@@ -152,8 +150,8 @@ def stresses_of(
                 bounds,
                 samples,
             )
-        results.append(stress_result(friction, extremes, on_window, highest_places, window))
-    if not on_mesh:
+        results.append(StressResult(friction, extremes, highest_places, on_window))
+    if not fields:
         return tuple(results), None
     if pressed.moved is None:
         moved = nodal[0].together[0].displacement

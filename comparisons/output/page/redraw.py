@@ -205,7 +205,7 @@ def _model_errors(run: Run) -> dict[str, Cell]:
     for errors in grouped(run.model_errors, lambda error: error.quantity):
         worst = max(errors, key=lambda error: abs(error.value) + error.numerical)
         note = f"± {percent(worst.numerical)}, tolerance {percent_as_written(worst.tolerance)}"
-        text = error_text(worst.quantity, worst.value, worst.numerical)
+        text = error_text(worst.value, worst.numerical)
         cells[f"model_error_{worst.quantity}"] = Cell(text, abs(worst.value), note)
     return cells
 

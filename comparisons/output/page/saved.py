@@ -123,7 +123,7 @@ def _reduced(level: Level, shown: Sequence[Level] = ()) -> Level:
     stresses, with_fields = [], any(level is kept for kept in shown)
     for stress in level.stresses:
         field = _shown_field(stress.field) if with_fields else None
-        stresses.append(replace(stress, field=field, sparse_tau1=None))
+        stresses.append(replace(stress, field=field))
     further = tuple(_reduced(deeper, shown) for deeper in level.further)
     return replace(level, stresses=tuple(stresses), mesh=None, mesh_field=None, further=further)
 

@@ -21,7 +21,7 @@ from comparisons.drawing.blocks import (
 from comparisons.drawing.curves import COINCIDE, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figure, Figures, Series, grouped
-from comparisons.figures.quantity import LABELS, QUANTITIES, label
+from comparisons.figures.quantity import COMPARED, LABELS, label
 from comparisons.studies import contact
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.study import CONDITIONS, HINTS, NAME, VALIDATION
@@ -66,7 +66,7 @@ def answer_rows(run: Run, answer: str) -> list[tuple[str, ...]]:
     """Quantity's name, friction, the answer's figure and the reference's with unit, difference,
     uncertainty, the answer's own, tolerance, verdict."""
     rows, known = [], run.figures.of(study=NAME, source=answer)
-    for name in (name for name in QUANTITIES if run.shows(name)):
+    for name in COMPARED:
         differences = known.of(quantity=name, against=reference_of(run))
         cells = [(figure.friction, _cells(run, known, figure)) for figure in differences]
         for same in grouped(cells, lambda row: row[1]):
@@ -80,7 +80,7 @@ def _cells(run: Run, known: Figures, difference: Figure) -> tuple[str, ...]:
     value = known.one(**wanted)
     reference = run.figures.one(study=contact.NAME, source=difference.against, **wanted)
     values = value, value and reference
-    *cells, tolerance, verdict = compared_cells(difference, values, QUANTITIES[quantity].unit)
+    *cells, tolerance, verdict = compared_cells(difference, values, COMPARED[quantity].unit)
     return *cells, NOT_STATED if stated is None else percent(stated), tolerance, verdict
 
 

@@ -30,10 +30,8 @@ from comparisons.figures.figure import (
     figures_of,
     grouped,
 )
-from comparisons.figures.quantity import QUANTITIES as COMPARED
-from comparisons.figures.quantity import Quantity
+from comparisons.figures.quantity import COMPARED, NORMS, Quantity
 from comparisons.figures.uncertainty import (
-    LENGTHS,
     Uncertainty,
     iteration,
     length_resolution,
@@ -169,7 +167,6 @@ def figures_of_answer(answer: Answer, problem: Problem, friction: float) -> dict
     values = {
         "peak_pressure": float(answer.pressure.max()),
         "contact_length": length,
-        "contact_ratio": length / (2.0 * problem.hertz.half_width),
     }
     stress = answer.stress
     if stress is not None and stress.friction == friction:
@@ -186,7 +183,7 @@ def _rows(
     source: AnswerSection,
     answers: tuple[Answer, ...],
 ) -> Iterator[AnswerRow]:
-    """At one friction coefficient, in the order of QUANTITIES."""
+    """At one friction coefficient, in the order of COMPARED."""
     problem, window, model = solved.problem, solved.window, model.under(friction)
     finest, first = answers[-1], model.levels[0]
 
@@ -196,13 +193,13 @@ def _rows(
     by_level = [against(finest, level) for level in model.levels]
     by_file = [against(answer, model.finest) for answer in answers]
     repeated = by_repetition(model, lambda level: against(finest, level))
-    repeated |= by_repetition(model, lambda level: norms(level, first, problem, friction, window))
+    repeated |= by_repetition(model, lambda level: norms(level, first, friction, window))
     values = figures_of_answer(finest, problem, friction)
     reference = values_of(model.finest, problem, friction)
     for name, difference in by_level[-1].items():
         quantity, size = COMPARED[name], abs(1.0 + difference)
         resolution, reading = 0.0, _reading(finest, name) / abs(reference.get(name) or 1.0)
-        if name in LENGTHS:
+        if name == "contact_length":
             grid, length = model.finest.grid, model.finest.contact_length
             resolution = length_resolution(grid.pitch, len(model.finest.patches)) / length
             reading = _reading(finest, name) / length
@@ -212,7 +209,7 @@ def _rows(
         unsure += sum(repeated[name])
         stated = _stated(name, [differences.get(name) for differences in by_file], answers, reading)
         if source.scatter is not None:
-            stated = (stated or 0.0) + source.scatter * (1.0 if quantity.of_pair else size)
+            stated = (stated or 0.0) + source.scatter * (1.0 if name in NORMS else size)
         parts = {"reading": reading} if stated is None else {"own": stated}
         yield AnswerRow(
             quantity=name,
@@ -228,7 +225,7 @@ def _rows(
 def _reading(answer: Answer, name: str) -> float:
     """How finely a figure can be read off the answer's points, in its unit."""
     match name:
-        case "contact_length" | "contact_ratio":  # of the length
+        case "contact_length":
             return answer.spacing * float(np.sqrt(len(answer.patches)))
         case "peak_pressure":
             return peak_resolution(answer.pressure) * float(answer.pressure.max())
@@ -256,12 +253,11 @@ def _differences(
     stress, other = answer.stress, level.stress(friction)
     tau1 = None
     if stress is not None and stress.friction == friction and other is not None:
-        tau1 = window.sparsely(stress.field.tau1)
+        tau1 = stress.field.tau1
         tau1 = tau1 if np.isfinite(tau1).mean() >= COVERED else None
     differences = pair_norms(
         (answer.on(level.grid.x), level.solution.pressure),
-        (tau1, None if other is None else other.sparse_tau1),
-        problem,
+        (tau1, None if other is None else other.tau1),
         window,
     )
     reference = values_of(level, problem, friction)

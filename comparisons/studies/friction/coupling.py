@@ -19,8 +19,8 @@ from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of
-from comparisons.figures.quantity import QUANTITIES as COMPARED
-from comparisons.figures.quantity import Quantity, label
+from comparisons.figures.norm import relative_l2
+from comparisons.figures.quantity import COMPARED, NORMS, Quantity, label
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import Level, ModelRun
@@ -29,13 +29,15 @@ from comparisons.models.posing import surface_ends
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies import contact
-from comparisons.studies.comparison import norms
 from comparisons.studies.contact import values_of
-from comparisons.studies.study import CONVERGED, REPEATED, WHY_NOT, Run, Solved, Study
+from comparisons.studies.study import CONVERGED, WHY_NOT, Run, Solved, Study
 
 NAME = "coupling"
 SHIFT = "contact_shift"
-QUANTITIES = contact.QUANTITIES | {SHIFT: Quantity("shift of the pressure's centroid", "m")}
+QUANTITIES = contact.QUANTITIES | {
+    SHIFT: Quantity("shift of the pressure's centroid", "m"),
+    "pressure_l2": NORMS["pressure_l2"],
+}
 UNCOUPLED = "uncoupled"  # the half-plane without it
 NOTE = """Normal-tangential coupling: sliding traction also moves the surfaces of unlike bodies up
 and down, in proportion to friction times Dundurs' β. {}. Solved on the finest pressure elements; a
@@ -147,7 +149,7 @@ def _coupling(
     more = int(np.ceil(0.5 * abs(size) * level.grid.count))
     while True:
         grid = _stretched(problem, level.grid, more)
-        other = half_plane_on(problem, grid, other_size, (friction,), window, stages, "sparse")
+        other = half_plane_on(problem, grid, other_size, (friction,), window, stages, fields=False)
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             break
@@ -158,7 +160,7 @@ def _coupling(
     moved, still = (level, other) if problem.coupling else (other, level)
     return Coupling(
         friction=friction,
-        changes=_changes(problem, moved, still, friction, window),
+        changes=_changes(problem, moved, still, friction),
         converged=moved.solution.converged and still.solution.converged,
         iterations=other.solution.iterations,
         seconds=sum(stages.seconds.values()),
@@ -182,15 +184,13 @@ def _spread(level: Level, grid: HatGrid) -> Level:
     return replace(level, grid=grid, solution=replace(level.solution, pressure=pressure))
 
 
-def _changes(
-    problem: Problem, moved: Level, still: Level, friction: float, window: Window | None
-) -> dict[str, Change]:
+def _changes(problem: Problem, moved: Level, still: Level, friction: float) -> dict[str, Change]:
     values, before = (values_of(level, problem, friction) for level in (moved, still))
     changes = {name: Change(v, _relative(v, before[name])) for name, v in values.items()}
     shift = _centroid(moved) - _centroid(still)
     changes[SHIFT] = Change(shift, shift / problem.hertz.half_width)
-    between = norms(moved, still, problem, friction, window)
-    return changes | {name: Change(None, size) for name, size in between.items()}
+    between = relative_l2(moved.solution.pressure, still.solution.pressure)
+    return changes | {"pressure_l2": Change(None, between)}
 
 
 def _relative(value: float, before: float) -> float | None:
@@ -210,7 +210,7 @@ def coupling_table(run: Run) -> TextTable | None:
     if not changes:
         return None
     frictions, rows = list(dict.fromkeys(figure.friction for figure in changes)), []
-    for name in (SHIFT, *(name for name in COMPARED if name != REPEATED)):
+    for name in (SHIFT, *COMPARED):
         cells = [cell for friction in frictions for cell in _cells(run, name, friction)]
         if any(cells):
             rows.append((QUANTITIES[name].label if name == SHIFT else label(name), *cells))

@@ -56,7 +56,7 @@ QUANTITIES = {
     "stick_ratio": Quantity("share of the contact that sticks"),
     HELD_PRESSURE: Quantity("largest pressure that friction leaves", "Pa", formal_order=2.0),
     HELD_LOWERING: Quantity("lowering that friction leaves", "m", formal_order=2.0),
-    "traction_l2": Quantity("tractions, relative L2 difference", of_pair=True),
+    "traction_l2": Quantity("tractions, relative L2 difference"),
 }
 COMPARED = tuple(QUANTITIES)[:9]  # judged where both models have them
 OF_FLOW = "of a body that flows what sticks is not known: remove plastic"

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Figure, Findings
-from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.quantity import COMPARED, QUANTITIES
 from comparisons.models.nearest_operator import is_layered
-from comparisons.studies.comparison import differences_of
+from comparisons.studies.comparison import differences_of, norms_of
 from comparisons.studies.contact import uncertainties, values_of
 from comparisons.studies.ladder.operators import why_no_stresses
 from comparisons.studies.ladder.rungs import OPERATORS, OTHER, operator_runs
@@ -34,7 +34,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
             figures.append(
                 Figure(LAYERED, name, OPERATORS, value, at, scale=size, uncertainty=stated[name])
             )
-        rows = differences_of(run, finite_elements, problem, friction, solved.window).values()
+        rows = [*differences_of(run, finite_elements, problem, friction).values()]
+        rows += norms_of(run, finite_elements, friction, solved.window)
         figures += [replace(row, study=LAYERED, source=OPERATORS) for row in rows]
     return Findings(tuple(figures))
 
@@ -47,4 +48,4 @@ def applies(solved: Solved) -> bool:
     return bool(solved.plan.compares and is_layered(scene) and alike and possible)
 
 
-STUDY = Study(LAYERED, QUANTITIES, solve, applies=applies)
+STUDY = Study(LAYERED, COMPARED, solve, applies=applies)

@@ -27,7 +27,7 @@ from analytic.stress.maxima import StressMaxima, stress_maxima
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.half_plane import field_on
-from comparisons.models.level import Level, StressResult, highest, stress_result
+from comparisons.models.level import Level, StressResult, highest
 from comparisons.models.nearest_operator import is_layered, nearest_operator, solve_on
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
@@ -118,9 +118,8 @@ class OperatorModel:
     coupling: float  # coefficient of the traction that moves the surfaces; 0 leaves it out
     deformed: bool = False  # contact on the deformed surfaces of half-planes
 
-    def level(self, pitch: float, window: Window | None, fields: bool = True) -> Level:
-        """Solved on pressure elements of a pitch [m], with the largest stresses and, for `fields`,
-        those at the window's sparse points."""
+    def level(self, pitch: float, window: Window | None) -> Level:
+        """Solved on pressure elements of a pitch [m], with the largest stresses in the window."""
         stages, problem, grid = Stages(), self.problem, self.problem.grid(pitch)
         with stages.stage("contact"):
             operator = operator_of(problem, grid, self.coupling)
@@ -139,7 +138,7 @@ class OperatorModel:
             )
         if window is not None:
             with stages.stage("stresses"):
-                stresses = tuple(_stresses(problem, level, window, self.frictions, fields))
+                stresses = tuple(_stresses(problem, level, window, self.frictions))
             level = replace(level, stresses=stresses)
         return replace(level, peak_memory=peak_memory())
 
@@ -190,12 +189,7 @@ class _Side:
     added: AddedStress | None
     below: bool
     ends: EndStress
-    shown: Window  # sparse points of the common field on this side
     searched: Window  # from which extremes are searched
-
-    @property
-    def is_shown(self) -> bool:
-        return len(self.shown.z) > 0
 
     def added_at(self, friction: float, x: np.ndarray, z: np.ndarray) -> StressState:
         """Beside the half-plane's hats."""
@@ -204,8 +198,8 @@ class _Side:
             return beside
         return beside.plus(1.0, self.added.at(friction, x, z, self.below))
 
-    def field(self, level: Level, points: Window, friction: float) -> StressField:
-        field = field_on(level, points, self.ends).at(friction)
+    def field(self, level: Level, friction: float) -> StressField:
+        field = field_on(level, self.searched, self.ends).at(friction)
         if self.added is None:
             return field
         parts = self.added.field(field.x, field.z, self.below)
@@ -217,7 +211,7 @@ class _Side:
             level.grid.x,
             level.solution.pressure,
             friction,
-            self.field(level, self.searched, friction),
+            self.field(level, friction),
             self.material.poissons_ratio,
             beside=partial(self.added_at, friction),
             cells=problem.asperities,
@@ -225,9 +219,9 @@ class _Side:
 
 
 def _stresses(
-    problem: Problem, level: Level, window: Window, frictions: tuple[float, ...], fields: bool
+    problem: Problem, level: Level, window: Window, frictions: tuple[float, ...]
 ) -> Iterator[StressResult]:
-    """Fields on the window and extremes on either side of an interface."""
+    """Extremes, of both sides of an interface."""
     sides = _sides(problem, level, window)
     for friction in frictions:
         largest = [side.maxima(problem, level, friction) for side in sides]
@@ -237,15 +231,7 @@ def _stresses(
         }
         extremes = {name: highest(cells) for name, cells in maxima.items()}
         extremes["von_mises"] = max((one.von_mises for one in largest), key=lambda e: e.value)
-        state = _on_window(sides, level, friction) if fields else None
-        yield stress_result(friction, extremes, state, maxima, window)
-
-
-def _on_window(sides: list[_Side], level: Level, friction: float) -> StressState:
-    """The common field, one side below the other."""
-    shown = [side.field(level, side.shown, friction).stress for side in sides if side.is_shown]
-    parts = ([getattr(stress, name) for stress in shown] for name in ("sx", "sz", "txz"))
-    return StressState(*map(np.concatenate, parts))
+        yield StressResult(friction, extremes, maxima)
 
 
 def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
@@ -253,30 +239,22 @@ def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
     body, searched = layered_body(problem.scene), search_window(problem, window)
     ends = ends_of(problem, level.grid, level.solution)
     if body is None:
-        return [_Side(problem.scene.body.material, None, False, ends, window.sparse, searched)]
+        return [_Side(problem.scene.body.material, None, False, ends, searched)]
     reach = min(window.x[0], searched.x[0]), max(window.x[-1], searched.x[-1])
     added, thickness = (
         AddedStress.of(body, level.grid.x, level.solution.pressure, reach),
         body.thickness,
     )
-    both = window.sparse, searched
-    inside, below = (
-        [replace(points, z=z) for points, z in zip(both, depths, strict=True)]
-        for depths in zip(*(_split(part.z, thickness) for part in both), strict=True)
-    )
-    goes_on = not body.rigid and len(below[1].z) > 0
+    is_inside = searched.z <= thickness * (1.0 + 1e-12)
+    inside, below = np.minimum(searched.z[is_inside], thickness), searched.z[~is_inside]
+    goes_on = not body.rigid and len(below) > 0
     if goes_on:  # both sides of the interface are searched
-        ends_there = np.append(inside[1].z[inside[1].z < thickness], thickness)
-        inside[1] = replace(inside[1], z=ends_there)
-        below[1] = replace(below[1], z=np.append(thickness, below[1].z))
-    layer = _Side(body.material, added, False, ends, *inside)
-    return [layer, _Side(body.base, added, True, ends, *below)] if goes_on else [layer]
-
-
-def _split(z: np.ndarray, thickness: float) -> tuple[np.ndarray, np.ndarray]:
-    """Depths in the layer, its lower side among them, and below."""
-    inside = z <= thickness * (1.0 + 1e-12)
-    return np.minimum(z[inside], thickness), z[~inside]
+        inside = np.append(inside[inside < thickness], thickness)
+        below = np.append(thickness, below)
+    layer = _Side(body.material, added, False, ends, replace(searched, z=inside))
+    if not goes_on:
+        return [layer]
+    return [layer, _Side(body.base, added, True, ends, replace(searched, z=below))]
 
 
 def _larger(cells: list[np.ndarray]) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 from analytic.contact.problem import ContactError
 from comparisons.common.tasks import LAST, Tasks, called
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
+from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.smooth import closed_form
@@ -134,9 +134,8 @@ class Ladder:
 
     def _errors(self, run: ModelRun, friction: float) -> list[ModelError]:
         """Errors against the whole of a model that was solved on the half-plane's pressures."""
-        problem, window = self.solved.problem, self.solved.window
-        finite_elements = self.solved.runs[OTHER]
-        rows = differences_of(run, finite_elements, problem, friction, window)
+        problem, finite_elements = self.solved.problem, self.solved.runs[OTHER]
+        rows = differences_of(run, finite_elements, problem, friction)
         runs = {"half_plane": run, OTHER: finite_elements}
         solutions = replace(self.budget.solutions[friction], runs=runs)
         judged = [rows[row.quantity] for row in self._rows(friction)]
@@ -153,14 +152,12 @@ class Ladder:
         began, problem, window = perf_counter(), self.solved.problem, self.solved.window
         errors, finite_elements = [], self.solved.runs[OTHER]
         for friction, solutions in self.budget.solutions.items():
-            count = len(solutions.history)
-            grids = [level.grid.x for level in finite_elements.levels[:count]]
-            levels = hertz_quantities(problem, grids, friction, window)
+            exact = hertz_quantities(problem, friction, window)
             stated = uncertainties(finite_elements, problem, friction)
-            for row in self._rows(friction):
-                uncertainty = stated.get(row.quantity)
-                numerical = row.numerical if uncertainty is None else uncertainty.total
-                errors.append(solutions.of_exact(row.quantity, levels, numerical))
+            errors += [
+                solutions.of_exact(row.quantity, exact, stated[row.quantity].total)
+                for row in self._rows(friction)
+            ]
         seconds = perf_counter() - began
         figures = self._figures(HERTZ, errors)
         return Rung(HERTZ, HERTZ, f"{smooth.name}'s closed form", figures, seconds, 0.0)
@@ -211,10 +208,10 @@ class Ladder:
         run, errors = self.solved.runs[OTHER], []
         for friction, solutions in self.budget.solutions.items():
             stated = uncertainties(run, self.solved.problem, friction)
-            for row in self._rows(friction):
-                uncertainty = stated.get(row.quantity)
-                numerical = row.numerical if uncertainty is None else uncertainty.total
-                errors.append(solutions.of_whole(row.quantity, numerical))
+            errors += [
+                solutions.of_whole(row.quantity, stated[row.quantity].total)
+                for row in self._rows(friction)
+            ]
         effects = self.budget.selection.whole
         inside = words_of_kind(effects)
         rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors), WHOLE)
@@ -236,14 +233,14 @@ def announce_operators(
     """Add the half-plane with what an operator carries to the tasks, on pressure elements of each
     pitch [m]: their keys by the friction coefficients that share a contact."""
     problem, frictions = problem_carrying(problem, held), problem.scene.load.friction
-    keys, pitches, fields = {}, list(pitches), has_norms(problem)
+    keys, pitches = {}, list(pitches)
     for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
         coupling = group[0] if COUPLED in held else 0.0
         model = OperatorModel(problem, group, coupling, is_deformed(held))
         name = "+".join(sorted(held)) + f"@{group[0]:g}"
         keys[group] = [f"operators-{name}-{number}" for number in range(1, len(pitches) + 1)]
         for key, pitch in zip(keys[group], pitches, strict=True):
-            tasks.add(key, called, model.level, pitch, window, fields, urgency=LAST)
+            tasks.add(key, called, model.level, pitch, window, urgency=LAST)
     return keys
 
 
@@ -264,11 +261,6 @@ def operator_runs(
     return runs
 
 
-def has_norms(problem: Problem) -> bool:
-    """Whether a norm of fields is judged."""
-    return any(QUANTITIES[name].of_pair for name in problem.scene.tolerances)
-
-
 def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
     """Seconds and largest memory [bytes] of runs by friction coefficient, some of them one."""
     once = {id(run): run for run in runs.values()}.values()
@@ -284,25 +276,16 @@ def renamed(figure: Figure, rung: str) -> Figure:
 
 
 def hertz_quantities(
-    problem: Problem, grids: Iterable[np.ndarray], friction: float, window: Window | None
-) -> list[QuantitiesOfInterest]:
-    """The smooth contact's closed form, where it has one, on each grid of nodes (n,) [m], with its
-    field on the window where a norm of fields is judged."""
-    smooth, tau1 = closed_form(problem), None
-    values = {
-        "peak_pressure": smooth.peak_pressure,
-        "contact_length": smooth.contact_length,
-        "contact_ratio": smooth.contact_length / (2.0 * problem.hertz.half_width),
-    }
+    problem: Problem, friction: float, window: Window | None
+) -> QuantitiesOfInterest:
+    """The smooth contact's closed form, where it has one; largest stresses with a window."""
+    smooth = closed_form(problem)
+    values = {"peak_pressure": smooth.peak_pressure, "contact_length": smooth.contact_length}
     if window is not None:
         largest = smooth.extremes(friction)
         values |= {"tau1_max": largest["tau1"].value, "tau1_max_depth": largest["tau1"].z}
         values["txz_max_abs"] = abs(largest["txz"].value)
-        if has_norms(problem):
-            at = window.sparse
-            tau1 = smooth.stress(at.x, at.z[:, None], friction).tau1
-    figures = {name: np.array([value]) for name, value in values.items()}
-    return [QuantitiesOfInterest(figures, smooth.pressure(x), tau1) for x in grids]
+    return QuantitiesOfInterest({name: np.array([value]) for name, value in values.items()})
 
 
 def _rung_of(

@@ -66,13 +66,13 @@ def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
     worst = _nearest(errors)
     if not isfinite(worst.total):
         return f"{words} ({_time(row)})"
-    size = error_text(worst.quantity, worst.value, worst.total).removesuffix(" %")
+    size = error_text(worst.value, worst.total).removesuffix(" %")
     short = QUANTITIES[worst.quantity].short
     return f"{words} ({_time(row)}, {short} {size} ± {percent(worst.total)})"
 
 
 def _error_cells(error: Figure) -> tuple[str, str, str]:
-    size = error_text(error.quantity, error.value, error.total)
+    size = error_text(error.value, error.total)
     return label(error.quantity), size, percent(error.total)
 
 

@@ -8,7 +8,7 @@
 All are relative sizes without a sign, rather too large than too small: they decide which effects
 are computed, and count for those that are not. Each is a factor times a group. The factors bound
 the full solutions of smooth and wavy bodies, the maps' among them, quantity by quantity: an effect
-is larger in stresses than in the contact, and largest in fields next to the surface.
+is larger in stresses than in the contact.
 Normal-tangential coupling is measured on the half-plane where that is possible
 (`comparisons.studies.friction.coupling`)."""
 
@@ -16,7 +16,6 @@ import math
 from collections.abc import Iterable
 
 from analytic.material import dundurs_constants
-from analytic.surface.roughness import shortest_wavelength
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import Problem
 from comparisons.studies.friction.coupling import Coupling
@@ -24,9 +23,8 @@ from comparisons.studies.model_error.laws import open_laws
 
 Sizes = dict[str, float]
 
-STRESSES = ("tau1_max", "txz_max_abs", "tau1_field_deep")
-NEAR_SURFACE = ("tau1_max", "tau1_max_depth", "txz_max_abs", "tau1_field_near")
-NORMS = ("pressure_l2", "tau1_field_near", "tau1_field_deep")
+STRESSES = ("tau1_max", "txz_max_abs")
+NEAR_SURFACE = ("tau1_max", "tau1_max_depth", "txz_max_abs")
 
 
 def estimates(
@@ -69,9 +67,9 @@ def _curvature(problem: Problem) -> float:
 
 
 # Of second order in a/t and a/w in the contact, of first in stresses, which keep what the far
-# boundary reflects: 4.6 % in tau1 and 18 % in its near field at a/t = 0.05.
+# boundary reflects: 4.6 % in tau1 at a/t = 0.05.
 BODY_SQUARE = {"thickness": 0.6, "width": 6.0}
-REFLECTED = {"tau1_max": 1.0, "tau1_max_depth": 1.0, "tau1_field_near": 4.0, "tau1_field_deep": 1.0}
+REFLECTED = {"tau1_max": 1.0, "tau1_max_depth": 1.0}
 BROADER = 1.5  # reflected by free sides, of what a base reflects
 
 
@@ -85,7 +83,6 @@ def _finite_size(problem: Problem) -> Sizes:
         square = BODY_SQUARE[extent] * ratio**2
         for name in estimate:
             estimate[name] += square + factor * REFLECTED.get(name, 0.0) * ratio
-        estimate["pressure_l2"] += square
     return estimate
 
 
@@ -101,11 +98,11 @@ def _coating(problem: Problem) -> Sizes:
 
 
 # 0.25 % in contact length and 0.14 % in peak pressure of a ground surface of rms slope 0.066: of
-# second order. The near field of tau1 differs by 4 % at a slope of 0.01, and its largest value may
-# come to stand below another asperity, at another depth. On a linear boundary, whose asperities do
-# not flatten, largest stresses are of first order too, 8.4 % in tau1.
+# second order. The largest tau1 may come to stand below another asperity, at another depth. On a
+# linear boundary, whose asperities do not flatten, largest stresses are of first order too, 8.4 %
+# in tau1.
 BOUNDARY_PER_SLOPE_SQUARED = 1.0
-BOUNDARY = {"tau1_field_near": 5.0, "tau1_max_depth": 7.0}
+BOUNDARY = {"tau1_max_depth": 7.0}
 UNFLATTENED = BOUNDARY | {"tau1_max": 2.1, "txz_max_abs": 2.1}
 
 
@@ -117,44 +114,34 @@ def _slope(problem: Problem) -> float:
 def _rough_boundary(problem: Problem) -> Sizes:
     slope = _slope(problem)
     estimate = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
-    estimate["pressure_l2"] *= 2.0
     return estimate | {name: factor * slope for name, factor in BOUNDARY.items()}
 
 
 # The roller's tilted normal: 0.3 to 0.5 % in peak pressure and half-width at a/R = 0.02. Once
 # deformed, the surface is shorter by its own strain under the pressure, (1 - 2 nu) (1 + nu)
-# p / E: 2.7 % in the peak pressure of asperities at p/E = 0.054; and asperities are seen elsewhere,
-# by a part of their own width. On a boundary that stays level the near field of tau1 differs by
-# 33 % at a/R = 0.07.
-TILT, TILT_OF_STRESS, UNTURNED, SHIFTED = 0.25, 2.2, 5.0, 6.0
+# p / E: 2.7 % in the peak pressure of asperities at p/E = 0.054.
+TILT, TILT_OF_STRESS = 0.25, 2.2
 
 
 def _deformed_gap(problem: Problem, peak: float) -> Sizes:
     body, curvature = problem.scene.body.material, _curvature(problem)
     strain = (1.0 - 2.0 * body.poissons_ratio) * (1.0 + body.poissons_ratio) / body.youngs_modulus
     size = TILT * curvature + strain * peak
-    estimate = _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
-    estimate["tau1_field_near"] += UNTURNED * curvature
-    if problem.scene.profile is not None:
-        wave = shortest_wavelength(problem.surface.profile)
-        hertz = problem.hertz
-        estimate["pressure_l2"] += SHIFTED * strain * hertz.peak_pressure * hertz.half_width / wave
-    return estimate
+    return _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
 
 
 # The circle's next term is x^4 / (8 R^3): a^2 / (4 R^2) of the parabola at the contact's edge.
-CIRCLE, CIRCLE_IN_NORMS = 0.25, 0.8
+CIRCLE = 0.25
 
 
 def _exact_circle(problem: Problem) -> Sizes:
-    square = _curvature(problem) ** 2
-    return _equal(CIRCLE * square) | dict.fromkeys(NORMS, CIRCLE_IN_NORMS * square)
+    return _equal(CIRCLE * _curvature(problem) ** 2)
 
 
 # A disc in place of a half-plane: of a polymer 0.52 (a/R)^2 as a sector, -0.33 held opposite the
 # contact, 0.72 on a hub of half the radius; on larger hubs 0.25 to 0.34 times the square of a over
 # the ring's thickness.
-DISC, DISC_IN_NORMS, RING = 0.8, 2.5, 0.45
+DISC, RING = 0.8, 0.45
 
 
 def _finite_roller(problem: Problem) -> Sizes:
@@ -167,19 +154,18 @@ def _finite_roller(problem: Problem) -> Sizes:
         thickness = roller.radius - roller.support.hub
         ratio = problem.hertz.half_width / thickness
         square = max(square, RING / DISC * share * ratio**2)
-    return _equal(DISC * square) | dict.fromkeys(NORMS, DISC_IN_NORMS * square)
+    return _equal(DISC * square)
 
 
 # How far supports from opposite the contact to a hub of half the radius are from the sector that is
 # taken where none is given, over (a/R)^2 and the roller's share of the compliance: in peak pressure
 # and length 0.5 at Poisson's ratio 0, 0.63 at 0.3, 0.9 at 0.4, 1.2 at 0.48.
 SUPPORT, SUPPORT_BY_RATIO = 0.6, 3.1  # of the ratio's square
-SUPPORT_IN_NORMS = {"pressure_l2": 2.6, "tau1_field_near": 5.0}
 # Friction turns a disc by its support, about its middle; over friction, a/R and the roller's share:
-# 1.5 in norms of a smooth contact, 4 in the depth of tau1, 0.45 in the deep field. On ground and
-# wavy surfaces 1 in peak pressure and 1.7 in length, where single asperities come into contact.
-TURNED = {"pressure_l2": 1.5, "tau1_max_depth": 4.0, "tau1_field_deep": 0.45}
-TURNED_ROUGH = {"peak_pressure": 1.0, "contact_length": 1.7, "contact_ratio": 1.7}
+# 4 in the depth of tau1 of a smooth contact. On ground and wavy surfaces 1 in peak pressure and 1.7
+# in length, where single asperities come into contact.
+TURNED = {"tau1_max_depth": 4.0}
+TURNED_ROUGH = {"peak_pressure": 1.0, "contact_length": 1.7}
 
 
 def _roller_support(problem: Problem) -> Sizes:
@@ -189,7 +175,7 @@ def _roller_support(problem: Problem) -> Sizes:
     share = problem.modulus / roller.material.plane_strain_modulus
     factor = SUPPORT + SUPPORT_BY_RATIO * roller.poissons_ratio**2
     size = factor * share * _curvature(problem) ** 2
-    sizes = _equal(size) | {name: of * size for name, of in SUPPORT_IN_NORMS.items()}
+    sizes = _equal(size)
     turned = max(problem.scene.load.friction) * share * _curvature(problem)
     moved = TURNED | (TURNED_ROUGH if problem.scene.profile is not None else {})
     return sizes | {name: sizes[name] + of * turned for name, of in moved.items()}
@@ -207,8 +193,6 @@ def _finite_deformation(problem: Problem, peak: float, contained: set[str]) -> S
     parts = []
     if "deformed_gap" not in contained:
         parts.append(_deformed_gap(problem, peak))
-    else:
-        estimate["tau1_field_near"] += UNTURNED * _curvature(problem)
     if "rough_boundary" not in contained:
         parts.append(_rough_boundary(problem))
     else:
@@ -222,7 +206,7 @@ def _finite_deformation(problem: Problem, peak: float, contained: set[str]) -> S
 # most, lengths by 0.9 %, tau1 by 2.5 %, up to a plastic strain of 0.07 under smooth rollers and of
 # 0.025 on a turned surface, peaks by 2.4 % on a ground one at 0.02: less than an elastic body under
 # that pressure may be off. Beyond, terms of the order of the plastic strain count: at 0.19 on a
-# steep surface 5 % of the peak, 7 % of tau1, 9.3 % of its deep field, for 8.6, 10.4 and 10.4.
+# steep surface 5 % of the peak and 7 % of tau1, for 8.6 and 10.4.
 FLOWED = 0.3
 
 
@@ -261,10 +245,10 @@ def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
 
 
 # Coupling where it is not measured on the half-plane: 1.4 % in contact
-# length at mu beta = 0.28, of second order; the pressure shifts by 0.64 mu beta half-widths, which
-# norms see, and stresses next to the surface at high friction. At mu beta of 0.06 to 0.1 the
-# largest shear stands 16 % higher, or on the surface, where it was 0.3 half-widths below.
-COUPLING_SQUARE, COUPLING_SHIFT = 0.25, 1.6
+# length at mu beta = 0.28, of second order; stresses next to the surface change at high friction:
+# at mu beta of 0.06 to 0.1 the largest shear stands 16 % higher, or on the surface, where it was
+# 0.3 half-widths below.
+COUPLING_SQUARE = 0.25
 COUPLING_OF_STRESS = {"tau1_max": 0.8, "tau1_max_depth": 3.0, "txz_max_abs": 0.3}
 # A layer and a coating couple even where both bodies have equal constants: pressures of steel on
 # steel change by 10 %, 7 % and 3 % at a/t = 3, 1 and 1/4 and friction 0.3.
@@ -294,7 +278,7 @@ def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
 
 def _coupled(size: float) -> Sizes:
     """Of surfaces that traction moves by `size` = mu beta."""
-    sizes = _equal(COUPLING_SQUARE * size**2) | dict.fromkeys(NORMS, COUPLING_SHIFT * size)
+    sizes = _equal(COUPLING_SQUARE * size**2)
     return sizes | {name: factor * size for name, factor in COUPLING_OF_STRESS.items()}
 
 
@@ -337,5 +321,5 @@ def _plastic_flow(problem: Problem, peak: float) -> Sizes:
     if scene.body.hardness:
         return _equal(CAP * min(1.0, beyond / (1.0 - FIRST_FLOW)) + max(0.0, peak / hardness - 1.0))
     stress = UNCAPPED_STRESS * beyond + FIRST_AT_SURFACE
-    stresses = dict.fromkeys((*STRESSES, *NORMS), stress) | {"tau1_max_depth": max(1.0, stress)}
+    stresses = dict.fromkeys(STRESSES, stress) | {"tau1_max_depth": max(1.0, stress)}
     return _equal(UNCAPPED * beyond) | stresses

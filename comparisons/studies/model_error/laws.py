@@ -27,7 +27,6 @@ from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 from comparisons.scenes.materials import (
     RUBBER,
     kinds_of,
@@ -38,10 +37,7 @@ from comparisons.scenes.materials import (
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
 from comparisons.studies.model_error.catalogue import ModelVariant
-from comparisons.studies.model_error.quantities_of_interest import (
-    QuantitiesOfInterest,
-    relative_sizes,
-)
+from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 
 EFFECT = "law_of_elasticity"
 BODIES = ("body", "roller", "coating")
@@ -192,7 +188,6 @@ class LawSolutions:
     """The whole at one friction coefficient on its coarsest level, and with other laws."""
 
     problem: Problem
-    window: Window | None
     laws: tuple[OpenLaw, ...]
     whole: QuantitiesOfInterest
     moved: Mapping[tuple[int, str], QuantitiesOfInterest]  # by place in `laws`, and probe
@@ -205,8 +200,6 @@ class LawSolutions:
             sizes = list(changes.values())
             if law.is_scatter:
                 scatter += law.scatter(sizes)
-            elif QUANTITIES[name].of_pair:  # a norm's change has no sign
-                low, high = low - max(sizes), high + max(sizes)
             else:
                 ends = law.range(changes)
                 low, high = low + ends[0], high + ends[1]
@@ -216,8 +209,6 @@ class LawSolutions:
     def _change(self, number: int, probe: str, name: str, at: int) -> float:
         """Relative, of the whole's figure on that level."""
         change = self.moved[number, probe] - self.whole
-        if QUANTITIES[name].of_pair:
-            return relative_sizes(change, self.whole, self.problem, self.window)[name]
         scale = abs(self.whole.figures[name][at]) or QUANTITIES[name].scale(self.problem.hertz)
         return float(change.figures[name][at] / scale)
 

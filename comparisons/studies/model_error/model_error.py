@@ -5,9 +5,7 @@ is the same whether an effect is added here or switched on in the scene. The who
 own finite elements on their finest level, and what these do not contain of it on the level of the
 effects. A largest value is followed asperity by asperity, and the whole's is the largest of these
 in the end: an effect is what changes at that asperity. Where the half-plane has its own largest
-value at another one, what lies between the two is the jump, no effect. Norms do not add: their
-error is the norm of the half-plane against the whole on the level of the effects, with the far
-boundary of the models' difference."""
+value at another one, what lies between the two is the jump, no effect."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -19,17 +17,13 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import (
-    LENGTHS,
     difference_of_figures,
-    difference_of_norms,
     iteration,
     of_increments,
-    peak_resolution,
     relative_resolution,
 )
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 from comparisons.studies.contact import formal_order, uncertainties, values_of
 from comparisons.studies.model_error.contributions import EffectContributions
 from comparisons.studies.model_error.laws import LawSolutions, LawSpread
@@ -37,7 +31,6 @@ from comparisons.studies.model_error.quantities_of_interest import (
     LARGEST,
     QuantitiesOfInterest,
     quantities_of,
-    relative_sizes,
 )
 
 NEAR = 0.5  # of the largest value: asperities below it do not compete
@@ -61,7 +54,7 @@ class ModelError:
     friction: float
     effects: dict[str, Estimate]  # by name, what each changes in the finite elements
     interaction: float  # what they change jointly beyond their sum
-    value: float  # (half-plane - whole) / whole, or the norm of that difference
+    value: float  # (half-plane - whole) / whole
     uncertainty: float  # of `value`
     scale: float = 1.0  # the whole's figure [SI], or the Hertz contact's where that vanishes
     # of elasticity; its middle is a part of `value`
@@ -78,7 +71,6 @@ class Solutions:
     """What was solved at one friction coefficient, and the model errors that follow."""
 
     problem: Problem
-    window: Window | None
     runs: dict[str, ModelRun]
     # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last
     history: list[EffectContributions]
@@ -138,13 +130,12 @@ class Solutions:
             return self.wholes[-1]
         lacking = self.missing[-1].figures.items()
         figures = {name: self.of_scene[-1].figures[name] + value for name, value in lacking}
-        return QuantitiesOfInterest(figures, self.wholes[-1].pressure, self.wholes[-1].tau1)
+        return QuantitiesOfInterest(figures)
 
     @cached_property
     def contains_all(self) -> bool:
         """Whether the scene's own finite elements are the whole already."""
-        lacking = self.missing[-1]
-        return not (lacking.pressure.any() or any(map(np.any, lacking.figures.values())))
+        return not any(map(np.any, self.missing[-1].figures.values()))
 
     @cached_property
     def unsolved(self) -> float:
@@ -157,24 +148,21 @@ class Solutions:
     def resolutions(self) -> dict[str, float]:
         """By quantity, what the pressure elements of the effects' finest level cannot resolve."""
         level = self.runs["finite_element"].levels[len(self.history) - 1]
-        of_lengths = dict.fromkeys(LENGTHS, relative_resolution(level, level))
-        return of_lengths | {"peak_pressure": peak_resolution(self.wholes[-1].pressure)}
+        return {
+            "contact_length": relative_resolution(level, level),
+            "peak_pressure": self.wholes[-1].peak_resolution,
+        }
 
     def error(self, row: Figure) -> ModelError:
         """Of the quantity of a row of the models' comparison."""
         name, at = row.quantity, self.whole.leading(row.quantity)
         effects = {effect: self._effect(name, effect, at, row.numerical) for effect in self.effects}
-        interaction, jump, moved, scale = 0.0, 0.0, None, 1.0
+        interaction = 0.0
         if self.split_levels:
             joint = [level.interaction(self.effects) for level in self.split_levels]
             interaction = self._estimate(name, joint, at).value
-        if not QUANTITIES[name].of_pair:
-            value, uncertainty, scale = self._of_figure(name, row.numerical, at)
-            jump, moved = self._jump(name, row.numerical, at)
-        elif not self.contains_all:
-            value, uncertainty = self._of_norm(row)
-        else:
-            value, uncertainty = row.value, row.numerical
+        value, uncertainty, scale = self._of_figure(name, row.numerical, at)
+        jump, moved = self._jump(name, row.numerical, at)
         return ModelError(
             quantity=name,
             friction=self.friction,
@@ -200,7 +188,7 @@ class Solutions:
     def _law(self, name: str, at: int) -> LawSpread:
         """Relative to the figure that the error is relative to, and of the error."""
         spread = self._spread(name, at)
-        if spread == LawSpread() or QUANTITIES[name].of_pair:
+        if spread == LawSpread():
             return spread
         figure = self._figure(name, at)
         scale = _scale(figure, name, self.problem)
@@ -216,14 +204,9 @@ class Solutions:
 
     def _estimate(self, name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
         """The relative size of changes, one a level, of a quantity at an asperity."""
-        if QUANTITIES[name].of_pair:
-            values = [
-                relative_sizes(change, reference, self.problem, self.window)[name]
-                for change, reference in zip(changes, self.wholes, strict=False)
-            ]
-        else:  # by one scale: a place may jump to the surface on one level alone
-            scale = _scale(self._figure(name, at), name, self.problem)
-            values = [float(change.figures[name][at] / scale) for change in changes]
+        # by one scale: a place may jump to the surface on one level alone
+        scale = self._scale_of(name, at)
+        values = [float(change.figures[name][at] / scale) for change in changes]
         if not any(values):
             return Estimate(0.0, 0.0)
         resolution = self.resolutions.get(name, 0.0)
@@ -260,21 +243,15 @@ class Solutions:
     def _lacking(self, name: str, at: int) -> float:
         """Uncertainty of what the whole has beside the scene's own finite elements, relative. One
         that flows beside them stands for itself: by its levels, and by its increments."""
-        alone = self.longer is None or QUANTITIES[name].of_pair
-        levels = self.missing if alone else self.wholes
+        levels = self.missing if self.longer is None else self.wholes
         return self._estimate(name, levels, at).uncertainty + self._increments(name, at)
 
     def _increments(self, name: str, at: int) -> float:
         """The part by increments of flow; unknown where longer ones have no solution."""
         if not self.longer:
             return 0.0 if self.longer is None else np.inf
-        repeated = self.longer
-        if not QUANTITIES[name].of_pair:
-            scale = self._scale_of(name, at)
-            return of_increments([float(value.figures[name][at] / scale) for value in repeated])
-        differences = ((self.half_plane[0] - value, value) for value in repeated)
-        sizes = (relative_sizes(*pair, self.problem, self.window) for pair in differences)
-        return of_increments([value[name] for value in sizes])
+        scale = self._scale_of(name, at)
+        return of_increments([float(value.figures[name][at] / scale) for value in self.longer])
 
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
         """What asperities that may have the largest value add to the uncertainty of a figure [SI].
@@ -303,23 +280,9 @@ class Solutions:
         places = half_plane.places[largest][before], self.wholes[-1].places[largest][at]
         return jump, (float(places[0]), float(places[1]))
 
-    def _of_norm(self, row: Figure) -> tuple[float, float]:
-        """Error of a norm against the whole on the level of the effects, and its uncertainty."""
-        levels = self.half_plane[: len(self.wholes)]
-        differences = [a - b for a, b in zip(levels, self.wholes, strict=True)]
-        norm = self._estimate(row.quantity, differences, 0)
-        lacking = self._lacking(row.quantity, 0)
-        there, stated = row.levels[len(self.history) - 1], row.uncertainty.parts
-        beside = stated["domain"] + stated["increments"]
-        parts = row.numerical, abs(there - row.value), lacking
-        return norm.value, difference_of_norms(norm.uncertainty, beside, parts)
-
     def of_variants(self, name: str, levels: Sequence[QuantitiesOfInterest]) -> ModelError:
         """Of finite elements with other effects, on the last of the levels of the effects."""
         at = self.whole.leading(name)
-        if QUANTITIES[name].of_pair:
-            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=False)]
-            return self._plain_error(name, self._estimate(name, apart, 0), at)
         scale, middle = self._scale_of(name, at), self._spread(name, at).middle
         apart = [
             (_leading(one, name) - (1.0 + middle) * _leading(whole, name)) / scale
@@ -332,20 +295,13 @@ class Solutions:
         unsure += self._increments(name, at)
         return self._plain_error(name, Estimate(float(apart[-1]), float(unsure)), at)
 
-    def of_exact(
-        self, name: str, levels: Sequence[QuantitiesOfInterest], numerical: float
-    ) -> ModelError:
-        """Of a model without numerical error, on the levels of the effects.
+    def of_exact(self, name: str, exact: QuantitiesOfInterest, numerical: float) -> ModelError:
+        """Of a model without numerical error.
 
-        numerical  relative uncertainty of the scene's own finite elements, or absolute of a norm"""
+        numerical  relative uncertainty of the scene's own finite elements"""
         at = self.whole.leading(name)
         lacking = self._lacking(name, at)
-        if QUANTITIES[name].of_pair:
-            apart = [one - whole for one, whole in zip(levels, self.wholes, strict=True)]
-            norm = self._estimate(name, apart, 0)
-            unsure = norm.uncertainty + numerical + lacking
-            return self._plain_error(name, Estimate(norm.value, unsure), at)
-        scale, value = self._scale_of(name, at), _leading(levels[-1], name)
+        scale, value = self._scale_of(name, at), _leading(exact, name)
         numerical *= abs(_leading(self.of_scene[-1], name)) / scale
         unsure = float(difference_of_figures(numerical, value / scale, lacking))
         value = float((value - self._figure(name, at)) / scale)
@@ -361,8 +317,7 @@ class Solutions:
         return _scale(self._figure(name, at), name, self.problem)
 
     def _plain_error(self, name: str, size: Estimate, at: int) -> ModelError:
-        scale = 1.0 if QUANTITIES[name].of_pair else self._scale_of(name, at)
-        law = self._law(name, at)
+        scale, law = self._scale_of(name, at), self._law(name, at)
         return ModelError(
             name, self.friction, {}, 0.0, size.value, size.uncertainty, scale, law=law
         )

@@ -20,9 +20,7 @@ from comparisons.studies.model_error.contributions import (
 )
 from comparisons.studies.model_error.laws import LawSolutions, law_variants
 from comparisons.studies.model_error.model_error import ModelError, Solutions
-from comparisons.studies.model_error.quantities_of_interest import (
-    QuantitiesOfInterest,
-)
+from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.model_error.selection import (
     FLOW,
     NONLINEAR,
@@ -139,10 +137,8 @@ class EffectRefinement:
                 self.with_laws = {}
                 return
             if variants:
-                whole, window = self.history[mu][0].whole, self.solved.window
-                self.with_laws[mu] = LawSolutions(
-                    self.problem, window, self.open_laws, whole, moved
-                )
+                whole = self.history[mu][0].whole
+                self.with_laws[mu] = LawSolutions(self.problem, self.open_laws, whole, moved)
 
     def _take_increments(self) -> None:
         """The wholes that flow on the coarsest level by longer increments; none where one of them
@@ -176,11 +172,11 @@ class EffectRefinement:
         ]
 
     def _solutions(self) -> dict[float, Solutions]:
-        problem, window, made = self.problem, self.solved.window, {}
+        made = {}
         for mu, parts in self.history.items():
             runs = {name: run.under(mu) for name, run in self.runs.items()}
             made[mu] = Solutions(
-                *(problem, window, runs, parts, mu),
+                *(self.problem, runs, parts, mu),
                 laws=self.with_laws.get(mu),
                 longer=self.longer.get(mu, []) if self.increments[mu] else None,
             )

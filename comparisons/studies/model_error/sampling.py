@@ -30,7 +30,7 @@ def sampling_changes(
             sizes = changes.setdefault(friction, {})
             whole = quantities_of(level, problem, friction).largest()
             change = quantities_of(other, thinned, friction).largest() - whole
-            for name, size in relative_sizes(change, whole, problem, window).items():
+            for name, size in relative_sizes(change, whole, problem).items():
                 sizes[name] = max(sizes.get(name, 0.0), abs(size))
     return changes
 
@@ -55,7 +55,7 @@ def _sampled(
 ) -> Level:
     here.callback("error budget: sampling of the trace")
     thinned = _thinned(problem, first)
-    return half_plane_level(thinned, pitch, window, Stages(), "sparse")
+    return half_plane_level(thinned, pitch, window, Stages(), fields=False)
 
 
 def _thinned(problem: Problem, first: int) -> Problem:

@@ -2,7 +2,7 @@
 
 In: a run of both models. Out: tables, lines, and a picture of waterfalls: from nothing, effect by
 effect, to the error; one for each judged figure and friction coefficient, or for each there is
-where nothing is judged. Norms have no sign and do not add up: their bars all start at zero."""
+where nothing is judged."""
 
 import math
 from collections.abc import Sequence
@@ -42,16 +42,15 @@ NUMERICAL, OTHERS, ERROR = "without any effect", "smaller steps", "model error"
 LOOKS = {
     True: {"facecolor": "#E69F00", "edgecolor": "#333333"},
     False: {"facecolor": "#56B4E9", "edgecolor": "#333333"},  # and hatched
-    None: {"facecolor": "#cccccc", "edgecolor": "#333333"},  # without a sign
 }
 NOTE = """Model error: (half-plane − whole model) / whole model, which is a finite element
 solution with every effect that may matter here. A minus says that the half-plane's figure is
 too low. Contributions: each effect was computed by itself, as the difference that it makes in the
 finite elements; *interaction* is what the effects change jointly beyond their sum. A largest
 value is followed at the asperity where the whole model has it; *another asperity* is what the
-half-plane's largest exceeds its own value there, and both places are named. Norms have no sign and
-do not add up. *Not modelled* under a quantity: effects that no model has may exceed its tolerance.
-The verdict is taken from these errors."""
+half-plane's largest exceeds its own value there, and both places are named. *Not modelled* under a
+quantity: effects that no model has may exceed its tolerance. The verdict is taken from these
+errors."""
 OF_EFFECTS = """An effect is computed where its estimate, from the scene's dimensionless groups,
 exceeds a tenth of a tolerance; an effect that was not computed counts with its estimate."""
 
@@ -78,7 +77,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
 
 def error_table(run: Run) -> TextTable:
     """The rows for the page; what they are made of where any error is split."""
-    rows = [row for row in model_error_rows(run) if run.shows(row.quantity)]
+    rows = model_error_rows(run)
     head, split = ("quantity", "friction", "model error", "uncertainty", "tolerance"), ()
     if any(row.contributions for row in rows):
         split = ("dominant contributions",)
@@ -96,7 +95,7 @@ class ModelErrorRow:
 
     quantity: str
     friction: str
-    half_plane: str  # its figure, with unit; empty of a norm
+    half_plane: str  # its figure, with unit
     whole: str  # the whole model's
     error: str
     uncertainty: str
@@ -136,7 +135,7 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
 
 
 def _shown(error: Figure) -> tuple[str, str, tuple[str, ...]]:
-    size = law_range(error) or error_text(error.quantity, error.value, error.numerical)
+    size = law_range(error) or error_text(error.value, error.numerical)
     return size, percent(error.numerical), contributions_in_words(error)
 
 
@@ -149,13 +148,10 @@ def figure_of_whole(run: Run, error: Figure) -> float:
 
 
 def _values(run: Run, error: Figure) -> tuple[str, str]:
-    """The figures of the half-plane and of the whole model, as far as they are no norms."""
-    meaning = QUANTITIES[error.quantity]
-    if meaning.of_pair:
-        return "", ""
+    """The figures of the half-plane and of the whole model."""
     whole = figure_of_whole(run, error)
     pair = whole + error.scale * error.value, whole
-    scale = scale_of(pair, meaning.unit)
+    scale = scale_of(pair, QUANTITIES[error.quantity].unit)
     return scale.text(pair[0]), scale.text(pair[1])
 
 
@@ -169,14 +165,12 @@ def _not_known(error: Figure) -> str:
 
 def law_range(error: Figure) -> str:
     """From which error to which, by the law of elasticity, where the scene names no solid; empty
-    where it does, and of norms."""
+    where it does."""
     part = error.part(LAW)
-    if part is None or not part.uncertainty or QUANTITIES[error.quantity].of_pair:
+    if part is None or not part.uncertainty:
         return ""
     ends = (error.value - part.uncertainty, error.value + part.uncertainty)
-    low, high = (
-        error_text(error.quantity, end, error.numerical).removesuffix(" %") for end in ends
-    )
+    low, high = (error_text(end, error.numerical).removesuffix(" %") for end in ends)
     return f"{low} to {high} %"
 
 
@@ -206,13 +200,12 @@ def _moved(error: Figure) -> str:
 
 def contributions_of(error: Figure) -> dict[str, float]:
     """What a model error is made of, with its sign: an effect that raises the finite elements'
-    figure makes the half-plane's too low. Norms have sizes alone."""
+    figure makes the half-plane's too low."""
     sizes = {}
     for part in error.parts:
         if part.name != SAMPLING:
-            size = part.value if part.name == JUMP else -part.value
             name = EFFECTS[part.name].label if part.name in EFFECTS else WORDS[part.name]
-            sizes[name] = abs(size) if QUANTITIES[error.quantity].of_pair else size
+            sizes[name] = part.value if part.name == JUMP else -part.value
     return sizes
 
 
@@ -220,7 +213,7 @@ def contributions_in_words(error: Figure) -> tuple[str, ...]:
     """The same in words, the largest first."""
     least = max(SHOWN, 0.1 * abs(error.value))
     return tuple(
-        f"{name} {error_text(error.quantity, size)}"
+        f"{name} {error_text(size)}"
         for name, size in sorted(contributions_of(error).items(), key=lambda item: -abs(item[1]))
         if abs(size) >= least
     )
@@ -268,16 +261,12 @@ class Waterfall:
 
     quantity: str
     name: str
-    # relative sizes by name, with the sign of the error; of a figure they add up to it
+    # relative sizes by name, with the sign of the error, to which they add up
     steps: dict[str, float]
     error: float
     uncertainty: float  # of `error`; `not_modelled` is the estimate of what else it may be
     not_modelled: float
     tolerance: float | None
-
-    @property
-    def is_norm(self) -> bool:
-        return QUANTITIES[self.quantity].of_pair
 
 
 def waterfalls(run: Run) -> list[Waterfall]:
@@ -308,10 +297,8 @@ def _drawn_of(error: Figure) -> tuple:
 
 
 def _steps(error: Figure) -> dict[str, float]:
-    """From nothing to the error; of a norm its sizes alone."""
+    """From nothing to the error."""
     steps = contributions_of(error)
-    if QUANTITIES[error.quantity].of_pair:
-        return steps
     return {NUMERICAL: error.value - sum(steps.values()), **steps}
 
 
@@ -322,8 +309,8 @@ def model_error_picture(run: Run) -> style.Picture | None:
         return None
     judged = [panel for panel in panels if panel.tolerance]
     said = "; ".join(
-        f"{panel.name}: {error_text(panel.quantity, panel.error, panel.uncertainty)}"
-        + "".join(f", {name} {error_text(panel.quantity, size)}" for name, size in _large(panel))
+        f"{panel.name}: {error_text(panel.error, panel.uncertainty)}"
+        + "".join(f", {name} {error_text(size)}" for name, size in _large(panel))
         for panel in panels
     )
     lines = "; broken lines: the tolerance" if judged else ""
@@ -333,7 +320,7 @@ def model_error_picture(run: Run) -> style.Picture | None:
         "How the half-plane's model error comes about, in per cent of the whole model's "
         "figure: it starts with the half-plane's difference from finite elements without any of "
         "the effects, which is numerical, and each effect moves it, to the left (hatched) where "
-        "the half-plane's figure becomes too low. Norms have sizes alone, which do not add up. "
+        "the half-plane's figure becomes too low. "
         "Black: the error with its uncertainty; thin: with what is not modelled, "
         f"cut off without an end where it would hide the steps{lines}.",
         data=("CSV", style.csv_uri(_table(panels))),
@@ -392,23 +379,19 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     shown = {name: panel.steps.get(name, 0.0) for name in rows[:-1]}
     left_out = [size for name, size in panel.steps.items() if name not in shown]
     if OTHERS in shown:
-        shown[OTHERS] = max(left_out, default=0.0) if panel.is_norm else sum(left_out)
+        shown[OTHERS] = sum(left_out)
     place, start, ends = -np.arange(len(rows), dtype=float), 0.0, [0.0]
     hatched: list = []
     for y, size in zip(place, shown.values(), strict=False):
-        begin = 0.0 if panel.is_norm else start
-        start = begin + 100.0 * size
+        begin, start = start, start + 100.0 * size
         if abs(size) > NOTHING:
-            sign = None if panel.is_norm else size > 0.0
-            look = {"height": BAR, "linewidth": 0.5, **LOOKS[sign]}
+            look = {"height": BAR, "linewidth": 0.5, **LOOKS[size > 0.0]}
             [bar] = axes.barh(y, start - begin, left=begin, **look)
-            hatched += [bar] * (sign is False)
-            text = error_text(panel.quantity, size, panel.uncertainty)
-            style.beside_bar(axes, max(begin, start), y, text)
-        if not panel.is_norm:
-            # past a step that does not apply
-            top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
-            axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
+            hatched += [bar] * (size < 0.0)
+            style.beside_bar(axes, max(begin, start), y, error_text(size, panel.uncertainty))
+        # past a step that does not apply
+        top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
+        axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
         ends += [begin, start]
     style.hatch(axes, hatched, LOOKS[False]["edgecolor"])
     value, y = 100.0 * panel.error, place[-1]
@@ -419,12 +402,11 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     estimate = min(100.0 * panel.not_modelled, most)  # more would hide the steps
     bars = (certain, 1.4, 3.0), (certain + estimate, 0.6, 2.0 * (estimate < most))
     for reach, thick, caps in bars:
-        low = min(reach, value) if panel.is_norm else reach
-        style.whisker(axes, value, y, (low, reach), thick, caps)
-        ends += [value - low, value + reach]
-    text = error_text(panel.quantity, panel.error, panel.uncertainty)
+        style.whisker(axes, value, y, (reach, reach), thick, caps)
+        ends += [value - reach, value + reach]
+    text = error_text(panel.error, panel.uncertainty)
     style.beside_bar(axes, max(ends[-1], value, 0.0), y, text)
-    for side in ((1.0,) if panel.is_norm else (-1.0, 1.0)) if panel.tolerance else ():
+    for side in (-1.0, 1.0) if panel.tolerance else ():
         axes.axvline(side * at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
         ends.append(side * at)
     axes.axvline(0.0, color="#555555", linewidth=0.7)

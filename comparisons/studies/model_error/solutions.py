@@ -172,8 +172,8 @@ def _solved(
     window: Window | None,
     fields: bool,
 ) -> Level:
-    """A variant's `problem` on a level, with its `fields` on window and mesh where asked, else at
-    the window's sparse points alone; raises NotComputedError."""
+    """A variant's `problem` on a level, with its `fields` on window and mesh where asked; raises
+    NotComputedError."""
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import LevelOptions, finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
@@ -184,9 +184,9 @@ def _solved(
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
     refinement, stages = Refinement(pitch, travel=variant.times * TRAVEL), Stages()
-    options = LevelOptions(fields=fields, sparse=not fields)
+    how = refinement, window, stages, body_cache, LevelOptions(fields=fields)
     try:
-        level = finite_element_level(problem, plan, refinement, window, stages, body_cache, options)
+        level = finite_element_level(problem, plan, *how)
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error
     if not level.converged:

@@ -235,7 +235,7 @@ def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarra
     scene = problem.scene
     window = None if scene.stress is None else window_of(problem)
     stages = Stages(no_progress)
-    level = half_plane_level(problem, problem.pitches[0], window, stages, fields="none")
+    level = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
     figures = {friction: values_of(level, problem, friction) for friction in scene.load.friction}
     return figures, level.solution.pressure
 
@@ -335,7 +335,7 @@ def beside_inputs(run: Run, quantity: str, friction: float) -> str:
         how = "is larger"
     else:
         how = "is of that size"
-    shown = error_text(quantity, error.value, error.numerical)
+    shown = error_text(error.value, error.numerical)
     inputs = f"Your inputs move the {label(quantity)} by ±{percent(moved)}"
     return f"{inputs}: the half-plane's model error of {shown} {how}."
 

@@ -40,7 +40,7 @@ from comparisons.figures.quantity import LABELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
-from comparisons.models.window import DEEP, Window
+from comparisons.models.window import Window
 from comparisons.studies.contact import by_repetition
 from comparisons.studies.study import WHY_NOT, Run, Solved, Study
 
@@ -64,6 +64,7 @@ zone: it grows with depth as below smooth bodies. An asperity bridges the zone w
 below it does not fall so far."""
 QUIET = 0.75
 QUIESCENT, BRIDGED, SMOOTH, UNCLEAR = "quiescent", "bridged", "no asperity zone", "inconclusive"
+DEEP = 0.5  # a: where the Hertz zone begins
 FINE = 16  # points to an interval of depth, between which the spline through it is searched
 ORDER = 1.0  # formal, as of the fields' norms
 DEEPEST = 0.8  # a: as far down the Hertz zone's maximum may lie, and the fields must reach
@@ -86,13 +87,13 @@ class ShearDip:
     status: str  # quiescent | bridged | no asperity zone
 
 
-def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float, fine: int = FINE) -> ShearDip:
+def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
     """The dip of `shear` (m,) over depths z (m,), ascending from the surface; the Hertz zone's
-    maximum is sought from `deep` on. Between the points runs a C2 cubic spline, searched at
-    `fine` points an interval."""
+    maximum is sought from `deep` on. Between the points runs a C2 cubic spline, searched at FINE
+    points an interval."""
     known = np.isfinite(shear)
     places = np.arange(np.count_nonzero(known), dtype=float)
-    between = np.linspace(0.0, places[-1], fine * (len(places) - 1) + 1)
+    between = np.linspace(0.0, places[-1], FINE * (len(places) - 1) + 1)
     spline = CubicSpline(z[known], shear[known])
     z = np.interp(between, places, z[known])
     bottom = int(np.argmax(np.where(z >= deep, spline(z), -inf)))
@@ -136,13 +137,6 @@ def zone_of(
     return shear_dip(window.z[::every], shear, DEEP * problem.hertz.half_width)
 
 
-def sparse_zone_of(problem: Problem, level: Level, window: Window, friction: float) -> ShearDip:
-    """The same at the window's sparse points, which every level has."""
-    shear = mean_shear(problem, window.sparse, level.stress(friction).sparse_tau1)
-    fine = FINE * round((len(window.z) - 1) / (len(window.sparse.z) - 1))
-    return shear_dip(window.sparse.z, shear, DEEP * problem.hertz.half_width, fine)
-
-
 def asperity_rows(
     problem: Problem, level: Level, window: Window, friction: float
 ) -> list[dict[str, object]]:
@@ -177,7 +171,7 @@ def zone_figures(
     boundary, iteration, and what reading every second row and column of the window changes."""
 
     def read(level: Level) -> dict[str, float]:
-        dip = sparse_zone_of(problem, level, window, friction)
+        dip = zone_of(problem, level, window, friction)
         return {name: getattr(dip, name) for name in QUANTITIES}
 
     run = run.under(friction)
@@ -193,7 +187,6 @@ def zone_figures(
             scale = abs(value) or 1.0
             unsure = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
             named = NAME, name, run.name, value, {"friction": friction}
-            values = tuple(value + (level - values[-1]) for level in values)
             figures.append(Figure(*named, scale=scale, uncertainty=unsure, levels=values))
         if name == "ratio":
             is_unclear = abs(value - QUIET) <= size

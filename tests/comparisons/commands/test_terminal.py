@@ -143,7 +143,7 @@ def test_commands_groups_and_models_are_completed():
     assert answer("crosscheck map smooth --x friction") == ["friction_dundurs"]
     assert arguments.complete_maps("curv") == ["curvature-thickness"]
     assert arguments.complete_models("half") == ["half-plane", "half-plane,finite-element"]
-    assert arguments.complete_quantities("tau1_f") == ["tau1_field_near", "tau1_field_deep"]
+    assert arguments.complete_quantities("tau1") == ["tau1_max", "tau1_max_depth"]
 
 
 def test_completion_is_installed_for_a_shell(tmp_path):

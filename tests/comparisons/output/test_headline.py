@@ -127,13 +127,6 @@ def test_a_figure_of_the_whole_that_is_zero_is_shown_as_zero(smooth_outcome: Run
     assert row.whole.split()[0] == "0" and row.half_plane.split()[0] != "0"
 
 
-def test_a_norm_has_no_sign(smooth_outcome: Run):
-    assert (
-        "difference is 9.0 %"
-        in headline(judged(smooth_outcome, error_of("pressure_l2", 0.09, 1e-3))).sentence
-    )
-
-
 def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: Run):
     said = headline(judged(smooth_outcome, error_of("contact_length", 0.01, math.inf)))
     assert said.kind == "inconclusive"

@@ -137,7 +137,8 @@ def test_full_contact_is_of_second_order(model):
     outcome = run(resolved(changed(closed, stress={"points": [30, 10]})), None, (model,))
     assert outcome.exit_status == ExitStatus.DONE
     levels, exact = outcome.runs[model].levels, closed_form(outcome.problem).peak_pressure
-    assert values_of(levels[-1], outcome.problem, 0.0)["contact_ratio"] == 1.0
+    [ratio] = outcome.figures.of(study="contact", quantity="contact_ratio")
+    assert ratio.value == 1.0
     off = [abs(level.solution.pressure.max() / exact - 1.0) for level in levels[:3]]
     assert off[2] < 1e-4 and np.log2(off[:2] / np.array(off[1:])) == pytest.approx(2.0, abs=0.2)
 

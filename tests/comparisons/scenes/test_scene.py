@@ -58,7 +58,7 @@ FULL = {
         "sweeps": 3,
     },
     "stress": {"depth": "512.3456789 um", "half_range": 1.5, "points": [30, 20]},
-    "tolerance": {"peak_pressure": 0.01, "tau1_field_deep": "5 %"},
+    "tolerance": {"peak_pressure": 0.01, "tau1_max_depth": "5 %"},
     "finite_element": {
         "geometry": "rough",
         "gap": "reference",
@@ -131,7 +131,7 @@ def test_everything_that_can_be_said():
         "peak_pressure": 0.01,
         "contact_length": 0.02,
         "tau1_max": 0.02,
-        "tau1_field_deep": 0.05,
+        "tau1_max_depth": 0.05,
     }
     assert (scene.coating.material, scene.coating.thickness) == (Material(400e9, 0.2), 2e-6)
     assert scene.finite_element == FiniteElementSection(

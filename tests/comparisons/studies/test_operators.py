@@ -71,7 +71,7 @@ def test_westergaard_s_wave(mean_pressure):
 
 
 def test_a_coating_of_the_body_itself_is_a_half_plane():
-    """Pressures, largest stresses on both sides of the interface, and the field."""
+    """Pressures, and the largest stresses on both sides of the interface."""
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | FIELD | {"coating": coating})
     window, pitch = window_of(posed), posed.pitches[0]
@@ -83,8 +83,6 @@ def test_a_coating_of_the_body_itself_is_a_half_plane():
     one, other = coated.stress(0.3), plain.stress(0.3)
     for name in ("tau1", "txz", "von_mises"):
         assert one.extremes[name].value == pytest.approx(other.extremes[name].value, rel=1e-6)
-    peak = posed.hertz.peak_pressure
-    assert one.sparse_tau1 == pytest.approx(other.sparse_tau1, abs=1e-7 * peak)
 
 
 @pytest.mark.parametrize("softer", [1.0, 0.25])

@@ -9,11 +9,11 @@ from comparisons.common.numbers import Scale, percent, percent_as_written, plain
 from comparisons.drawing import style
 from comparisons.drawing.field import colour_bar, cross, fill, round_bands
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import LABELS, QUANTITIES, error_text, label
+from comparisons.figures.quantity import LABELS, error_text, label
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
 from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.contact import draw_pressures
-from comparisons.studies.study import MODEL_ERROR, Run
+from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,7 +40,7 @@ def overview_picture(run: Run) -> style.Picture:
         "Over the same x: pressures over Hertz's, how far models are apart, surfaces under load"
     )
     if len(run.runs) > 1:
-        said += f", {_norm(run, friction)}"
+        said += f", {_models(run, friction)}"
     said += "; surfaces under load"
     if run.window is not None:
         said += f"; {_largest(run)}"
@@ -72,7 +72,7 @@ def overview(run: Run, width: float) -> "Drawn":
     panels[0].legend(ncols=2, **look)
     if compares:
         draw_difference(panels[1], *what)
-        panels[1].set_title(_norm(run, friction))
+        panels[1].set_title(_models(run, friction))
     draw_surfaces(panels[1 + compares], *what)
     if window is not None:
         _shear(panels[-1], bar, run)
@@ -85,13 +85,9 @@ def overview(run: Run, width: float) -> "Drawn":
     return drawn
 
 
-def _norm(run: Run, friction: float) -> str:
-    """The models, and how far apart their pressures are."""
-    models = " − ".join(LABELS[name] for name in run.pair(friction))
-    error = run.figures.one(study=MODEL_ERROR, quantity="pressure_l2", friction=friction)
-    if error is None:
-        return models
-    return f"{models}: {percent(error.value)} (L2)"
+def _models(run: Run, friction: float) -> str:
+    """Those whose pressures are subtracted."""
+    return " − ".join(LABELS[name] for name in run.pair(friction))
 
 
 def _shear(axes: "Axes", bar: "Axes", run: Run) -> None:
@@ -130,8 +126,7 @@ def judged_picture(run: Run) -> style.Picture | None:
     ends = [abs(e.value) + e.numerical + e.not_modelled for e in errors]
     most = max(end / e.tolerance for end, e in zip(ends, errors, strict=True))
     reach = min(max(1.5, 1.1 * most), FARTHEST) if np.isfinite(most) else FARTHEST
-    has_signs = any(not QUANTITIES[error.quantity].of_pair for error in errors)
-    axes.set_xlim(-reach if has_signs else 0.0, reach)
+    axes.set_xlim(-reach, reach)
     axes.set_ylim(0.6 - len(errors), 0.85)
     axes.axvspan(-1.0, 1.0, color="#e8eef2", linewidth=0.0, zorder=0.5)
     for row, error in enumerate(errors):
@@ -158,7 +153,7 @@ def judged_picture(run: Run) -> style.Picture | None:
 
 def _said(error: Figure) -> str:
     unsure = percent(error.numerical)
-    size = error_text(error.quantity, error.value, error.numerical)
+    size = error_text(error.value, error.numerical)
     return f"{size} ± {unsure}, tolerance {percent_as_written(error.tolerance)}, {error.verdict}"
 
 

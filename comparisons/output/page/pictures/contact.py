@@ -26,7 +26,7 @@ from comparisons.figures.quantity import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import mean_height
 from comparisons.studies.contact import closed, draw_pressures, peak_position
-from comparisons.studies.study import MODEL_ERROR, Run
+from comparisons.studies.study import COMPARISON, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -100,18 +100,14 @@ def close_up_picture(run: Run) -> style.Picture:
 
 
 def _norm(run: Run) -> str:
-    """How far the half-plane's pressures are from the finite elements', and the whole model's."""
-    friction, levels = run.deciding_friction, shown_levels(run)
-    norms = run.figures.of(quantity="pressure_l2", friction=friction)
-    difference, error = norms.one(study="comparison"), norms.one(study=MODEL_ERROR)
-    if error is None:
+    """How far the half-plane's pressures are from the finite elements'."""
+    friction = run.deciding_friction
+    norm = run.figures.one(study=COMPARISON, quantity="pressure_l2", friction=friction)
+    if norm is None:
         return ""
-    said = " and ".join(
-        f"{percent(norm.value, uncertainty=norm.numerical)} from the {LABELS[name]}"
-        for norm, name in zip((difference, error), list(levels)[1:], strict=False)
-    )
+    said = f"{percent(norm.value, uncertainty=norm.numerical)} from the finite elements'"
     at = f" at friction {plain(friction)}" if len(run.problem.scene.load.friction) > 1 else ""
-    return f"The half-plane's pressures differ by {said}{at} (relative L2 norms). "
+    return f"The half-plane's pressures differ by {said}{at} (relative L2 norm). "
 
 
 def _drawn(

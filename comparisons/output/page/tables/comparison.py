@@ -13,7 +13,7 @@ from comparisons.common.numbers import (
 )
 from comparisons.drawing.blocks import TextTable, compared_cells
 from comparisons.figures.figure import Figure, grouped
-from comparisons.figures.quantity import HYPHENATED, MODELS, QUANTITIES, label
+from comparisons.figures.quantity import COMPARED, HYPHENATED, MODELS, NORMS, QUANTITIES, label
 from comparisons.models.problem import Problem
 from comparisons.models.smooth import scale_words
 from comparisons.studies import contact
@@ -43,7 +43,7 @@ class ComparisonRow:
 def comparison_rows(run: Run) -> list[ComparisonRow]:
     """In the order of quantities, then of friction coefficients."""
     rows, differences = [], run.compared
-    for name in QUANTITIES:
+    for name in COMPARED:
         pairs = [(figure, _values(run, figure)) for figure in differences.of(quantity=name)]
         for same in grouped(pairs, _shown):
             rows.append(_row(run, *same[0], listed(figure.friction for figure, _ in same)))
@@ -53,7 +53,7 @@ def comparison_rows(run: Run) -> list[ComparisonRow]:
 def comparison_table(run: Run) -> TextTable:
     """The same for the page; below a figure in grey that over Hertz's. The problem that the finite
     elements solve is its title where it is that of all rows."""
-    first, shown = first_model(run), [r for r in comparison_rows(run) if run.shows(r.quantity)]
+    first, shown = first_model(run), comparison_rows(run)
     problems = {row.reference for row in shown}
     title = "" if len(problems) > 1 else f"The finite elements solve {_problem(*problems)}"
     head = ("quantity", "friction", first, "finite elements", "difference", "uncertainty")
@@ -100,12 +100,13 @@ def first_model(run: Run) -> str:
 
 def reference_of(run: Run, quantity: str) -> str:
     """What the finite elements solve: the half-plane's problem, or that with effects that bear on
-    the quantity; those without an estimate bear on all."""
+    the quantity; those without an estimate bear on all, and all on norms."""
     selection = run.data(MODEL_ERROR).selection
     named = [
         EFFECTS[name].label
         for name in EFFECTS
-        if name in selection.contained and quantity in selection.estimates.get(name, [quantity])
+        if name in selection.contained
+        and (quantity in NORMS or quantity in selection.estimates.get(name, [quantity]))
     ]
     return ", ".join(named) or SAME_PROBLEM
 
@@ -113,7 +114,6 @@ def reference_of(run: Run, quantity: str) -> str:
 def figure_rows(run: Run) -> list[tuple[str, ...]]:
     """Of the only model: quantity, friction, figure with unit and over Hertz's, uncertainty."""
     known = [f for f in run.figures.of(study=contact.NAME) if f.quantity in QUANTITIES]
-    known = [figure for figure in known if run.shows(figure.quantity)]
     known.sort(key=lambda figure: list(QUANTITIES).index(figure.quantity))
     rows = []
     for same in grouped(known, lambda figure: (figure.quantity, figure.value, figure.numerical)):
@@ -136,7 +136,7 @@ def _row(
     run: Run, difference: Figure, models: tuple[Figure | None, Figure | None], frictions: str
 ) -> ComparisonRow:
     name = difference.quantity
-    half_plane, finite_element, *judged = compared_cells(difference, models, QUANTITIES[name].unit)
+    half_plane, finite_element, *judged = compared_cells(difference, models, COMPARED[name].unit)
     error, uncertainty, tolerance, verdict = judged
     # the hardness holds the peaks of both models, which makes them equal by itself
     capped = "capped in both" if all(f and "capped" in f.notes for f in models) else ""
@@ -157,7 +157,7 @@ def _row(
 
 def in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
     """The figure over that of the smooth contact under the same load."""
-    meaning = QUANTITIES[quantity]
+    meaning = COMPARED[quantity]
     if value is None or meaning.over is None:
         return ""
     times, symbol = meaning.over

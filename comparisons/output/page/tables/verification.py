@@ -27,9 +27,11 @@ from comparisons.drawing.blocks import TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import (
+    COMPARED,
     HYPHENATED,
     LABELS,
     MODELS,
+    NORMS,
     QUANTITIES,
     error_text,
     label,
@@ -97,7 +99,7 @@ def judged_sequences(run: Run) -> list[JudgedSequence]:
 def row_name(run: Run, name: str, friction: float) -> str:
     """A quantity and its friction; what does not depend on that is empty but at the first."""
     frictions = run.problem.scene.load.friction
-    if not QUANTITIES[name].needs_stress:
+    if not COMPARED[name].needs_stress:
         return label(name) if friction == frictions[0] else ""
     return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
 
@@ -113,8 +115,7 @@ def judged_table(run: Run) -> TextTable | None:
 def _judged(sequence: JudgedSequence) -> tuple[str, ...]:
     known, quantity = sequence.known, QUANTITIES[sequence.figure.quantity]
     if sequence.source == DIFFERENCE:
-        shown = {"digits": 3, "signed": not quantity.of_pair}
-        values = [percent(value, **shown) for value in (known.value, known.limit)]
+        values = [percent(value, digits=3, signed=True) for value in (known.value, known.limit)]
     else:
         scale = scale_of(sequence.figure.levels, quantity.unit)
         values = [scale.text(value, 5) for value in (known.value, known.limit)]
@@ -137,7 +138,7 @@ def validation_table(run: Run) -> TextTable | None:
         name, friction, inputs = error.quantity, error.friction, error.part(SAMPLING)
         several = len(run.problem.scene.load.friction) > 1  # a whole model's depends on it
         named = label(name) + (f", friction {plain(friction)}" if several else "")
-        size, unsure = error_text(name, error.value, error.numerical), percent(error.numerical)
+        size, unsure = error_text(error.value, error.numerical), percent(error.numerical)
         by_inputs = "no trace" if inputs is None else percent(inputs.value)
         rows.append((named, size, unsure, by_inputs, NO_DATA))
     head = ("", "E", "u_num", "u_input", "u_D")
@@ -145,10 +146,10 @@ def validation_table(run: Run) -> TextTable | None:
 
 
 def convergence_tables(run: Run) -> list[TextTable]:
-    """Every figure over the levels: one table a model, one for the norms of the difference."""
+    """Every figure over the levels: one table a model, one for the difference."""
     tables = [_of_model(run, model) for model in run.runs.values()]
     if run.plan.compares:
-        tables.append(_of_pair(run))
+        tables.append(_of_difference(run))
     return tables
 
 
@@ -171,11 +172,11 @@ def _of_model(run: Run, model: ModelRun) -> TextTable:
     return TextTable(LABELS[model.name].capitalize(), head, tuple(rows))
 
 
-def _of_pair(run: Run) -> TextTable:
+def _of_difference(run: Run) -> TextTable:
     model, rows = run.runs["finite_element"], []
     for name, figure in _rows(run, comparison.NAME, "half_plane"):
-        shown = {"digits": 3, "signed": not QUANTITIES[figure.quantity].of_pair}
-        numbers = (percent(value, **shown) for value in figure.levels)
+        signed = figure.quantity not in NORMS
+        numbers = (percent(value, digits=3, signed=signed) for value in figure.levels)
         rows.append((name, *numbers, *_parts(figure, model)))
     return TextTable("Difference of both models", _head(model, with_check=False), tuple(rows))
 
@@ -186,7 +187,7 @@ def _rows(run: Run, study: str, source: str) -> list[tuple[str, Figure]]:
         (row_name(run, figure.quantity, friction), figure)
         for friction in run.problem.scene.load.friction
         for figure in run.figures.of(study=study, source=source, friction=friction)
-        if figure.levels and run.shows(figure.quantity)
+        if figure.levels
     ]
     return [(name, figure) for name, figure in named if name]
 

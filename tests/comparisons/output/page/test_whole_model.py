@@ -34,12 +34,8 @@ def outcome(wavy_outcome: Run) -> Run:
         solution=replace(level.solution, pressure=moved),
         stresses=(replace(stress, field=field),),
     )
-    errors = (
-        replace(e, value=0.5) if (e.quantity, e.friction) == ("pressure_l2", 0.1) else e
-        for e in wavy_outcome.data("model_error").model_errors
-    )
     wholes = {0.0: finite_element.finest, 0.1: whole}
-    budget = replace(wavy_outcome.data("model_error"), model_errors=tuple(errors), wholes=wholes)
+    budget = replace(wavy_outcome.data("model_error"), wholes=wholes)
     return budgeted(wavy_outcome, budget)
 
 

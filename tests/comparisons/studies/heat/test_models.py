@@ -39,7 +39,7 @@ def made(body=None, coating=None, **heat):
 
 
 def level_of(posed):
-    return half_plane_level(posed, posed.pitches[0], None, Stages(no_progress), fields="none")
+    return half_plane_level(posed, posed.pitches[0], None, Stages(no_progress), fields=False)
 
 
 def through_layers(posed, level, held=True):

@@ -51,7 +51,7 @@ class MadeSolutions:
             abs(hash((tuple(sorted(variant.effects)), variant.friction, number)))
         )
         figures = {"peak_pressure": rng.normal(size=3), "contact_length": rng.normal(size=1)}
-        return QuantitiesOfInterest(figures, rng.normal(size=5), rng.normal(size=(2, 3)))
+        return QuantitiesOfInterest(figures)
 
     def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
         return self.solution(self.of_scene, number, friction)

@@ -22,7 +22,7 @@ MODULE = "comparisons.studies.model_error.model_error"
 
 def solution(*shears: float, depths=(1e-6, 2e-6, 3e-6)) -> QuantitiesOfInterest:
     figures = {"tau1_max": np.array(shears), "tau1_max_depth": np.array(depths)}
-    return QuantitiesOfInterest(figures, np.ones(4), None, {"tau1_max": PLACES})
+    return QuantitiesOfInterest(figures, {"tau1_max": PLACES})
 
 
 def errors(
@@ -54,7 +54,7 @@ def errors(
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
     ):
-        solutions = Solutions(problem, None, runs, history, rows[0].friction)
+        solutions = Solutions(problem, runs, history, rows[0].friction)
         if read is not None:
             return {row.quantity: read(solutions, row.quantity) for row in rows}
         return {row.quantity: solutions.error(row) for row in rows}
@@ -72,7 +72,7 @@ def test_other_models_are_judged_by_their_own_largest_values(problem_with):
     without = errors_by(lambda solutions, name: solutions.of_variants(name, [plain] * 3))
     assert [value for value, _ in without] == pytest.approx([3.0 / 3.19 - 1.0, 2.0 / 3.0 - 1.0])
     assert errors_by(lambda of, name: of.of_variants(name, [strained] * 3)) == [(0.0, 0.0)] * 2
-    exact = errors_by(lambda of, name: of.of_exact(name, [plain] * 3, 1e-3))
+    exact = errors_by(lambda of, name: of.of_exact(name, plain, 1e-3))
     assert [value for value, _ in exact] == pytest.approx([value for value, _ in without])
     assert exact[0][1] == pytest.approx(1e-3 * 3.0 / 3.19)
     assert errors_by(lambda of, name: of.of_whole(name, 1e-3)) == [(0.0, 1e-3)] * 2

