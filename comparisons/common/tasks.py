@@ -113,9 +113,8 @@ class Tasks:
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
     _unkept: dict[str, object] = field(default_factory=dict)
     _tasks: dict[str, _Task] = field(default_factory=dict)
-    _workers: dict[ProcessWorker, object] = field(
-        default_factory=dict
-    )  # with what their tasks share
+    # with what their tasks share
+    _workers: dict[ProcessWorker, object] = field(default_factory=dict)
     _has_begun: bool = False
     _done: float = 0.0
     _share: float = 0.0
