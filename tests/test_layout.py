@@ -11,7 +11,6 @@ absent, is imported inside the function that needs it.
 import ast
 import fnmatch
 import importlib.metadata
-import json
 import os
 import re
 import shutil
@@ -20,7 +19,7 @@ import sys
 import tomllib
 import zipfile
 from functools import cache
-from graphlib import CycleError, TopologicalSorter
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -61,18 +60,9 @@ def is_type_checking(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
 
 
-def statements(node: ast.AST, into_functions: bool):
-    """Everything below `node`; without what stands in functions or never runs, if so asked."""
-    for child in ast.iter_child_nodes(node):
-        late = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
-        if into_functions or not (late or is_type_checking(child)):
-            yield child
-            yield from statements(child, into_functions)
-
-
-def imported(tree: ast.AST, package: str, into_functions: bool = True):
+def imported(tree: ast.AST, package: str):
     """Names that a module in `package` imports; `from a import b` counts as `a.b`."""
-    for node in statements(tree, into_functions):
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -102,32 +92,8 @@ def forbidden(source: str, package: str) -> list[str]:
     ]
 
 
-def heavy_at_import(source: str, package: str) -> list[str]:
-    """Heavy modules that importing a module in `package` would load at once."""
-    names = imported(ast.parse(source), package, into_functions=False)
-    return [name for name in names if is_within(name, HEAVY)]
-
-
 def package_of(path: Path) -> str:
     return dotted_name(path.parent / "__init__.py")
-
-
-def test_the_rules_can_be_broken():
-    """What they forbid is seen wherever it stands, and what they allow let through."""
-    for package, source in (
-        ("analytic.exact", "from ...fem import elasticity"),
-        ("meshes", "import analytic"),
-        ("fem", "def f():\n    from analytic.exact.hertz import field"),
-        ("fem", "if TYPE_CHECKING:\n    from comparisons.scenes.scene import Scene"),
-        ("fem", "import importlib\nimportlib.import_module('comparisons.runs.run')"),
-    ):
-        assert len(forbidden(source, package)) == 1
-    assert forbidden("from analytic import profile\nfrom . import compat", "fem") == []
-    assert forbidden("from ..material import Material\nimport scipy", "analytic.exact") == []
-    assert heavy_at_import("class A:\n    from dolfinx import fem", "fem") == ["dolfinx.fem"]
-    assert heavy_at_import("def f():\n    import pyvista\nimport ufly", "fem") == []
-    assert heavy_after("import sys; sys.modules['gmsh'] = sys") == ["gmsh"]
-    assert not resolves("analytic.contact.no_such_thing")
 
 
 def test_imports_follow_the_arrows():
@@ -171,8 +137,6 @@ def graph() -> dict[str, set[str]]:
 
 def test_no_import_runs_against_the_order():
     assert [f"{a} -> {b}" for a in graph() for b in graph()[a] if against_the_order(a, b)] == []
-    assert against_the_order("comparisons.common.files", "comparisons.runs.run")
-    assert not against_the_order("comparisons.runs.run", "comparisons.common.files")
 
 
 def test_every_room_has_its_place_in_the_order():
@@ -183,8 +147,6 @@ def test_every_room_has_its_place_in_the_order():
 
 def test_no_modules_import_each_other():
     tuple(TopologicalSorter(graph()).static_order())
-    with pytest.raises(CycleError):
-        tuple(TopologicalSorter({"a": {"b"}, "b": {"a"}}).static_order())
 
 
 def test_tests_of_fem_need_nothing_of_comparisons():
@@ -254,42 +216,18 @@ def test_a_class_has_its_name_to_itself():
     assert {name: places for name, places in where.items() if len(places) > 1} == {}
 
 
-def test_heavy_imports_stand_inside_functions():
-    heavy = {str(path): heavy_at_import(path.read_text(), package_of(path)) for path in MODULES}
-    assert {path: names for path, names in heavy.items() if names} == {}
-
-
-def heavy_after(code: str) -> list[str]:
-    """Heavy modules that are loaded when `code` has run in a fresh interpreter."""
-    report = f"import json, sys; print(json.dumps(sorted(set(sys.modules) & {HEAVY!r})))"
+def test_importing_every_module_loads_nothing_heavy():
+    """Also by way of somebody else's module."""
+    names = [dotted_name(path) for path in MODULES if path.stem != "__main__"]
+    code = f"import importlib, sys\nfor n in {names!r}: importlib.import_module(n)\n"
     done = subprocess.run(
-        [sys.executable, "-c", f"{code}\n{report}"],
+        [sys.executable, "-c", f"{code}print(*set(sys.modules) & {HEAVY!r})"],
         cwd=PROJECT,
         env=dict(os.environ),  # without what MPI, used in this process, would hand on
         capture_output=True,
         text=True,
     )
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout.splitlines()[-1])
-
-
-def test_importing_every_module_loads_nothing_heavy():
-    """Also by way of somebody else's module."""
-    names = [dotted_name(path) for path in MODULES if path.stem != "__main__"]
-    assert heavy_after(f"import importlib\nfor n in {names!r}: importlib.import_module(n)") == []
-
-
-def test_help_loads_nothing_heavy():
-    code = """
-import sys
-from comparisons.cli import main
-sys.argv = ["crosscheck", "--help"]
-try:
-    main()
-except SystemExit as end:
-    assert not end.code, end.code
-"""
-    assert heavy_after(code) == []
+    assert (done.returncode, done.stdout.strip()) == (0, ""), done.stderr
 
 
 def project_table() -> dict:
@@ -300,10 +238,6 @@ def test_packages_are_the_folders_with_python_in_them():
     listed = project_table()["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
     folders = {path.name for path in PROJECT.iterdir() if (path / "__init__.py").exists()}
     assert set(listed) == folders == set(MAY_IMPORT)
-
-
-def test_every_folder_of_modules_is_a_package():
-    assert [p for p in MODULES if not (p.parent / "__init__.py").exists()] == []
 
 
 def test_wheel_holds_every_file_of_the_packages(tmp_path):
@@ -353,11 +287,7 @@ def test_the_citation_is_of_this_project():
         line.split(": ", 1) for line in lines if not line.startswith(" ") and ": " in line
     )
     project = project_table()["project"]
-    assert (
-        citation["cff-version"] == "1.2.0"
-        and citation["type"] == "software"
-        and "authors:" in lines
-    )
+    assert citation["cff-version"] == "1.2.0" and "authors:" in lines
     assert (citation["title"], citation["version"]) == (project["name"], project["version"])
     assert citation["abstract"] == f"{project['description']}."
     papers = (PROJECT / "comparisons/docs/method.md").read_text()

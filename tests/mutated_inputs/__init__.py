@@ -1,1 +1,1 @@
-"""Wrong scenes, profiles and results by the thousand, from a seed."""
+"""Wrong scenes and profiles by the thousand, from a seed."""

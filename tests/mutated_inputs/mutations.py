@@ -1,4 +1,4 @@
-"""Mistakes in the text of scenes, the bytes of profiles and the values of JSON, drawn at random."""
+"""Mistakes in the text of scenes and the bytes of profiles, drawn at random."""
 
 import io
 import random
@@ -239,25 +239,3 @@ def reading_scene(draw: random.Random, name: str, heights_alone: bool) -> str:
         del fields[draw.choice(list(fields))]
     profile = "".join(f"{name} = {text}\n" for name, text in fields.items())
     return f"{BODIES}{LOAD}[profile]\n{profile}"
-
-
-def json_with_a_mistake(draw: random.Random, content: object) -> object:
-    """The content with another value, or none, at one place; `content` itself changes."""
-    place = content
-    while True:
-        keys = list(place) if isinstance(place, dict) else range(len(place))
-        if not keys:
-            return content
-        key = draw.choice(list(keys))
-        inner = place[key]
-        if isinstance(inner, dict | list) and inner and draw.random() < 0.9:
-            place = inner
-            continue
-        if draw.random() < 0.2:
-            del place[key]
-        else:
-            other = draw.choice((inner, -1, 0, 1e300, 10**400, None, True, "", "x", [], {}, [[1]]))
-            if isinstance(inner, int | float) and draw.random() < 0.5:
-                other = inner * draw.choice((-1, 0, 2, 1e9, 1e-9))
-            place[key] = other
-        return content

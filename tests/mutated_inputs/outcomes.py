@@ -1,9 +1,7 @@
 """What becomes of an input, and what of that is a defect."""
 
 import io
-import random
 import re
-import shutil
 import signal
 import traceback
 from collections.abc import Callable
@@ -12,15 +10,8 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from comparisons.campaigns.init.first_scene import write_first_scene
-from comparisons.campaigns.init.show import first_lines, init_table
 from comparisons.common.errors import InputError, SolverError
-from comparisons.common.progress import no_progress
-from comparisons.output.flat_csv import as_csv, tidy_rows
-from comparisons.output.page.redraw import draw_again
-from comparisons.output.page.saved import read_run
 from comparisons.output.plausibility import warnings_about, warnings_about_result
-from comparisons.output.record import read_record
 from comparisons.output.terminal import summary
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
@@ -48,30 +39,15 @@ def resolve(path: Path) -> str:
     return "resolved"
 
 
-def look(path: Path) -> str:
-    """What becomes of a profile that `init` looks at."""
-    made = write_first_scene(path, None, {}, force=True)
-    shown = Console(file=io.StringIO(), width=100)
-    shown.print(init_table(made), *first_lines(made.scene))
-    return "a scene of it"
-
-
 def solve(path: Path) -> str:
-    """What becomes of a scene that is solved by the half-plane; every tenth writes its files."""
-    out = path.with_name("out") if is_tenth(path) else None
-    result = run(Scene.read(path), out, ("half_plane",))
+    """What becomes of a scene that is solved by the half-plane."""
+    result = run(Scene.read(path), None, ("half_plane",))
     warnings_about_result(result)
     shown = Console(file=io.StringIO(), width=100)
     shown.print(summary(result))
-    shutil.rmtree(path.with_name("out"), ignore_errors=True)
     if re.search(r"\b(nan|inf)\b", shown.file.getvalue()):
         raise Refusal("the table shows a number that is none")
     return "solved" if result.converged else "not converged"
-
-
-def is_tenth(path: Path) -> bool:
-    """Of about every tenth file, by what is in it: for what takes a second."""
-    return random.Random(path.read_bytes()).random() < 0.1
 
 
 def _check_line(line: str, path: Path) -> None:
@@ -110,28 +86,3 @@ def outcome(work: Callable[[Path], str], path: Path) -> tuple[str, str]:
         return "DEFECT", f"{type(error).__name__}: {error} ({' '.join(places[-4:])})"
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
-
-
-def read_results(path: Path) -> str:
-    """What becomes of a folder that `table`, `rerun` and `report` read; all must, or refuse it."""
-    words = set()
-    for read in (tidy_rows_of, read_record, read_and_show):
-        try:
-            read(path)
-            words.add("read")
-        except InputError as error:
-            _check_line(str(error), path)
-            words.add("refused")
-    return " or ".join(sorted(words))
-
-
-def tidy_rows_of(path: Path) -> None:
-    as_csv(tidy_rows([path]))
-
-
-def read_and_show(path: Path) -> None:
-    """As `report` does; the page itself, which takes a second, of every tenth."""
-    if is_tenth(path / "result.json"):
-        draw_again([path], None, False, no_progress)
-    else:
-        read_run(path)

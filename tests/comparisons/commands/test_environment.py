@@ -11,7 +11,6 @@ import pytest
 from scenes import PROJECT
 
 from comparisons.cli import main
-from comparisons.common.provenance import machine
 from comparisons.output.result_json import content_of
 
 pytestmark = pytest.mark.usefixtures("undrawn")  # what runs in this process
@@ -68,14 +67,6 @@ def test_no_file_of_an_instrument_is_read_by_a_module_of_the_working_folder(tmp_
     with pytest.raises(ProfileError) as refused:
         read_instrument_file(tmp_path / "map.x3p")
     assert "executed" not in str(refused.value)
-
-
-@pytest.mark.parametrize(
-    ("value", "threads"), [("2,1", 2), ("", None), ("two", None), ("²", None), ("0", None)]
-)
-def test_any_number_of_threads_is_recorded_or_none(monkeypatch, value, threads):
-    monkeypatch.setenv("OMP_NUM_THREADS", value)
-    assert machine()["threads"] == threads
 
 
 def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):

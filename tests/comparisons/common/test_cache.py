@@ -49,10 +49,6 @@ def cache(tmp_path: Path) -> Cache:
     return cached
 
 
-def names(folder: Path) -> list[str]:
-    return sorted(path.name for path in folder.iterdir())
-
-
 def test_a_result_comes_back_for_its_key_and_name_alone(cache):
     assert same(cache.load("some"))
     assert replace(cache, key="other").load("some") is None
@@ -77,30 +73,11 @@ def test_a_wrong_bit_anywhere_is_harmless(cache):
     assert refused > 0.8 * FLIPS
 
 
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.99])
-def test_a_file_that_was_cut_short_is_none(cache, share):
-    path = cache.path("some")
-    path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
-    assert cache.load("some") is None
-
-
 def test_a_pipe_in_a_results_place_is_none_and_replaced(cache):
     os.mkfifo(cache.path("pipe"))
     assert cache.load("pipe") is None
     cache.save("pipe", VALUE)
     assert cache.load("pipe") is not None
-
-
-def test_what_a_killed_process_left_is_removed(cache):
-    (cache.folder / ".half.npz.7.part").write_text("PK")
-    cache.remove_leftovers()
-    assert names(cache.folder) == ["some.npz"]
-
-
-def test_a_folder_that_goes_while_a_result_is_saved_is_no_error(cache, monkeypatch):
-    monkeypatch.setattr(Path, "write_bytes", lambda part, content: shutil.rmtree(cache.folder))
-    cache.save("other", VALUE)
-    assert cache.load("other") is None
 
 
 EARLIER = [
@@ -120,21 +97,6 @@ def test_what_an_earlier_state_of_the_program_wrote_is_none(cache, outline):
         outline = outline | {"key": "key"}
     np.savez(cache.path("old"), outline=np.array(json.dumps(outline)))
     assert replace(cache, kinds=cache.kinds | {"Checked": Checked}).load("old") is None
-
-
-def test_two_runs_do_not_write_the_same_part(cache, monkeypatch):
-    parts, write = set(), Path.write_bytes
-    monkeypatch.setattr(Path, "write_bytes", lambda at, c: (parts.add(at.name), write(at, c)))
-    for process in (11, 12):
-        monkeypatch.setattr("os.getpid", lambda process=process: process)
-        cache.save("some", VALUE)
-    assert len(parts) == 2 and names(cache.folder) == ["some.npz"]
-
-
-def test_discarding_twice_is_no_error(cache):
-    cache.discard()
-    cache.discard()
-    assert not cache.folder.exists() and cache.load("some") is None
 
 
 def test_without_a_folder_nothing_is_cached():

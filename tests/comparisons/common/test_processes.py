@@ -2,7 +2,6 @@
 
 import os
 import resource
-import signal
 from pathlib import Path
 
 import pytest
@@ -16,12 +15,6 @@ def elsewhere(work, *args):
     with Tasks(ProcessWorker) as tasks:
         tasks.add("work", called, work, *args)
         return tasks.result("work")
-
-
-def test_it_hears_no_ctrl_c_while_it_starts():
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
-    assert signal.SIGINT in elsewhere(eval, "__import__('signal').pthread_sigmask(0, ())")
-    assert signal.pthread_sigmask(signal.SIG_BLOCK, ()) == before
 
 
 def test_it_has_one_thread_and_leaves_the_environment_as_it_was(monkeypatch):

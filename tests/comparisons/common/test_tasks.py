@@ -7,7 +7,7 @@ import subprocess
 import sys
 import threading
 import time
-from concurrent.futures import BrokenExecutor, Executor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
@@ -19,7 +19,6 @@ from comparisons.common.cache import Cache
 from comparisons.common.executors import ExecutorWorker
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import (
-    AT_ONCE,
     FIRST,
     LATER,
     PERHAPS,
@@ -130,13 +129,6 @@ class TestOrder:
             one.result(name)
         assert path.read_text() == "fstb"
 
-    def test_processes_share_different_things(self, beside, tmp_path):
-        """Four tasks in pairs that share: each process has one pair."""
-        for name, other in (("a1", "b1"), ("a2", "b2"), ("b1", "a1"), ("b2", "a2")):
-            beside.add(name, met, tmp_path, name, other, seconds=1.0, shares=name[0])
-        a1, a2, b1, b2 = (beside.result(name) for name in ("a1", "a2", "b1", "b2"))
-        assert a1 == a2 != b1 == b2
-
     def test_a_known_task_becomes_more_urgent_and_not_less(self, one, tmp_path):
         path = tmp_path / "order"
         for name, urgency in (("f", FIRST), ("b", LATER), ("s", PERHAPS), ("s", FIRST), ("s", 9)):
@@ -155,11 +147,6 @@ class TestOrder:
         assert [beside.result(name) for name in "ab"] == ["a", "b"]
         assert max(running) == 1
 
-    def test_keys_come_as_they_are_done(self, one, tmp_path):
-        for name, seconds in (("a", 1.0), ("b", 3.0), ("c", 2.0)):
-            one.add(name, noted, tmp_path / "order", name, seconds=seconds)
-        assert list(one.as_done("abc")) == ["b", "c", "a"]
-
 
 class TestProcesses:
     def test_few_tasks_begin_none(self, beside):
@@ -177,25 +164,6 @@ class TestProcesses:
         assert places() == (2, True, True)
         one.add("there", called, places)
         assert one.result("there") == (1, False, False)
-
-    def test_nothing_is_prepared_while_others_wait_for_a_task(self):
-        done = []
-        with Tasks(ProcessWorker, 2, here=[lambda: done.append(1)]) as tasks:
-            tasks.add("first", home, urgency=AT_ONCE)
-            tasks.result("first")
-            assert done == []
-            tasks.add("next", home)
-            tasks.result("next")
-            assert done == [1]
-
-    def test_one_prepares_between_its_tasks(self, one, tmp_path):
-        mark, end = tmp_path / "prepared", time.monotonic() + 60.0
-        one.there = [mark.touch]
-        one.add("first", number)
-        one.result("first")
-        while not mark.exists():
-            assert time.monotonic() < end
-            time.sleep(0.02)
 
     def test_copies_have_what_is_in_memory(self, monkeypatch):
         monkeypatch.setenv("OMP_NUM_THREADS", "1")
@@ -339,11 +307,3 @@ class TestExecutor:
             tasks.add("bad", divided)
             with pytest.raises(ZeroDivisionError):
                 tasks.result("bad")
-
-    def test_one_that_takes_nothing_ends_the_work(self):
-        class Broken(Executor):
-            def submit(self, work, *args):
-                raise BrokenExecutor("broken")
-
-        with pytest.raises(BrokenExecutor), Tasks(partial(ExecutorWorker, Broken())) as tasks:
-            tasks.add("a", number)

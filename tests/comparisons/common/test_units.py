@@ -1,9 +1,7 @@
 """Units against pint's own tables, exact factors, and whatever a user may type."""
 
-import re
 import subprocess
 import sys
-from decimal import Decimal
 from fractions import Fraction
 
 import pytest
@@ -24,7 +22,6 @@ from comparisons.common.units import (
     describe,
     pint_factor,
     to_si,
-    unit_in_si,
 )
 
 # by definition: the inch is 25.4 mm, the kilogram-force 9.80665 N, the pound 0.45359237 kg
@@ -61,11 +58,6 @@ def test_any_unit_gives_the_double_nearest_to_the_exact_value(unit, number):
     )
 
 
-@pytest.mark.parametrize(("dimension", "unit", "factor"), UNITS)
-def test_factor_of_a_unit(dimension, unit, factor):
-    assert unit_in_si(unit, dimension) == float(factor)
-
-
 @pytest.mark.parametrize("text", ["8.2 mm", "8.2mm", " 8.2  mm ", "+8.2 mm", "8200 um", "82e-1 mm"])
 def test_ways_to_write_one_length(text):
     assert to_si(text, LENGTH) == 0.0082
@@ -74,10 +66,6 @@ def test_ways_to_write_one_length(text):
 def test_numbers_are_taken_as_they_are():
     assert to_si(8.2, LENGTH) == 8.2
     assert to_si(3, LENGTH) == 3.0 and isinstance(to_si(3, LENGTH), float)
-
-
-def test_pounds_per_square_inch():
-    assert to_si("1 psi", PRESSURE) == pytest.approx(0.45359237 * 9.80665 / 0.0254**2, rel=1e-15)
 
 
 @pytest.mark.parametrize("dimension", DIMENSIONS)
@@ -89,14 +77,6 @@ def test_only_its_own_dimension_is_taken(dimension, other):
     else:
         with pytest.raises(UnitError, match=other.phrase):
             to_si(f"2 {unit}", dimension)
-
-
-@pytest.mark.parametrize("dimension", DIMENSIONS)
-def test_pint_refuses_what_the_table_refuses(dimension):
-    for unit, (measured, _) in COMMON_UNITS.items():
-        if measured is not dimension:
-            with pytest.raises(UnitError, match=measured.phrase):
-                pint_factor(unit, dimension, unit)
 
 
 @pytest.mark.parametrize(
@@ -133,21 +113,6 @@ def test_logarithmic_units_do_not_convert(text):
         to_si(text, DIMENSIONLESS)
 
 
-@pytest.mark.parametrize("text", ["1 mm dB", "1 dB*mm", "1 dB^2", "1 dBm/mW", "1 m degC/K"])
-@pytest.mark.parametrize("dimension", DIMENSIONS)
-def test_products_with_a_unit_that_has_no_factor_are_refused(text, dimension):
-    if text == "1 m degC/K" and dimension is LENGTH:
-        assert to_si(text, dimension) == 1.0  # to pint a difference of temperatures
-        return
-    with pytest.raises(UnitError, match=f'^is "{re.escape(text)}"'):
-        to_si(text, dimension)
-
-
-def test_vanishing_numbers_are_zero():
-    assert to_si("1e-999999999999 mm", LENGTH) == 0.0
-    assert str(to_si("-0 mm", LENGTH)) == "0.0"
-
-
 TOKENS = st.lists(
     st.sampled_from([*"0123456789.+-eE*/^%() ", "**", "mm", "um", "N", "rad", "degC", "dB", "1/"])
 )
@@ -169,11 +134,6 @@ def test_any_text_is_a_quantity_or_a_unit_error(text, dimension):
         assert abs(value) < float("inf")
 
 
-def test_a_long_value_is_cut_short():
-    assert describe("x" * 1000) == '"' + "x" * 37 + '..."'
-    assert len(describe(10**4000)) < 20
-
-
 @pytest.mark.parametrize(("text", "loaded"), [("8.2 mm", False), ("8.2 cm", True)])
 def test_pint_is_loaded_for_rare_units_only(text, loaded):
     code = (
@@ -184,7 +144,3 @@ def test_pint_is_loaded_for_rare_units_only(text, loaded):
         [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == str(loaded)
-
-
-def test_factors_are_exact_decimals():
-    assert pint_factor("inch", LENGTH, "") == Decimal("0.0254")

@@ -26,54 +26,35 @@ VALUES = [
         '"-3 mm"',
         'is "-3 mm"; allowed is a length above 0: a number in m or "8.2 mm"',
     ),
-    ("body.youngs_modulus", "0.0", "is 0.0; allowed is a pressure above 0"),
-    (
-        "body.poissons_ratio",
-        "0.5",
-        "is 0.5; allowed is a number without unit at least 0 and below 0.5",
-    ),
-    ("load.per_length", "-1.0", "is -1.0; allowed is a load per length above 0"),
-    ("load.friction", "-0.1", "is -0.1; allowed is a number"),
+    ("body.poissons_ratio", "0.5", "is 0.5; allowed is a number without unit at least 0 and below"),
     ("load.friction", "1.6", "is 1.6; allowed is a number without unit at least 0 and at most 1.5"),
     ("load.friction", "[]", "is an empty list; allowed is"),
-    ("profile.columns", "[[1, 2], 3]", "holds a list; allowed is one or two columns by name"),
-    ("profile.columns", "[[1], [1]]", "is a list of 2; allowed is one or two columns by name"),
-    ("load.friction", "[0.1, 0.2, 0.1]", "lists 0.1 twice; allowed is"),
     ("load.friction", "[0, -0.0]", "lists 0 twice"),
     ("load.friction", '[0, "a"]', 'is "a", which is not a number and a unit'),
+    ("load.friction", "[" + "0.1," * 2000 + "]", "is a list of 2000 values, more than 1000; allow"),
+    ("profile.columns", "[[1, 2], 3]", "holds a list; allowed is one or two columns by name"),
     ("roller.radius", "inf", "is inf, which is not finite; allowed"),
-    ("roller.radius", "1" + "0" * 400, "is 1.000e+400, which is not finite"),
-    ("load.per_length", "1e300", "is 1.000e+300, whose size is not from 1e-30 to 1e+30 in SI; a"),
     ("roller.radius", "1e-320", "is 1e-320, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
-    ("stress.depth", "1e31", "is 1.000e+31, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
     ("roller.radius", '"8.2"', 'is "8.2", which has no unit; allowed is a length'),
     ("roller.radius", '"8.2 GPa"', 'is "8.2 GPa", a pressure; allowed is a length'),
     ("load.per_length", '"3 kN"', 'is "3 kN", a force: a force per length is "3 kN/mm"; allowed'),
-    ("roller.radius", '"8.2 furlogs"', 'is "8.2 furlogs", and "furlogs" is no known unit; allowed'),
     ("body.hardness", '"7 gpa"', 'is "7 gpa", and "gpa" is no known unit (did you mean "GPa"?)'),
-    ("roller.radius", '"8,2 mm"', 'is "8,2 mm", and ",2 mm" is not a unit'),
-    ("roller.radius", '"2 mm + 1 mm"', 'is "2 mm + 1 mm", and "mm + 1 mm" is not a unit'),
-    ("budget.memory", '"8 rad"', 'is "8 rad", without dimension; allowed is an amount of memory'),
     ("roller.radius", "[1, 2]", "is a list; allowed is a length"),
     ("roller.radius", "true", "is true; allowed is a length"),
-    ("roller.radius", "{m = 1}", "is a table; allowed is a length"),
     ("load.per_length", "1991-06-01", "is a date or time; allowed is a load per length"),
     ("title", "3", "is 3; allowed is a string"),
-    ("title", '" "', "is blank; allowed is a string"),
     ("title", '"a\\nb"', "holds a control character; allowed is a string of one line"),
-    ("finite_element.geometry", "3", 'is 3; allowed is "flat" or "rough"'),
+    ("finite_element.deformation", "3", 'is 3; allowed is "linear" or "finite"'),
     ("roller.rigid", '"yes"', 'is "yes"; allowed is true or false'),
     ("resolution.levels", "2.5", "is 2.5; allowed is a whole number from 2 to 6"),
     ('""', "3", "is no known field; the nearest is"),
     ("roller.raduis", "1", "is no known field; the nearest is roller.radius"),
     ("roller.friction", "0.1", "is no known field; the nearest is load.friction"),
     ("frictoin", "0.1", "is no known field; the nearest is load.friction"),
-    ("Titel", "1", "is no known field; the nearest is title"),
     ("roller.radius", None, "is missing; allowed is a length above 0"),
     ("roller.youngs_modulus", None, "is missing; allowed is youngs_modulus with poissons_ratio"),
     ("load.hertz_peak_pressure", '"1 GPa"', "is given beside per_length; allowed is exactly one"),
     ("body.base", '"bonded"', "is given for a half-plane, which has none; allowed only with"),
-    ("stress.depth", "0", "is 0; allowed is a number of half-widths above 0 or a length"),
     ("stress.depth", '"1 a"', 'is "1 a", a time; allowed is a number of half-widths'),
     (
         "stress.points",
@@ -81,16 +62,7 @@ VALUES = [
         "holds 2; allowed is a list of two whole numbers [along x, along z], from 3 to 20000 each",
     ),
     ("stress.points", "[1, 2, 3]", "is a list of 3; allowed is a list of two"),
-    ("stress.points", "600", "is 600; allowed is a list of two"),
-    ("stress.points", "[600, 2.5]", "holds 2.5; allowed is a list of two"),
     ("stress.points", "[20_000, 20_000]", "asks for 400000000 points; allowed is a list"),
-    ("stress.points", "[3, 16_000_000]", "holds 16000000; allowed is a list"),
-    ("load.friction", "[" + "0.1," * 2000 + "]", "is a list of 2000 values, more than 1000; allow"),
-    ("title", '"' + "x" * 2000 + '"', "has 2000 characters, more than 1000; allowed is a string"),
-    ("tolerance.tau1_max", "0", "is 0; allowed is a number without unit above 0 and below 1"),
-    ("finite_element.block", "9", "is 9; allowed is a number without unit at least 10"),
-    ("budget.time", '"0 s"', 'is "0 s"; allowed is a time above 0: a number in s or "300 s"'),
-    ("budget.memory", "-1", "is -1; allowed is an amount of memory above 0: a number in byte"),
 ]
 # changes, and how the line goes on after "scene.toml: "
 COMBINATIONS = [
@@ -111,22 +83,10 @@ COMBINATIONS = [
     ({"load.per_length": None, "load": "3"}, "load: is 3; allowed is a section [load]"),
     ({"roller.rigid": "true"}, "roller.youngs_modulus: is given beside rigid = true; allowed"),
     (
-        {"load.per_length": None, "load.friction": "0.1"},
-        "load.per_length: is missing; allowed is exactly one of per_length, hertz_peak_pressure",
-    ),
-    (
         {"load.per_length": None, "load.approach": '"2 um"'},
         "load.approach: has no meaning on a half-plane, whose displacement has no datum; allowed",
     ),
-    (
-        {"load.position": '"3 mm"'},
-        "load.position: is on a smooth body without ends, which is the same everywhere; allowed is "
-        "0, or one beside [profile] or body.width",
-    ),
-    (
-        {**LAYER, "body.base": '"glued"'},
-        'body.base: is "glued"; allowed is "bonded" or "frictionless"',
-    ),
+    ({"load.position": '"3 mm"'}, "load.position: is on a smooth body without ends, which is the"),
     (
         {
             **LAYER,
@@ -142,26 +102,9 @@ COMBINATIONS = [
         {**MEASURED, "profile.x_unit": '"GPa"'},
         'profile.x_unit: is "GPa", a pressure; allowed is a unit of length',
     ),
-    ({**MEASURED, "profile.z_unit": '"2 um"'}, 'profile.z_unit: is "2 um", and "2 um" is not a'),
-    (
-        {**MEASURED, "profile.z_unit": None},
-        "profile.z_unit: is missing; allowed is a unit of length",
-    ),
     (
         {**MEASURED, "profile.x_unit": None},
         "profile.x_unit: is missing; allowed is exactly one of x_unit and spacing",
-    ),
-    (
-        {**MEASURED, "profile.spacing": '"1 um"'},
-        "profile.spacing: is given beside x_unit; allowed is exactly one of x_unit and spacing",
-    ),
-    (
-        {**MEASURED, "profile.form": '"parabola"'},
-        'profile.form: is "parabola"; allowed is "none" or "mean" or "line" or "arc"',
-    ),
-    (
-        {**MEASURED, "profile.file": '"a\\u0000b"'},
-        "profile.file: holds a control character; allowed is",
     ),
     (
         {**MEASURED, "load.position": '"40 um"'},
@@ -176,14 +119,6 @@ COMBINATIONS = [
         'profile.hurst: does not belong to kind = "sinusoid"; allowed there are amplitude, length',
     ),
     (
-        {**SINUSOID, "profile.form": '"arc"'},
-        'profile.form: does not belong to kind = "sinusoid"; allowed there are',
-    ),
-    (
-        {**SINUSOID, "profile.wavelength": None},
-        "profile.wavelength: is missing; allowed is a length above 0",
-    ),
-    (
         {**SINUSOID, "profile.wavelength": '"1 nm"', "profile.length": '"1 m"'},
         "profile: the trace would have 4000001 samples; allowed is a whole number from 8",
     ),
@@ -192,28 +127,8 @@ COMBINATIONS = [
         "profile.rms_height: is given beside rms_slope; allowed is exactly one of rms_slope and",
     ),
     (
-        {**SELF_AFFINE, "profile.rms_slope": None},
-        "profile.rms_slope: is missing; allowed is exactly one of rms_slope and rms_height",
-    ),
-    (
-        {**SELF_AFFINE, "profile.samples": "7"},
-        "profile.samples: is 7; allowed is a whole number from 8 to",
-    ),
-    (
-        {**SELF_AFFINE, "profile.samples": "10_000_000_000"},
-        "profile.samples: is 10000000000; allowed is a whole number from 8 to",
-    ),
-    (
         {**SELF_AFFINE, "profile.shortest_wavelength": '"1 um"'},
         "profile: shortest_wavelength 1e-06 m is below two sample spacings",
-    ),
-    (
-        {**SELF_AFFINE, "profile.longest_wavelength": '"2 mm"'},
-        "profile: longest_wavelength 0.002 m",
-    ),
-    (
-        {**SELF_AFFINE, "profile.seed": "-1"},
-        "profile.seed: is -1; allowed is a whole number from 0",
     ),
 ]
 
