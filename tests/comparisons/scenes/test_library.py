@@ -1,10 +1,8 @@
 """The scenes that come with the project, and measured traces, through both models."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from scenes import judging
+from scenes import MEASURED, judging
 
 from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
@@ -20,14 +18,12 @@ from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.output.headline import verdict_of
 from comparisons.runs.run import Known, run
-from comparisons.scenes.files import scene_names
 from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import values_of
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
 FEW = Known(levels=Levels(3, effects=2))
-MEASURED = Path(__file__).parents[4] / "shared" / "profiles"
 
 
 @pytest.mark.parametrize(
@@ -178,28 +174,6 @@ def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
     by_level = {row.quantity: row.value for row in outcome.figures.of(study="comparison")}
     assert by_level["peak_pressure"] == pytest.approx(peak, rel=0.1)
     assert by_level["contact_length"] == pytest.approx(length, rel=0.1)
-
-
-def test_every_scene_is_named_here():
-    assert set(scene_names()) == {
-        "coated",
-        "finite-strain",
-        "fretting",
-        "frictional-heat",
-        "layer",
-        "periodic",
-        "yielding",
-        "ground-flowing",
-        "ground-polished",
-        "ground-run-in",
-        "ground-running-in",
-        "ground-unrun",
-        "rough-statistics",
-        "self-affine",
-        "sinusoid",
-        "smooth",
-        "smooth-sliding",
-    }
 
 
 @pytest.mark.parametrize(

@@ -78,14 +78,6 @@ SECTIONS = {name: part for name, part in sections_of(Scene).items() if name not 
 PLACES = [(section, name) for section, table in SECTIONS.items() for name in file_fields(table)]
 
 
-def changed(tables: dict, section: str, **fields) -> dict:
-    """The tables with fields of one section replaced, None taking one away."""
-    new = copy.deepcopy(tables)
-    table = {**new.get(section, {}), **fields}
-    new[section] = {name: value for name, value in table.items() if value is not None}
-    return new
-
-
 def test_a_bare_scene_has_the_defaults():
     scene = resolved(BARE)
     assert (scene.name, scene.title) == ("made", "made")
@@ -159,32 +151,23 @@ def test_extent_in_metres():
     assert Extent(1.5, in_half_widths=False).metres(2e-4) == 1.5
 
 
-def test_a_rigid_roller_has_no_material():
-    scene = resolved({**BARE, "roller": {"radius": "8.2 mm", "rigid": True}})
-    assert scene.roller.material is None
-
-
-def test_a_layer_is_bonded_unless_it_says_otherwise():
-    layer = resolved(changed(BARE, "body", thickness="5 mm"))
+def test_a_layer():
+    """Bonded unless it says otherwise; under a rigid roller it may be given an approach."""
+    layer = resolved(BARE).changed("body.thickness", "5 mm")
     assert layer.body.base == layer.tables["body"]["base"] == "bonded"
-    loose = changed(BARE, "body", thickness="5 mm", base="frictionless")
-    assert resolved(loose).body.base == "frictionless"
-
-
-def test_a_layer_may_be_given_an_approach():
-    layer = changed(BARE, "body", thickness="5 mm")
-    layer["roller"] = {"radius": "8.2 mm", "rigid": True}
-    scene = resolved(changed(layer, "load", per_length=None, approach="2 um"))
-    assert (scene.load.kind, scene.load.value) == ("approach", 2e-6)
+    assert layer.changed("body.base", "frictionless").body.base == "frictionless"
+    rigid = layer.changed({"roller": {"radius": "8.2 mm", "rigid": True}, "load.approach": "2 um"})
+    assert rigid.roller.material is None
+    assert (rigid.load.kind, rigid.load.value) == ("approach", 2e-6)
 
 
 def test_a_loose_base_carries_friction_where_the_body_has_no_end():
-    loose = changed(BARE, "body", thickness="5 mm", base="frictionless")
-    assert resolved(changed(loose, "load", friction=0.1)).load.friction == (0.1,)
-    ended = changed(loose, "body", width="40 mm")
-    assert resolved(changed(ended, "load", friction=0)).load.friction == (0.0,)
+    loose = resolved(BARE).changed({"body.thickness": "5 mm", "body.base": "frictionless"})
+    assert loose.changed("load.friction", 0.1).load.friction == (0.1,)
+    ended = loose.changed("body.width", "40 mm")
+    assert ended.changed("load.friction", 0).load.friction == (0.0,)
     with pytest.raises(SceneError, match=r"load\.friction: is 0\.1 on a body of finite width"):
-        resolved(changed(ended, "load", friction=[0, 0.1]))
+        ended.changed("load.friction", [0, 0.1])
 
 
 IN_SI = {
@@ -228,7 +211,7 @@ def test_units_do_not_matter(units):
 @given(st.floats(1e-12, 1e3), st.sampled_from(["mm", "um", "km", "inch", "thou", "ft"]))
 def test_any_length_in_any_unit(value, unit):
     in_metres = {"mm": 1e-3, "um": 1e-6, "km": 1e3, "inch": 0.0254, "thou": 2.54e-5, "ft": 0.3048}
-    scene = resolved(changed(BARE, "roller", radius=f"{value!r} {unit}"))
+    scene = resolved(BARE).changed("roller.radius", f"{value!r} {unit}")
     assert scene.roller.radius == pytest.approx(value * in_metres[unit], rel=1e-15, abs=0.0)
 
 
@@ -253,8 +236,6 @@ def test_tolerances_of_stresses_are_written_out_with_stress_alone():
     assert tolerances == {"peak_pressure": 0.02, "contact_length": 0.02}
     with_stress = resolved({**BARE, "stress": {}}).tables["tolerance"]
     assert with_stress == {**tolerances, "tau1_max": 0.02}
-    with pytest.raises(SceneError, match=r"tolerance\.tau1_max: needs a \[stress\] section"):
-        resolved({**BARE, "tolerance": {"tau1_max": 0.02}})
 
 
 def test_tables_are_a_copy():
@@ -279,8 +260,6 @@ class TestChanged:
     def test_it_is_checked_as_a_file_is(self):
         with pytest.raises(SceneError, match=r"^made.toml: load.frictoin: is no known field; the"):
             resolved(BARE).changed("load.frictoin", 0.1)
-        with pytest.raises(SceneError, match=r"^made.toml: body.base: is given for a half-plane"):
-            resolved(BARE).changed("body.base", "bonded")
         with pytest.raises(SceneError, match=r"^made.toml: title.x: title is no table; allowed is"):
             resolved(FULL).changed("title.x", 1)
 
@@ -306,8 +285,11 @@ class TestChanged:
         assert odd.written == scene.written and scene.body.thickness is None
 
 
+HEAVY = {"analytic.contact", "comparisons.models", "fem", "dolfinx", "scipy", "pint"}
+
+
 def test_reading_a_scene_loads_no_physics():
-    """Nor anything else that takes time."""
+    """Nor anything else that takes time: a solid's constants have units of our own table."""
     code = (
         "import sys, comparisons; comparisons.Scene.read('ground-running-in'); print(*sys.modules)"
     )
@@ -316,7 +298,7 @@ def test_reading_a_scene_loads_no_physics():
     )
     loaded = set(done.stdout.split())
     assert "comparisons.scenes.scene" in loaded
-    assert loaded.isdisjoint({"analytic.contact", "comparisons.models", "fem", "dolfinx", "scipy"})
+    assert loaded.isdisjoint(HEAVY)
 
 
 TOML_VALUES = st.recursive(

@@ -4,7 +4,6 @@ import pytest
 from scenes import SMOOTH, changed, resolved
 
 from comparisons.cli import main
-from comparisons.common.errors import ExitStatus
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene, with_tolerance
 
@@ -32,15 +31,3 @@ class TestTolerance:
             assert outcome.solved.refinement == "every judged quantity is resolved"
             levels[tolerance] = len(outcome.runs["half_plane"].levels)
         assert levels[0.2] == 3 < levels[2e-3]
-
-    def test_the_command_hands_it_on(self, monkeypatch, tmp_path):
-        judged = []
-
-        def stand_in(scene, out, models, *rest):
-            judged.append(scene.tolerances)
-            raise KeyboardInterrupt
-
-        monkeypatch.setattr("comparisons.runs.run.solve_scene", stand_in)
-        command = ["run", "smooth", "--json", "--out", str(tmp_path / "out")]
-        assert main([*command, "--tolerance", "0.01"]) == ExitStatus.INTERRUPTED
-        assert set(judged[0].values()) == {0.01}
