@@ -4,8 +4,8 @@
 
 `meshes` and `fem` use of `analytic` only its data types, so that the finite-element answer cannot
 lean on the solutions that it checks. Inside a package each room of `ROOMS` imports only rooms to
-its right, and no modules import each other in a circle. Whatever is slow to import, or may be
-absent, is imported inside the function that needs it.
+its right, and no modules import each other in a circle, not even for type hints. Whatever is slow
+to import, or may be absent, is imported inside the function that needs it.
 """
 
 import ast
@@ -102,16 +102,12 @@ def test_imports_follow_the_arrows():
 
 
 def imports_of_ours(path: Path) -> set[str]:
-    """Modules of the project that a module imports, early or late; not those for type hints."""
-    tree = ast.parse(path.read_text())
-    for node in filter(is_type_checking, ast.walk(tree)):
-        node.body = []
+    """Modules of the project that a module imports: early, late, or for type hints alone."""
     names = set()
-    for name in imported(tree, package_of(path)):
+    for name in imported(ast.parse(path.read_text()), package_of(path)):
         while name and name not in BY_NAME:
             name = name.rpartition(".")[0]
-        if name and BY_NAME[name].stem != "__init__":
-            names.add(name)
+        names |= {name} - {""}
     return names - {dotted_name(path)}
 
 

@@ -28,9 +28,8 @@ from comparisons.studies.ladder.operators import (
     why_no_stresses,
     words_of,
 )
-from comparisons.studies.model_error.account import figure_of
+from comparisons.studies.model_error.account import ErrorBudget, figure_of
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
-from comparisons.studies.model_error.error_budget import ErrorBudget
 from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.study import LADDER, Solved

@@ -4,20 +4,18 @@ In: an error budget. Out: a figure a quantity and friction coefficient, judged w
 tolerance, with its parts; the effects' account."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
 
 from comparisons.figures.figure import Column, Figure, Findings, Part, Series, Statement
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import trust
-from comparisons.studies.model_error.model_error import ModelError
+from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.selection import EffectSelection
-
-if TYPE_CHECKING:
-    from comparisons.studies.model_error.error_budget import ErrorBudget
 
 NAME = "model_error"
 # Parts beside the effects; the last is what half the samples of the trace change.
@@ -60,7 +58,40 @@ def figure_of(
     )
 
 
-def findings_of(budget: "ErrorBudget", problem: Problem) -> Findings:
+@dataclass(frozen=True)
+class ErrorBudget:
+    """What separates the half-plane from the whole model, and both from the surface."""
+
+    selection: EffectSelection  # which effects were computed
+    levels: int  # that the whole was taken to; 0 where it has no solution
+    unsplit: str | None  # why the difference of the models could not be split, else None
+    model_errors: tuple[ModelError, ...]  # of each quantity at each friction coefficient
+    # by friction and quantity: what half the samples of the trace change
+    sampling: dict[float, dict[str, float]]
+    seconds: float  # that the effects took
+    # by friction, the finite elements with every effect that matters, on the finest level of the
+    # effects, with their fields
+    wholes: dict[float, Level] = field(default_factory=dict)
+    # which further level of the whole cannot change a verdict, else None
+    left_out: str | None = None
+    # by friction, what else is compared with the whole; empty where it has no solution, and on disk
+    solutions: dict[float, Solutions] = field(default_factory=dict)
+    # by effect, and of the whole beside the scene's own: seconds, and largest memory [bytes]
+    took: dict[str, tuple[float, int]] = field(default_factory=dict)
+
+    def of(self, quantity: str, friction: float) -> ModelError:
+        wanted = quantity, friction
+        return next(e for e in self.model_errors if (e.quantity, e.friction) == wanted)
+
+    def figures(self, tolerance: Mapping[str, float]) -> list[Figure]:
+        """Every model error, judged where it has a tolerance."""
+        return [
+            figure_of(error, self.selection, tolerance, self.sampling)
+            for error in self.model_errors
+        ]
+
+
+def findings_of(budget: ErrorBudget, problem: Problem) -> Findings:
     """Of a finished comparison."""
     figures = budget.figures(problem.scene.tolerances)
     account = {name: effect_account(name, budget.selection) for name in EFFECTS}

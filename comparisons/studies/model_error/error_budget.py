@@ -11,7 +11,7 @@ The model error and its uncertainty are stated for every figure in any case."""
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -24,7 +24,7 @@ from comparisons.models.forecast import flow_seconds, time_with_flow
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.friction.coupling import Coupling
-from comparisons.studies.model_error.account import figure_of
+from comparisons.studies.model_error.account import ErrorBudget, figure_of
 from comparisons.studies.model_error.catalogue import UNKNOWN, ModelVariant
 from comparisons.studies.model_error.contributions import (
     NotComputedError,
@@ -34,7 +34,7 @@ from comparisons.studies.model_error.contributions import (
 from comparisons.studies.model_error.estimates import finite_flow
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import law_variants
-from comparisons.studies.model_error.model_error import ModelError, Solutions
+from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.model_error.refinement import (
     ASKED,
     GROWTH_OF_TIME,
@@ -55,39 +55,6 @@ from comparisons.studies.model_error.selection import (
 from comparisons.studies.model_error.solutions import LEAST_LEVELS, SolvedVariants
 from comparisons.studies.study import Solved
 from comparisons.studies.subsurface.yielding import flow_assessment
-
-
-@dataclass(frozen=True)
-class ErrorBudget:
-    """What separates the half-plane from the whole model, and both from the surface."""
-
-    selection: EffectSelection  # which effects were computed
-    levels: int  # that the whole was taken to; 0 where it has no solution
-    unsplit: str | None  # why the difference of the models could not be split, else None
-    model_errors: tuple[ModelError, ...]  # of each quantity at each friction coefficient
-    # by friction and quantity: what half the samples of the trace change
-    sampling: dict[float, dict[str, float]]
-    seconds: float  # that the effects took
-    # by friction, the finite elements with every effect that matters, on the finest level of the
-    # effects, with their fields
-    wholes: dict[float, Level] = field(default_factory=dict)
-    # which further level of the whole cannot change a verdict, else None
-    left_out: str | None = None
-    # by friction, what else is compared with the whole; empty where it has no solution, and on disk
-    solutions: dict[float, Solutions] = field(default_factory=dict)
-    # by effect, and of the whole beside the scene's own: seconds, and largest memory [bytes]
-    took: dict[str, tuple[float, int]] = field(default_factory=dict)
-
-    def of(self, quantity: str, friction: float) -> ModelError:
-        wanted = quantity, friction
-        return next(e for e in self.model_errors if (e.quantity, e.friction) == wanted)
-
-    def figures(self, tolerance: Mapping[str, float]) -> list[Figure]:
-        """Every model error, judged where it has a tolerance."""
-        return [
-            figure_of(error, self.selection, tolerance, self.sampling)
-            for error in self.model_errors
-        ]
 
 
 def error_budget(

@@ -19,13 +19,9 @@ from comparisons.studies.contact import values_of
 from comparisons.studies.friction import coupling
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error import show
-from comparisons.studies.model_error.account import NAME, findings_of
+from comparisons.studies.model_error.account import NAME, ErrorBudget, findings_of
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.error_budget import (
-    ErrorBudget,
-    announce_effects,
-    error_budget,
-)
+from comparisons.studies.model_error.error_budget import announce_effects, error_budget
 from comparisons.studies.model_error.estimates import estimates
 from comparisons.studies.study import Solved, Study
 

@@ -10,7 +10,7 @@ modulus."""
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import inf, pi
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -26,12 +26,10 @@ from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.scenes.materials import kinds_of, typical_range
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
+from comparisons.studies.model_error.account import ErrorBudget
 from comparisons.studies.model_error.estimates import TABOR
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
-
-if TYPE_CHECKING:
-    from comparisons.studies.model_error.error_budget import ErrorBudget
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
@@ -210,7 +208,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     return Findings(tuple(figures), statements=tuple(said), data=flow)
 
 
-def _figures_of_flow(problem: Problem, budget: "ErrorBudget") -> list[Figure]:
+def _figures_of_flow(problem: Problem, budget: ErrorBudget) -> list[Figure]:
     """How far the whole model flows, and over what slopes."""
     figures, info = [], problem.surface.info
     for friction, level in budget.wholes.items():

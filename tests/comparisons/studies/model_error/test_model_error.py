@@ -17,7 +17,7 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level
 from comparisons.output.headline import validity, verdict_of
 from comparisons.runs.run import run
-from comparisons.studies.model_error.error_budget import ErrorBudget
+from comparisons.studies.model_error.account import ErrorBudget
 from comparisons.studies.study import Run
 from meshes.block import MeshError
 

@@ -15,8 +15,8 @@ from comparisons.drawing.style import collected_figures, drawing
 from comparisons.output.page.page import render
 from comparisons.output.page.tables.comparison import comparison_rows
 from comparisons.output.terminal import summary
+from comparisons.studies.model_error.account import ErrorBudget
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.error_budget import ErrorBudget
 from comparisons.studies.model_error.model_error import Estimate, ModelError
 from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.model_error.show import (
