@@ -21,13 +21,12 @@ def problem(name="ground-unrun", **stress):
 
 @pytest.mark.parametrize("name", ["ground-unrun", "ground-run-in"])
 def test_extremes_do_not_depend_on_the_points_of_the_field(name):
-    extremes_by_points = []
+    extremes = []
     for points in ([3, 3], [40, 16], [600, 200]):
         posed = problem(name, points=points)
         level = half_plane_level(posed, posed.pitches[0], window_of(posed), Stages())
-        extremes_by_points.append([e.value for s in level.stresses for e in s.extremes.values()])
-    assert extremes_by_points[0] == pytest.approx(extremes_by_points[2], rel=1e-9)
-    assert extremes_by_points[1] == pytest.approx(extremes_by_points[2], rel=1e-9)
+        extremes.append([e.value for s in level.stresses for e in s.extremes.values()])
+    assert extremes[:2] == [pytest.approx(extremes[2], rel=1e-9)] * 2
 
 
 def test_a_trace_that_is_nothing_beside_the_window_is_refused_before_it_is_searched(tmp_path):

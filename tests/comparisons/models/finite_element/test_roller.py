@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from scenes import changed, problem
+from scenes import STEEL, changed, problem
 
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
@@ -19,7 +19,6 @@ from tests.finite_strain_check.figures import figures
 from tests.finite_strain_check.solve import HUB, OPPOSITE, RING, Task, solutions
 
 RADIUS = 10e-3
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 POLYMER = {"youngs_modulus": 3e9, "poissons_ratio": 0.4}
 SUPPORTS = {
     "sector": None,

@@ -48,15 +48,7 @@ SWITCHES = {
 }
 
 
-REFUSED = {
-    frozenset(pair)
-    for pair in [
-        ("finite", "P1"),
-        ("finite", "P3"),
-        ("plastic", "P1"),
-        ("plastic", "P3"),
-    ]
-}
+REFUSED = {frozenset((body, element)) for body in ("finite", "plastic") for element in ("P1", "P3")}
 
 
 @pytest.mark.parametrize("pair", list(combinations(SWITCHES, 2)), ids="-".join)

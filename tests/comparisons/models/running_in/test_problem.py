@@ -10,10 +10,12 @@ import comparisons.models.running_in
 from analytic.profile import Profile
 from analytic.running_in import run_in
 from analytic.surface.roughness import roughness
+from comparisons.common.progress import Stages
+from comparisons.models.half_plane import half_plane_level
 from comparisons.models.posing import problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.record import read_result
-from comparisons.runs.run import Known
+from comparisons.runs.run import Known, run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
 from comparisons.studies.study import Run
@@ -57,15 +59,12 @@ class TestProblem:
         assert other.volume == pytest.approx(worn.volume, rel=1e-6)
         assert worn.passes[0].position == pytest.approx(-30e-6)
 
-    def test_the_load_is_the_scenes(self, resolved, pair):
-        by_peak = {"per_length": None, "hertz_peak_pressure": pair.peak_pressure}
-        surface = run_in_of(resolved({"load": by_peak}))
-        assert surface.run_in.constraints.load == pytest.approx(pair.load_per_length, rel=1e-12)
-
-    def test_the_load_is_its_own_where_it_has_one(self, resolved, pair):
-        load = 1.5 * pair.load_per_length
-        surface = run_in_of(resolved({"running_in": {"load": load}}))
-        assert surface.run_in.constraints.load == pytest.approx(load, rel=1e-12)
+    def test_the_load_is_the_scenes_unless_it_has_its_own(self, resolved, pair):
+        scenes = {"per_length": None, "hertz_peak_pressure": pair.peak_pressure}
+        own = {"load": 1.5 * pair.load_per_length}
+        for changes, times in (({"load": scenes}, 1.0), ({"running_in": own}, 1.5)):
+            load = run_in_of(resolved(changes)).run_in.constraints.load
+            assert load == pytest.approx(times * pair.load_per_length, rel=1e-12)
 
     def test_running_in_is_done_once(self, monkeypatch, resolved):
         problem = problem_of(resolved())
@@ -106,13 +105,7 @@ class TestRun:
     @pytest.fixture(scope="class")
     @classmethod
     def done(cls, tmp_path_factory, resolved) -> Run:
-        from comparisons.runs.run import run
-
-        heard = []
-        out = tmp_path_factory.mktemp("run-in") / "out"
-        outcome = run(resolved(), out, ("half_plane",), heard.append)
-        assert "running the surface in" in heard
-        return outcome
+        return run(resolved(), tmp_path_factory.mktemp("run-in") / "out", ("half_plane",))
 
     def test_files_hold_the_surface_before_and_after(self, done: Run):
         worn, out = done.problem.surface.run_in, done.directory
@@ -125,8 +118,6 @@ class TestRun:
         assert not (done.directory / "half_plane" / "run_in_profile.csv").exists()
 
     def test_the_record_holds_the_surface_before_and_repeats_the_run(self, done: Run, tmp_path):
-        from comparisons.runs.run import run
-
         record = json.loads((done.directory / "record.json").read_text())
         trace = done.problem.surface.run_in.before
         assert record["profile"]["x"] == trace.x.tolist()
@@ -148,9 +139,6 @@ def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness()
     assert worn.status == "settled" and worn.converged
     assert not any(one.at_end for one in worn.passes)
     assert 1e-12 * 30.0 < worn.volume < 1e-12 * 45.0
-    from comparisons.common.progress import Stages
-    from comparisons.models.half_plane import half_plane_level
-
     level = half_plane_level(problem, problem.pitches[-1], None, Stages())
     peak = level.solution.pressure.max()
     assert peak == pytest.approx(scene.running_in.hardness, rel=0.02)
