@@ -23,10 +23,10 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.units import describe
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, models_named
-from comparisons.output.flat_csv import Row, judged_rows, rows_of, rows_tables
-from comparisons.output.headline import verdict_of
+from comparisons.output.arrays import RunArrays
+from comparisons.output.flat_csv import Row, judged_rows, result_summary, rows_of, rows_tables
 from comparisons.output.page.plots import Plots
-from comparisons.output.result_json import content_of, result_of
+from comparisons.output.result_json import Result, content_of, result_of
 from comparisons.scenes.scene import Scene, with_tolerance
 from comparisons.studies import meaning, study
 
@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from rich.console import Console, RenderableType
 
     from comparisons.campaigns.cost.cost import Cost
-    from comparisons.models.level import Level
-
 AnyScene = Scene | Mapping | str | os.PathLike
 """A scene, its tables, its name or its path."""
 
@@ -72,9 +70,9 @@ class RunFigures(Printed, Figures):
     rows: list[Row]  # the figures as records, one each (`comparisons.output.flat_csv`)
 
     @classmethod
-    def of_run(cls, run: study.Run) -> "RunFigures":
-        made = cls(run.figures)
-        made.rows = rows_of(result_of(run), _name(run))
+    def of_result(cls, result: Result, name: str) -> "RunFigures":
+        made = cls(result.figures)
+        made.rows = rows_of(result, name)
         return made
 
     def frame(self) -> "DataFrame":
@@ -103,10 +101,85 @@ class RunFigures(Printed, Figures):
 
 
 @dataclass(frozen=True, repr=False)
-class FinishedRun(Printed):
-    """A finished run; `outcome` is everything that was computed."""
+class RecordedRun(Printed):
+    """A run as its files have it."""
+
+    said: Result
+    arrays: RunArrays
+    name: str  # its folder, or its scene's name
+
+    @property
+    def result(self) -> dict:
+        """As result.json has it, SI units."""
+        return content_of(self.said)
+
+    @property
+    def figures(self) -> RunFigures:
+        """Every number that is a result; `figures.of(study="contact")` are some of them."""
+        return RunFigures.of_result(self.said, self.name)
+
+    def figure(
+        self, quantity: str, source: str, study: str = "contact", **at: float
+    ) -> Figure | None:
+        """One of them, by the model or other source that it is of; None where the run has none.
+
+        study  that found it
+        at     of several friction coefficients: friction=0.1"""
+        wanted = {"study": study, "quantity": quantity, "source": _model(source)}
+        figures = self.said.figures.of(**wanted)
+        return next((figure for figure in figures if at.items() <= figure.at.items()), None)
+
+    @property
+    def verdict(self) -> str:
+        """Of the half-plane here: holds, fails or inconclusive; not compared, not converged."""
+        return self.said.verdict
+
+    @property
+    def rows(self) -> list[Row]:
+        """The figures as records, as `table` of the command line has them
+        (`comparisons.output.flat_csv`)."""
+        return self.figures.rows
+
+    def contact(self, model: str = "half-plane") -> dict[str, np.ndarray]:
+        """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
+        return self.arrays.contact(self._known(model), self.said.deciding_friction)
+
+    def stress(self, model: str = "half-plane", friction: float | None = None) -> dict:
+        """Stresses of a model's finest level below the contact, as arrays.
+
+        friction  coefficient; the scene's first by default
+        x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
+        [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
+        stress across the plane is Poisson's ratio times sx + sz."""
+        frictions = self.said.scene["load"]["friction"]
+        wanted = frictions[0] if friction is None else friction
+        stresses = self.arrays.stress(self._known(model), wanted)
+        if stresses is None:
+            raise InputError(
+                "stress: this run has none there; allowed is a scene with [stress], at friction "
+                + " or ".join(f"{mu:g}" for mu in frictions)
+            )
+        return stresses
+
+    def _known(self, model: str) -> str:
+        if _model(model) not in self.arrays.models:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(self.arrays.models)}")
+        return _model(model)
+
+    def _table(self) -> "RenderableType":
+        return result_summary(self.said)
+
+
+@dataclass(frozen=True, repr=False)
+class FinishedRun(RecordedRun):
+    """A run that has just been solved; `outcome` is everything that was computed."""
 
     outcome: study.Run
+
+    @classmethod
+    def of(cls, outcome: study.Run) -> "FinishedRun":
+        name = str(outcome.directory or outcome.problem.scene.name)
+        return cls(result_of(outcome), RunArrays.of(outcome), name, outcome)
 
     def __repr__(self) -> str:
         """In ten lines: title, the first figures, the verdict and what to do next. A notebook
@@ -135,38 +208,6 @@ class FinishedRun(Printed):
         return "\n".join(part for line in lines for part in wrap(line, COLUMNS))
 
     @property
-    def result(self) -> dict:
-        """As result.json has it, SI units."""
-        return content_of(self.outcome)
-
-    @property
-    def figures(self) -> RunFigures:
-        """Every number that is a result; `figures.of(study="contact")` are some of them."""
-        return RunFigures.of_run(self.outcome)
-
-    def figure(
-        self, quantity: str, source: str, study: str = "contact", **at: float
-    ) -> Figure | None:
-        """One of them, by the model or other source that it is of; None where the run has none.
-
-        study  that found it
-        at     of several friction coefficients: friction=0.1"""
-        wanted = {"study": study, "quantity": quantity, "source": _model(source)}
-        figures = self.outcome.figures.of(**wanted)
-        return next((figure for figure in figures if at.items() <= figure.at.items()), None)
-
-    @property
-    def verdict(self) -> str:
-        """Of the half-plane here: holds, fails or inconclusive; not compared, not converged."""
-        return verdict_of(self.outcome)[0]
-
-    @property
-    def rows(self) -> list[Row]:
-        """The figures as records, as `table` of the command line has them
-        (`comparisons.output.flat_csv`)."""
-        return self.figures.rows
-
-    @property
     def plot(self) -> Plots:
         """What draws the run."""
         return Plots(self.outcome)
@@ -181,43 +222,6 @@ class FinishedRun(Printed):
             raise InputError(f"{path}: is no place for a page; allowed is a file in a folder")
         write_whole(path, render(self.outcome))
         return path
-
-    def contact(self, model: str = "half-plane") -> dict[str, np.ndarray]:
-        """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
-        from comparisons.models.level import deformed_height
-
-        level = self._level(model)
-        return {
-            "x": level.grid.x,
-            "pressure": level.solution.pressure,
-            "gap": level.solution.gap,
-            "deformed_height": deformed_height(self.outcome.problem, level),
-        }
-
-    def stress(self, model: str = "half-plane", friction: float | None = None) -> dict:
-        """Stresses of a model's finest level below the contact, as arrays.
-
-        friction  coefficient; the scene's first by default
-        x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
-        [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
-        stress across the plane is Poisson's ratio times sx + sz."""
-        level = self._level(model)
-        frictions = self.outcome.problem.scene.load.friction
-        stresses = level.stress(frictions[0] if friction is None else friction)
-        if stresses is None:
-            raise InputError(
-                "stress: this run has none there; allowed is a scene with [stress], at friction "
-                + " or ".join(f"{mu:g}" for mu in frictions)
-            )
-        window, names = self.outcome.window, ("sx", "sz", "txz", "tau1")
-        places = {"x": window.x, "z": window.z}
-        return places | {name: np.asarray(getattr(stresses.field, name)) for name in names}
-
-    def _level(self, model: str) -> "Level":
-        levels = self.outcome.levels(self.outcome.deciding_friction)
-        if _model(model) not in levels:
-            raise InputError(f"model: is {model}; allowed is {' or '.join(levels)}")
-        return levels[_model(model)]
 
     def _table(self) -> "RenderableType":
         from comparisons.output.terminal import summary
@@ -337,7 +341,7 @@ def run(
     >>> both.verdict
     'holds'
     >>> [figure.verdict for figure in both.figures.of(study="comparison")]
-    ['agree', 'agree', None, None]"""
+    ['agree', 'agree', None]"""
     from comparisons.runs.run import run as run_scene
 
     chosen = models_named(models, "models")
@@ -347,17 +351,18 @@ def run(
     asked = scene_of(scene)
     if tolerance is not None:
         asked = with_tolerance(asked, tolerance)
-    return FinishedRun(run_scene(asked, place, chosen, progress))
+    return FinishedRun.of(run_scene(asked, place, chosen, progress))
 
 
-def read(folder: str | os.PathLike) -> FinishedRun:
+def read(folder: str | os.PathLike) -> RecordedRun:
     """A run from the folder that it has left, without solving. InputError where there is none."""
-    from comparisons.output.page.saved import read_run
+    from comparisons.output.record import read_result
 
-    return FinishedRun(read_run(_path(folder, "folder")))
+    place = _path(folder, "folder")
+    return RecordedRun(read_result(place / "result.json"), RunArrays.read(place), str(place))
 
 
-def compare(*runs: FinishedRun) -> FigureTable:
+def compare(*runs: RecordedRun) -> FigureTable:
     """The figures of several runs, a row each."""
     if not runs:
         raise InputError("compare: is given no run; allowed is at least one")
@@ -465,10 +470,6 @@ is a length above 0: a number in m or "8.2 mm"
 def _model(name: str) -> str:
     """Both ways of writing a model's name, as figures have it."""
     return name.replace("-", "_")
-
-
-def _name(run: study.Run) -> str:
-    return str(run.directory or run.problem.scene.name)
 
 
 @contextmanager

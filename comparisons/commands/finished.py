@@ -1,4 +1,4 @@
-"""Of finished runs: `crosscheck report` draws them again, `rerun` repeats one from its own record,
+"""Of finished runs: `crosscheck report` shows them again, `rerun` repeats one from its own record,
 `table` puts many into one table."""
 
 from pathlib import Path
@@ -16,24 +16,29 @@ def report(
     folders: Annotated[list[Path], Argument(metavar="DIR...", help="Folders that runs have left.")],
     summary: Annotated[
         Path | None,
-        Option(
-            help="Page over all runs; given by name, no report is drawn again.",
-            show_default="results/summary.html, of several DIR",
-        ),
+        Option(help="Page over all runs.", show_default="results/summary.html, of several DIR"),
     ] = None,
     pdf: Annotated[bool, Option("--pdf", help="Print each report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
 ) -> int:
-    """Draw reports again without solving. Of many runs a page sums them up, too."""
-    from comparisons.output.page.redraw import draw_again, reports_content, reports_table
+    """Show a finished run again without solving. Of many runs a page sums them up, too."""
+    from comparisons.output.flat_csv import result_summary
+    from comparisons.output.page import summary as page
 
-    draws = summary is None
-    if draws and len(folders) > 1:
+    reports = [page.read_report(folder, pdf) for folder in folders]
+    if summary is None and len(reports) > 1:
         summary = RESULTS / "summary.html"
-    with progress() as callback:
-        reports = draw_again(folders, summary, pdf, callback, draws)
-    content = reports_content(reports, summary)
-    show_either(as_json, content, lambda: reports_table(reports, summary))
+    if summary is not None:
+        page.write_summary(reports, summary)
+    if pdf:
+        with progress() as callback:
+            reports = [page.printed(report, callback) for report in reports]
+
+    def shown() -> object:
+        only = reports[0].result if summary is None else None
+        return page.summary_table(reports, summary) if only is None else result_summary(only)
+
+    show_either(as_json, page.summary_content(reports, summary), shown)
     for why in dict.fromkeys(report.no_pdf for report in reports if report.no_pdf):
         tell(why)
     return ExitStatus.DONE

@@ -108,13 +108,12 @@ def run(
 
 def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | None:
     """Print the answer; the error where nobody reads it: the files are for others."""
-    from comparisons.output.result_json import content_of
+    from comparisons.output.result_json import content_of, result_of
     from comparisons.output.terminal import summary
 
     try:
-        show_either(
-            as_json, content_of(solved) if as_json else {}, lambda: summary(solved, details)
-        )
+        content = content_of(result_of(solved)) if as_json else {}
+        show_either(as_json, content, lambda: summary(solved, details))
         sys.stdout.flush()
     except (BrokenPipeError, SystemExit) as error:  # as rich has it
         drop(sys.stdout)

@@ -21,7 +21,7 @@ from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
 from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
-from comparisons.output.terminal import plain_table, plain_text
+from comparisons.output.terminal import PLAIN, STYLES, plain_table, plain_text
 from comparisons.studies import contact, meaning
 from comparisons.studies.study import LADDER
 
@@ -130,6 +130,19 @@ def rows_tables(rows: Iterable[Row], name: str = "run") -> "Group":
             table.add_row(*map(plain_text, _cells(row)))
         tables += [table, ""]
     return Group(*tables[:-1])
+
+
+def result_summary(result: Result) -> "Group":
+    """A run's title, what it judges, or else its contact, the verdict, and what to paste next."""
+    from rich.console import Group
+    from rich.text import Text
+
+    rows = judged_rows(rows_of(result, result.scene["name"]))
+    stamp = result.verdict.upper(), STYLES.get(result.verdict, "bold")
+    verdict = Text.assemble(stamp, f"  {result.why.translate(PLAIN)}")
+    pasted = (f"  {text.translate(PLAIN)}" for text in result.next)
+    next_steps = (Text.assemble(("Next:", "bold"), text) for text in pasted)
+    return Group(rows_tables(rows, "title"), "", verdict, *next_steps)
 
 
 def _cells(row: Row) -> tuple[str, ...]:

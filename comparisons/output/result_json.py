@@ -26,11 +26,12 @@ from comparisons.figures.figure import (
     Series,
     Statement,
 )
+from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
 from comparisons.output.headline import headline, verdict_of
-from comparisons.studies import meaning
+from comparisons.studies import contact, meaning
 from comparisons.studies.ladder.show import ESCALATE_TO, SUFFICES
-from comparisons.studies.study import LADDER, Run
+from comparisons.studies.study import LADDER, MODEL_ERROR, Run, deciding_friction
 
 SCHEMA = 3
 KINDS = {"scene": dict, "record": dict, "verdict": str, "why": str}
@@ -53,6 +54,23 @@ class Result:
         return Figures(figure for study in self.findings.values() for figure in study.figures)
 
     @property
+    def models(self) -> list[str]:
+        """Of half_plane, finite_element, those that were run."""
+        solved = {figure.source for figure in self.figures.of(study=contact.NAME)}
+        return [name for name in MODELS if name in solved]
+
+    @cached_property
+    def model_errors(self) -> Figures:
+        """The half-plane's, those that are judged."""
+        errors = self.figures.of(study=MODEL_ERROR)
+        return Figures(error for error in errors if error.bounds is not None)
+
+    @property
+    def deciding_friction(self) -> float:
+        """As of a `Run`."""
+        return deciding_friction(self.model_errors, self.scene["load"]["friction"])
+
+    @property
     def ladder(self) -> Findings:
         """Which model suffices; empty where the run compares nothing."""
         return self.findings.get(LADDER, Findings())
@@ -65,9 +83,8 @@ def result_of(run: Run) -> Result:
     return Result(scene, record, verdict, why, headline(run).paste, run.findings)
 
 
-def content_of(run: Run) -> dict:
-    """The content of a run's result.json."""
-    result = result_of(run)
+def content_of(result: Result) -> dict:
+    """The content of a result.json."""
     findings = result.findings.items()
     return {
         "schema": SCHEMA,

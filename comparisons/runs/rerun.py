@@ -14,6 +14,7 @@ from comparisons.common.errors import ExitStatus, InputError, one_line
 from comparisons.common.files import check_writable
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of, movement
+from comparisons.output.arrays import RunArrays
 from comparisons.output.record import Record, read_record
 from comparisons.output.result_json import Result, result_of
 from comparisons.output.terminal import STYLES, plain_table
@@ -69,16 +70,7 @@ def rerun(
     record = read_record(folder)
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone
-        from comparisons.output.page.saved import read_run
-        from comparisons.studies.answers.show import answers_of
-
-        try:
-            answers = answers_of(read_run(folder, with_mesh=False))
-        except (ArithmeticError, AttributeError, LookupError, TypeError) as error:
-            raise InputError(
-                f"{folder}: its report.npz holds no answers ({error!r}); allowed is what this "
-                "version of crosscheck wrote"
-            ) from error
+        answers = RunArrays.read(folder).answers
     with _place(folder, out) as place:
         known = Known(record.surface, answers, record.levels)
         outcome = run(record.scene, place, record.models, callback, known=known)

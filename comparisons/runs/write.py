@@ -11,8 +11,9 @@ from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.models.level import Level, deformed_height
+from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
-from comparisons.output.result_json import content_of
+from comparisons.output.result_json import content_of, result_of
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
@@ -22,11 +23,10 @@ def write_files(outcome: Run, callback: ProgressCallback) -> None:
     """Write everything into the run's folder; whole files, all at the end."""
     callback(Step("writing results", 0.0))
     from comparisons.output.page.page import render
-    from comparisons.output.page.saved import FILE
 
     # copies of this process write the fields while it loads what draws
     with published(outcome.directory) as folder, tasks_of_copies(outcome) as tasks:
-        levels = _written(outcome)
+        levels = levels_by_folder(outcome)
         first, *others = sorted(levels, key=lambda name: levels[name].mesh is None)  # longest first
         for name in levels:
             (folder / name).mkdir(parents=True, exist_ok=True)
@@ -37,7 +37,8 @@ def write_files(outcome: Run, callback: ProgressCallback) -> None:
             files = study.files(outcome) if study.name in outcome.findings else {}
             for path, columns in files.items():
                 _write_csv(folder / path, ",".join(columns), *columns.values())
-        (folder / "result.json").write_text(as_json(content_of(outcome)), encoding="utf-8")
+        content = content_of(result_of(outcome))
+        (folder / "result.json").write_text(as_json(content), encoding="utf-8")
         callback("drawing the report")
         (folder / "report.html").write_text(render(outcome), encoding="utf-8")
         for key in (first, FILE):
@@ -48,27 +49,15 @@ def write_files(outcome: Run, callback: ProgressCallback) -> None:
 
 
 def _write_others(here: Here, folder: Path, names: Sequence[str]) -> None:
-    from comparisons.output.page.saved import FILE, save_shown
-
     for name in names:
         _write_level(here, folder, name)
-    save_shown(folder / FILE, here.shared)
-
-
-def _written(outcome: Run) -> dict[str, Level]:
-    """Levels by their folders; those of further friction coefficients below the first's."""
-    levels: dict[str, Level] = {}
-    for friction in outcome.problem.scene.load.friction:
-        for name, level in outcome.levels(friction).items():
-            if all(level is not known for known in levels.values()):
-                levels[name if name not in levels else f"{name}/friction_{friction:g}"] = level
-    return levels
+    RunArrays.of(here.shared).write(folder / FILE)
 
 
 def _write_level(here: Here, folder: Path, name: str) -> None:
     """The files of a model's level."""
     outcome, folder = here.shared, folder / name
-    level = _written(outcome)[name]
+    level = levels_by_folder(outcome)[name]
     write_contact(folder / "contact.csv", outcome, level)
     if outcome.window is not None:
         write_field(folder / "stress.vtu", field_of(outcome, level))
@@ -78,12 +67,11 @@ def _write_level(here: Here, folder: Path, name: str) -> None:
 
 def write_mesh(path: Path, outcome: Run, mesh: BlockMesh) -> None:
     """mesh.msh: what was solved on, and the scene that it was made for."""
-    from meshes.msh_file import append_comment, write_msh
+    from meshes.msh_file import write_msh
 
-    write_msh(mesh, path)
     problem = outcome.problem
     said = {"title": problem.scene.title, "units": "m", "scene": scene_text(problem)}
-    append_comment(path, said)
+    write_msh(mesh, path, said)
 
 
 def write_contact(path: Path, outcome: Run, level: Level) -> None:

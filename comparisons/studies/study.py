@@ -5,7 +5,7 @@ page and the terminal show them. A new study is a module with a STUDY, which is 
 `comparisons.studies.STUDIES`: it appears in result.json, tables, JUnit, page and rerun by itself.
 Its physics is imported inside `solve`, so that reading a scene stays fast."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -133,10 +133,8 @@ class Run:
 
     @property
     def deciding_friction(self) -> float:
-        """The coefficient at which a judged model error exceeds its tolerance most, or comes
-        nearest to it; the last one without any."""
-        worst = max(self.model_errors, key=lambda f: abs(f.value) / f.tolerance, default=None)
-        return self.problem.scene.load.friction[-1] if worst is None else worst.friction
+        """That of `deciding_friction`."""
+        return deciding_friction(self.model_errors, self.problem.scene.load.friction)
 
     @property
     def exit_status(self) -> ExitStatus:
@@ -148,6 +146,13 @@ class Run:
         if verdicts & set(FAILED):
             return ExitStatus.OUTSIDE_TOLERANCE
         return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
+
+
+def deciding_friction(errors: Figures, frictions: Sequence[float]) -> float:
+    """The coefficient at which a judged model error exceeds its tolerance most, or comes nearest to
+    it; the last of a run's coefficients without any."""
+    worst = max(errors, key=lambda error: abs(error.value) / error.tolerance, default=None)
+    return frictions[-1] if worst is None else worst.friction
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
         (lambda: crosscheck.run("smooth", "fem"), "models: there is no model fem"),
         (lambda: crosscheck.run("smooth", ()), "models: is empty"),
         (lambda: crosscheck.compare(), "is given no run"),
-        (lambda: crosscheck.read("nowhere"), "nowhere: is no folder"),
+        (lambda: crosscheck.read("nowhere"), "nowhere: holds no result.json"),
         (lambda: crosscheck.map("smooth", "8"), "--points"),
         (lambda: crosscheck.cost("periodic"), "profile.periodic: is true"),
         (
@@ -137,7 +137,7 @@ def test_wrong_input_is_one_line_before_anything_is_solved(call, words, monkeypa
 
 @pytest.fixture(scope="module")
 def finished(wavy_outcome) -> FinishedRun:
-    return FinishedRun(wavy_outcome)
+    return FinishedRun.of(wavy_outcome)
 
 
 def test_a_run_prints_as_a_table(finished):
@@ -160,8 +160,8 @@ def test_curves_are_those_of_the_finest_level(finished):
 
 
 def test_several_runs_in_one_table(finished, smooth_outcome):
-    both = crosscheck.compare(finished, FinishedRun(smooth_outcome))
-    assert len(both.rows) == len(finished.rows) + len(FinishedRun(smooth_outcome).rows)
+    both = crosscheck.compare(finished, FinishedRun.of(smooth_outcome))
+    assert len(both.rows) == len(finished.rows) + len(FinishedRun.of(smooth_outcome).rows)
     text = repr(both)
     assert "Wavy body" in text and "Smooth roller" in text
 

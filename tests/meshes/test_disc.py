@@ -8,7 +8,6 @@ import pytest
 
 from meshes.block import EDGES, BlockSpec, MeshError, real_points
 from meshes.build import build_block
-from meshes.msh_file import read_msh, write_msh
 from meshes.quality import corner_jacobians
 from meshes.real_shape import bent, roughen, rounded, sagitta
 
@@ -127,14 +126,6 @@ def test_scales_with_the_unit_of_length(flat, disc):
     assert real_points(bent(small, 1e-3 * RADIUS)) == pytest.approx(
         1e-3 * real_points(disc), abs=1e-15
     )
-
-
-def test_comes_back_from_its_file(disc, tmp_path):
-    write_msh(disc, tmp_path / "disc.msh")
-    mesh = read_msh(tmp_path / "disc.msh")
-    assert np.array_equal(mesh.shift, disc.shift)
-    assert mesh.points == pytest.approx(disc.points, abs=1e-15)
-    assert real_points(mesh) == pytest.approx(real_points(disc), abs=1e-15)
 
 
 def test_rounded_about_the_contact():

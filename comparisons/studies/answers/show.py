@@ -174,8 +174,7 @@ def _shear(run: Run, name: str, answer: Answer) -> style.Picture:
     hertz, window, stress = run.problem.hertz, run.window, answer.stress
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     reference = run.runs[reference_of(run)].finest.stress(stress.friction)
-    both = (known.field.tau1.astype(np.float32) for known in (stress, reference))
-    fields = [tau1 / hertz.peak_pressure for tau1 in both]
+    fields = [known.field.tau1 / hertz.peak_pressure for known in (stress, reference)]
     names = name, LABELS[reference_of(run)]
     shown = [FieldPanel(*panel) for panel in zip(names, fields, strict=True)]
     scale = ColourScale.over("τ₁/p₀", fields)

@@ -11,7 +11,7 @@ import pytest
 from scenes import PROJECT
 
 from comparisons.cli import main
-from comparisons.output.result_json import content_of
+from comparisons.output.result_json import content_of, result_of
 
 pytestmark = pytest.mark.usefixtures("undrawn")  # what runs in this process
 
@@ -71,7 +71,7 @@ def test_no_file_of_an_instrument_is_read_by_a_module_of_the_working_folder(tmp_
 
 def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
     title = "=1+2\x1b]0;owned\x07\x9b31m"
-    result = content_of(smooth_outcome)
+    result = content_of(result_of(smooth_outcome))
     result = result | {"scene": result["scene"] | {"title": title}}
     (tmp_path / "result.json").write_text(json.dumps(result))
     texts = []

@@ -9,7 +9,7 @@ import pytest
 from comparisons.cli import main
 from comparisons.common.provenance import as_json
 from comparisons.output.flat_csv import COLUMNS, judged_rows, tidy_rows
-from comparisons.output.result_json import content_of
+from comparisons.output.result_json import content_of, result_of
 from comparisons.studies import meaning
 
 
@@ -20,7 +20,7 @@ def runs(tmp_path_factory, smooth_outcome, wavy_outcome, finish, smooth_tables):
     alone = finish(smooth_tables, ("half_plane",))
     for name, outcome in (("a", smooth_outcome), ("deep/b", wavy_outcome), ("c", alone)):
         (folder / name).mkdir(parents=True)
-        (folder / name / "result.json").write_text(as_json(content_of(outcome)))
+        (folder / name / "result.json").write_text(as_json(content_of(result_of(outcome))))
     (folder / ".part-x").mkdir()
     (folder / ".part-x" / "result.json").write_text("{")
     return folder

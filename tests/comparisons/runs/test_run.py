@@ -19,7 +19,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.output.headline import verdict_of
 from comparisons.output.record import read_result
-from comparisons.output.result_json import content_of
+from comparisons.output.result_json import content_of, result_of
 from comparisons.runs.run import level_cache, run, solve
 from comparisons.scenes.scene import Scene
 from comparisons.studies.study import unsolved
@@ -40,7 +40,7 @@ def smooth(tmp_path_factory, said):
 
 def figures(outcome) -> dict:
     """result.json without what may differ from run to run."""
-    result = json.loads(json.dumps(content_of(outcome)))
+    result = json.loads(json.dumps(content_of(result_of(outcome))))
     del result["record"]["made"]
     result["series"] = [series for series in result["series"] if "is_account" not in series]
     return result
@@ -125,7 +125,7 @@ class TestSmooth:
 
     def test_files(self, smooth):
         out = smooth.directory
-        assert json.loads((out / "result.json").read_text()) == content_of(smooth)
+        assert json.loads((out / "result.json").read_text()) == content_of(result_of(smooth))
         read = read_result(out / "result.json")
         assert read.figures == smooth.figures
         assert read.findings == {n: replace(f, data=None) for n, f in smooth.findings.items()}

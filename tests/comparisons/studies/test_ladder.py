@@ -11,7 +11,7 @@ from scenes import changed, refound
 
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
-from comparisons.output.result_json import content_of
+from comparisons.output.result_json import content_of, result_of
 from comparisons.studies.ladder import show
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT
 
@@ -66,7 +66,7 @@ def test_the_half_plane_has_its_model_errors(wavy_outcome):
 def test_a_run_answers_for_its_half_plane_alone(wavy_outcome):
     """Hertz fails, the run does not; result.json names what suffices."""
     assert wavy_outcome.exit_status == ExitStatus.DONE
-    content = json.loads(json.dumps(content_of(wavy_outcome)))
+    content = json.loads(json.dumps(content_of(result_of(wavy_outcome))))
     assert content["suffices"] == "half_plane"
     assert content["escalate_to"] is None
 

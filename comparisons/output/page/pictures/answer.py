@@ -11,7 +11,6 @@ from comparisons.drawing.field import colour_bar, cross, fill, round_bands
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, error_text, label
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
-from comparisons.output.page.pictures.stresses import COMPONENTS
 from comparisons.studies.contact import draw_pressures
 from comparisons.studies.study import Run
 
@@ -94,7 +93,7 @@ def _shear(axes: "Axes", bar: "Axes", run: Run) -> None:
     """The last model's principal shear."""
     hertz, window, friction = run.problem.hertz, run.window, run.deciding_friction
     [*_, last] = run.levels(friction).values()
-    field = COMPONENTS[0].of(last.stress(friction).field) / hertz.peak_pressure
+    field = last.stress(friction).field.tau1 / hertz.peak_pressure
     bands = round_bands([field], signed=False)
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     shown = fill(axes, x, z, field, bands, "viridis", False)

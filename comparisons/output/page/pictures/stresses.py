@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.stress_state import StressState
 from comparisons.common.numbers import decimal, percent_as_written, plain, significant
 from comparisons.drawing import style
 from comparisons.drawing.curves import COINCIDE, Curve, columns, distinct, joint_label, names_above
@@ -41,10 +40,6 @@ class Component:
     words: str
     colours: str
     signed: bool
-
-    def of(self, field: StressState) -> np.ndarray:
-        """In single precision, as report.npz has it: a page drawn again is the same."""
-        return getattr(field, self.name).astype(np.float32)
 
 
 COMPONENTS = (
@@ -84,7 +79,7 @@ def _pictures(
     x, z = window.x / hertz.half_width, window.z[:rows] / hertz.half_width
     fields = [
         {
-            name: component.of(level.stress(friction).field)[:rows] / hertz.peak_pressure
+            name: getattr(level.stress(friction).field, component.name)[:rows] / hertz.peak_pressure
             for name, level in run.pair(friction).items()
         }
         for friction in frictions
@@ -261,7 +256,7 @@ def _zones(run: Run, friction: float) -> list[tuple[float, float]]:
 
 def _tau1(run: Run, name: str, friction: float, column: int) -> np.ndarray:
     field = run.levels(friction)[name].stress(friction).field
-    return COMPONENTS[0].of(field)[:, column] / run.problem.hertz.peak_pressure
+    return field.tau1[:, column] / run.problem.hertz.peak_pressure
 
 
 def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float) -> None:

@@ -332,6 +332,6 @@ def commands(run: Run) -> list[tuple[str, str]]:
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
     return [
         ("repeats this run, in the folder of this page", f"{program} rerun ."),
-        ("draws this page again, in the same folder", f"{program} report ."),
+        ("prints this page, in the same folder", f"{program} report --pdf ."),
         ("runs the scene again", f"{program} run {shlex.quote(one_line(scene.source))}{models}"),
     ]

@@ -13,7 +13,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.output.headline import headline
 from comparisons.output.page.page import render
-from comparisons.output.result_json import content_of
+from comparisons.output.result_json import content_of, result_of
 from comparisons.studies.running_in import lines, picture, running_in_in_words
 from comparisons.studies.study import Run
 
@@ -40,7 +40,7 @@ class TestTelling:
         assert before > after > 0.0
         slope = outcome.figures.one(study="problem", source="scene", quantity="rms_slope")
         assert slope.value == known.one(source="after", quantity="rms_slope").value
-        content = content_of(outcome)
+        content = content_of(result_of(outcome))
         assert json.loads(json.dumps(content, allow_nan=False)) == content
         for peak in outcome.figures.of(study="contact", quantity="peak_pressure"):
             assert peak.value < 1.03 * hardness

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.output.page.redraw import SummaryRow, summary_page, summary_row
+from comparisons.output.page.summary import Report, cells_of, summary_page
+from comparisons.output.result_json import result_of
 from comparisons.studies.study import Run
 
 ENTER = 13
@@ -18,16 +19,17 @@ def rows(
     smooth_outcome: Run,
     finish: Callable[..., Run],
     without_field: dict,
-) -> list[SummaryRow]:
+) -> list[Report]:
     layer = finish({**without_field, "title": "A <layer> & more"}, ("half_plane",))
-    return [summary_row(outcome) for outcome in (wavy_outcome, layer, smooth_outcome)]
+    results = map(result_of, (wavy_outcome, layer, smooth_outcome))
+    return [Report(result, Path("report.html"), cells_of(result)) for result in results]
 
 
 @pytest.fixture(scope="module")
-def summary(rows: list[SummaryRow], tmp_path_factory: pytest.TempPathFactory) -> Path:
+def summary(rows: list[Report], tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("over")
     moved = [
-        replace(row, report=place / f"run {number}" / "report.html")
+        replace(row, page=place / f"run {number}" / "report.html")
         for number, row in enumerate(rows)
     ]
     page = place / "summary.html"
@@ -44,7 +46,7 @@ def column(page, head: str) -> int:
     return heads.index(head)
 
 
-def test_a_run_has_the_figures_of_its_result(rows: list[SummaryRow], wavy_outcome: Run):
+def test_a_run_has_the_figures_of_its_result(rows: list[Report], wavy_outcome: Run):
     cells, figures = rows[0].cells, wavy_outcome.figures
     slope = figures.one(study="problem", source="scene", quantity="rms_slope")
     assert cells["rms_slope"].value == slope.value

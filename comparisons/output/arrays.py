@@ -1,0 +1,124 @@
+"""run.npz: the arrays of a run, beside its result.json.
+
+In: a finished run. Out: the file; and back from its folder. Arrays by name, of each folder with
+curves, such as half_plane:
+
+    x, z                              [m] points that every model's stresses stand at
+    half_plane/x, …                   [m], [Pa] columns of contact.csv: CURVES
+    half_plane/sx (friction 0.1), …   [Pa] stresses (m, k) at the points: COMPONENTS; in the file in
+                                      single precision
+    outline                           JSON: schema, and answers from outside as they were read,
+                                      whose arrays are a0, a1, …"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+
+from analytic.stress_state import StressState
+from comparisons.common.cache import decoded, encoded, kinds_of
+from comparisons.common.errors import InputError
+from comparisons.models.level import Level, deformed_height
+from comparisons.studies.answers.answer import Answer
+from comparisons.studies.answers.show import answers_of
+from comparisons.studies.study import Run
+
+FILE = "run.npz"
+SCHEMA = 1
+CURVES = ("x", "pressure", "gap", "deformed_height")
+COMPONENTS = ("sx", "sz", "txz")
+LONGEST = 200  # characters of what a library says: zipfile quotes whole headers
+
+
+@dataclass(frozen=True)
+class RunArrays:
+    """What a run has found along x, and below."""
+
+    arrays: Mapping[str, np.ndarray]  # by name
+    answers: Mapping[str, tuple[Answer, ...]]  # from outside, by name, each on its resolutions
+
+    @classmethod
+    def of(cls, run: Run) -> Self:
+        """Those of a finished run, in full precision."""
+        arrays = {} if run.window is None else {"x": run.window.x, "z": run.window.z}
+        for folder, level in levels_by_folder(run).items():
+            columns = (level.grid.x, level.solution.pressure, level.solution.gap)
+            columns = (*columns, deformed_height(run.problem, level))
+            arrays |= {f"{folder}/{n}": c for n, c in zip(CURVES, columns, strict=True)}
+            for stress in level.stresses:
+                for name in COMPONENTS:
+                    arrays[_stress(folder, name, stress.friction)] = getattr(stress.field, name)
+        return cls(arrays, answers_of(run))
+
+    @classmethod
+    def read(cls, folder: Path) -> Self:
+        """Those in a run's folder. Raises InputError, one line, where there are none."""
+        path = folder / FILE
+        remedy = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes it"
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                arrays = {name: file[name] for name in file.files}
+            outline = json.loads(str(arrays.pop("outline")))
+            if outline["schema"] == SCHEMA:
+                return cls(arrays, decoded(outline["answers"], arrays, kinds_of(Answer)))
+        except FileNotFoundError:
+            raise InputError(f"{folder}: holds no {FILE}; {remedy}") from None
+        except Exception as error:  # zipfile, zlib, numpy and json have errors of their own
+            raise InputError(f"{path}: cannot be read: {str(error)[:LONGEST]}; {remedy}") from None
+        raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {remedy}")
+
+    def write(self, path: Path) -> None:
+        """Write run.npz; stresses take half of the space so, and compress to nine tenths only."""
+        arrays: dict[str, np.ndarray] = {}
+        answers = encoded(dict(self.answers), arrays)
+        outline = np.array(json.dumps({"schema": SCHEMA, "answers": answers}))
+        for name, values in self.arrays.items():
+            arrays[name] = values.astype(np.float32) if values.ndim > 1 else values
+        np.savez(path, outline=outline, **arrays)
+
+    @property
+    def models(self) -> list[str]:
+        """Names of those that there are curves of."""
+        return list(dict.fromkeys(name.split("/")[0] for name in self.arrays if "/" in name))
+
+    def contact(self, model: str, friction: float) -> dict[str, np.ndarray]:
+        """Curves of a model at a friction coefficient: CURVES, in SI units."""
+        folder = self._folder(model, friction)
+        return {name: self.arrays[f"{folder}/{name}"] for name in CURVES}
+
+    def stress(self, model: str, friction: float) -> dict[str, np.ndarray] | None:
+        """Stresses of a model at a friction coefficient, [Pa], positive in tension: x (k,) and z
+        (m,) [m], COMPONENTS and tau1 (m, k); None where there are none."""
+        folder = self._folder(model, friction)
+        parts = [self.arrays.get(_stress(folder, name, friction)) for name in COMPONENTS]
+        if parts[0] is None:
+            return None
+        places = {name: self.arrays[name] for name in ("x", "z")}
+        tau1 = StressState(*parts).tau1
+        return places | dict(zip(COMPONENTS, parts, strict=True)) | {"tau1": tau1}
+
+    def _folder(self, model: str, friction: float) -> str:
+        own = _further(model, friction)
+        return own if f"{own}/x" in self.arrays else model
+
+
+def levels_by_folder(run: Run) -> dict[str, Level]:
+    """The finest levels by the folders of their files; those of further friction coefficients,
+    where friction changes the contact, below the first's."""
+    levels: dict[str, Level] = {}
+    for friction in run.problem.scene.load.friction:
+        for name, level in run.levels(friction).items():
+            if all(level is not known for known in levels.values()):
+                levels[name if name not in levels else _further(name, friction)] = level
+    return levels
+
+
+def _further(model: str, friction: float) -> str:
+    return f"{model}/friction_{friction:g}"
+
+
+def _stress(folder: str, name: str, friction: float) -> str:
+    return f"{folder}/{name} (friction {friction:g})"
