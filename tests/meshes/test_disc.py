@@ -54,12 +54,6 @@ def test_depths_become_circles_and_upright_lines_rays(flat, disc):
     assert np.sin(angle) == pytest.approx(x / RADIUS, abs=1e-15)
 
 
-def test_nothing_but_the_places_changes(flat, disc):
-    assert np.array_equal(disc.points, flat.points)
-    assert np.array_equal(disc.triangles, flat.triangles)
-    assert disc.spec is flat.spec and not flat.shift.any()
-
-
 def test_sagitta_of_a_nearly_flat_circle_keeps_its_digits():
     x = np.array([1e-6, 1e-3])
     assert sagitta(x, 1e3) == pytest.approx([5e-16, 5e-10 * (1.0 + 2.5e-13)], rel=1e-15)
@@ -115,10 +109,13 @@ def test_more_than_that_is_refused(flat, half_width, depth, what):
         bent(replace(flat, spec=spec), RADIUS)
 
 
-def test_only_a_flat_block_is_bent(disc, flat):
+def test_what_is_not_bent_or_rounded(disc, flat):
     for mesh in (disc, roughen(flat, lambda x: 0.01 * np.cos(x))):
         with pytest.raises(MeshError, match="flat block"):
             bent(mesh, RADIUS)
+    for mesh, radius in ((flat, RADIUS), (block(1.0, 1.0), 0.9)):
+        with pytest.raises(MeshError, match=r"only a flat block as deep as .* can be rounded"):
+            rounded(mesh, radius)
 
 
 def test_scales_with_the_unit_of_length(flat, disc):
@@ -149,9 +146,3 @@ def test_rounded_about_the_contact():
     )
     lens -= 0.5 * arc * np.sqrt(4.0 * RADIUS**2 - arc**2)
     assert 0.5 * corners.mean(axis=1).sum() == pytest.approx(lens, rel=2e-3)
-
-
-def test_what_is_not_rounded(flat):
-    for mesh, radius in ((flat, RADIUS), (block(1.0, 1.0), 0.9)):
-        with pytest.raises(MeshError, match=r"only a flat block as deep as .* can be rounded"):
-            rounded(mesh, radius)

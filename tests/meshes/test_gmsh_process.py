@@ -27,13 +27,10 @@ def worker(monkeypatch, code):
 @pytest.mark.parametrize(
     ("code", "words"),
     [
-        ("import os; os.abort()", "gmsh crashed .SIGABRT."),
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "gmsh crashed .SIGSEGV."),
         ("import sys; print('first'); print('bad curve', file=sys.stderr); sys.exit(1)",
          "gmsh failed: bad curve"),
-        ("import sys; sys.exit(7)", "gmsh failed: it said nothing"),
-        ("import sys; sys.stdin.close(); sys.exit(1)", "gmsh failed"),
-        ("pass", "gmsh ended without a mesh"),
+        ("import sys; sys.stdin.close(); sys.exit(1)", "gmsh failed: it said nothing"),
         ("print('half a mesh')", "gmsh ended without a mesh"),
     ],
 )  # fmt: skip
@@ -70,18 +67,11 @@ def test_the_time_of_a_mesh_is_known_while_its_process_waits():
 
 
 def test_time_out_stops_the_process(monkeypatch):
-    started = []
-
-    def recorded(*args, **kwargs):
-        started.append(popen(*args, **kwargs))
-        return started[-1]
-
-    popen = subprocess.Popen
-    monkeypatch.setattr(build.subprocess, "Popen", recorded)
     worker(monkeypatch, "import time; time.sleep(60)")
+    build.start_worker()
+    process = build.idle[-1].process
     with pytest.raises(MeshError, match=r"not done after 0.2 s"):
         build.build_block(SPEC, timeout=0.2)
-    (process,) = started
     assert process.returncode == -signal.SIGKILL
 
 
@@ -101,28 +91,6 @@ def test_what_is_missing_comes_with_how_to_get_it(monkeypatch, tmp_path, error, 
     (tmp_path / "gmsh.py").write_text(f"raise {error}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     with pytest.raises(MeshError, match=words):
-        build.build_block(SPEC)
-
-
-def outline_changed(monkeypatch, change):
-    outline = build.outline
-    monkeypatch.setattr(build, "outline", lambda *arguments: change(outline(*arguments)))
-
-
-def test_sides_that_gmsh_cannot_fill_are_reported(monkeypatch):
-    def crossing(sides):
-        points = sides.points.copy()
-        points[2] = points[sides.lines[2][1]]
-        return replace(sides, points=points)
-
-    outline_changed(monkeypatch, crossing)
-    with pytest.raises(MeshError, match="gmsh failed: its 0 triangles cover 0 of the block"):
-        build.build_block(SPEC)
-
-
-def test_an_error_raised_by_gmsh_is_passed_on(monkeypatch):
-    outline_changed(monkeypatch, lambda sides: replace(sides, regions=((1, 2, 3),)))
-    with pytest.raises(MeshError, match=r"gmsh failed: .+"):
         build.build_block(SPEC)
 
 
@@ -157,9 +125,10 @@ def test_one_process_makes_all_meshes_alike():
 def test_another_process_follows_one_that_failed_or_was_killed(monkeypatch):
     first = build.build_block(SPEC)
     served = process_id()
+    outline = build.outline
     with monkeypatch.context() as patch:
-        outline_changed(patch, lambda sides: replace(sides, regions=((1, 2, 3),)))
-        with pytest.raises(MeshError):
+        patch.setattr(build, "outline", lambda *_: replace(outline(SPEC), regions=((1, 2, 3),)))
+        with pytest.raises(MeshError, match=r"gmsh failed: .+"):
             build.build_block(SPEC)
     assert not build.idle
     build.build_block(SPEC)
@@ -167,16 +136,6 @@ def test_another_process_follows_one_that_failed_or_was_killed(monkeypatch):
     os.kill(process_id(), signal.SIGKILL)
     build.idle[0].process.wait()
     np.testing.assert_array_equal(build.build_block(SPEC).points, first.points)
-
-
-def test_one_process_waits_however_the_environment_changes(monkeypatch):
-    build.start_worker()
-    before = build.idle[-1]
-    monkeypatch.setenv("CHANGED", "once")
-    build.start_worker()
-    assert len(build.idle) == 1 and before.process.poll() is not None
-    build.start_worker()
-    assert len(build.idle) == 1 and build.idle[-1].process.poll() is None
 
 
 def test_a_forked_process_starts_its_own():

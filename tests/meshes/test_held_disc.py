@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshes.block import EDGES, BlockSpec, MeshError, real_points
+from meshes.block import BlockSpec, MeshError, real_points
 from meshes.build import build_block
 from meshes.disc import (
     HELD_OPPOSITE,
@@ -38,17 +38,6 @@ def discs():
 NAMES = ("half", "opposite", *(f"hub {hub}" for hub in HUBS))
 
 
-def area(mesh) -> float:
-    """Between quadratic edges, by the outline: the integral of x dz."""
-    points, triangles = real_points(mesh), mesh.triangles
-    corner, middle = triangles[:, EDGES], triangles[:, 3:]
-    (x0, z0), (x1, z1) = points[corner[..., 0]].T, points[corner[..., 1]].T
-    xm, zm = points[middle].T
-    # Simpson's rule on x(t) z'(t), exact for cubics
-    ends = x0 * (4.0 * zm - 3.0 * z0 - z1) + x1 * (3.0 * z1 + z0 - 4.0 * zm)
-    return float(((ends + 4.0 * xm * (z1 - z0)) / 6.0).sum())
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_the_rim_is_the_circle_and_keeps_x_where_it_may_be_loaded(discs, name):
     block, mesh = discs[name]
@@ -65,8 +54,8 @@ def test_the_rim_is_the_circle_and_keeps_x_where_it_may_be_loaded(discs, name):
     ("name", "share"),
     [("half", 0.5), *((f"hub {hub}", 1.0 - hub**2) for hub in HUBS)],
 )
-def test_area_of_the_disc(discs, name, share):
-    assert area(discs[name][1]) == pytest.approx(share * np.pi * RADIUS**2, rel=1e-4)
+def test_area_of_the_disc(discs, name, share, curved_area):
+    assert curved_area(discs[name][1]) == pytest.approx(share * np.pi * RADIUS**2, rel=1e-4)
 
 
 def test_half_a_disc_ends_at_its_diameter_and_the_other_near_the_place_opposite(discs):

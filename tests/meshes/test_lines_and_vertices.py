@@ -8,7 +8,7 @@ from blocks import BLOCK, GRADED, SPECS, of_kinds
 
 from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
-from meshes.coating import LAYERS, LONGEST, core, layer_size, stretched, with_layers
+from meshes.coating import LAYERS, LONGEST, core, layer_size, stretched
 from meshes.size_law import (
     estimate_unknowns,
     largest_size,
@@ -87,12 +87,6 @@ def test_interface_outside_the_block_is_refused(interface):
         build_block(replace(BLOCK, interface=interface))
 
 
-def test_layers_that_do_not_fit_are_refused():
-    vertices = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.5]])
-    with pytest.raises(MeshError, match="do not fit"):
-        with_layers(vertices, np.empty((0, 3), dtype=int), 1.0, (np.array([0.0, 1.0]),))
-
-
 def on_top(mesh):
     vertices = np.unique(mesh.triangles[:, :3])
     return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
@@ -108,11 +102,9 @@ def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
     else:
         added = np.setdiff1d(inside, vertices)
         assert len(added) > 0
-        parts = (added - vertices[np.searchsorted(vertices, added) - 1]) / np.diff(vertices)[
-            np.searchsorted(vertices, added) - 1
-        ]
-        count = np.bincount(np.searchsorted(vertices, added)) + 1
-        whole = parts * count[np.searchsorted(vertices, added)]
+        cut = np.searchsorted(vertices, added)
+        parts = (added - vertices[cut - 1]) / np.diff(vertices)[cut - 1]
+        whole = parts * (np.bincount(cut) + 1)[cut]
         assert whole == pytest.approx(np.round(whole), abs=1e-6)
 
 

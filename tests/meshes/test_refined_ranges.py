@@ -22,18 +22,19 @@ def refined(patches, margin=0.0, half_width=10.0):
     return refined_ranges(np.array(patches), SIZE, margin=margin, half_width=half_width)
 
 
-def test_ends_move_outwards_to_the_grid():
-    assert np.array_equal(refined([[0.1, 0.9]]), [[0.0, 1.0]])
-    assert np.array_equal(refined([[0.125, 0.875]]), [[0.125, 0.875]])
-
-
-def test_margin_widens_both_sides():
-    assert np.array_equal(refined([[0.0, 1.0]], margin=0.25), [[-0.25, 1.25]])
-
-
-def test_single_point_gets_one_edge():
-    assert np.array_equal(refined([[0.5, 0.5]]), [[0.5, 0.625]])
-    assert np.array_equal(refined([[0.55, 0.55]]), [[0.5, 0.625]])
+@pytest.mark.parametrize(
+    ("patch", "margin", "interval"),
+    [
+        ([0.1, 0.9], 0.0, [0.0, 1.0]),
+        ([0.125, 0.875], 0.0, [0.125, 0.875]),
+        ([0.0, 1.0], 0.25, [-0.25, 1.25]),
+        # a single point gets one edge
+        ([0.5, 0.5], 0.0, [0.5, 0.625]),
+        ([0.55, 0.55], 0.0, [0.5, 0.625]),
+    ],
+)
+def test_ends_move_outwards_to_the_grid_beyond_the_margin(patch, margin, interval):
+    assert np.array_equal(refined([patch], margin), [interval])
 
 
 def test_close_ranges_are_joined_and_distant_ones_are_not():
@@ -41,10 +42,6 @@ def test_close_ranges_are_joined_and_distant_ones_are_not():
         patches = [[1.0 + edges * SIZE, 3.0], [0.0, 1.0]]
         joined = len(refined(patches)) == 1
         assert joined == (edges < MERGE_EDGES)
-
-
-def test_nothing_to_refine():
-    assert refined(np.empty((0, 2))).shape == (0, 2)
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from analytic.surface.synthetic import self_affine
-from meshes.block import BlockSpec, MeshError, add_midpoints, real_points
+from meshes.block import BlockSpec, MeshError, real_points
 from meshes.build import build_block
 from meshes.quality import corner_jacobians
-from meshes.real_shape import carried_down, roughen, spread_bulges
+from meshes.real_shape import carried_down, roughen
 
 WAVELENGTH = 0.5
 EDGES_PER_WAVE = 20
@@ -37,14 +37,7 @@ def test_top_nodes_lie_exactly_on_the_profile(flat):
     midpoints = top(mesh) & (np.arange(len(mesh.points)) > mesh.triangles[:, :3].max())
     assert midpoints.sum() == top(mesh).sum() // 2
     assert np.abs(mesh.shift[midpoints]).max() > 0.005
-
-
-def test_flat_mesh_and_topology_stay(flat):
-    mesh = roughen(flat, sinusoid(0.1))
-    assert np.array_equal(mesh.points, flat.points)
-    assert np.array_equal(mesh.triangles, flat.triangles)
-    assert mesh.spec is flat.spec
-    assert not flat.shift.any()
+    assert np.array_equal(mesh.points, flat.points) and not flat.shift.any()
 
 
 def test_base_stays_and_nothing_moves_more_than_the_profile(flat):
@@ -118,23 +111,6 @@ def test_slope_beyond_one_is_followed_where_the_surface_is_refined(determinants,
     assert determinants(mesh, triangle_rule[0]).min() > 0.0
 
 
-def test_bulge_is_shared_evenly_by_the_corners():
-    vertices = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)]])
-    points, triangle = add_midpoints(vertices, np.array([[0, 1, 2]]))
-    bulge = np.zeros(3)
-    top_edge = triangle[0, 3] - 3
-    bulge[top_edge] = 0.2
-    points[3:, 1] += bulge + spread_bulges(bulge, triangle[:, 3:] - 3)
-    # Left to the top edge alone it would be 0.4 less at two corners and nothing at the third.
-    expected = np.full((1, 3), np.sqrt(0.75) - 0.2)
-    assert corner_jacobians(points, triangle) == pytest.approx(expected)
-
-
-def test_flat_profile_changes_nothing(flat):
-    mesh = roughen(flat, np.zeros_like)
-    assert np.array_equal(real_points(mesh), flat.points)
-
-
 def test_constant_height_stretches_the_block_evenly(flat):
     mesh = roughen(flat, lambda x: np.full_like(x, 2.0))
     expected = -2.0 * (1.0 - flat.points[:, 1] / SPEC.depth)
@@ -162,28 +138,20 @@ def test_carried_down_as_the_exact_solution():
     assert errors[-1] < 1e-3
 
 
-def test_too_steep_a_profile_is_refused_by_place_and_slope(flat):
-    with pytest.raises(
-        MeshError, match=r"inverts \d+ elements, the worst at x = .* slope is .* .steepest"
-    ):
-        roughen(flat, sinusoid(3.0))
+def spike(x):
+    return 0.2 * np.exp(-(((x - 0.75) / 0.02) ** 2))
 
 
-def test_spike_is_named_where_it_stands(flat):
-    def spike(x):
-        return 0.2 * np.exp(-(((x - 0.75) / 0.02) ** 2))
-
-    with pytest.raises(MeshError, match=r"x = 0\.7"):
-        roughen(flat, spike)
-
-
-def test_profile_as_deep_as_the_layer_is_refused():
-    mesh = build_block(BlockSpec(1.0, 0.1, np.array([[-1.0, 1.0]]), 0.025))
-    with pytest.raises(MeshError):
-        roughen(mesh, lambda x: np.full_like(x, -0.11))
-
-
-@pytest.mark.parametrize("height", [lambda x: x * np.nan, lambda x: 0.0, lambda x: x[:-1]])
-def test_height_must_be_given_everywhere(flat, height):
-    with pytest.raises(MeshError, match="one finite number for each x"):
+@pytest.mark.parametrize(
+    ("height", "words"),
+    [
+        (sinusoid(3.0), r"inverts \d+ elements, the worst at x = .* slope is .* .steepest"),
+        (spike, r"x = 0\.7"),
+        (lambda x: np.full_like(x, -1.1 * SPEC.depth), "inverts"),
+        (lambda x: x * np.nan, "one finite number for each x"),
+        (lambda x: x[:-1], "one finite number for each x"),
+    ],
+)
+def test_profiles_that_cannot_be_followed_are_refused(flat, height, words):
+    with pytest.raises(MeshError, match=words):
         roughen(flat, height)

@@ -27,13 +27,6 @@ def random_points(n, spec, seed=0):
     return x, spec.depth * rng.random(n) ** 3
 
 
-def test_size_at_known_places():
-    x = np.array([-2.0, 0.0, 1.25, -0.7, 12.25, -6.0, 1.25])
-    z = np.array([0.0, 3.0, 0.0, 0.0, 0.0, 4.0, 1.0])
-    distance = np.array([0.0, 3.0, 0.75, 0.2, 10.0, 5.0, 1.25])
-    assert wanted_size(PLAIN, x, z) == pytest.approx(0.25 + 0.2 * distance, rel=1e-14)
-
-
 def test_distance_is_that_to_the_nearest_interval():
     x, z = random_points(400, PLAIN)
     nearest = np.clip(x[:, None], INTERVALS[:, 0], INTERVALS[:, 1])
@@ -73,6 +66,7 @@ def test_window_caps_the_size_and_nothing_is_larger_for_it():
 
 def test_thin_block_caps_the_size_and_cuts_the_edges_into_whole_parts():
     assert largest_size(THIN) == pytest.approx(0.15)
+    assert largest_size(BlockSpec(0.5, 100.0, np.array([[-0.1, 0.1]]), 0.1)) == 0.25  # narrow
     assert edges_per_size(THIN) == 2
     assert surface_edge(THIN) == 0.125
     assert wanted_size(THIN, 40.0, 0.5) == pytest.approx(0.15)
@@ -84,10 +78,6 @@ def test_an_edge_that_just_fits_is_not_cut():
         assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4)) == 1
         assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4 * 1.01)) == 2
         assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4 * 3)) == 3
-
-
-def test_narrow_block_caps_the_size_too():
-    assert largest_size(BlockSpec(0.5, 100.0, np.array([[-0.1, 0.1]]), 0.1)) == 0.25
 
 
 def spec(half_width, depth, intervals, size, growth=0.2):
@@ -115,12 +105,14 @@ def test_blocks_too_large_to_build_are_estimated():
     assert estimate_unknowns(spec(1000.0, 1e-2, [[-1.0, 1.0]], 0.01)) > 1e7
 
 
-def test_impossible_block_is_refused():
-    with pytest.raises(MeshError, match="depth"):
-        estimate_unknowns(spec(1.0, -1.0, [[-0.5, 0.5]], 0.1))
-
-
-def test_what_is_beyond_counting_is_refused():
-    """Each halving of the boxes doubles them: it would take all memory."""
-    with pytest.raises(MeshError, match=r"elements of 1e-12 m in a body of 1 m are too many"):
-        estimate_unknowns(spec(1.0, 1.0, [[-0.5, 0.5]], 1e-12))
+@pytest.mark.parametrize(
+    ("depth", "size", "words"),
+    [
+        (-1.0, 0.1, "depth"),
+        # each halving of the boxes doubles them: it would take all memory
+        (1.0, 1e-12, r"elements of 1e-12 m in a body of 1 m are too many"),
+    ],
+)
+def test_what_is_beyond_counting_is_refused(depth, size, words):
+    with pytest.raises(MeshError, match=words):
+        estimate_unknowns(spec(1.0, depth, [[-0.5, 0.5]], size))
