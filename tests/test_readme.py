@@ -30,7 +30,6 @@ from comparisons.output.terminal import SHORT
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.scene import Origin, Scene
-from comparisons.scenes.surface import surface_of
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
 from comparisons.studies.study import Run
@@ -157,21 +156,6 @@ def test_own_scene_has_five_lines_and_works(mine):
     assert mine.status == ExitStatus.DONE
     assert "HOLDS" in mine.printed
     assert all(run.finest.solution.converged for run in mine.outcome.runs.values())
-
-
-def test_more_of_a_surface_works_in_the_own_scene(folder):
-    """Its lines take the place of those of the same name."""
-    tables = tomllib.loads(fenced("toml"))
-    tables.pop("stress")
-    for name in ("profile", "running_in"):
-        [block] = [text for text in blocks("toml", GUIDE) if text.startswith(name)]
-        tables |= tomllib.loads(block)
-    tables["profile"] |= {"cutoff": "0.8 mm", "short_cutoff": "80 um"}  # suit the small trace
-    scene = Scene.of(tables, Origin("more", folder, "more.toml"))
-    surface = surface_of(scene)
-    assert surface.info.cutoff is not None and surface.info.short_cutoff is not None
-    run_in = problem_of(scene, surface).surface.run_in
-    assert run_in.status == "settled" and len(run_in.passes) >= 9
 
 
 @pytest.mark.parametrize("block", blocks("toml", GUIDE), ids=lambda block: block.split()[0])
@@ -332,12 +316,3 @@ class TestPicture:
         [link] = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", README)
         assert (PROJECT / link).samefile(readme_picture.PICTURE)
         assert size_of(readme_picture.PICTURE)[0] == pytest.approx(1600, abs=10)
-
-    def test_is_made_anew_by_one_call(self, mine, folder, monkeypatch, tmp_path):
-        asked = []
-        monkeypatch.setattr(
-            run_module, "run", lambda scene, *_: asked.append(scene.name) or mine.outcome
-        )
-        readme_picture.remake(str(folder / "mine.toml"), tmp_path / "new.png")
-        assert asked == ["mine"]
-        assert size_of(tmp_path / "new.png") == size_of(readme_picture.PICTURE)

@@ -57,18 +57,6 @@ def test_no_module_of_the_working_folder_is_run(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"work", "program.py"}
 
 
-def test_no_file_of_an_instrument_is_read_by_a_module_of_the_working_folder(tmp_path, monkeypatch):
-    (tmp_path / "numpy.py").write_text("raise SystemExit('executed')")
-    (tmp_path / "map.x3p").write_bytes(b"\0" * 100)
-    monkeypatch.chdir(tmp_path)
-    from analytic.surface.readers.instruments import read_instrument_file
-    from analytic.surface.readers.source import ProfileError
-
-    with pytest.raises(ProfileError) as refused:
-        read_instrument_file(tmp_path / "map.x3p")
-    assert "executed" not in str(refused.value)
-
-
 def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
     title = "=1+2\x1b]0;owned\x07\x9b31m"
     result = content_of(result_of(smooth_outcome))

@@ -6,7 +6,6 @@ import pty
 import re
 import subprocess
 import sys
-import types
 from pathlib import Path
 
 import pytest
@@ -14,7 +13,6 @@ from scenes import PROJECT
 
 from comparisons.cli import app, main
 from comparisons.commands import arguments
-from comparisons.common.progress import Step, within
 from comparisons.scenes.files import scene_names, scene_titles
 
 ESCAPE = "\x1b["
@@ -98,17 +96,6 @@ def test_a_pipe_gets_neither(folder, more):
     assert "\x1b" not in done.stdout and "peak pressure" in done.stdout
 
 
-def test_parts_of_a_task_have_their_part_of_its_time():
-    stages = []
-    callback = within(within(stages.append, 0.5, 1.0), 0.0, 0.5)
-    callback(Step("half of it", 0.5))
-    callback("whatever")
-    assert [(str(stage), getattr(stage, "done", None)) for stage in stages] == [
-        ("half of it", 0.625),
-        ("whatever", None),
-    ]
-
-
 def answer(line: str, shell: str = "bash") -> list[str]:
     """What the shell is told that the last word of a line may become."""
     asked = {"COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
@@ -146,20 +133,6 @@ def test_commands_groups_and_models_are_completed():
     assert arguments.complete_quantities("tau1") == ["tau1_max", "tau1_max_depth"]
 
 
-def test_completion_is_installed_for_a_shell(tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-m", "comparisons.cli", "--install-completion", "bash"],
-        # by the name of the shell, not by that of the process that the tests happen to run in
-        env=environment(HOME=str(tmp_path), _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1"),
-        cwd=PROJECT,
-        capture_output=True,
-        text=True,
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-    script = (tmp_path / ".bash_completions" / "crosscheck.sh").read_text()
-    assert "_CROSSCHECK_COMPLETE=complete_bash" in script
-
-
 def test_every_command_has_json():
     from typer.main import get_command
 
@@ -174,21 +147,3 @@ def test_every_command_has_json():
 def test_scenes_as_json(capsys):
     assert main(["scenes", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == scene_titles()
-
-
-@pytest.mark.parametrize(
-    ("name", "module", "function"),
-    [
-        ("verify", "comparisons.campaigns.verify.run", "verify"),
-        ("cost", "comparisons.campaigns.cost.cost", "cost"),
-    ],
-)
-def test_a_study_as_json_is_its_file(tmp_path, monkeypatch, capsys, name, module, function):
-    def done(*arguments: object, **switches: bool) -> object:
-        (tmp_path / f"{name}.json").write_text('{"schema": 1}\n')
-        return types.SimpleNamespace(exit_status=0)
-
-    monkeypatch.setattr(f"{module}.{function}", done)
-    scene = ["smooth"] if name == "cost" else []
-    assert main([name, *scene, "--out", str(tmp_path), "--json"]) == 0
-    assert capsys.readouterr().out == '{"schema": 1}\n'

@@ -70,11 +70,6 @@ def test_a_tolerance_may_be_a_percentage(folder, capsys, undrawn):
         assert f"--tolerance: is {wrong}; allowed is a number" in answered(capsys, *run, wrong)
 
 
-def test_the_version_is_said(capsys):
-    assert main(["--version"]) == 0
-    assert capsys.readouterr().out.split()[0] == "crosscheck"
-
-
 def test_a_plan_says_levels_and_seconds_and_solves_nothing(folder, capsys):
     assert main(["run", "mine.toml", "--plan"]) == 0
     out = capsys.readouterr().out

@@ -194,12 +194,6 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
     assert (folder / ".out.unfinished/run" / "half_plane-1.npz").exists()
 
 
-def test_a_crash_of_the_only_process_stays_a_crash(folder):
-    process = started(folder, ALONE + CRASH.format(name="SEGV"))
-    process.communicate(timeout=PATIENT)
-    assert process.returncode == -signal.SIGSEGV
-
-
 def test_a_command_whose_process_is_killed_has_a_status_of_its_own(folder):
     """1 would mean that a judged figure differs."""
     process = started(folder, ALONE + CRASH.format(name="KILL"))

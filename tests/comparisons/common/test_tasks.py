@@ -120,15 +120,6 @@ class TestOrder:
             one.result(name)
         assert path.read_text() == "flsp"
 
-    def test_a_process_stays_with_what_shares(self, one, tmp_path):
-        path = tmp_path / "order"
-        sizes = {"f": (9.0, 1), "b": (4.0, 2), "t": (1.0, 1), "s": (2.0, 1)}
-        for name, (seconds, shares) in sizes.items():
-            one.add(name, noted, path, name, seconds=seconds, shares=shares)
-        for name in sizes:
-            one.result(name)
-        assert path.read_text() == "fstb"
-
     def test_a_known_task_becomes_more_urgent_and_not_less(self, one, tmp_path):
         path = tmp_path / "order"
         for name, urgency in (("f", FIRST), ("b", LATER), ("s", PERHAPS), ("s", FIRST), ("s", 9)):
@@ -149,13 +140,6 @@ class TestOrder:
 
 
 class TestProcesses:
-    def test_few_tasks_begin_none(self, beside):
-        beside.worth = 1.0
-        beside.add("a", number, seconds=1e9)  # nothing to do beside it
-        beside.add("b", number, seconds=0.5)
-        beside.add("c", number, seconds=1e9, urgency=PERHAPS)
-        assert beside.result("a") == os.getpid()
-
     def test_one_that_works_for_another_begins_none(self, one, monkeypatch):
         monkeypatch.setattr(module, "cores", lambda: 2)
         monkeypatch.delenv("OMP_NUM_THREADS", raising=False)

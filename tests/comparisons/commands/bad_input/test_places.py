@@ -9,7 +9,6 @@ import sys
 import pytest
 from scenes import PROJECT
 
-from comparisons.cli import main
 from comparisons.commands.output import show_json
 
 
@@ -33,17 +32,6 @@ def test_a_scene_does_not_replace_its_profile(folder, trace, complaint):
     (folder / "trace.toml").write_text(trace)
     assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")
     assert "is the profile itself" in complaint("init", "trace.toml", "--force")
-
-
-def test_heights_alone_have_no_unit_of_positions(folder, complaint):
-    (folder / "z.txt").write_text("# step 1 um\n" + "".join(f"{i * 7 % 5}\n" for i in range(40)))
-    assert "heights alone; allowed is --spacing" in complaint("init", "z.txt", "--x-unit", "um")
-
-
-def test_heights_that_are_all_the_same_have_no_radius(folder, capsys):
-    (folder / "flat.csv").write_text("".join(f"{i},3.3\n" for i in range(400)))
-    assert main(["init", "flat.csv", "--x-unit", "um", "--z-unit", "um"]) == 0
-    assert 'form = "line"' in capsys.readouterr().out
 
 
 @pytest.mark.skipif(os.name != "posix", reason="a shell closes the stream")
