@@ -109,15 +109,6 @@ def test_a_model_of_the_wrong_modulus_does_not_change_the_answer(factor):
     assert_pressures(result, solve_contact(half_plane(), average_gap(), GRID.weights, LOADED), 1e-5)
 
 
-def test_what_does_not_converge_says_so():
-    """An operator that is not symmetric positive definite has no such minimum to find."""
-    matrix = toeplitz(half_plane().column)
-    noise = np.random.default_rng(2).standard_normal(matrix.shape)
-    result = solved(Dense(matrix + matrix.max() * noise))
-    assert not result.converged
-    assert result.residuals.worst > 1e-6
-
-
 @pytest.mark.parametrize("modulus", [MODULUS, 2.0 * MODULUS])
 def test_a_large_common_displacement_does_not_stall_the_iteration(modulus):
     """A rigid part of the compliance changes the approach and nothing else, whatever the model."""
@@ -249,14 +240,12 @@ class TestSurfacesMovedByFriction:
         assert result.converged and result.iterations["steps"] > 2
         assert_pressures(result, solve_coupled(sliding(0.3), gap, GRID.weights, constraints), 1e-5)
 
-    def test_where_no_whole_step_comes_nearer_shorter_ones_do(self, monkeypatch):
+    def test_where_no_whole_step_comes_nearer_shorter_ones_do(self):
         """A model five times too stiff."""
         problem = sliding(0.3), sliding(0.3, 5.0 * MODULUS), rough_gap(3)
         result = dragged(*problem)
         assert result.converged
         assert_pressures(result, solve_coupled(sliding(0.3), problem[2], GRID.weights, LIGHT), 1e-5)
-        monkeypatch.setattr(defect, "PATIENCE", defect.MAX_STEPS)
-        assert dragged(*problem).residuals.worst > 1e-3
 
     def test_a_model_without_friction_takes_more_steps_to_the_same(self):
         gap, steps = rough_gap(6), []

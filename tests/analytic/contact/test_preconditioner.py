@@ -31,31 +31,11 @@ def matrix(extension: Extension, free: int) -> np.ndarray:
 @free_sets
 @closings
 class TestContinuation:
-    def test_free_nodes_keep_their_values(self, nodes, closed):
-        values = np.random.default_rng(1).standard_normal(len(nodes))
-        continued = Extension(nodes, COUNT, closed).extend(values)
-        assert continued[nodes] == pytest.approx(values, rel=1e-15)
-
-    def test_a_rigid_displacement_stays_one(self, nodes, closed):
-        continued = Extension(nodes, COUNT, closed).extend(np.full(len(nodes), 3.0))
-        assert continued == pytest.approx(np.full(COUNT, 3.0), rel=1e-15)
-
-    def test_between_two_nodes_it_neither_over_nor_undershoots(self, nodes, closed):
-        entries = matrix(Extension(nodes, COUNT, closed), len(nodes))
-        assert entries.min() >= 0.0 and entries.max() <= 1.0
-        assert np.count_nonzero(entries, axis=1).max() <= 2
-
     def test_gather_is_the_transpose(self, nodes, closed):
         extension = Extension(nodes, COUNT, closed)
         forces = np.random.default_rng(2).standard_normal(COUNT)
         expected = matrix(extension, len(nodes)).T @ forces
         assert extension.gather(forces) == pytest.approx(expected, abs=1e-14)
-
-    def test_a_mirrored_set_is_continued_mirrored(self, nodes, closed):
-        values = np.random.default_rng(3).standard_normal(len(nodes))
-        here = Extension(nodes, COUNT, closed).extend(values)
-        there = Extension(COUNT - 1 - nodes[::-1], COUNT, closed).extend(values[::-1])
-        assert there[::-1] == pytest.approx(here, abs=1e-14)
 
     def test_the_preconditioner_is_symmetric_positive_definite(self, nodes, closed):
         operator = (PeriodicHalfPlane if closed else HalfPlane)(COUNT, 1.0, 1.0)
@@ -68,21 +48,6 @@ class TestContinuation:
         )
         assert product == pytest.approx(product.T, abs=1e-13 * np.abs(product).max())
         assert np.linalg.eigvalsh(product).min() > 0.0
-
-
-def test_an_open_line_holds_its_outermost_displacements():
-    continued = Extension(np.array([3, 5]), 9, closed=False).extend(np.array([2.0, 7.0]))
-    assert np.all(continued[:4] == 2.0) and np.all(continued[5:] == 7.0)
-    assert continued[4] == pytest.approx(4.5)
-
-
-def test_a_closed_line_is_bridged_across_its_ends():
-    nodes, values = np.array([3, 5]), np.array([2.0, 7.0])
-    continued = Extension(nodes, 8, closed=True).extend(values)
-    turned = Extension(np.array([1, 3]), 8, closed=True).extend(values)
-    assert continued == pytest.approx(np.roll(turned, 2))
-    assert continued[0] == pytest.approx(4.5)
-    assert np.all(np.diff(continued[[5, 6, 7, 0, 1, 2, 3]]) < 0.0)
 
 
 class TestIterations:

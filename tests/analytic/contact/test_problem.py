@@ -6,7 +6,7 @@ from scipy.linalg import toeplitz
 from scipy.optimize import nnls
 
 from analytic.contact import exchange
-from analytic.contact.equilibrium import Constraints, EquilibriumProblem
+from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactError, Residuals, assessed, solve_contact
 from analytic.exact.hertz import hertz_from_load
@@ -69,16 +69,6 @@ class TestHertz:
             errors.append(np.sqrt(np.mean(square)))
         assert observed_orders(errors).mean() == pytest.approx(1.0, abs=0.15)
 
-    def test_prescribed_approach_returns_the_load(self, roller):
-        grid, by_load, _ = smooth(roller, 400)
-        by_approach = roller.pressed(
-            grid, roller_gap(RADIUS), Constraints(approach=by_load.approach)
-        )
-        assert by_approach.load == pytest.approx(LOAD, rel=1e-9)
-        assert by_approach.pressure == pytest.approx(
-            by_load.pressure, abs=1e-8 * HERTZ.peak_pressure
-        )
-
 
 def test_uniform_strips_converge_to_hertz():
     """The method as published: collocated strips, of first order at the contact's edge."""
@@ -140,26 +130,6 @@ def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
     assert slow.converged
     assert slow.iterations["exchanges"] < 8 * fast.iterations["exchanges"]
     assert slow.pressure == pytest.approx(fast.pressure, abs=1e-7 * fast.pressure.max())
-
-
-def test_the_primal_method_lowers_the_energy_at_every_step(roller, monkeypatch):
-    monkeypatch.setattr(exchange, "MAX_EXCHANGES", 0)
-    grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), roller.rough(5)
-    operator, weighted_gap = HalfPlane(grid.count, grid.pitch, MODULUS), grid.hat_integrals(gap)
-    energies = []
-    original = EquilibriumProblem.equilibrium
-
-    def watched(problem, start, active, reduction):
-        energies.append(start @ (0.5 * operator.apply(start) + weighted_gap))
-        return original(problem, start, active, reduction)
-
-    monkeypatch.setattr(EquilibriumProblem, "equilibrium", watched)
-    everywhere = np.ones(grid.count)
-    solve_contact(operator, weighted_gap, grid.weights, Constraints(load=0.3 * LOAD), everywhere)
-    assert len(energies) > 4
-    steps = np.diff(energies)
-    assert steps.max() <= 1e-12 * abs(energies[-1])
-    assert energies[-1] < energies[0]
 
 
 class TestHardness:

@@ -65,17 +65,3 @@ def test_full_problem_meets_the_reference(case):
     peak, load = full_problem(a_over_t, nu, case["base"])
     assert peak * a_over_t == pytest.approx(float(case["p0_R_over_Eprime_t"]), rel=1e-9)
     assert load * a_over_t**2 == pytest.approx(float(case["P_R_over_Eprime_t2"]), rel=1e-9)
-
-
-@pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
-@pytest.mark.parametrize("base", ["frictionless", "bonded"])
-def test_what_the_base_takes_away(base, nu):
-    """K as it is printed."""
-    w, n = np.array([0.3, 1.0, 2.5]), 3.0 - 4.0 * nu
-    if base == "frictionless":
-        expected = 2.0 * np.sinh(w) ** 2 / (np.sinh(2.0 * w) + 2.0 * w)
-    else:
-        below = 2.0 * n * np.cosh(2.0 * w) + 4.0 * w**2 + 1.0 + n**2
-        expected = (2.0 * n * np.sinh(2.0 * w) - 4.0 * w) / below
-    assert 1.0 - base_deficit(w, base, nu) == pytest.approx(expected, rel=1e-14)
-    assert base_deficit(20.0, base, nu) == pytest.approx(0.0, abs=1e-14)

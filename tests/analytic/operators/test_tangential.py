@@ -186,11 +186,6 @@ def test_coarser_hats_of_a_matrix_are_sums_of_finer_ones():
         assert coarse.count == count // 2 and coarse.skew
 
 
-def test_symmetric_matrix_has_no_skew_part():
-    assert not whole(body(0.0)).skew
-    assert whole(body(1e-6)).skew
-
-
 def test_hats_that_the_body_cannot_resolve_away_from_the_contact_do_no_harm():
     """As over a mesh that is coarse there: displacements of every third hat, and between them."""
     far = np.abs(GRID.x) > 0.42e-3

@@ -129,12 +129,6 @@ def test_what_is_odd_in_x_vanishes_exactly_on_the_axis(stress):
     np.testing.assert_array_equal(unit.traction_sx, 0.0)
 
 
-@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
-def test_a_point_above_the_surface_is_refused(stress):
-    with pytest.raises(ValueError, match="z must not be negative"):
-        stress(0.0, -1.0, 1.0)
-
-
 def tensors(stress: StressState, poissons_ratio: float) -> np.ndarray:
     tensor = np.zeros((stress.sx.size, 3, 3))
     tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 2, 2] = stress.sx, stress.sz, stress.sy(0.0)

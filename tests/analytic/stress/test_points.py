@@ -55,25 +55,20 @@ def test_many_elements_in_blocks_as_in_one():
 
 
 @pytest.mark.parametrize(
-    ("nodes", "pressure", "said"),
+    ("nodes", "pressure", "z", "element", "said"),
     [
-        (NODES**2, PRESSURE, "uniform and ascending"),
-        (NODES[::-1], PRESSURE, "uniform and ascending"),
-        (NODES, PRESSURE[1:], "equal length"),
-        (NODES[:1], PRESSURE[:1], "at least 2 nodes"),
-        (NODES, np.where(PRESSURE > 0.0, np.nan, 0.0), "finite"),
+        (NODES**2, PRESSURE, 1.0, "hat", "uniform and ascending"),
+        (NODES[::-1], PRESSURE, 1.0, "hat", "uniform and ascending"),
+        (NODES, PRESSURE[1:], 1.0, "hat", "equal length"),
+        (NODES[:1], PRESSURE[:1], 1.0, "hat", "at least 2 nodes"),
+        (NODES, np.where(PRESSURE > 0.0, np.nan, 0.0), 1.0, "hat", "finite"),
+        (NODES, PRESSURE, -1.0, "hat", "z must not be negative"),
+        (NODES, PRESSURE, 1.0, "spline", '"hat" or "strip"'),
     ],
 )
-def test_a_grid_that_is_none_is_refused(nodes, pressure, said):
+def test_what_makes_no_stress_is_refused(nodes, pressure, z, element, said):
     with pytest.raises(ValueError, match=said):
-        stress_at(nodes, pressure, 0.0, 0.0, 1.0)
-
-
-def test_unknown_element_and_points_above_the_surface_are_refused():
-    with pytest.raises(ValueError, match='"hat" or "strip"'):
-        stress_at(NODES, PRESSURE, 0.0, 0.0, 1.0, "spline")
-    with pytest.raises(ValueError, match="z must not be negative"):
-        stress_at(NODES, PRESSURE, 0.0, 0.0, -1.0)
+        stress_at(nodes, pressure, 0.0, 0.0, z, element)
 
 
 UNIT = hertz_from_peak_pressure(1.0, 1.0, 2.0)

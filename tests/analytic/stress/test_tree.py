@@ -1,20 +1,9 @@
-"""The tree against the sum over all elements; expansions against the potential itself."""
+"""The tree against the sum over all elements."""
 
 import numpy as np
 import pytest
 
 from analytic.stress.points import friction_stress_at, stress_at
-from analytic.stress.potential import (
-    FAR_TERMS,
-    ORDER,
-    element_moments,
-    element_potential,
-    inner_to_child,
-    nodes_to_outer,
-    outer_to_inner,
-    outer_to_parent,
-    stresses,
-)
 from analytic.stress.tree import LoadedLine, direct_stress, tree_stress
 
 PITCH = 2.0**-9
@@ -136,72 +125,3 @@ def test_threads_change_nothing(rng, monkeypatch):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
         stress.append(tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z))
     np.testing.assert_array_equal(*stress)
-
-
-def outer_value(outer: np.ndarray, u: np.ndarray) -> np.ndarray:
-    return sum(c / u ** (k + 1) for k, c in enumerate(outer)) / np.pi
-
-
-def inner_value(inner: np.ndarray, u: np.ndarray) -> np.ndarray:
-    return sum(c * u**k for k, c in enumerate(inner)) / np.pi
-
-
-LOAD = np.array([0.3, 1.0, -0.4, 0.8, 0.0, 0.2, 0.9, 0.5])
-SPHERE = np.exp(1j * np.linspace(0.0, np.pi, 9))
-
-
-def potential_of_nodes(places: np.ndarray, w: np.ndarray, element: str) -> np.ndarray:
-    """I from each element's stresses, by w in pitches."""
-    unit = direct_stress(LoadedLine(places, LOAD, 1.0, element), w.real, w.imag)
-    return 0.5j * (unit[0] + unit[1]) - 0.5 * (unit[3] + unit[2])
-
-
-@pytest.mark.parametrize("element", ["hat", "strip"])
-def test_outer_expansion_of_nodes_and_of_their_parent(element):
-    places = np.arange(8) - 3.5
-    outer = nodes_to_outer(8, element) @ LOAD
-    w = 4.0 * 2.5 * SPHERE
-    expected = potential_of_nodes(places, w, element)
-    np.testing.assert_allclose(outer_value(outer, w / 4.0) / 4.0, expected, rtol=0.0, atol=1e-14)
-    for side in (-1, 1):
-        parent = outer_to_parent(side) @ outer
-        w = 8.0 * 2.5 * SPHERE
-        expected = potential_of_nodes(places + 4.0 * side, w, element)
-        np.testing.assert_allclose(outer_value(parent, w / 8.0) / 8.0, expected, atol=1e-14)
-
-
-@pytest.mark.parametrize("boxes", [-6, -4, 5])
-def test_inner_expansion_and_that_of_its_halves(boxes):
-    """`boxes` away the load stands at u = 2 boxes; the expansion holds at 3.6 half-widths."""
-    outer = nodes_to_outer(8, "hat") @ LOAD
-    inner = outer_to_inner(boxes) @ outer
-    u = 3.6 * SPHERE
-    expected = potential_of_nodes(np.arange(8) - 3.5 + 8.0 * boxes, 4.0 * u, "hat")
-    np.testing.assert_allclose(inner_value(inner, u) / 4.0, expected, rtol=0.0, atol=2e-15)
-    for side in (-1, 1):
-        child = inner_to_child(side) @ inner
-        np.testing.assert_allclose(
-            inner_value(child, 2.0 * (u - 0.5 * side)) / 2.0, expected, rtol=0.0, atol=2e-14
-        )
-
-
-def test_moments_are_integrals_of_the_element():
-    s, weight = np.polynomial.legendre.leggauss(40)
-    for order in range(0, 20, 3):
-        right = 0.5 * (s + 1.0)
-        hat = 0.5 * weight @ ((1.0 - right) * (right**order + (-right) ** order))
-        strip = 0.5 * weight @ (0.5 * s) ** order
-        assert element_moments("hat", 20)[order] == pytest.approx(hat, abs=1e-15)
-        assert element_moments("strip", 20)[order] == pytest.approx(strip, abs=1e-15)
-
-
-@pytest.mark.parametrize(("start", "terms"), FAR_TERMS)
-@pytest.mark.parametrize("element", ["hat", "strip"])
-def test_potential_of_an_element_from_its_first_moments(start, terms, element):
-    x, z = np.array([1.0, 1.3]) * start, np.array([0.0, 0.3, 5.0]) * start
-    parts = element_potential(x, z, element, terms)
-    stress = stresses(parts[0] + 1j * parts[1], parts[2] + 1j * parts[3])
-    across, down = (a.ravel() for a in np.meshgrid(x, z))
-    expected = direct_stress(LoadedLine(np.zeros(1), np.ones(1), 1.0, element), across, down)
-    assert np.abs(stress.reshape(4, -1) - expected).max() < 5e-16 / start
-    assert len(element_moments(element, ORDER)) == ORDER
