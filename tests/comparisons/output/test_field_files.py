@@ -105,17 +105,6 @@ def test_vtu_in_meshio(field, tmp_path, monkeypatch):
     assert notes == field.notes
 
 
-def test_meshio_takes_no_text(field, tmp_path, capsys):
-    """Why the notes of a vtu are bytes: with a text in it, a file is none that meshio opens."""
-    grid = pyvista.read(written(field, tmp_path))
-    grid.field_data["said"] = ["text"]
-    grid.save(tmp_path / "text.vtu", binary=False)
-    assert pyvista.read(tmp_path / "text.vtu").field_data["said"][0] == "text"
-    with pytest.raises(SystemExit):
-        meshio.read(tmp_path / "text.vtu")
-    assert "Illegal data type 'String'" in capsys.readouterr().out
-
-
 def test_vtu_in_pyvista(field, tmp_path):
     from vtkmodules.vtkCommonCore import vtkDataArray
 
@@ -144,11 +133,6 @@ def test_notes_say_units_and_scene(outcome, model):
     assert list(field.units) == ["points", *names(field)] and field.units["points"] == "m"
 
 
-def test_one_friction_coefficient_has_plain_names(smooth_outcome):
-    field = field_of(smooth_outcome, smooth_outcome.runs["half_plane"].finest)
-    assert list(field.arrays) == list(STRESSES)
-
-
 def test_principal_directions_diagonalise_the_stress(field):
     for friction in ("0", "0.1"):
         sx, sz, txz, tau1, along = (
@@ -161,16 +145,6 @@ def test_principal_directions_diagonalise_the_stress(field):
         normal = (sx[there] * x + txz[there] * z) * x + (txz[there] * x + sz[there] * z) * z
         middle, size = 0.5 * (sx + sz)[there], np.abs(tau1[there]).max()
         assert normal == pytest.approx(middle + tau1[there], abs=float(1e-5 * size))
-
-
-def test_mesh_and_fields_lie_in_one_plane(outcome, tmp_path):
-    run = outcome.runs["finite_element"]
-    write_mesh(tmp_path / "mesh.msh", outcome, run.finest.mesh)
-    mesh = meshio.read(tmp_path / "mesh.msh", file_format="gmsh").points
-    for model in outcome.runs.values():
-        points = field_of(outcome, model.finest).points
-        assert not points[:, 2].any() and not mesh[:, 2].any()
-        assert mesh[:, 1].min() <= points[:, 1].min() and points[:, 1].max() <= mesh[:, 1].max()
 
 
 def test_one_file_holds_both_models_and_their_difference(outcome):

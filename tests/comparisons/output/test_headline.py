@@ -10,7 +10,6 @@ from comparisons.output.headline import headline
 from comparisons.studies.model_error.laws import LawSpread, open_laws
 from comparisons.studies.model_error.model_error import Estimate, ModelError
 from comparisons.studies.model_error.selection import EffectSelection
-from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import Run
 
 TOLERANCE = 0.02
@@ -42,17 +41,6 @@ def test_agreement_names_what_is_nearest_to_its_tolerance(smooth_outcome: Run):
     )
 
 
-def test_it_says_no_more_than_the_uncertainty_supports(smooth_outcome: Run):
-    for value, uncertainty, words in (
-        (0.0012, 0.0138, "is +0.1 %"),
-        (-0.0004, 0.0138, "is 0.0 % (tol"),
-        (0.00123, 0.0001, "is +0.12 %"),
-    ):
-        said = headline(judged(smooth_outcome, error_of("peak_pressure", value, uncertainty)))
-        assert said.kind == "holds" and words in said.sentence
-        assert "the one judged error is within its tolerance" in said.sentence
-
-
 def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_outcome: Run):
     errors = (
         error_of("peak_pressure", 0.5, 1e-3),
@@ -66,28 +54,6 @@ def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_o
     assert "1 more of 3 judged errors is outside" in said.sentence
     shared = error_of("contact_length", -0.7, 1e-3, finite_size=0.3, exact_circle=0.3)
     assert "dominated" not in headline(judged(smooth_outcome, shared)).sentence
-
-
-def test_where_effects_interact_it_names_no_culprit(smooth_outcome: Run):
-    error = error_of("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1)
-    said = headline(judged(smooth_outcome, replace(error, interaction=0.6))).sentence
-    assert "the effects interact" in said and "dominated" not in said
-    beside = headline(judged(smooth_outcome, replace(error, interaction=0.4))).sentence
-    assert "dominated by finite thickness or width" in beside and "interact" not in beside
-
-
-def test_a_verdict_says_the_law_of_elasticity_that_it_leans_on(smooth_outcome: Run):
-    """Where the scene gives it; where a range was solved, that it holds whatever the law."""
-    error = error_of("peak_pressure", 1e-3, 1e-4)
-    strained = replace(NONE, added=frozenset({"finite_strain"}))
-    assert "elasticity" not in headline(judged(smooth_outcome, error, selection=strained)).sentence
-    spread = replace(strained, laws=open_laws(smooth_outcome.problem.scene))
-    sentence = headline(judged(smooth_outcome, error, selection=spread)).sentence
-    assert "uncertainty 0.010 %), whatever the law of elasticity." in sentence
-    scene = smooth_outcome.problem.scene.unchecked({"body.law": "hencky", "roller.law": "hencky"})
-    known = posed(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
-    sentence = headline(judged(known, error, selection=strained)).sentence
-    assert "uncertainty 0.010 %), with Hencky's elasticity." in sentence
 
 
 def test_a_range_by_the_law_is_said_with_its_ends_and_what_would_narrow_it(smooth_outcome: Run):
@@ -117,16 +83,6 @@ def test_next_names_the_figures_to_use_or_the_tolerance_that_holds(smooth_outcom
     assert unsure.kind == "inconclusive" and unsure.paste == ("[budget]\ntime = 600",)
 
 
-def test_a_figure_of_the_whole_that_is_zero_is_shown_as_zero(smooth_outcome: Run):
-    """Its error is over Hertz's."""
-    known = {"study": "contact", "source": "half_plane", "quantity": "tau1_max_depth"}
-    depth = smooth_outcome.figures.one(**known, friction=0.0).value
-    scale = smooth_outcome.problem.hertz.half_width
-    error = replace(error_of("tau1_max_depth", depth / scale, 1e-3), scale=scale)
-    [row] = model_error_rows(judged(smooth_outcome, error), judged=True)
-    assert row.whole.split()[0] == "0" and row.half_plane.split()[0] != "0"
-
-
 def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: Run):
     said = headline(judged(smooth_outcome, error_of("contact_length", 0.01, math.inf)))
     assert said.kind == "inconclusive"
@@ -146,21 +102,6 @@ def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: 
         assert "but plastic flow, which is not modelled (the body has no yield" in said.sentence
         assert "may change it by 10 % (estimate)" in said.sentence
         assert "plastic = true, with body.yield_stress, computes it" in said.next
-
-
-def test_a_law_that_was_not_asked_for_is_asked_for_next(smooth_outcome: Run):
-    sizes = {"law_of_elasticity": {"peak_pressure": 0.17}}
-    why = {"law_of_elasticity": "not asked for (budget.effects)"}
-    missing = EffectSelection(frozenset(), frozenset(), {}, why, sizes)
-    error = error_of("peak_pressure", 1e-3, 1e-4)
-    assert headline(judged(smooth_outcome, error, selection=missing)).paste == (
-        "[budget]\neffects = true",
-    )
-
-
-def test_nothing_judged_is_no_verdict(smooth_outcome: Run):
-    said = headline(judged(smooth_outcome))
-    assert said.kind == "inconclusive" and "no figure has a tolerance" in said.sentence
 
 
 def test_a_level_that_did_not_converge_is_named_in_few_digits(smooth_outcome: Run):

@@ -80,11 +80,6 @@ def test_units_that_the_file_names_otherwise_are_doubted(folder, head, words):
     assert words in said and bool(words) == bool(said)
 
 
-def test_heights_that_are_all_the_same_are_doubted(folder):
-    (folder / "trace.csv").write_text("".join(f"{x:.6g},3.0\n" for x in X))
-    assert "every height is the same" in doubts(folder, z_unit="um")
-
-
 SCENE = """
 roller = {radius = "8 mm", youngs_modulus = "207 GPa", poissons_ratio = 0.3}
 body = {youngs_modulus = "207 GPa", poissons_ratio = 0.3}
@@ -120,8 +115,3 @@ def test_a_doubt_comes_before_anything_is_solved(folder, capsys):
     doubt, error = err.splitlines()
     assert out == "" and "smooth bodies would have" in doubt
     assert "reaches the end of the trace" in error and "smooth bodies" not in error
-
-
-def test_init_doubts_a_surface_in_the_wrong_unit(folder, capsys):
-    assert main(["init", "trace.csv", "--x-unit", "um", "--z-unit", "mm"]) == 0
-    assert "plausibility warning: profile: the rms slope is" in capsys.readouterr().out

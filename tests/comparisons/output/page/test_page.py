@@ -2,7 +2,6 @@
 
 import base64
 import csv
-import os
 import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
@@ -11,43 +10,15 @@ from dataclasses import replace
 import pytest
 from scenes import posed
 
-from comparisons.drawing.blocks import Block, Box, Heading, Names, Note, Pictures, TextTable
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.page import render
-from comparisons.studies import contact
 from comparisons.studies.model_error.show import waterfalls
-from comparisons.studies.study import Run, Study
+from comparisons.studies.study import Run
 
 ROOT = "{http://www.w3.org/2000/svg}"
 SECTIONS = ["model-error", "comparison", "contact", "stresses", "yield"]
 SECTIONS += ["problem", "convergence", "mesh", "cost", "checks", "skipped", "record"]
 LINK = "{http://www.w3.org/1999/xlink}href"
-
-
-def test_drawn_side_by_side_as_in_one_process(wavy_outcome, wavy_page, monkeypatch):
-    others = {0, 1} if len(os.sched_getaffinity(0)) == 1 else {0}
-    monkeypatch.setattr(os, "sched_getaffinity", lambda process: others)
-    assert render(wavy_outcome) == wavy_page.source
-
-
-def test_a_new_study_shows_itself(wavy_outcome, page_of, no_pictures, monkeypatch):
-    """A section of its own after the contact, a part of another one, and no box for a picture that
-    there is none of; what stands in a text is no tag."""
-    table = TextTable("Slip", ("", "a < b"), (("*all*", "1 %"),))
-    boxed = Box("columns", (Pictures(("fields",), "Nothing to see"),))
-    items = Heading("Where"), table, boxed, Note("All *stick* & some slip")
-    section = Block("slip", items, "Slip")
-    added = Block("contact", (Names([("slides", "0.1 a")]),))
-    study = Study(contact.NAME, {}, contact.solve, blocks=lambda run: [section, added])
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
-    monkeypatch.setattr("comparisons.output.page.page.STUDIES", (study,))
-    page = page_of(render(wavy_outcome))
-    place = page.sections.index("slip")
-    assert page.sections[place - 1 : place + 2] == ["stresses", "slip", "problem"]
-    assert "All <i>stick</i> &amp; some slip" in page.source and "a &lt; b" in page.source
-    sections = dict(re.findall(r'<section id="([\w-]+)">(.*?)</section>', page.source, re.DOTALL))
-    assert 'class="columns"' not in sections["slip"] and "Nothing to see" not in sections["slip"]
-    assert '<th scope="row">slides</th><td>0.1 a</td>' in sections["contact"]
 
 
 def test_every_tag_is_closed_in_order(wavy_page, smooth_page, half_plane_page, page_of):
@@ -77,20 +48,6 @@ def test_contents_lead_to_every_section_and_each_heading_has_a_name(wavy_page, h
             re.findall("<h3 id=|<h2>", page.source)
         )
         assert {"geometry", "materials", "load"} <= set(names)
-
-
-def test_the_contact_ratio_is_shown_once(wavy_page, smooth_page, half_plane_page):
-    for page in (wavy_page, smooth_page, half_plane_page):
-        assert "contact length over Hertz 2a" not in page.text
-        assert "× 2a" in page.text
-
-
-def test_it_says_when_where_and_by_which_revision(wavy_page, wavy_outcome):
-    made = wavy_outcome.record["made"]
-    assert set(made) == {"date", "host", "revision"}
-    rows = {row[0]: row[-1] for table in wavy_page.tables for row in table}
-    for name, value in made.items():
-        assert rows.get(name) == value
 
 
 def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
@@ -127,16 +84,6 @@ def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
         assert sizes["uncertainty"] == pytest.approx(panel.uncertainty, rel=1e-5)
         steps_up = sum(sizes[step] for step in panel.steps)
         assert steps_up == pytest.approx(panel.error, rel=1e-4, abs=1e-6)
-
-
-def test_the_mesh_says_where_its_file_is(wavy_page):
-    assert "as a file: finite_element/mesh.msh" in wavy_page.text
-
-
-def test_one_meaning_of_left_out(wavy_page, smooth_page, half_plane_page):
-    """Steps are skipped, effects not modelled or not computed: the former word for each is gone."""
-    for page in (wavy_page, smooth_page, half_plane_page):
-        assert "left out" not in page.text
 
 
 def test_no_script_runs(wavy_page):
@@ -178,13 +125,6 @@ def test_a_rough_run_with_friction_has_all_pictures(wavy_page):
     assert {"Friction 0", "Friction 0.1"} <= set(wavy_page.headings)
 
 
-def test_a_smooth_run_has_no_pictures_of_roughness(smooth_page):
-    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1 + 1 + 2
-    assert smooth_page.count("next to the surface") == 0
-    assert smooth_page.count("right-hand edge") == 1
-    assert "Ra, Rq" not in smooth_page.text
-
-
 def test_the_answer_comes_first_and_what_checks_it_is_folded_away(wavy_page, wavy_outcome):
     assert wavy_page.sections == SECTIONS
     first, _, _ = wavy_page.source.partition("<nav")
@@ -207,14 +147,6 @@ def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page
     assert "--models half-plane" in half_plane_page.text
 
 
-def test_the_finite_element_model_alone_has_its_mesh(
-    finish: Callable[..., Run], without_field: dict, page_of
-):
-    page = page_of(render(finish(without_field, ("finite_element",))))
-    assert "mesh" in page.sections
-    assert "Only the finite-element model was run" in page.text
-
-
 def test_fields_of_one_model_stand_without_a_difference(
     finish: Callable[..., Run], smooth_tables, page_of
 ):
@@ -224,10 +156,6 @@ def test_fields_of_one_model_stand_without_a_difference(
     assert "largest difference" not in page.text
     [table] = [table for table in page.tables if "over Hertz" in table[0]]
     assert [row[0] for row in table[1:]] == list(map(label, QUANTITIES))
-
-
-def test_words_never_carry_the_names_of_result_files(wavy_page):
-    assert not re.search(r"tau1|txz|_max|_l2", wavy_page.text.partition("Skipped steps")[0])
 
 
 def test_only_tables_and_pictures_scroll_sideways_and_are_named(wavy_page):

@@ -6,12 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import PROJECT, refound, unconverged
+from scenes import PROJECT, refound
 
 from comparisons.cli import app
 from comparisons.figures.quantity import MODELS, label
-from comparisons.figures.uncertainty import Uncertainty
-from comparisons.output.headline import headline
 from comparisons.output.page.page import render
 from comparisons.output.page.tables.comparison import comparison_rows
 from comparisons.studies import contact
@@ -61,19 +59,6 @@ def test_every_number_of_the_comparison_is_on_the_page(wavy_page, wavy_outcome: 
         shown_to = max(supported, 0.051 * abs(row.value))
         assert number(difference) == pytest.approx(row.value, abs=shown_to)
         assert verdict == (row.verdict or "")
-
-
-def test_rows_are_joined_only_where_every_figure_is_the_same(wavy_outcome: Run):
-    def frictions(outcome: Run) -> list[str]:
-        return [row.friction for row in comparison_rows(outcome) if row.quantity == "peak_pressure"]
-
-    assert frictions(wavy_outcome) == ["0, 0.1"]
-    rows = wavy_outcome.figures.of(study="comparison")
-    sliding = rows.one(quantity="peak_pressure", friction=0.1)
-    for change in ({"uncertainty": Uncertainty({"numerical": 0.5})}, {"value": 0.4}):
-        figures = [replace(row, **change) if row is sliding else row for row in rows]
-        changed = refound(wavy_outcome, "comparison", figures=tuple(figures))
-        assert frictions(changed) == ["0", "0.1"]
 
 
 def test_figures_are_also_given_over_those_of_hertz(wavy_page, wavy_outcome: Run):
@@ -165,15 +150,3 @@ def test_the_record_names_versions_hashes_and_the_command(wavy_page, wavy_outcom
     for named in re.findall(r"crosscheck (\w+) [^ ]*\.toml", wavy_page.text):
         assert named in commands
     assert f"{PROJECT}/crosscheck rerun ." in wavy_page.text
-
-
-def test_the_headline_names_a_solver_that_failed(
-    smooth_outcome: Run, page_of, monkeypatch, no_pictures
-):
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
-    failed = unconverged(smooth_outcome, "half_plane")
-    said = headline(failed)
-    assert said.kind == "not converged"
-    assert "half-plane" in said.sentence
-    page = page_of(render(failed))
-    assert "no conclusion rests on it" in page.text

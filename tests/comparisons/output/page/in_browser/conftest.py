@@ -35,7 +35,7 @@ LETTERS = r"""
 (() => {
   const out = [];
   for (const element of document.body.querySelectorAll("*")) {
-    if (element.closest("script") || !element.getClientRects().length) continue;
+    if (!element.getClientRects().length) continue;
     if ([...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()))
       out.push([parseFloat(getComputedStyle(element).fontSize) * 0.75 * element.currentCSSZoom,
         element.textContent.slice(0, 60)]);
@@ -100,9 +100,9 @@ class Browser:
 
 
 class Tab:
-    """A page in the browser, so many pixels wide; with `script` off its scripts do not run."""
+    """A page in the browser, so many pixels wide."""
 
-    def __init__(self, browser: Browser, page: Path, width: int, script: bool = True) -> None:
+    def __init__(self, browser: Browser, page: Path, width: int) -> None:
         self._browser = browser
         target = browser.ask("Target.createTarget", url="about:blank")["targetId"]
         self._session = browser.ask("Target.attachToTarget", targetId=target, flatten=True)[
@@ -111,7 +111,6 @@ class Tab:
         browser.events.clear()
         for domain in ("Page", "Runtime", "Log"):
             self.ask(f"{domain}.enable")
-        self.ask("Emulation.setScriptExecutionDisabled", value=not script)
         self.resize(width)
         self.ask("Page.navigate", url=page.resolve().as_uri())
         browser.wait(lambda message: message.get("method") == "Page.loadEventFired")
@@ -176,11 +175,11 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 @pytest.fixture
 def tab(browser: Browser) -> Iterator[Callable[..., Tab]]:
-    """`tab(page, width, script=True)`: the page in the browser."""
+    """`tab(page, width)`: the page in the browser."""
     opened: list[Tab] = []
 
-    def open_one(page: Path, width: int, script: bool = True) -> Tab:
-        opened.append(Tab(browser, page, width, script))
+    def open_one(page: Path, width: int) -> Tab:
+        opened.append(Tab(browser, page, width))
         return opened[-1]
 
     yield open_one

@@ -95,10 +95,3 @@ def test_a_head_sorts_and_sorts_back(tab, summary, rows):
     page.value("document.querySelectorAll('.runs thead button')[0].click()")
     assert titles(page) == sorted(row.title for row in rows)
     assert page.value("document.querySelectorAll('[aria-sort]').length") == 1
-
-
-def test_without_scripts_the_runs_stand_as_they_came(tab, summary, rows):
-    page = tab(summary, 1280, script=False)
-    assert page.complaints() == []
-    assert titles(page) == [row.title for row in rows]
-    assert page.value("document.querySelectorAll('button').length") == 0

@@ -4,10 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.exact.hertz import hertz_stress
-from analytic.material import Material
 from comparisons.output.page.pictures.mesh import CELL
-from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.tables.problem import elastic_text
 from comparisons.studies.study import Run
 
 
@@ -53,20 +50,6 @@ def test_pressures_are_drawn_over_x_in_units_of_hertz(wavy: dict[str, list], wav
     assert hardness[:, 1] == pytest.approx(wavy_outcome.problem.scene.body.hardness / p0)
 
 
-def test_the_words_above_pressures_hide_the_grid(wavy: dict[str, list]):
-    for name in ("overview_picture", "pressure_picture", "close_up_picture"):
-        for axes in (figure.axes[0] for figure in wavy[name]):
-            [load] = [text for text in axes.texts if text.get_text().startswith("P = ")]
-            for behind in (load.get_bbox_patch(), axes.get_legend().get_frame()):
-                assert behind.get_visible() and behind.get_facecolor() == (1.0, 1.0, 1.0, 1.0)
-
-
-def test_the_close_up_ends_where_the_surfaces_are_known(wavy, wavy_outcome: Run):
-    low, high = np.array(wavy["close_up_picture"][0].axes[0].get_xlim()) * 1e-6
-    x = wavy_outcome.runs["finite_element"].finest.grid.x
-    assert x[0] <= low < high <= x[-1]
-
-
 def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(
     wavy: dict[str, list], wavy_outcome: Run
 ):
@@ -85,16 +68,6 @@ def test_deformed_surfaces_coincide_where_there_is_pressure(
     assert np.all(roller >= body - 1e-9)
     assert np.max(np.abs(roller - body)[touching]) < 1e-6 * np.ptp(roller)
     assert np.max(roller - body) == pytest.approx(np.max(level.solution.gap) / 1e-6, rel=1e-6)
-
-
-def test_bars_are_as_long_as_the_stages_took(wavy: dict[str, list], wavy_outcome: Run):
-    [figure] = wavy["cost_picture"]
-    bars = figure.axes[0].patches
-    ends = [bar.get_x() + bar.get_width() for bar in bars]
-    expected = []
-    for run in wavy_outcome.runs.values():
-        expected += [sum(run.seconds.values()), *run.seconds.values()]
-    assert ends == pytest.approx(expected)
 
 
 def test_sections_hold_both_fields_and_the_exact_smooth_one(
@@ -134,27 +107,3 @@ def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(
     assert np.sort(lengths) == pytest.approx(np.sort(every[every >= cell]))
     assert np.any(every < cell)
     assert whole.images  # the finest elements as dark cells
-
-
-def test_computed_moduli_have_four_digits():
-    computed = Material(211.39412e9, 0.28741573)
-    assert elastic_text(computed) == "E = 211.4 GPa, ν = 0.2874"
-
-
-def test_the_problem_is_drawn_to_the_scene(wavy: dict[str, list], wavy_outcome: Run):
-    to_scale, close = wavy["problem_picture"][0].axes
-    assert to_scale.get_aspect() == 1.0
-    roller = to_scale.patches[0]
-    assert roller.get_radius() == pytest.approx(wavy_outcome.problem.scene.roller.radius / 1e-3)
-    texts = " ".join(text.get_text() for text in to_scale.texts)
-    assert "R = 10 mm" in texts and "E = 210 GPa" in texts and "µ = 0, 0.1" in texts
-    surfaces = [line.get_ydata() for line in close.lines[:2]]
-    assert np.min(surfaces[0] - surfaces[1]) == pytest.approx(0.0, abs=1e-9)  # first touch
-
-
-def test_a_rigid_roller_and_a_base_are_described(drawn_by, with_scene, smooth_outcome: Run):
-    outcome = with_scene(
-        smooth_outcome, {"roller.rigid": True, "body.thickness": 1e-3, "body.base": "bonded"}
-    )
-    _, picture = drawn_by(problem_picture, outcome)
-    assert "1 mm thick, bonded to a rigid base" in picture.alternative

@@ -2,46 +2,14 @@
 
 from itertools import combinations
 
-import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
-from comparisons.drawing.curves import distinct
-from comparisons.drawing.style import (
-    LINES,
-    REFERENCE,
-    drawing,
-    figure,
-    hatch,
-    stacked,
-    svg,
-)
 from comparisons.output.page.pictures.answer import judged_picture
 from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.scenes.sections import CoatingSection
-from comparisons.studies.study import Run
 
 HARD = CoatingSection(thickness=20e-6, youngs_modulus=400e9, poissons_ratio=0.22)
-FLOWS = {"body.yield_stress": 1e9, "body.hardening_modulus": 20e9}
-
-
-def rows_of(outcome: Run) -> dict[str, str]:
-    return {name: text for _, rows in problem_sheet(outcome) for name, text in rows}
-
-
-def test_a_coating_and_a_yield_stress_are_described(smooth_outcome, with_scene, drawn_by):
-    changed = {"coating": {"coating": HARD}, "yielding": FLOWS}
-    rows = rows_of(with_scene(smooth_outcome, {"coating": HARD} | FLOWS))
-    assert rows["coating"] == "20 µm thick, E = 400 GPa, ν = 0.22"
-    assert rows["body yields"] == "at 1 GPa, hardening by 20 GPa"
-    assert not {"coating", "body yields"} & set(rows_of(smooth_outcome))
-    for name, fields in changed.items():
-        [figure], picture = drawn_by(problem_picture, with_scene(smooth_outcome, fields))
-        words = " ".join(text.get_text() for text in figure.axes[0].texts)
-        for said in (words, picture.alternative):
-            assert ("coating 20 µm thick" in said) == (name == "coating")
-            assert ("yields at 1 GPa" in said) == (name == "yielding")
 
 
 def lines_of(text) -> list[Bbox]:
@@ -114,31 +82,3 @@ def test_the_name_of_a_bar_and_its_error_stand_apart(wavy_outcome, drawn_by, wit
     assert len(texts) == 2 * len(outcome.model_errors)
     for one, other in combinations(texts, 2):
         assert not one.get_window_extent().overlaps(other.get_window_extent())
-
-
-def test_curves_apart_by_less_than_a_picture_shows_are_one_line():
-    x = np.linspace(0.0, 1.0, 9)
-    flat = {"half_plane": (x, 0.0 * x), "finite_element": (x, 1e-9 * np.cos(9.0 * x))}
-    assert [*distinct(flat, least=1.0)] == [("half_plane", "finite_element")]
-    assert [*distinct(flat)] == [("half_plane",), ("finite_element",)]  # seen in a close-up
-
-
-def test_models_and_signs_differ_in_grey():
-    for one, other in combinations((*LINES.values(), REFERENCE), 2):
-        assert one["linestyle"] != other["linestyle"]
-
-
-def test_hatches_are_lines_on_bars_alone():
-    with drawing():
-        drawn = figure(4.0, 2.0)
-        [axes] = stacked(drawn, [(0.2, 1.4)], 0.5)
-        bars = axes.barh([0, 1], [2.0, 3.0], left=1.0, height=0.5)
-        hatch(axes, [bars[0]], "black")
-        axes.set(xlim=(0.0, 10.0), ylim=(-1.0, 2.0))
-        drawn.draw_without_rendering()
-        [lines] = [line for line in axes.lines if line.get_gid() == "hatch"]
-        clip = lines.get_clip_path().get_fully_transformed_path().get_extents()
-        assert clip.extents == pytest.approx(bars[0].get_window_extent().extents)
-        x = drawn.dpi * np.asarray(lines.get_xdata(), dtype=float)
-        assert np.count_nonzero((x > clip.x0) & (x < clip.x1)) > 5
-        assert "<pattern" not in svg(drawn)

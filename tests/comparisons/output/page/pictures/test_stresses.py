@@ -8,7 +8,7 @@ from scenes import posed
 from scipy.interpolate import RegularGridInterpolator
 
 from comparisons.drawing.curves import COINCIDE
-from comparisons.drawing.field import colour_bar, fill, layout, round_bands
+from comparisons.drawing.field import fill, layout, round_bands
 from comparisons.drawing.style import drawing
 from comparisons.output.page.pictures.stresses import field_pictures
 from comparisons.studies.study import Run
@@ -27,30 +27,6 @@ def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(
 def scales_of(figure) -> list:
     """Of the colour bars: that of the models, then that of their difference."""
     return [axes._colorbar.mappable for axes in figure.axes if hasattr(axes, "_colorbar")]
-
-
-def test_the_caption_says_where_the_differences_colours_end(wavy_outcome: Run, drawn_by):
-    p0, window = wavy_outcome.problem.hertz.peak_pressure, wavy_outcome.window
-
-    def caption(outcome: Run) -> tuple[str, float]:
-        figures, made = drawn_by(field_pictures, outcome)
-        return made[0].caption, float(scales_of(figures[0])[1].norm.boundaries[-1])
-
-    text, end = caption(wavy_outcome)
-    assert f"colours end at ±{end:#.2g} p₀" in text
-
-    run = wavy_outcome.runs["half_plane"]
-    stress = run.finest.stress(0.0)
-    sx = stress.field.sx.copy()
-    sx[3, 17] += 40.0 * p0  # one place far beyond what the scale must cover
-    field = replace(stress.field, sx=sx)
-    finest = replace(run.finest, stresses=(replace(stress, field=field), *run.finest.stresses[1:]))
-    runs = {**wavy_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], finest))}
-    spiked, end = caption(posed(wavy_outcome, runs=runs))
-    assert end < 1.0
-    assert f"colours end at ±{end:#.2g} p₀, which covers 99.5 % of the points" in spiked
-    place = f"x = {window.x[17] / wavy_outcome.problem.hertz.half_width:.3f} a".replace("-", "−")
-    assert f"20 p₀, stands at {place}" in spiked
 
 
 @pytest.mark.parametrize("apart", [0.9, 1.1])
@@ -128,51 +104,6 @@ def test_bands_are_round_cover_the_field_and_keep_zero_in_one_colour(size: float
         assert bands[0] == 0.0
 
 
-def test_bands_survive_a_field_of_nothing():
-    assert np.all(np.diff(round_bands([np.zeros((3, 4))], True)) > 0.0)
-
-
-def test_what_is_negative_is_striped_and_nothing_else():
-    x, z = np.linspace(-1.5, 1.5, 61), np.linspace(0.0, 1.0, 30)
-    values = x + 0.0 * z[:, None]
-    bands = round_bands([values], signed=True)
-    with drawing():
-        figure, [axes], [bar] = layout(1, 1.5)
-        shown = fill(axes, x, z, values, bands, "RdBu_r", True)
-        colour_bar(figure, bar, shown, "τxz/p₀", bands)
-    pixels = colours_of(axes)
-    place = x[0] + (np.arange(pixels.shape[1]) + 0.5) / pixels.shape[1] * np.ptp(x)
-    plain = shown.to_rgba(place, bytes=True)
-    struck = np.any(pixels != plain, axis=-1)
-    negative = place < bands[bands < 0.0][-1]
-    assert not np.any(struck[:, ~negative])
-    assert 0.2 < np.mean(struck[:, negative]) < 0.4
-    assert np.all(pixels[struck][:, :3] <= np.broadcast_to(plain, pixels.shape)[struck][:, :3])
-    [stripes] = [line for line in bar.lines if line.get_gid() == "hatch"]
-    ends = stripes.get_clip_path().get_fully_transformed_path().get_extents()
-    zero = bar.transData.transform((0.0, 0.5))[0]
-    assert ends.x1 < zero < bar.bbox.x1 and ends.x0 == pytest.approx(bar.bbox.x0)
-    with drawing():
-        _, [axes], _ = layout(1, 1.5)
-        bands = np.linspace(0.0, 1.5, 16)
-        shown = fill(axes, x, z, np.abs(values), bands, "viridis", False)
-    clear = np.min(np.abs(np.abs(place)[:, None] - bands), axis=1) > 1e-9  # of bands' ends
-    expected = shown.to_rgba(np.abs(place[clear]), bytes=True)
-    assert np.array_equal(colours_of(axes)[0][clear], expected) and clear.sum() > 1000
-
-
 def colours_of(axes) -> np.ndarray:
     [image] = axes.images
     return np.asarray(image.get_array())
-
-
-def test_where_there_is_no_value_the_paper_shows():
-    x, z, values = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 4), np.ones((4, 5))
-    values[0, 0] = np.nan
-    with drawing():
-        _, [axes], _ = layout(1, 1.5)
-        fill(axes, x, z, values, np.linspace(-1.5, 1.5, 16), "RdBu_r", True)
-    clear = colours_of(axes)[..., 3] == 0
-    assert (
-        clear[0, 0] and not clear[-1, -1] and set(np.unique(colours_of(axes)[..., 3])) == {0, 255}
-    )

@@ -1,20 +1,11 @@
 """The budget as a reader meets it: rows, waterfalls, the terminal's lines."""
 
-import io
-import re
-from collections.abc import Callable
 from dataclasses import replace
-from itertools import pairwise
 
 import pytest
-from matplotlib import pyplot
-from rich.console import Console
 from scenes import budgeted, judging, posed, refound
 
-from comparisons.drawing.style import collected_figures, drawing
-from comparisons.output.page.page import render
 from comparisons.output.page.tables.comparison import comparison_rows
-from comparisons.output.terminal import summary
 from comparisons.studies.model_error.account import ErrorBudget
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.model_error import Estimate, ModelError
@@ -22,7 +13,6 @@ from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.model_error.show import (
     NUMERICAL,
     effects_table,
-    model_error_picture,
     model_error_rows,
     not_modelled_line,
     waterfalls,
@@ -116,13 +106,6 @@ def test_every_effect_that_applies_is_in_the_table(split: Run):
     assert {row[0]: row[1] for row in table.rows}["exact circle"] == EFFECTS["exact_circle"].words
 
 
-def test_one_model_has_no_budget(finish: Callable[..., Run], smooth_tables: dict):
-    outcome = finish(smooth_tables, ("half_plane",))
-    assert outcome.data("model_error") is None and "model_error" not in outcome.findings
-    with drawing():
-        assert model_error_picture(outcome) is None
-
-
 def judged_by(outcome: Run, tolerance: dict[str, float]) -> Run:
     scene = judging(outcome.problem.scene, tolerance)
     judged = posed(outcome, problem=replace(outcome.problem, scene=scene))
@@ -139,45 +122,3 @@ class TestWaterfalls:
         assert sum(peak.steps.values()) == pytest.approx(peak.error)
         assert peak.steps[NUMERICAL] == pytest.approx(-0.0009)
         assert peak.not_modelled == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
-
-    def test_without_tolerances_everything_is_shown(self, split: Run):
-        assert [panel.tolerance for panel in waterfalls(judged_by(split, {}))] == [None, None]
-
-    def test_bars_hang_on_each_other_and_the_last_is_the_error(self, split: Run):
-        with collected_figures() as figures:
-            picture = model_error_picture(judged_by(split, {"peak_pressure": 0.02}))
-        [figure] = figures
-        [axes] = figure.axes
-        rows = [tick.get_text() for tick in axes.get_yticklabels()]
-        assert rows[-1] == "model error" and "finite strain" not in rows
-        bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
-        for (_, end), (start, _) in pairwise(bars[:-1]):
-            assert start == pytest.approx(end)
-        assert bars[0][0] == bars[-1][0] == 0.0
-        assert bars[-2][1] == pytest.approx(-3.1) and bars[-1][1] == pytest.approx(-3.1)
-        pyplot.close(figure)
-        assert "peak pressure: −3.1 %" in picture.alternative
-        assert "deformed gap +1.2 %" in picture.alternative
-
-
-def test_the_page_lists_contributions_where_errors_were_split(
-    split: Run, wavy_page, page_of, no_pictures, monkeypatch
-):
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
-    [table] = [table for table in page_of(render(split)).tables if "model error" in table[0]]
-    assert table[1][-1] == "finite thickness or width −4.0 %, deformed gap +1.2 %"
-    [table] = [table for table in wavy_page.tables if "model error" in table[0]]
-    assert "dominant contributions" not in table[0]  # no effect was computed
-
-
-def test_the_terminal_shows_it_in_80_columns(split: Run):
-    stream = io.StringIO()
-    Console(file=stream, width=80).print(summary(split))
-    text = stream.getvalue()
-    assert max(map(len, text.splitlines())) <= 80
-    flat = " ".join(text.split())
-    assert re.search(
-        r"-3\.1 0\.12 2 finite thickness or width -4\.0 8\.0 % not modelled",
-        flat,
-    )
-    assert "not modelled plastic flow (at most 8.0%" in flat

@@ -3,19 +3,14 @@
 from dataclasses import replace
 
 import pytest
-from scenes import posed
 
 from comparisons.common.numbers import percent
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.tables.verification import (
-    WORDS,
-    convergence_tables,
     judged_table,
-    refinement_text,
     validation_table,
 )
 from comparisons.studies.contact import uncertainties
-from comparisons.studies.model_error.show import effects_table
 from comparisons.studies.study import Run
 
 
@@ -39,14 +34,6 @@ def test_each_judged_figure_says_how_it_converged(wavy_outcome: Run):
             assert float(number) * size == pytest.approx(known.limit, rel=1e-4)
 
 
-def test_every_behaviour_is_explained_on_the_page(wavy_page):
-    explained = " ".join(term for term, _ in WORDS)
-    for word in ("monotone", "irregular", "oscillating", "diverging", "settled"):
-        assert word in explained
-    for term, meaning in WORDS:
-        assert term in wavy_page.text and meaning.split(";")[0] in wavy_page.text
-
-
 def test_the_quantities_of_v_and_v_20_are_named(wavy_outcome: Run):
     table = validation_table(wavy_outcome)
     assert table.head[1:] == ("E", "u_num", "u_input", "u_D")
@@ -67,22 +54,3 @@ def test_one_model_has_no_comparison_error(smooth_outcome: Run):
     alone = replace(smooth_outcome, findings=findings)
     assert validation_table(alone) is None and judged_table(alone) is not None
     assert {row[3] for row in validation_table(smooth_outcome).rows} == {"no trace"}
-
-
-def test_no_column_is_unnamed_or_empty(wavy_outcome: Run, smooth_outcome: Run):
-    for outcome in (wavy_outcome, smooth_outcome):
-        for table in [*convergence_tables(outcome), effects_table(outcome)]:
-            for number, head in enumerate(table.head):
-                assert head or number == 0
-                assert any(row[number] for row in table.rows), (table.title, head)
-            assert {len(row) for row in table.rows} == {len(table.head)}
-
-
-def test_why_refinement_ended_is_said_in_words(smooth_outcome: Run):
-    text = (
-        "tau1_max, tau1_max_depth not resolved to a third of the tolerance: 6 levels are the most"
-    )
-    assert refinement_text(posed(smooth_outcome, refinement=text)) == (
-        "largest principal shear stress τ₁, depth of the largest τ₁ not resolved to a third of the "
-        "tolerance: 6 levels are the most"
-    )
