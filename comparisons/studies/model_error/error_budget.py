@@ -19,7 +19,7 @@ import numpy as np
 from comparisons.common.numbers import with_unit
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Figure, is_decided
-from comparisons.figures.quantity import WHOLE
+from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.models.forecast import flow_seconds, time_with_flow
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -63,8 +63,9 @@ def error_budget(
     """Select the effects that may matter, solve them, and split the difference of the models. An
     effect that cannot be solved is not modelled: its estimate and the reason are kept.
 
-    rows       the comparison of the solved models
+    rows       the comparison of the solved models; its norms are figures of none
     couplings  of the half-plane, one a friction coefficient"""
+    rows = tuple(row for row in rows if row.quantity in QUANTITIES)
     problem, half_plane = solved.problem, solved.runs["half_plane"]
     selection = selected_effects(solved, couplings)
     is_frugal = problem.scene.budget.effects != "all"

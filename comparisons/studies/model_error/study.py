@@ -47,8 +47,7 @@ def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     moved = before[coupling.NAME].data.changes if coupling.NAME in before else ()
-    rows = tuple(row for row in before[comparison.NAME].figures if row.quantity in QUANTITIES)
-    budget = error_budget(solved, rows, moved, tasks)
+    budget = error_budget(solved, before[comparison.NAME].figures, moved, tasks)
     return findings_of(budget, solved.problem)
 
 
