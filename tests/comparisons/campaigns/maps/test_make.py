@@ -24,7 +24,7 @@ from comparisons.campaigns.maps.map import (
 from comparisons.campaigns.maps.point import NOT_CONVERGED
 from comparisons.cli import main
 from comparisons.common.cache import NO_CACHE, Cache
-from comparisons.common.errors import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, called
 
@@ -161,12 +161,12 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
 
 
 def test_without_a_folder_it_is_named_after_the_scene(scene, monkeypatch, capsys):
-    asked = []
-    monkeypatch.setattr(
-        "comparisons.campaigns.maps.map.make_map", lambda request, out, *more: asked.append(out)
-    )
-    assert main(["map", str(scene), *ASKED]) == 0
-    assert asked == [Path("results/small")]
+    def asked(request, out, *more):
+        raise InputError(str(out))
+
+    monkeypatch.setattr("comparisons.campaigns.maps.map.make_map", asked)
+    assert main(["map", str(scene), *ASKED]) == ExitStatus.BAD_INPUT
+    assert capsys.readouterr().err == "crosscheck: results/small\n"
 
 
 def printed(renderable: object) -> str:
