@@ -20,7 +20,7 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     """One sentence an assumption; where the finite elements drop one, what they have instead."""
     scene, settings = problem.scene, problem.scene.finite_element
     listed = ["elastic"] if scene.body.hardness is None and not settings.plastic else []
-    listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(settings)]
+    listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(problem)]
     listed += [] if scene.periodic else [_roller(settings, scene.roller)]
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
@@ -94,22 +94,16 @@ def hardening_text(body: BodySection) -> str:
 
 def _gap(settings: FiniteElementSection) -> str:
     undeformed = "the gap is on the undeformed surface"
-    if settings.deformation == "finite":
-        normal = "current normal, by deformed area"
-    elif settings.gap == "displaced":
-        normal = "roller's normal"
-    else:
+    if settings.deformation == "linear":
         return f"{undeformed}, and the pressure acts along the mean normal"
-    return _split(undeformed, f"on the deformed one, and the pressure acts along the {normal}")
+    deformed = "on the deformed one, and the pressure acts along the current normal"
+    return _split(undeformed, f"{deformed}, by deformed area")
 
 
-def _boundary(settings: FiniteElementSection) -> str:
-    if settings.geometry == "flat":
-        return "the roughness is in the gap: the boundary is flat"
-    return _split(
-        "the roughness is in the gap",
-        "it is the boundary, and next to it stresses are those of asperities that do not flatten",
-    )
+def _boundary(problem: Problem) -> str:
+    if problem.rough_boundary:
+        return _split("the roughness is in the gap", "it is the boundary")
+    return "the roughness is in the gap: the boundary is flat"
 
 
 def support_text(roller: RollerSection) -> str:

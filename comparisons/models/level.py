@@ -174,12 +174,11 @@ class RecoverableField:
 
     def on(self, body: "MeshedBody") -> "tuple[NodalStress, ...]":
         """Stresses of a body of this mesh, one set a friction."""
-        from fem.body.surface import straight_down
         from fem.stress.stress import nodal_stresses
         from fem.stress.surface_load import SurfaceLoad
 
         frictions = np.array(self.frictions)
-        load = SurfaceLoad(body, self.hats, self.pressure, frictions, straight_down)
+        load = SurfaceLoad(body, self.hats, self.pressure, frictions)
         beside = [self.ends.at(friction) for friction in self.frictions]
         return nodal_stresses(self.displacement, load, beside)
 

@@ -112,6 +112,5 @@ def _shares_factor(scene: Scene) -> bool:
     bounds = scene.body.thickness, scene.body.width, scene.coating
     # at finite deformation a body's boundary is its shape
     same_body = bounds == (None, None, None) and not settings.nonlinear
-    flat = settings.geometry == "flat" and settings.roller_body == "half-plane"
     alike = roller is not None and roller.poissons_ratio == scene.body.poissons_ratio
-    return alike and flat and same_body
+    return alike and same_body and settings.roller_body == "half-plane"

@@ -88,6 +88,12 @@ class Problem:
         return self.surface.profile.length if self.scene.periodic else None
 
     @property
+    def rough_boundary(self) -> bool:
+        """Whether the trace is the boundary of the finite elements, and not in the gap alone."""
+        settings = self.scene.finite_element
+        return settings.deformation == "finite" and self.surface.profile is not None
+
+    @property
     def width(self) -> float | None:
         """[m] of the rough body, or its period; None: unbounded."""
         return self.period or self.scene.body.width

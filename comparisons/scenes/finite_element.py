@@ -16,16 +16,12 @@ QUADRATIC_UP_TO = 0.49
 class FiniteElementSection(SceneSection):
     """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
 
-    # flat: the roughness is in the gap | rough: it is the boundary, as finite deformation takes it
-    geometry: Annotated[str, OneOf(("flat", "rough"))] | None = None
-    # reference: at the place before loading, pressure along the mean normal | displaced: on the
-    # deformed surface, pressure along the roller's normal
-    gap: Annotated[str, OneOf(("reference", "displaced"))] | None = None
     roller_shape: Annotated[str, OneOf(("parabola", "circle"))] = "parabola"
     # of an elastic roller: half-plane, a block | disc, a sector of its circle
     roller_body: Annotated[str, OneOf(("half-plane", "disc"))] = "half-plane"
     coupled: Annotated[bool, Truth()] | None = None  # the sliding traction moves the surfaces
-    # finite: current shape and normals, hyperelastic
+    # linear: the roughness is in the gap, at the place before loading | finite: it is the boundary;
+    # current shape and normals, hyperelastic
     deformation: Annotated[str, OneOf(("linear", "finite"))] = "linear"
     plastic: Annotated[bool, Truth()] = False  # the body yields where its yield stress is reached
     element: Annotated[str, OneOf(("P1", "P2", "P3"))] | None = None  # degree of displacements
@@ -60,12 +56,6 @@ class FiniteElementSection(SceneSection):
         if self.element is None:
             cubic = largest > QUADRATIC_UP_TO and not self.nonlinear
             update["element"] = "P3" if cubic else "P2"
-        geometry = self.geometry
-        if geometry is None:
-            strained = scene.profile is not None and self.deformation == "finite"
-            update["geometry"] = geometry = "rough" if strained else "flat"
-        if self.gap is None:
-            update["gap"] = "displaced" if geometry == "rough" else "reference"
         if self.coupled is None:
             # where [load] says so of both models, at finite deformation, and where a body flows
             slides = max(scene.load.friction) > 0.0
@@ -78,20 +68,14 @@ class FiniteElementSection(SceneSection):
 
     def _conflicts(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         """Fields of this section that do not fit the rest of the scene, and what is wrong."""
-        body, load, profile = scene.body, scene.load, scene.profile
-        finite = self.deformation == "finite"
-        apart = max(load.friction) > 0.0 and self.coupled is False
-        if self.geometry == "rough" and profile is None:
-            yield "geometry", 'is "rough" for a smooth body; allowed with [profile]'
+        apart = max(scene.load.friction) > 0.0 and self.coupled is False
         if self.roller_body == "disc" and scene.roller.rigid:
             yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
-        if self.plastic and body.yield_stress is None:
+        if self.plastic and scene.body.yield_stress is None:
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
-        if finite and profile is not None and self.geometry == "flat":
-            yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
-        if finite and apart:
+        if self.deformation == "finite" and apart:
             yield "coupled", "is false at finite deformation with friction; allowed is true"
-        if self.plastic and load.kind == "approach":
+        if self.plastic and scene.load.kind == "approach":
             yield "plastic", "is true with load.approach; allowed with per_length"
         if self.plastic and apart:
             yield "coupled", "is false for a body that yields under friction; allowed is true"

@@ -34,8 +34,6 @@ NOT_PERIODIC = ("running_in", "scatter", "statistics", "heat", "partial_slip", "
 ON_ONE_PERIOD = {
     "finite_element.deformation": "linear",
     "finite_element.plastic": False,
-    "finite_element.geometry": "flat",
-    "finite_element.gap": "reference",
     "finite_element.roller_shape": "parabola",
     "finite_element.roller_body": "half-plane",
     "finite_element.coupled": False,

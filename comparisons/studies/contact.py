@@ -87,8 +87,7 @@ def values_of(level: Level, problem: Problem, friction: float) -> dict[str, floa
 
 def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
     """Height [m] of the level's boundary above places x [m], from which depths count."""
-    scene = problem.scene
-    if level.mesh is None or scene.finite_element.geometry == "flat":
+    if level.mesh is None or not problem.rough_boundary:
         return np.zeros(np.shape(x))
     return problem.surface.profile.spline()(x)
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem.body.elasticity import ElasticBody
-from fem.body.surface import Direction, hat_forces, straight_down, tangent_of
+from fem.body.surface import hat_forces, straight_down, tangent_of
 
 # Right-hand sides that are solved at once for the dense matrix; more only cost memory.
 BATCH = 32
@@ -21,31 +21,25 @@ class FiniteElementCompliance:
 
     hats        (count + 2,) [m] the hats' nodes, ascending, with the outer feet; on a body with
                 tied sides (count + 1,) from one side to the other, the last the first
-    direction   function of x [m] that gives the force (d_x, d_z) per length of x of a unit
-                pressure; None: (0, 1). On a rough boundary (slope, 1) of the smooth roller
     normal      B of the pressure, (2k, count)
     tangential  B of a sliding traction towards +x, (2k, count)
 
     Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface."""
 
-    def __init__(
-        self, body: ElasticBody, hats: np.ndarray, direction: Direction | None = None
-    ) -> None:
-        direction = straight_down if direction is None else direction
+    def __init__(self, body: ElasticBody, hats: np.ndarray) -> None:
         self._periodic = body.ties is not None
         self.body, self.hats = body, hats
         self.count = len(hats) - (1 if self._periodic else 2)
-        self.normal = hat_forces(body.surface, hats, direction, self._periodic)
+        self.normal = hat_forces(body.surface, hats, periodic=self._periodic)
         self._means = self.normal.T.tocsr()  # faster than a transposed view at each product
-        self._direction = direction
 
     @cached_property
     def tangential(self) -> csr_matrix:
-        along = tangent_of(self._direction)
+        along = tangent_of(straight_down)
         return hat_forces(self.body.surface, self.hats, along, self._periodic)
 
     def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
-        """integral(phi_i u dx) (count,) [m^2], u along the direction of pressure, into the body.
+        """integral(phi_i u dx) (count,) [m^2], u into the body.
         With `friction` the traction friction * pressure acts too, and C is not symmetric."""
         return self.weighted(self.displacement(pressure, friction))
 

@@ -6,7 +6,7 @@ pressure 0.42 % above the linear one, with lambda/4 (J^2 - 1 - 2 ln J) or lambda
 last term 0.29 and 0.22 %. The bulk modulus rises by 0.4, -0.3 and here 1.8 times the pressure
 (nu = 0.3), that of steel by about five times."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -144,7 +144,7 @@ class CauchyRecovery(Recovery):
         surface_stress = Recovery(body, displacement).at(node) + self._second_order[node]
         known = self._on_surface(np.arange(len(top)), surface_stress) - self._second_order[node]
         forces = load.pressure, load.friction, load.direction
-        matched = _MatchedLoad(body, load.hats, *forces, known)
+        matched = _MatchedLoad(body, load.hats, *forces, known=known)
         super().__init__(body, displacement, matched)
 
     @property
@@ -172,7 +172,7 @@ class _MatchedLoad(SurfaceLoad):
     """A load whose tractions on the undeformed surface are those of the linear stress of a finite
     displacement: `known` (t, 3) sx, sz, txz at the top's points."""
 
-    known: np.ndarray
+    known: np.ndarray = field(kw_only=True)
 
     def across(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """s_nn and s_nt (k,) [Pa] at x (k,) [m]."""

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from fem.body.elasticity import MeshedBody
-from fem.body.surface import Direction, nodal_on, tangent_of
+from fem.body.surface import Direction, nodal_on, straight_down, tangent_of
 from fem.stress.kinks import Kinks
 
 
@@ -25,7 +25,8 @@ class SurfaceLoad:
     hats: np.ndarray  # [m] nodes of the hats, as of `fem.compliance.operator`
     pressure: np.ndarray  # (count,) [Pa]
     friction: float | np.ndarray  # (c,); times the pressure is the sliding traction towards +x
-    direction: Direction  # of the pressure, as in `fem.compliance.operator`
+    # of the pressure: its force (d_x, d_z) per length of x at x [m], (slope, 1) of a smooth roller
+    direction: Direction = straight_down
     # (count,) [Pa] towards +x beside all of these
     traction: np.ndarray | None = field(default=None, kw_only=True)
 

@@ -117,7 +117,6 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
     spec = block_spec(problem, Refinement(pitch), np.clip(wider, *problem.extent))
     finite = settings.deformation == "finite"
     shaped = finite or settings.roller_body == "disc"
-    shaped = shaped or settings.geometry == "rough" or settings.gap == "displaced"
     flatter = 1.0 if shaped else FLATTER
     gaps = np.sort(problem.finite_element_gap(np.linspace(*problem.extent, TOUCH_POINTS)))
     first, touching = float(gaps[0]), np.diff(patches, axis=1).sum() / np.ptp(problem.extent)

@@ -98,8 +98,6 @@ def finite_elements(scene: Scene, names: Iterable[str]) -> dict:
     settings = scene.written.get("finite_element", {})
     for name in names:
         settings |= GROUPS[name].finite_element
-    if settings.get("deformation") == "finite" and scene.profile is not None:
-        settings["geometry"] = "rough"
     return settings
 
 

@@ -13,7 +13,6 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.mesh import (
     Refinement,
     block_spec,
-    is_rough,
     rough_key,
     rough_mesh,
 )
@@ -116,7 +115,7 @@ def bodies_of(
     support = rough_support(problem, spec, beyond)
     with stages.stage("mesh", "finite elements: mesh"):
         flat = body_cache.mesh(spec)
-    shape = (_key(spec), rough_key(problem)) if is_rough(problem) else _key(spec)
+    shape = (_key(spec), rough_key(problem)) if problem.rough_boundary else _key(spec)
     coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
     shaped = partial(rough_mesh, problem, flat)
     rough = body(shaped, shape, scene.body.material, support, coating)

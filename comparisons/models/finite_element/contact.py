@@ -1,6 +1,5 @@
 """Contact on finite elements: the mutual compliance of the bodies, and the solution on it."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,8 +18,6 @@ from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.rigid_roller import Roller, circle, parabola
 
 MOST_DENSE = 1500  # pressure elements for which the whole compliance matrix may be formed
-
-Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -82,42 +79,20 @@ class MutualCompliance:
 
 
 def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> MutualCompliance:
-    """Both bodies under the same hats. Along the roller's normal where the gap is on the deformed
-    surface: to first order the displacement along it closes the gap there."""
-    scene, settings = problem.scene, problem.scene.finite_element
-    hats = grid.hats
-    friction = scene.load.friction[0] if settings.coupled else 0.0
-    down = up = None
-    if settings.gap == "displaced":
-        down, up = roller_normal(problem), roller_normal(problem, mirrored=True)
-
-    rough, share = FiniteElementCompliance(bodies.rough, hats, down), bodies.roller_share
+    """Both bodies under the same hats."""
+    scene, hats = problem.scene, grid.hats
+    friction = scene.load.friction[0] if scene.finite_element.coupled else 0.0
+    rough, share = FiniteElementCompliance(bodies.rough, hats), bodies.roller_share
     if bodies.roller is not None:
-        roller = FiniteElementCompliance(bodies.roller, hats, up)
+        roller = FiniteElementCompliance(bodies.roller, hats)
         return MutualCompliance(
             (BodyShare(rough, 1.0, friction), BodyShare(roller, 1.0, -friction, -1.0))
-        )
-    if share and settings.gap == "displaced":
-        roller = FiniteElementCompliance(bodies.rough, hats, up)
-        return MutualCompliance(
-            (BodyShare(rough, 1.0, friction), BodyShare(roller, share, -friction, -1.0))
         )
     # the roller's traction is the opposite one
     turn = (1.0 - share) / (1.0 + share)
     return MutualCompliance(
         (BodyShare(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share), turn),)
     )
-
-
-def roller_normal(problem: Problem, mirrored: bool = False) -> Direction:
-    """Force per length of x under unit pressure along the roller's normal, into the rough body.
-    `mirrored` is the reaction in the roller's own frame, z into the roller."""
-    roller, sign = roller_of(problem), -1.0 if mirrored else 1.0
-
-    def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return sign * roller(x)[1], np.ones_like(x)
-
-    return direction
 
 
 def roller_of(problem: Problem) -> Roller:

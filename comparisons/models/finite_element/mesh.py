@@ -52,7 +52,7 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     if problem.width is not None:
         across = 0.5 * problem.width
     margin = MARGIN_HATS * refinement.pitch
-    if is_rough(problem) or problem.period is not None:  # wherever pressure may come to act
+    if problem.rough_boundary or problem.period is not None:  # wherever pressure may come to act
         patches, margin = np.array([problem.extent]), 0.0
     intervals = refined_ranges(patches, edge, margin=margin, half_width=across)
     if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
@@ -74,19 +74,14 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
 
 
 def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
-    """The body's mesh from the flat one: with the trace as its boundary where that is asked for."""
-    return roughen(flat, _boundary(problem)) if is_rough(problem) else flat
+    """The body's mesh from the flat one: at finite deformation with the trace as its boundary."""
+    return roughen(flat, _boundary(problem)) if problem.rough_boundary else flat
 
 
 def rough_key(problem: Problem) -> Hashable:
     """What shapes the rough boundary of a body, beside its flat mesh."""
     profile = problem.surface.profile
     return profile.x.tobytes(), profile.height.tobytes(), problem.extent, problem.pitches[0]
-
-
-def is_rough(problem: Problem) -> bool:
-    """Whether the trace is the body's boundary, and not in the gap alone."""
-    return problem.scene.finite_element.geometry == "rough" and problem.scene.profile is not None
 
 
 def expected_unknowns(
@@ -106,8 +101,6 @@ def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:
     profile wherever pressure may come to act; beyond it the roughness fades, so that elements which
     grow there need not follow waves that they cannot resolve."""
     curve = problem.surface.profile.spline()
-    if problem.period is not None:
-        return curve
     first, last = problem.surface.profile.x[[0, -1]]
     start, stop = problem.extent
     highest = np.abs(problem.surface.profile.height).max()

@@ -15,9 +15,9 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import ModelOperator
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
 from comparisons.models.finite_element.roller import is_disc
-from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
+from comparisons.models.finite_element.stress import LoadedBody
 from comparisons.models.level import STRAIN
-from comparisons.models.problem import Problem
+from comparisons.models.problem import Problem, mean_height
 from fem.body.elasticity import ElasticBody
 from fem.nonlinear.finite_deformation import (
     FiniteCompliance,
@@ -72,9 +72,7 @@ def pressed_finitely(
         stresses=lambda frictions: (nodal,) * len(frictions),
         across=finite.cauchy.across,
     )
-    return on_undeformed_grid(
-        problem, grid, finite.place, loaded.displacement / grid.weights, loaded
-    )
+    return _on_undeformed_grid(problem, grid, finite.place, loaded)
 
 
 def _deformed(
@@ -107,6 +105,26 @@ def _deformed(
         lambda frictions: (),
         patches,
         moved=finite.displacement,
+    )
+
+
+def _on_undeformed_grid(
+    problem: Problem, grid: HatGrid, place: np.ndarray, loaded: LoadedBody
+) -> LoadedBody:
+    """What was found at nodes that have come to a `place` (count,) [m] along x, interpolated to the
+    grid's x. The residuals stay those of the equations that were solved, over the undeformed
+    surface."""
+    x, height, solution = grid.x, mean_height(problem, grid), loaded.solution
+    sunk = height - loaded.displacement / grid.weights
+    pressure, gap, now = (
+        np.interp(x, place, value) for value in (solution.pressure, solution.gap, sunk)
+    )
+    return replace(
+        loaded,
+        solution=replace(solution, pressure=pressure, gap=gap),
+        displacement=(height - now) * grid.weights,
+        patches=np.interp(loaded.patches, x, place),
+        material=np.interp(x, place, x),
     )
 
 
@@ -248,9 +266,7 @@ def pressed_plastically_finitely(
         across=fields.sy,
         others=_of_flow(body, pressed, released),
     )
-    return on_undeformed_grid(
-        problem, grid, finite.place, loaded.displacement / grid.weights, loaded
-    )
+    return _on_undeformed_grid(problem, grid, finite.place, loaded)
 
 
 def _of_flow(

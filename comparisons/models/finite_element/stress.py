@@ -1,25 +1,23 @@
 """The loaded rough body: its surface, its stresses on the window and at the mesh's points."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.stress_state import von_mises
-from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
+from comparisons.models.finite_element.contact import MutualCompliance
 from comparisons.models.level import (
     MeshField,
     RecoverableField,
     StressResult,
     highest,
 )
-from comparisons.models.problem import Problem, ends_of, mean_height, patches_of
+from comparisons.models.problem import Problem, ends_of, patches_of
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
-from fem.body.surface import straight_down
-from fem.nonlinear.hyperelastic import along_surface
 from fem.stress.maximum import Samples, highest_node, maxima, maximum
 from fem.stress.stress import NodalStress, evaluate_all, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
@@ -55,16 +53,13 @@ def pressed_linearly(
     gap: np.ndarray,
 ) -> LoadedBody:
     """The linear elastic body under the pressures of a contact; gap (count,) [m^2] is the initial
-    one, weighted by each hat. Where the gap is on the deformed surface, so are the pressures."""
-    rough, settings = operator.rough, problem.scene.finite_element
-    displaced = settings.gap == "displaced"
-    direction = roller_normal(problem) if displaced else straight_down
-    pressure, x = solution.pressure, grid.x
+    one, weighted by each hat."""
+    rough, pressure = operator.rough, solution.pressure
     ends = ends_of(problem, grid, solution)
 
     def stresses(frictions: tuple[float, ...]) -> tuple[NodalStress, ...]:
         moved = np.stack([rough.displacement(pressure, friction) for friction in frictions], axis=1)
-        load = SurfaceLoad(rough.body, rough.hats, pressure, np.array(frictions), direction)
+        load = SurfaceLoad(rough.body, rough.hats, pressure, np.array(frictions))
         return nodal_stresses(moved, load, [ends.at(friction) for friction in frictions])
 
     def on_mesh(moved: np.ndarray, frictions: tuple[float, ...]) -> RecoverableField:
@@ -72,45 +67,15 @@ def pressed_linearly(
         placed = body.mesh, body.material, body.coating, body.degree, moved
         return RecoverableField(*placed, rough.hats, pressure, frictions, ends)
 
-    dragged = problem.scene.load.friction[0] if settings.coupled else 0.0
+    scene = problem.scene
+    dragged = scene.load.friction[0] if scene.finite_element.coupled else 0.0
+    if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap
+        both = (solution.gap + solution.approach) * grid.weights - gap
+        displacement = both / operator.parts[0].factor
+    else:
+        displacement = rough.apply(pressure, dragged)
     patches = patches_of(grid, solution)
-    if not displaced:
-        if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap
-            both = (solution.gap + solution.approach) * grid.weights - gap
-            displacement = both / operator.parts[0].factor
-        else:
-            displacement = rough.apply(pressure, dragged)
-        return LoadedBody(rough.body, solution, displacement, stresses, patches, on_mesh=on_mesh)
-    moved = rough.displacement(pressure, dragged)
-    top = rough.body.top
-    along, down = rough.body.at_points(moved)[top.point].T
-    place, depth = x + np.interp(x, top.x, along), np.interp(x, top.x, down)
-    stretch = np.interp(x, top.x, 1.0 + along_surface(top.x, along[:, None])[:, 0])
-    solution = replace(solution, pressure=pressure / stretch)
-    loaded = LoadedBody(rough.body, solution, depth * grid.weights, stresses, patches)
-    return on_undeformed_grid(problem, grid, place, depth, loaded)
-
-
-def on_undeformed_grid(
-    problem: Problem, grid: HatGrid, place: np.ndarray, depth: np.ndarray, loaded: LoadedBody
-) -> LoadedBody:
-    """What was found at displaced nodes, interpolated to the grid's x.
-
-    place, depth  (count,) [m] where the nodes are along x, and by how much they have sunk
-
-    The residuals stay those of the equations that were solved, over the undeformed surface.
-    """
-    x, height, solution = grid.x, mean_height(problem, grid), loaded.solution
-    pressure, gap, now = (
-        np.interp(x, place, value) for value in (solution.pressure, solution.gap, height - depth)
-    )
-    return replace(
-        loaded,
-        solution=replace(solution, pressure=pressure, gap=gap),
-        displacement=(height - now) * grid.weights,
-        patches=np.interp(loaded.patches, x, place),
-        material=np.interp(x, place, x),
-    )
+    return LoadedBody(rough.body, solution, displacement, stresses, patches, on_mesh=on_mesh)
 
 
 def stresses_of(

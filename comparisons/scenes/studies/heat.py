@@ -130,13 +130,11 @@ class HeatSection(SceneSection):
             needed = allowed(type(self), "body_expansion")
             yield "heat.body_expansion", f"is missing for stresses = true; allowed is {needed}"
         elements = scene.finite_element
-        moved = elements.geometry == "rough" or elements.gap == "displaced"
         for there, what in (
             (scene.stress is None, "without [stress]; allowed with it"),
             (scene.body.width is not None, "for a body of finite width; allowed without"),
             (elements.nonlinear, "beside a nonlinear body; allowed for a linear elastic one"),
             (elements.element == "P1", 'with linear elements; allowed with element = "P2" or "P3"'),
-            (moved, "beside a rough boundary or a displaced gap; allowed on a flat boundary"),
         ):
             if there:
                 yield "heat.stresses", f"is true {what}"

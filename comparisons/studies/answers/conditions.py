@@ -29,7 +29,7 @@ def operators_of(
     operators: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
     settings = problem.scene.finite_element
     linear = settings.deformation == "linear" and not settings.plastic
-    if "finite_element" in runs and linear and settings.gap == "reference":
+    if "finite_element" in runs and linear:
         level = runs["finite_element"].levels[0]
         operators["finite_element"] = level.grid, _finite_elements(problem, plan, level)
     return operators

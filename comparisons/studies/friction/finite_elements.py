@@ -12,11 +12,7 @@ from analytic.grid import HatGrid
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-from comparisons.models.finite_element.contact import (
-    MutualCompliance,
-    mutual_compliance,
-    roller_normal,
-)
+from comparisons.models.finite_element.contact import MutualCompliance, mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import nearest_operator
@@ -32,7 +28,6 @@ from comparisons.studies.friction.half_planes import (
     surface_places,
     with_surface,
 )
-from fem.body.surface import straight_down
 from fem.stress.maximum import maximum
 from fem.stress.stress import NodalStress, evaluate, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
@@ -107,16 +102,14 @@ def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatG
 
 def _stressed(problem: Problem, operator: MutualCompliance, slipped: SlippedLevel) -> Stressed:
     """Recovered from displacements under the tractions, and the bulk stress."""
-    rough, scene = operator.rough, problem.scene
-    body, displaced = rough.body, scene.finite_element.gap == "displaced"
-    direction = roller_normal(problem) if displaced else straight_down
+    rough, body, scene = operator.rough, operator.rough.body, problem.scene
     layer = scene.coating and scene.coating.material.plane_strain_modulus
     stiffness = np.where(body.coated, layer or 0.0, scene.body.material.plane_strain_modulus)
 
     def stressed(number: int) -> tuple[NodalStress, SurfaceLoad]:
         state = slipped.states[number]
         pressure, traction = state.normal.pressure, state.traction
-        load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), direction, traction=traction)
+        load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), traction=traction)
         moved = rough.displacement_of(pressure, traction)
         beside = [ends_stress(problem, slipped.grid, state)]
         [nodal] = nodal_stresses(moved[:, None], load, beside)

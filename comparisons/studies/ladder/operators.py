@@ -32,7 +32,7 @@ from comparisons.models.nearest_operator import is_layered, nearest_operator, so
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
 from comparisons.scenes.scene import Scene
-from comparisons.studies.model_error.catalogue import COUPLED, KINEMATIC, kinematic
+from comparisons.studies.model_error.catalogue import COUPLED
 from comparisons.studies.model_error.estimates import TABOR
 from comparisons.studies.subsurface.yielding import FlowAssessment
 
@@ -71,15 +71,15 @@ def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]
     """The effects of the whole that the half-plane has on its deformed surface: what is quadratic
     there is known of half-planes alone. Friction moves these surfaces as it does the whole's."""
     scene, effects = problem.scene, set(effects)
-    strained = effects & kinematic(scene)
-    if not strained or is_layered(scene) or scene.periodic or scene.body.width is not None:
+    bounded = is_layered(scene) or scene.periodic or scene.body.width is not None
+    if "finite_strain" not in effects or bounded:
         return frozenset()
     moves = any(scene.load.friction) and problem.dundurs_beta != 0.0
-    return frozenset(strained | effects & {"exact_circle"} | ({COUPLED} if moves else set()))
+    return frozenset(effects & {"finite_strain", "exact_circle"} | ({COUPLED} if moves else set()))
 
 
 def is_deformed(held: frozenset[str]) -> bool:
-    return not held.isdisjoint(KINEMATIC)
+    return "finite_strain" in held
 
 
 def words_of(held: frozenset[str]) -> str:

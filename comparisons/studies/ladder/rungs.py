@@ -29,7 +29,7 @@ from comparisons.studies.ladder.operators import (
     words_of,
 )
 from comparisons.studies.model_error.account import ErrorBudget, figure_of
-from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS
 from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.study import LADDER, Solved
@@ -316,7 +316,6 @@ def kind_of(effects: Iterable[str]) -> str:
 def words_of_kind(effects: Iterable[str]) -> str:
     """The kind of finite elements that have the effects, and the linear ones beside it."""
     kind, is_finite = kind_of(effects), "finite_strain" in effects
-    implied = {"plastic_flow", *(KINEMATIC if is_finite else ())}
-    beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in implied]
+    beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in NONLINEAR]
     words = f"{KINDS[kind]} at finite deformation" if is_finite and kind == FLOW else KINDS[kind]
     return f"{words} with {', '.join(beside)}" if beside else words

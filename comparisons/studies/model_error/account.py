@@ -11,7 +11,7 @@ from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, KINEMATIC
+from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import trust
 from comparisons.studies.model_error.model_error import ModelError, Solutions
@@ -130,6 +130,4 @@ def effect_account(name: str, selection: EffectSelection) -> tuple[str, str]:
         return "negligible", "its estimate is below a tenth of every tolerance"
     if name == COUPLED and name in selection.estimates:  # with friction, it cannot be without
         return "contained", f"it is a part of {EFFECTS['finite_strain'].label}"
-    if name in KINEMATIC:
-        return "does not apply", f"it counts in {EFFECTS['finite_strain'].label}"
     return "does not apply", "it does not apply, or has no size"

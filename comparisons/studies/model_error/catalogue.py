@@ -3,10 +3,8 @@
 A new finite-element effect gets its entry in effects.toml, an estimate in `estimates`, and its
 place in the sums of `selection`. A scene is reduced to what the half-plane assumes (`plain`) and
 given any effects (`with_effects`): so each is measured alone, a `ModelVariant` on the same pressure
-elements. What makes finite deformation is one effect: at finite strain the gap is on the deformed
-surface and the boundary is rough. Its parts by themselves are linear bodies that have one of them
-without the others, with largest stresses on the flanks of asperities that do not flatten; no model
-error is put together of these."""
+elements. Finite deformation is one effect: at finite strain the gap is on the deformed surface and
+the trace is the boundary."""
 
 import tomllib
 from collections.abc import Iterable
@@ -60,11 +58,7 @@ EFFECTS = {name: Effect(**described) for name, described in _TABLE.items()}
 # What a scene does not say: no finite elements have another one.
 UNKNOWN = tuple(name for name, effect in EFFECTS.items() if not (effect.sets or effect.takes))
 
-# What finite deformation contains in any scene, and with a profile.
-IN_FINITE_STRAIN = "deformed_gap"
 PLAIN = {
-    "finite_element.geometry": "flat",
-    "finite_element.gap": "reference",
     "finite_element.roller_shape": "parabola",
     "finite_element.roller_body": "half-plane",
     "finite_element.deformation": "linear",
@@ -72,26 +66,16 @@ PLAIN = {
 }
 COUPLED = "normal_tangential_coupling"
 STRAINED = "P2"  # elements of finite deformation
-KINEMATIC = ("deformed_gap", "rough_boundary", "finite_strain")
-
-
-def kinematic(scene: Scene) -> frozenset[str]:
-    """The effects of a scene that are finite deformation together."""
-    return frozenset(KINEMATIC if scene.profile is not None else ("deformed_gap", "finite_strain"))
 
 
 def contained(scene: Scene) -> frozenset[str]:
     """Names of the effects that the scene's own finite elements have."""
-    names = {name for name, effect in EFFECTS.items() if effect.contained(scene)}
-    return frozenset(names | ({IN_FINITE_STRAIN} if "finite_strain" in names else set()))
+    return frozenset(name for name, effect in EFFECTS.items() if effect.contained(scene))
 
 
 def is_taken_apart(scene: Scene) -> bool:
     """Whether the scene's finite elements are the plain ones with effects, and nothing else."""
-    plain = scene
-    if scene.finite_element.deformation == "finite":
-        plain = EFFECTS[IN_FINITE_STRAIN].give(scene, scene)
-    return with_effects(scene, contained(scene)).tables == plain.tables
+    return with_effects(scene, contained(scene)).tables == scene.tables
 
 
 def plain(scene: Scene) -> Scene:

@@ -1,12 +1,12 @@
 """What each effect contributes, alone and jointly, on each level: differences of solutions.
 
-With F(S) the finite elements' solution with the effects S, W all of them, K those that are finite
-deformation together, c normal-tangential coupling, 0 none:
+With F(S) the finite elements' solution with the effects S, W all of them, k finite deformation,
+c normal-tangential coupling, 0 none:
 
     an effect i            F({i}) - F(0)
-    finite deformation     F(K + c) - F(c), c only under friction, where sliding traction moves it
+    finite deformation     F(k + c) - F(c), c only under friction, where sliding traction moves it
     plastic flow           F(flow + c) - F(c)
-    finite deformation of a body that flows    F(W) - F(W - K)
+    finite deformation of a body that flows    F(W) - F(W - k)
     interaction            F(W) - F(0) - the sum of these
 
 These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
@@ -19,13 +19,7 @@ from operator import sub
 from typing import Protocol
 
 from comparisons.models.problem import Problem
-from comparisons.studies.model_error.catalogue import (
-    COUPLED,
-    KINEMATIC,
-    STRAINED,
-    ModelVariant,
-    kinematic,
-)
+from comparisons.studies.model_error.catalogue import COUPLED, STRAINED, ModelVariant
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.model_error.selection import NONLINEAR, ORDER, EffectSelection
 
@@ -109,19 +103,15 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
 
     def grown(effects: frozenset[str]) -> frozenset[str]:
         """With what nonlinear bodies cannot be without."""
-        if "finite_strain" in effects:
-            effects |= kinematic(problem.scene)
         return effects | ({COUPLED} if friction and effects & set(NONLINEAR) else frozenset())
 
     nothing, pairs = frozenset(), {}
     for name in ORDER:
-        inside = name in KINEMATIC[:-1] and "finite_strain" in chosen
-        if name in chosen and not inside:
+        if name in chosen:
             beside = chosen & {COUPLED} if name in NONLINEAR else nothing
             pairs[name] = variant(grown(beside | {name})), variant(beside)
     if chosen.issuperset(NONLINEAR):  # what an elastic body would do at finite strain matters less
-        whole_of = KINEMATIC if "finite_strain" in selection.contained else ("finite_strain",)
-        small = variant(grown(chosen - set(whole_of)))
+        small = variant(grown(chosen - {"finite_strain"}))
         pairs["finite_strain"] = variant(grown(chosen)), small
     of_scene = None
     if quadratic:

@@ -13,7 +13,6 @@ Normal-tangential coupling is measured on the half-plane where that is possible
 (`comparisons.studies.friction.coupling`)."""
 
 import math
-from collections.abc import Iterable
 
 from analytic.material import dundurs_constants
 from comparisons.figures.quantity import QUANTITIES
@@ -31,14 +30,12 @@ def estimates(
     problem: Problem,
     peak: float,
     mean: float,
-    contained: Iterable[str] = (),
     couplings: tuple[Coupling, ...] = (),
 ) -> dict[str, Sizes]:
     """By effect and quantity, without those of no size.
 
     peak       largest pressure [Pa] of the half-plane
     mean       of its contact [Pa]: the pressure that the load stands under on average
-    contained  names of the effects that the scene's own finite elements have
     couplings  of the half-plane, one a friction coefficient"""
     estimate = {
         "finite_size": _finite_size(problem),
@@ -47,7 +44,7 @@ def estimates(
         "finite_roller": _finite_roller(problem),
         "roller_support": _roller_support(problem),
         "normal_tangential_coupling": _coupling(problem, couplings),
-        "finite_strain": _finite_deformation(problem, peak, set(contained)),
+        "finite_strain": _finite_deformation(problem, peak),
         "law_of_elasticity": _law_of_elasticity(problem, peak, mean),
         "plastic_flow": _plastic_flow(problem, peak),
     }
@@ -98,21 +95,14 @@ def _coating(problem: Problem) -> Sizes:
 
 
 # 0.25 % in contact length and 0.14 % in peak pressure of a ground surface of rms slope 0.066: of
-# second order. The largest tau1 may come to stand below another asperity, at another depth. On a
-# linear boundary, whose asperities do not flatten, largest stresses are of first order too, 8.4 %
-# in tau1.
+# second order. The largest tau1 may come to stand below another asperity, at another depth.
 BOUNDARY_PER_SLOPE_SQUARED = 1.0
 BOUNDARY = {"tau1_max_depth": 7.0}
-UNFLATTENED = BOUNDARY | {"tau1_max": 2.1, "txz_max_abs": 2.1}
-
-
-def _slope(problem: Problem) -> float:
-    info = problem.surface.info
-    return 0.0 if info is None else info.roughness.rms_slope
 
 
 def _rough_boundary(problem: Problem) -> Sizes:
-    slope = _slope(problem)
+    info = problem.surface.info
+    slope = 0.0 if info is None else info.roughness.rms_slope
     estimate = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
     return estimate | {name: factor * slope for name, factor in BOUNDARY.items()}
 
@@ -182,22 +172,15 @@ def _roller_support(problem: Problem) -> Sizes:
 
 
 # 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
-# at 0.035; 2 % in tau1 at 0.038. From a linear body
-# that has the deformed gap or the rough boundary without strain it takes back what these overdo.
+# at 0.035; 2 % in tau1 at 0.038.
 STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 
 
-def _finite_deformation(problem: Problem, peak: float, contained: set[str]) -> Sizes:
+def _finite_deformation(problem: Problem, peak: float) -> Sizes:
+    """Finite strain, the gap on the deformed surface, the trace as boundary."""
     pressure = peak / problem.scene.body.youngs_modulus
     estimate = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
-    parts = []
-    if "deformed_gap" not in contained:
-        parts.append(_deformed_gap(problem, peak))
-    if "rough_boundary" not in contained:
-        parts.append(_rough_boundary(problem))
-    else:
-        parts.append({name: factor * _slope(problem) for name, factor in UNFLATTENED.items()})
-    for sizes in parts:
+    for sizes in (_deformed_gap(problem, peak), _rough_boundary(problem)):
         estimate = {name: size + sizes.get(name, 0.0) for name, size in estimate.items()}
     return estimate
 
@@ -215,7 +198,7 @@ def finite_flow(problem: Problem, peak: float, strain: float) -> Sizes:
 
     peak    its largest pressure [Pa]
     strain  its largest equivalent plastic strain"""
-    elastic = _finite_deformation(problem, peak, set())
+    elastic = _finite_deformation(problem, peak)
     return {name: size + FLOWED * strain for name, size in elastic.items()}
 
 

@@ -22,9 +22,7 @@ ORDER = (
     "coating",
     "normal_tangential_coupling",
     "finite_roller",
-    "deformed_gap",
     "finite_size",
-    "rough_boundary",
     *NONLINEAR,
 )
 
@@ -93,7 +91,7 @@ def select_effects(
     its contact, by default the same; `no_flow` says why flow is not computed where it could be,
     None: it is."""
     own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
-    estimated = estimates(problem, peak, peak if mean is None else mean, own_effects, couplings)
+    estimated = estimates(problem, peak, peak if mean is None else mean, couplings)
     sized = {name: sizes for name, sizes in estimated.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
     mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}

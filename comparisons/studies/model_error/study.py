@@ -69,7 +69,7 @@ def early_lines(
     elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": False}))
     pressure = level.under(friction).solution.pressure
     mean = float(pressure @ pressure / pressure.sum())
-    every = estimates(elastic, float(pressure.max()), mean, (), couplings).items()
+    every = estimates(elastic, float(pressure.max()), mean, couplings).items()
     sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
     left = [_bound(name, [of.get(name, 0.0) for of in sizes.values()]) for name in figures]
     most = max(sizes, key=lambda effect: max(sizes[effect].get(name, 0.0) for name in figures))

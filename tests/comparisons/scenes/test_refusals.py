@@ -6,7 +6,6 @@ from scenes import BOTH_CONDUCT, SMOOTH, STEEL, changed, resolved
 from comparisons.common.errors import SceneError
 from comparisons.scenes.surface import surface_of
 
-WAVE = {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
 ROUGH = {"kind": "self-affine", "hurst": 0.8, "rms_height": 3e-6, "samples": 2001, "length": 4e-3}
 TURNED = {"kind": "turned", "feed": "0.1 mm", "nose_radius": "0.8 mm", "length": "4 mm"}
 MAP = {"file": "map.npy", "spacing": "1 um", "z_unit": "nm"}
@@ -112,18 +111,8 @@ SOLVING = [
     ),
     (
         RIGID,
-        {"finite_element": {"deformation": "finite", "geometry": "flat"}, "profile": WAVE},
-        'finite_element.geometry: is "flat" at finite deformation with a profile; allowed',
-    ),
-    (
-        RIGID,
         {"finite_element": {"deformation": "finite", "coupled": False}, "load.friction": 0.2},
         "finite_element.coupled: is false at finite deformation with friction; allowed",
-    ),
-    (
-        SMOOTH,
-        {"finite_element.geometry": "rough"},
-        'finite_element.geometry: is "rough" for a smooth body; allowed',
     ),
     (
         SMOOTH,
@@ -163,7 +152,6 @@ HEAT = [
         "heat.coating_expansion: is missing; allowed is a",
     ),
     (STRESSED, {"body.width": "4 mm"}, "heat.stresses: is true for a body of finite width"),
-    (STRESSED, {"finite_element.gap": "displaced"}, "heat.stresses: is true beside a rough bounda"),
     (STRESSED, {"finite_element.element": "P1"}, "heat.stresses: is true with linear elements; al"),
     (
         STRESSED,

@@ -60,8 +60,6 @@ FULL = {
     "stress": {"depth": "512.3456789 um", "half_range": 1.5, "points": [30, 20]},
     "tolerance": {"peak_pressure": 0.01, "tau1_max_depth": "5 %"},
     "finite_element": {
-        "geometry": "rough",
-        "gap": "reference",
         "roller_shape": "circle",
         "roller_body": "disc",
         "element": "P3",
@@ -90,8 +88,6 @@ def test_a_bare_scene_has_the_defaults():
     assert (body.hardness, body.thickness, body.width, body.base) == (None,) * 4
     assert scene.tolerances == {"peak_pressure": 0.02, "contact_length": 0.02, "tau1_max": 0.02}
     assert scene.finite_element == FiniteElementSection(
-        geometry="flat",
-        gap="reference",
         roller_shape="parabola",
         roller_body="half-plane",
         coupled=False,
@@ -127,8 +123,6 @@ def test_everything_that_can_be_said():
     }
     assert (scene.coating.material, scene.coating.thickness) == (Material(400e9, 0.2), 2e-6)
     assert scene.finite_element == FiniteElementSection(
-        geometry="rough",
-        gap="reference",
         roller_shape="circle",
         roller_body="disc",
         coupled=False,
@@ -249,9 +243,6 @@ def test_tables_are_a_copy():
 class TestChanged:
     def test_what_was_not_given_follows_again(self):
         plain = resolved(BARE)
-        rough = plain.changed({"finite_element.geometry": "rough", "profile": FULL["profile"]})
-        assert plain.finite_element.gap == "reference" and rough.finite_element.gap == "displaced"
-        assert rough.changed("finite_element.gap", "reference").finite_element.gap == "reference"
         soft = plain.changed("body.poissons_ratio", 0.4999)
         assert (plain.finite_element.element, soft.finite_element.element) == ("P2", "P3")
         assert soft.written["body"] == {"youngs_modulus": "207 GPa", "poissons_ratio": 0.4999}
@@ -279,8 +270,8 @@ class TestChanged:
 
     def test_unchecked_is_what_it_is_set_to(self):
         scene = resolved(BARE)
-        odd = scene.unchecked({"finite_element.geometry": "rough", "body.thickness": 1.0})
-        assert (odd.finite_element.geometry, odd.finite_element.gap) == ("rough", "reference")
+        odd = scene.unchecked({"body.poissons_ratio": 0.4999, "body.thickness": 1.0})
+        assert (odd.body.poissons_ratio, odd.finite_element.element) == (0.4999, "P2")
         assert (odd.body.thickness, odd.body.base) == (1.0, None)
         assert odd.written == scene.written and scene.body.thickness is None
 

@@ -27,7 +27,7 @@ pytestmark = pytest.mark.skipif(
 SVK = {"law": "st-venant-kirchhoff"}  # CalculiX and the finite elements both have it
 WAVES = {"kind": "self-affine", "hurst": 0.8, "rms_height": "0.15 um", "samples": 512}
 WAVES |= {"length": "400 um", "seed": 3, "shortest_wavelength": "40 um"}
-FINITE = {"deformation": "finite", "geometry": "rough"}
+FINITE = {"deformation": "finite"}
 SCENES = {
     "smooth": crosscheck.Scene.read("smooth").written,
     "layer": crosscheck.Scene.read("layer").written,
@@ -187,7 +187,6 @@ LONG = WAVES | {"shortest_wavelength": "60 um", "longest_wavelength": "200 um"}
 FLOWS = {
     "smooth": (None, "2 GPa", {}, 0.009, 0.035),
     "smooth, finite": (None, "2 GPa", {"deformation": "finite"}, 0.003, 0.04),
-    "rough": (LONG, "1 GPa", {"geometry": "rough"}, 0.03, 0.11),
     "rough, finite": (LONG, "1 GPa", FINITE, 0.019, 0.1),
 }
 

@@ -79,8 +79,7 @@ class TestGroups:
                 slope = surface_of(Scene.of(tables)).info.roughness.rms_slope
             measured = problem.surface.info.roughness.rms_slope
             assert measured == pytest.approx(slope, rel=0.02 if kind == "sinusoid" else 1e-9)
-            assert problem.scene.finite_element.geometry == "rough"
-            assert problem.scene.finite_element.gap == "displaced"
+            assert problem.rough_boundary
 
     def test_a_coating_follows_half_width_and_modulus_of_the_body(self):
         coated = ELASTIC | {"coating": {"thickness": 1e-5, **RIGID["body"]}}

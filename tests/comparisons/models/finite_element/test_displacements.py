@@ -25,12 +25,11 @@ SCENE = {
 WAVES = {"profile": {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.05e-6}}
 SCENES = {
     "smooth": {},
-    "rough": WAVES | {"finite_element": {"geometry": "rough", "gap": "displaced"}},
     "layer": {"body": {"thickness": 300e-6, "base": "bonded"}},
     "coated": {"coating": {"thickness": 60e-6, "youngs_modulus": 4e11, "poissons_ratio": 0.2}},
     "finite deformation": WAVES
     | {
-        "finite_element": {"deformation": "finite", "geometry": "rough"},
+        "finite_element": {"deformation": "finite"},
         "load": {"hertz_peak_pressure": 4e9},
     },
     "flowing": {

@@ -18,6 +18,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
+from fem.nonlinear import finite_deformation
 from fem.solver.mumps import FemError
 
 RIGID = {
@@ -63,14 +64,13 @@ DISC = {"roller_body": "disc", "roller_shape": "circle"}
 )
 def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
     """To the same contact of a rough body under friction, rigid roller or elastic, which turns
-    where it is a disc."""
+    where it is a disc. Newton's method moves the bodies back to the end here."""
     tables = {
         "roller": roller,
         "body": {**STEEL, "youngs_modulus": 100e9},
         "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
         "profile": COMPUTED,
         "finite_element": {
-            "geometry": "rough",
             "deformation": "finite",
             "coupled": True,
             "block": 20.0,
@@ -84,7 +84,10 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
         return finite_element_level(posed, plan, refinement, None, Stages()).solution
 
     led = level()
-    with patch.object(finite_element_nonlinear, "solve_with_model", side_effect=FemError):
+    with (
+        patch.object(finite_element_nonlinear, "solve_with_model", side_effect=FemError),
+        patch.object(finite_deformation, "ASIDE", 1e-5),
+    ):
         other = level()
     assert led.iterations["newton_steps"] == 0 < led.iterations["corrections"]
     assert other.iterations["corrections"] == 0 < other.iterations["newton_steps"]

@@ -33,7 +33,7 @@ def problem_with(profile: dict, **finite_element) -> Problem:
         "body": {"youngs_modulus": 200e9, "poissons_ratio": 0.3},
         "load": {"hertz_peak_pressure": 1.0989e9},
         "profile": profile,
-        "finite_element": {"geometry": "rough", **finite_element},
+        "finite_element": {"deformation": "finite", **finite_element},
     }
     return problem(tables)
 
@@ -89,7 +89,7 @@ def test_fading_roughness_leaves_elements_fit_on_every_level(slope, length, seed
 
 def test_finite_deformation_takes_no_factorisation_of_its_own():
     """A few tens of back-substitutions by the linear bodies' factors."""
-    problem = problem_with(SINUSOID, deformation="finite", roller_shape="circle")
+    problem = problem_with(SINUSOID, roller_shape="circle")
     plan = make_plan(problem, ("finite_element",))
     peaks = []
     for pitch in problem.pitches[0] / np.array([4.0, 8.0]):
@@ -103,7 +103,7 @@ def test_finite_deformation_takes_no_factorisation_of_its_own():
 
 
 def test_friction_coefficients_and_rollers_share_rough_bodies_and_profiles_do_not():
-    one = problem_with(SINUSOID, deformation="finite")
+    one = problem_with(SINUSOID)
     scene = one.scene
     sliding = {"load.friction": (0.1,), "finite_element.roller_body": "disc"}
     other = replace(one, scene=scene.unchecked(sliding))

@@ -22,11 +22,7 @@ BASE = {
     "finite_element": {"block": 20, "growth": 0.5},
 }
 SWITCHES = {
-    "rough": {
-        "profile": {"kind": "sinusoid", "wavelength": 1.2e-4, "amplitude": 2e-7},
-        "finite_element": {"geometry": "rough"},
-    },
-    "displaced": {"finite_element": {"gap": "displaced"}},
+    "rough": {"profile": {"kind": "sinusoid", "wavelength": 1.2e-4, "amplitude": 2e-7}},
     "circle": {"finite_element": {"roller_shape": "circle"}},
     "elastic": {"roller": {"rigid": False, "youngs_modulus": 300e9, "poissons_ratio": 0.25}},
     "disc": {

@@ -65,11 +65,8 @@ def test_with_every_assumption_kept_it_is_hertz():
 @pytest.mark.parametrize(
     ("finite_element", "peak", "half_width"),
     [
-        # an eighth of a/R, of which finite strain takes half back
-        ({"gap": "displaced"}, 2.93e-3, -1.70e-3),
         # of second order in a/R
         ({"roller_shape": "circle"}, 2.4e-5, -8e-5),
-        ({"roller_shape": "circle", "gap": "displaced"}, 2.96e-3, -1.79e-3),
         ({"roller_shape": "circle", "deformation": "finite"}, 1.41e-3, -5.3e-4),
     ],
 )

@@ -80,13 +80,13 @@ def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Run
         return {row.quantity: row.reference for row in rows}
 
     assert set(references().values()) == {"the same problem"}
-    both = frozenset({"rough_boundary", "finite_size"})
-    assert set(references(contained=both).values()) == {"finite thickness or width, rough boundary"}
-    sizes = {"finite_size": {"peak_pressure": 0.1}, "rough_boundary": {"tau1_max": 0.1}}
+    both = frozenset({"exact_circle", "finite_size"})
+    assert set(references(contained=both).values()) == {"finite thickness or width, exact circle"}
+    sizes = {"finite_size": {"peak_pressure": 0.1}, "exact_circle": {"tau1_max": 0.1}}
     by_quantity = references(contained=both, estimates=sizes)
     assert by_quantity["peak_pressure"] == "finite thickness or width"
-    assert by_quantity["tau1_max"] == "rough boundary"
-    assert by_quantity["pressure_l2"] == "finite thickness or width, rough boundary"
+    assert by_quantity["tau1_max"] == "exact circle"
+    assert by_quantity["pressure_l2"] == "finite thickness or width, exact circle"
     assert by_quantity["contact_length"] == "the same problem"
 
 

@@ -41,18 +41,12 @@ def test_elements_are_cubic_near_incompressibility(ratio, as_written, element):
     assert scene_of(tables, as_written).finite_element.element == element
 
 
-def test_a_rough_boundary_is_met_where_it_has_come_to():
-    assert scene_of(ELASTIC, {"geometry": "rough"}, profile=WAVE).finite_element.gap == "displaced"
-    kept = scene_of(ELASTIC, {"geometry": "rough", "gap": "reference"}, profile=WAVE)
-    assert kept.finite_element.gap == "reference"
-
-
-@pytest.mark.parametrize(("profile", "boundary"), [(WAVE, "rough"), (None, "flat")])
-def test_finite_deformation_takes_the_boundary_that_there_is(profile, boundary):
+@pytest.mark.parametrize(("profile", "is_rough"), [(WAVE, True), (None, False)])
+def test_finite_deformation_takes_the_boundary_that_there_is(profile, is_rough):
     sections = {} if profile is None else {"profile": profile}
-    finite = scene_of(RIGID, {"deformation": "finite"}, **sections)
-    assert finite.finite_element.geometry == boundary
-    assert scene_of(RIGID, {}, **sections).finite_element.geometry == "flat"
+    finite = problem_of(scene_of(RIGID, {"deformation": "finite"}, **sections))
+    assert finite.rough_boundary == is_rough
+    assert not problem_of(scene_of(RIGID, {}, **sections)).rough_boundary
 
 
 @pytest.mark.parametrize("switches", [{"deformation": "finite"}, {"plastic": True}])
@@ -113,7 +107,7 @@ def test_a_support_of_the_roller_comes_back_as_it_was_given(support):
     ("as_written", "said"),
     [
         ({}, "the gap is on the undeformed surface"),
-        ({"gap": "displaced"}, "the deformed one, and the pressure acts along the roller's"),
+        ({"deformation": "finite"}, "the deformed one, and the pressure acts along the current"),
         ({"roller_shape": "circle"}, "finite elements: it is an exact circle"),
         ({"roller_body": "disc"}, "finite elements: it is an elastic body of finite"),
         ({"coupled": True}, "finite elements: the sliding traction moves the surfaces"),

@@ -71,11 +71,11 @@ def test_one_effect_does_not_interact(problem_with, made_solutions, name):
 
 
 def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solutions):
-    problem = problem_with(finite_element={"gap": "displaced"})
-    contained = ModelVariant(frozenset({"deformed_gap"}))
-    _, parts = split_by(problem, made_solutions(contained), contained={"deformed_gap"})
-    assert set(parts.pairs) == {"deformed_gap"}
-    assert not is_nothing(parts.effect("deformed_gap"))
+    problem = problem_with(finite_element={"roller_shape": "circle"})
+    contained = ModelVariant(frozenset({"exact_circle"}))
+    _, parts = split_by(problem, made_solutions(contained), contained={"exact_circle"})
+    assert set(parts.pairs) == {"exact_circle"}
+    assert not is_nothing(parts.effect("exact_circle"))
     assert is_nothing(parts.not_contained)
 
 
@@ -89,22 +89,18 @@ def test_frictions_share_bodies_that_it_does_not_press_otherwise(problem_with):
 
 
 class TestFiniteDeformation:
-    """One effect with all that makes it, and measured with friction where there is any."""
+    """Measured with friction where there is any, and on the trace as boundary."""
 
-    def test_its_parts_are_neither_solved_nor_listed(self, problem_with, made_solutions):
+    def test_it_is_the_only_effect_that_is_solved(self, problem_with, made_solutions):
         problem = problem_with(roller={"rigid": True}, profile=WAVY, load={"friction": 0.2})
-        gap_alone = ModelVariant(frozenset({"deformed_gap"}))
-        solutions = made_solutions(gap_alone)
-        split, parts = split_by(
-            problem, solutions, 0.2, {"deformed_gap"}, {"finite_strain", "rough_boundary"}
-        )
-        together = {"deformed_gap", "rough_boundary", "finite_strain", COUPLED}
+        solutions = made_solutions(PLAIN)
+        split, parts = split_by(problem, solutions, 0.2, added={"finite_strain"})
         assert set(parts.pairs) == {"finite_strain"}
-        assert split.whole == ModelVariant(frozenset(together), 0.2)
-        assert set(solutions.asked) == {split.whole, PLAIN, gap_alone}
-        scene = body_problem(problem, split.whole).scene
-        assert scene.finite_element.coupled and scene.load.friction == (0.2,)
-        assert scene.finite_element.geometry == "rough"
+        assert split.whole == ModelVariant(frozenset({"finite_strain", COUPLED}), 0.2)
+        assert set(solutions.asked) == {split.whole, PLAIN}
+        strained = body_problem(problem, split.whole)
+        assert strained.scene.finite_element.coupled and strained.scene.load.friction == (0.2,)
+        assert strained.rough_boundary
 
     def test_coupling_that_matters_is_no_part_of_it(self, problem_with, made_solutions):
         problem = problem_with(roller={"rigid": True}, load={"friction": 0.2})

@@ -18,7 +18,7 @@ from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.laws import EFFECT, open_laws, point_of
 from comparisons.studies.study import Run
 
-STRAIN = {"deformation": "finite", "gap": "displaced"}
+STRAIN = {"deformation": "finite"}
 QUANTITIES = ("peak_pressure", "contact_length")
 PEAK = {"quantity": "peak_pressure"}
 

@@ -46,12 +46,6 @@ def test_half_planes_are_moved_alike():
     assert moved.solution.converged and apart < 1e-9 * still.solution.pressure.max()
 
 
-def test_along_the_roller_s_normal_a_solution_is_found():
-    """There it is not symmetric, for like bodies too: traction moves both sideways."""
-    _, moved = solved({}, gap="displaced", coupled=True)
-    assert moved.solution.converged
-
-
 @pytest.mark.parametrize("name", BODIES)
 def test_what_layers_and_coats_are_moved_otherwise_is_not_passed_over(name):
     posed, still = solved(BODIES[name])

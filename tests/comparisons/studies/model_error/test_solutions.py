@@ -65,19 +65,19 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
 
 
 def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
-    gap, circle = (
-        ModelVariant(frozenset({"deformed_gap"})),
+    disc, circle = (
+        ModelVariant(frozenset({"finite_roller"})),
         ModelVariant(frozenset({"exact_circle"})),
     )
     bodies = made(Tasks())
-    with patch.object(solve, "_solved", side_effect=NotComputedError(gap, "no\nmesh")):
-        bodies.prepare([gap], 1)
-    bodies.prepare([gap, circle], 1)  # is not tried again
+    with patch.object(solve, "_solved", side_effect=NotComputedError(disc, "no\nmesh")):
+        bodies.prepare([disc], 1)
+    bodies.prepare([disc, circle], 1)  # is not tried again
     assert bodies.solution(circle, 1, 0.0)
     with pytest.raises(NotComputedError, match=r"^no mesh$") as caught:
-        bodies.solution(gap, 1, 0.0)
+        bodies.solution(disc, 1, 0.0)
     copied = pickle.loads(pickle.dumps(caught.value))  # as it comes from another process
-    assert (copied.variant, str(copied)) == (gap, "no mesh")
+    assert (copied.variant, str(copied)) == (disc, "no mesh")
 
 
 def test_a_problem_can_be_handed_on(problem_with):

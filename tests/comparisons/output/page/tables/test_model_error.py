@@ -22,18 +22,18 @@ from comparisons.studies.study import Run
 ESTIMATES = {
     "exact_circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},
     "plastic_flow": {"peak_pressure": 0.08},
-    "deformed_gap": {"peak_pressure": 0.02},
+    "finite_roller": {"peak_pressure": 0.02},
 }
 SELECTION = EffectSelection(
     frozenset({"finite_size"}),
-    frozenset({"deformed_gap", "finite_strain"}),
+    frozenset({"finite_roller", "finite_strain"}),
     {"exact_circle": ESTIMATES["exact_circle"]},
     {"plastic_flow": "the body has no yield stress"},
     ESTIMATES,
 )
 EFFECTS_HERE = {
     "finite_size": Estimate(0.04, 0.001),
-    "deformed_gap": Estimate(-0.012, 0.0005),
+    "finite_roller": Estimate(-0.012, 0.0005),
     "finite_strain": Estimate(0.0001, 0.0001),
 }
 
@@ -60,7 +60,7 @@ def test_rows_join_equal_frictions_and_list_what_counts(split: Run):
     assert (peak.quantity, peak.friction) == ("peak_pressure", "0, 0.1")
     assert (peak.error, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
     # an effect that raises the finite elements' figure makes the half-plane's too low
-    assert peak.contributions == ("finite thickness or width −4.0 %", "deformed gap +1.2 %")
+    assert peak.contributions == ("finite thickness or width −4.0 %", "finite roller +1.2 %")
     assert length.error == "+5.0 %" and length.friction == "0"
 
 
@@ -96,7 +96,7 @@ def test_every_effect_that_applies_is_in_the_table(split: Run):
     status = {row[0]: row[2] for row in table.rows}
     assert status == {
         "finite thickness or width": "contained",
-        "deformed gap": "computed",
+        "finite roller": "computed",
         "exact circle": "negligible",
         "finite deformation": "computed",
         "plastic flow": "not computed",
@@ -118,7 +118,7 @@ class TestWaterfalls:
         assert peak.name == "peak pressure"  # equal at both frictions
         assert (peak.error, peak.uncertainty, peak.tolerance) == (-0.031, 0.0012, 0.02)
         assert peak.steps["finite thickness or width"] == -0.04
-        assert peak.steps["deformed gap"] == 0.012 and peak.steps["interaction"] == -0.002
+        assert peak.steps["finite roller"] == 0.012 and peak.steps["interaction"] == -0.002
         assert sum(peak.steps.values()) == pytest.approx(peak.error)
         assert peak.steps[NUMERICAL] == pytest.approx(-0.0009)
         assert peak.not_modelled == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
