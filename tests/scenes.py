@@ -1,5 +1,6 @@
 """Scenes and materials that tests start from, and the places of the files that they read."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -7,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from comparisons.models.problem import Problem
+    from comparisons.models.problem import Levels, Problem
     from comparisons.scenes.scene import Scene
     from comparisons.studies.study import Run
 
@@ -32,6 +33,9 @@ SMOOTH = {
 }
 # With a field of few points, and nothing beside the two models.
 QUICK = SMOOTH | {"stress": {"points": [120, 40]}, "budget": {"effects": False}}
+# Finished runs by what they are of, the latest of this session.
+RUNS: "dict[tuple, Run]" = {}
+MOST_RUNS = 12
 
 
 def changed(tables: dict, **sections: dict) -> dict:
@@ -57,6 +61,25 @@ def problem(tables: dict) -> "Problem":
     from comparisons.models.posing import problem_of
 
     return problem_of(resolved(tables))
+
+
+def run_of(
+    scene: "dict | Scene", *models: str, levels: "Levels | None" = None, **sections: dict
+) -> "Run":
+    """The finished run of a scene, or of tables with some fields of sections changed, by both
+    models or those named; nothing is written. Tests that ask for the same one share it.
+
+    levels  so many, in place of those that figures take"""
+    from comparisons.figures.quantity import MODELS
+    from comparisons.runs.run import Known, run
+
+    scene = resolved(changed(scene, **sections)) if isinstance(scene, dict) else scene
+    key = json.dumps(scene.tables), scene.folder, models, levels
+    if key not in RUNS:
+        while len(RUNS) >= MOST_RUNS:
+            RUNS.pop(next(iter(RUNS)))
+        RUNS[key] = run(scene, None, models or MODELS, known=Known(levels=levels))
+    return RUNS[key]
 
 
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:

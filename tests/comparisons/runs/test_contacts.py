@@ -5,11 +5,9 @@ All are solved in the table of measured figures; here those that take a few seco
 import re
 
 import pytest
-from scenes import DATA, PROJECT
+from scenes import DATA, PROJECT, run_of
 
-from comparisons.figures.quantity import MODELS
 from comparisons.output.headline import headline
-from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 
 CONTACTS = sorted((DATA / "contacts").glob("*.toml"))
@@ -37,6 +35,6 @@ def test_each_names_its_solids_and_keeps_the_default_tolerance(path):
 
 @pytest.mark.parametrize("name", ["nylon-gear", "thin-strip", "rail"])
 def test_verdicts_are_those_of_the_table(name):
-    said = headline(run(Scene.read(str(DATA / f"contacts/{name}.toml")), None, MODELS))
+    said = headline(run_of(Scene.read(DATA / f"contacts/{name}.toml")))
     assert said.kind.upper() == tabled()[name]
     assert said.next

@@ -2,26 +2,23 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, resolved
+from scenes import STEEL, resolved, run_of
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
-from comparisons.runs.run import run
 from comparisons.studies.scatter.shares import designs
 from comparisons.studies.scatter.study import values_at
 
-pytestmark = pytest.mark.usefixtures("undrawn")
 
-
-def test_approach_prescribed_on_a_layer(tmp_path):
+def test_approach_prescribed_on_a_layer():
     tables = {
         "roller": {"radius": 10e-3, "rigid": True},
         "body": {"youngs_modulus": 3e9, "poissons_ratio": 0.35, "thickness": 4e-4},
         "load": {"approach": 10e-6},
         "budget": {"effects": False},
     }
-    outcome = run(resolved(tables), tmp_path / "out", MODELS)
+    outcome = run_of(tables)
     [approach] = outcome.figures.of(study="contact", quantity="approach")
     assert approach.source == "finite_element"
     assert approach.value == pytest.approx(10e-6, rel=1e-3)
@@ -32,7 +29,7 @@ def test_approach_prescribed_on_a_layer(tmp_path):
 
 
 @pytest.mark.parametrize("load", [1.0, 1e-3])
-def test_a_load_that_touches_one_crest_only(tmp_path, load):
+def test_a_load_that_touches_one_crest_only(load):
     """Both models find Hertz's contact on the crest's own curvature, however light the load."""
     wavelength, amplitude = 50e-6, 0.2e-6
     tables = {
@@ -42,7 +39,7 @@ def test_a_load_that_touches_one_crest_only(tmp_path, load):
         "load": {"per_length": load},
         "budget": {"effects": False},
     }
-    outcome = run(resolved(tables), tmp_path / "out", MODELS)
+    outcome = run_of(tables)
     curvature = 1.0 / 10e-3 + amplitude * (2.0 * np.pi / wavelength) ** 2
     crest = hertz_from_load(load, 1.0 / curvature, outcome.problem.modulus)
     assert outcome.exit_status == ExitStatus.DONE
@@ -64,7 +61,7 @@ def test_inputs_scatter_at_a_prescribed_approach():
         "scatter": {"body_youngs_modulus": "6 %", "samples": 8},
         "budget": {"effects": False},
     }
-    outcome = run(resolved(tables), None, MODELS)
+    outcome = run_of(tables)
     peak, length = (
         outcome.figures.one(study="scatter", quantity=name)
         for name in ("peak_pressure", "contact_length")

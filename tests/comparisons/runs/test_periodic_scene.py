@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem, resolved
+from scenes import STEEL, changed, problem, resolved, run_of
 
 from analytic.layers.layered import LayeredBody, normal_compliance
 from comparisons.common.errors import ExitStatus, SceneError
@@ -12,7 +12,6 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.smooth import closed_form
 from comparisons.output.page.pictures.contact import surface_picture
 from comparisons.output.page.tables.problem import problem_sheet
-from comparisons.runs.run import run
 from comparisons.scenes.surface import surface_of
 from comparisons.studies.contact import uncertainties, values_of
 
@@ -51,9 +50,9 @@ ROUGH |= {
 }
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def wave():
-    return run(resolved(WAVE), None, MODELS)
+    return run_of(WAVE)
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -99,7 +98,7 @@ def test_fields_are_westergaards(wave, friction):
 
 
 def test_a_rough_period_is_the_same_to_both(wave):
-    rough = run(resolved(ROUGH), None, MODELS)
+    rough = run_of(ROUGH)
     assert rough.exit_status != ExitStatus.NOT_CONVERGED
     assert closed_form(rough.problem) is None and rough.problem.dundurs_beta != 0.0
     assert not rough.plan.coupling  # what friction moves is estimated, not measured as nothing
@@ -133,8 +132,8 @@ def test_where_the_period_is_cut_changes_nothing():
 @pytest.mark.parametrize("model", MODELS)
 def test_full_contact_is_of_second_order(model):
     """The waves of hats; no edge disturbs them."""
-    closed = changed(WAVE, load={"mean_pressure": 400e6, "friction": 0.0})
-    outcome = run(resolved(changed(closed, stress={"points": [30, 10]})), None, (model,))
+    load, stress = {"mean_pressure": 400e6, "friction": 0.0}, {"points": [30, 10]}
+    outcome = run_of(WAVE, model, load=load, stress=stress)
     assert outcome.exit_status == ExitStatus.DONE
     levels, exact = outcome.runs[model].levels, closed_form(outcome.problem).peak_pressure
     [ratio] = outcome.figures.of(study="contact", quantity="contact_ratio")
@@ -152,7 +151,7 @@ def test_a_layer_in_full_contact_bears_its_own_wave(layers):
     """p = pm + A/C(q) cos qx, C the layer's compliance."""
     closed = changed(WAVE, load={"mean_pressure": 900e6, "friction": 0.0}, **layers)
     del closed["stress"]
-    outcome = run(resolved(closed), None, ("finite_element",))
+    outcome = run_of(closed, "finite_element")
     scene, levels = outcome.problem.scene, outcome.runs["finite_element"].levels
     top, below = scene.body, scene.body.base
     if scene.coating is not None:

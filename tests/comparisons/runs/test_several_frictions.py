@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, resolved
+from scenes import STEEL, changed, resolved, run_of
 
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
@@ -36,9 +36,7 @@ def runs(request, tmp_path_factory):
     sections, apart = CASES[request.param]
     tables = changed(TABLES, **sections)
     together = run(resolved(tables), tmp_path_factory.mktemp("several") / "out", MODELS)
-    alone = {
-        mu: run(resolved(changed(tables, load={"friction": mu})), None, MODELS) for mu in FRICTIONS
-    }
+    alone = {mu: run_of(tables, load={"friction": mu}) for mu in FRICTIONS}
     return together, alone, apart
 
 

@@ -3,7 +3,7 @@
 import meshio
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem, resolved
+from scenes import STEEL, changed, problem, resolved, run_of
 
 from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.progress import Stages
@@ -167,7 +167,7 @@ def test_the_shipped_scene_is_solved_below_its_elastic_roller():
     """Its pressure elements reach beyond the fine mesh; a third beyond first flow the body bears
     less than Hertz's peak, on a longer contact."""
     scene = Scene.read("yielding").changed("resolution.levels", 2)  # of three, which cost six times
-    [finite_element] = run(scene, None, ("finite_element",)).runs.values()
+    [finite_element] = run_of(scene, "finite_element").runs.values()
     level, hertz = finite_element.finest, 2.4e9
     assert level.solution.converged
     assert 0.9 * hertz < level.solution.pressure.max() < 0.94 * hertz

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import MEASURED, judging
+from scenes import MEASURED, judging, run_of
 
 from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
@@ -17,13 +17,10 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.output.headline import verdict_of
-from comparisons.runs.run import Known, run
 from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import values_of
 
-pytestmark = pytest.mark.usefixtures("undrawn")
-
-FEW = Known(levels=Levels(3, effects=2))
+FEW = Levels(3, effects=2)
 
 
 @pytest.mark.parametrize(
@@ -54,12 +51,12 @@ def quick(name: str, effects: bool) -> Scene:
     return Scene.read(name).unchecked({"stress.points": (150, 60), "budget.effects": effects})
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def unrun():
     """With tolerances that the third level meets."""
     scene = quick("ground-unrun", effects=False)
     wide = scene.tolerances | {"contact_length": 0.05, "tau1_max": 0.05}
-    return run(judging(scene, wide), None, MODELS, known=FEW)
+    return run_of(judging(scene, wide), levels=FEW)
 
 
 class TestGroundUnrun:
@@ -149,13 +146,12 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
 
 
 @pytest.mark.parametrize("name", ["self-affine", "sinusoid", "smooth-sliding"])
-def test_other_scenes_agree(name, tmp_path):
-    outcome = run(quick(name, effects=False), tmp_path / "out", MODELS, known=FEW)
+def test_other_scenes_agree(name):
+    outcome = run_of(quick(name, effects=False), levels=FEW)
     assert outcome.exit_status == ExitStatus.INCONCLUSIVE  # no effect is computed
     assert "agree" in {
         row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance
     }
-    assert "<html" in (tmp_path / "out" / "report.html").read_text()
 
 
 @pytest.mark.parametrize(
@@ -169,7 +165,7 @@ def test_other_scenes_agree(name, tmp_path):
     ],
 )
 def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
-    outcome = run(quick(name, effects=True), None, MODELS)
+    outcome = run_of(quick(name, effects=True))
     assert verdict_of(outcome)[0] == verdict
     by_level = {row.quantity: row.value for row in outcome.figures.of(study="comparison")}
     assert by_level["peak_pressure"] == pytest.approx(peak, rel=0.1)
@@ -197,7 +193,7 @@ def test_measured_traces_from_a_scene_of_five_lines(trace, load, tmp_path):
         "tolerance = {peak_pressure = 0.05, contact_length = 0.05}\n"
         "budget = {effects = false}\n"
     )
-    outcome = run(Scene.read(scene), tmp_path / "out", MODELS)
+    outcome = run_of(Scene.read(scene))
     assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.INCONCLUSIVE)
     assert {row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance} == {
         "agree"

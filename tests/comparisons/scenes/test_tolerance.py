@@ -1,10 +1,9 @@
 """Another tolerance for every judged figure: where it is taken, and where refinement ends."""
 
 import pytest
-from scenes import SMOOTH, changed, resolved
+from scenes import SMOOTH, changed, resolved, run_of
 
 from comparisons.cli import main
-from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene, with_tolerance
 
 
@@ -21,13 +20,11 @@ class TestTolerance:
         assert main(["run", "smooth", "--tolerance", wrong]) == 2
         assert "--tolerance: is " in capsys.readouterr().err
 
-    def test_refinement_stops_where_it_is_met(self, tmp_path, monkeypatch):
-        monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
+    def test_refinement_stops_where_it_is_met(self):
         coarse = resolved(changed(SMOOTH, resolution={"pitch": 1e-4}))
         levels = {}
         for tolerance in (0.2, 2e-3):
-            judged = with_tolerance(coarse, tolerance)
-            outcome = run(judged, tmp_path / f"{tolerance}", ("half_plane",))
+            outcome = run_of(with_tolerance(coarse, tolerance), "half_plane")
             assert outcome.solved.refinement == "every judged quantity is resolved"
             levels[tolerance] = len(outcome.runs["half_plane"].levels)
         assert levels[0.2] == 3 < levels[2e-3]

@@ -1,13 +1,11 @@
 """A coated scene: the analytic operator and finite elements are two models of one problem."""
 
 import pytest
-from scenes import STEEL, resolved
+from scenes import STEEL, run_of
 
 from comparisons.drawing.blocks import Note
-from comparisons.figures.quantity import MODELS
 from comparisons.output.page.page import sections
 from comparisons.output.page.tables.comparison import comparison_rows, first_model
-from comparisons.runs.run import run
 
 TABLES = {
     "roller": {"radius": 8e-3, "rigid": True},
@@ -20,9 +18,9 @@ TABLES = {
 }
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def outcome():
-    return run(resolved(TABLES), None, MODELS)
+    return run_of(TABLES)
 
 
 def test_both_agree_within_what_they_state_where_the_half_plane_differs(outcome):
@@ -48,7 +46,7 @@ def test_they_are_the_first_table_and_what_is_judged(outcome):
 def test_the_report_says_which_half_plane_has_the_coating(outcome):
     notes = {
         block.section: " ".join(item.text for item in block.items if isinstance(item, Note))
-        for block in sections(outcome, None)
+        for block in sections(outcome)
     }
     assert "layered half-plane has the body's coating" in notes["comparison"]
     assert "without the body's coating from finite" in " ".join(notes["convergence"].split())

@@ -4,20 +4,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem, resolved
+from scenes import STEEL, problem, run_of
 from scipy.optimize import minimize_scalar, root_scalar
 
 from analytic.exact.hertz import HertzContact, hertz_stress
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.window import window_of
-from comparisons.runs.run import run
 from comparisons.studies.study import WHY_NOT
 from comparisons.studies.subsurface import quiescent_zone as q
 
 Z = np.linspace(0.0, 1.0, 101) ** 2
 RIPPLE = 0.04 * np.cos(400.0 * Z) * np.exp(-((Z / 0.03) ** 2))  # near the surface, no zone's
-HALF_PLANE = ("half_plane",)
 WAVY = {
     "roller": {"radius": 10e-3, **STEEL},
     "body": STEEL,
@@ -101,9 +99,9 @@ def test_friction_alone_bridges_a_smooth_body(friction, status):
     assert q.shear_dip(Z, shear, 0.5).status == status
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def wavy():
-    return run(resolved(WAVY), None, HALF_PLANE)
+    return run_of(WAVY, "half_plane")
 
 
 def test_a_wavy_body_has_a_zone_that_friction_bridges(wavy):
@@ -155,14 +153,13 @@ def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
 
 def test_scenes_without_fields_or_roughness_have_none(finish, smooth_tables):
     assert q.NAME not in finish(smooth_tables).findings
-    outcome = run(resolved({k: v for k, v in WAVY.items() if k != "stress"}), None, HALF_PLANE)
+    outcome = run_of({k: v for k, v in WAVY.items() if k != "stress"}, "half_plane")
     assert q.NAME not in outcome.findings
 
 
 @pytest.mark.parametrize(("name", "value"), [("half_range", 0.9), ("depth", 0.6)])
 def test_a_field_that_ends_before_says_so(name, value):
-    tables = WAVY | {"stress": {name: value, "points": [60, 20]}}
-    outcome = run(resolved(tables), None, HALF_PLANE)
+    outcome = run_of(WAVY, "half_plane", stress={name: value, "points": [60, 20]})
     why = outcome.findings[q.NAME].said(WHY_NOT)
     assert why == f"stress.{name} is less than {'1' if name == 'half_range' else '0.8'} a"
     [block] = q.blocks(outcome)

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, resolved
+from scenes import STEEL, run_of
 
 from analytic.material import Material
 from comparisons.common.errors import ExitStatus
 from comparisons.output.headline import headline, verdict_of
 from comparisons.output.junit import run_cases_of
-from comparisons.runs.run import run
 from comparisons.studies.subsurface.yielding import (
     blocks,
     flow_assessment,
@@ -18,21 +17,16 @@ from comparisons.studies.subsurface.yielding import (
 
 GOLDEN = 0.5 * (1.0 + 5.0**0.5)
 SHEAR = GOLDEN**-2.5  # largest principal shear over the peak pressure, without friction
-ONE = ("half_plane",)
 
 
-def smooth(peak=1e9, friction=0.0, stress=True, **body):
+def outcome_of(peak=1e9, friction=0.0, stress=True, **body):
     tables = {
         "roller": {"radius": 8e-3, **STEEL},
         "body": {**STEEL, **body},
         "load": {"hertz_peak_pressure": peak, "friction": friction},
         "budget": {"effects": False, "time": 1.0},
     }
-    return resolved(tables | ({"stress": {"points": [60, 20]}} if stress else {}))
-
-
-def outcome_of(**scene):
-    return run(smooth(**scene), None, ONE)
+    return run_of(tables | ({"stress": {"points": [60, 20]}} if stress else {}), "half_plane")
 
 
 def test_first_flow_of_a_smooth_contact_by_both_criteria():
@@ -73,16 +67,12 @@ def test_beyond_the_ideal_strength_nothing_is_elastic_but_rubber():
     below, above = (outcome_of(peak=f * strength / SHEAR) for f in (0.98, 1.02))
     assert below.data("yield").beyond_doubt == ""
     assert "ideal strength of a crystal, G/2π = 13 GPa" in above.data("yield").beyond_doubt
-    soft = {"youngs_modulus": 1e6, "poissons_ratio": 0.3}
-    scene = resolved(
-        {
-            "roller": {"radius": 8e-3, "rigid": True},
-            "body": soft,
-            "load": {"hertz_peak_pressure": 0.9e6},
-            "budget": {"effects": False, "time": 1.0},
-        }
-    )
-    assert run(scene, None, ONE).data("yield").beyond_doubt == ""
+    rubber = {
+        "roller": {"radius": 8e-3, "rigid": True},
+        "body": {"youngs_modulus": 1e6, "poissons_ratio": 0.3},
+        "load": {"hertz_peak_pressure": 0.9e6},
+    }
+    assert run_of(rubber, "half_plane").data("yield").beyond_doubt == ""
 
 
 def test_flow_is_beyond_doubt_where_both_criteria_are_exceeded():

@@ -7,14 +7,13 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 import scenes
-from scenes import DATA, STEEL, changed, refound
+from scenes import DATA, STEEL, changed, refound, run_of
 
 from comparisons.common.numbers import UNKNOWN
 from comparisons.common.progress import Stages, no_progress
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
-from comparisons.runs.run import run
 from comparisons.studies.friction import coupling
 from comparisons.studies.friction.coupling import BEYOND_THE_END, SHIFT, Change, couplings
 from comparisons.studies.model_error.estimates import estimates
@@ -39,11 +38,6 @@ WAVY = RIGID | {
     "body": {**STEEL, "hardness": 4e9},
     "load": {"hertz_peak_pressure": 1e9, "friction": 0.3},
 }
-HALF_PLANE = ("half_plane",)
-
-
-def scene_of(tables: dict, **load):
-    return scenes.resolved(changed(tables, load=load))
 
 
 def problem_of(tables: dict, **load):
@@ -51,7 +45,7 @@ def problem_of(tables: dict, **load):
 
 
 def solved(tables: dict, **load) -> Run:
-    return run(scene_of(tables, **load), None, HALF_PLANE)
+    return run_of(tables, "half_plane", load=load)
 
 
 def half_plane_of(problem) -> ModelRun:
@@ -83,13 +77,13 @@ def change(outcome: Run, friction: float) -> dict[str, tuple[float | None, float
     return pairs
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def rigid() -> Run:
     """Three friction coefficients, with a field."""
     return solved(RIGID)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def rigid_coupled() -> Run:
     return solved(RIGID, friction=0.3, coupled=True)
 
@@ -190,9 +184,9 @@ class TestSwitch:
             assert one[name][1] == pytest.approx(other[name][1], rel=0.03)
 
     def test_default_is_the_published_way(self):
-        assert not scene_of(RIGID).load.coupled
-        assert scene_of(RIGID).tables["load"]["coupled"] is False
-        assert problem_of(RIGID).coupling == 0.0
+        posed = problem_of(RIGID)
+        assert not posed.scene.load.coupled and posed.coupling == 0.0
+        assert posed.scene.tables["load"]["coupled"] is False
 
     def test_strong_coupling_finds_its_extent(self):
         """mu beta = 0.75 reaches beyond 1.5 Hertz half-widths, where the other answer ends."""

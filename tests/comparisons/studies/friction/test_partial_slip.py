@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from exact_partial_slip import SlippingContact
-from scenes import STEEL, changed, problem, resolved
+from scenes import STEEL, changed, problem, resolved, run_of
 
 from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
@@ -96,14 +96,13 @@ def test_page_tables_and_files_have_it(cycled):
 def test_bulk_stress_moves_the_zone_and_adds_itself():
     """Nowell and Hills, on the half-plane."""
     scene = changed(SMOOTH, partial_slip={"loads": [0.5], "bulk_stress": BULK})
-    outcome = run(resolved(scene), None, ("half_plane",))
+    outcome = run_of(scene, "half_plane")
     exact = SlippingContact(outcome.problem.hertz, 0.3, 0.5, BULK)
     zones = outcome.findings["partial_slip"].table("stick_zones")
     start, stop = (zones.columns[end].values[0] for end in ("start", "stop"))
     pitch = outcome.runs["half_plane"].finest.grid.pitch
     assert 0.5 * (start + stop) == pytest.approx(exact.offset, abs=0.1 * pitch)
-    scene = changed(scene, partial_slip={"bulk_stress": 0})
-    without = values(run(resolved(scene), None, ("half_plane",)))
+    without = values(run_of(scene, "half_plane", partial_slip={"bulk_stress": 0}))
     moved = values(outcome)["edge_tension"] - without["edge_tension"]
     assert BULK < moved < 2.0 * BULK  # the zone moves towards +x, off the trailing edge
 
@@ -137,7 +136,7 @@ def test_an_answer_from_outside_may_have_tractions(tmp_path, factor, verdict):
     source = {"file": "answer.csv", "shear": 2, "units": {"length": "mm", "stress": "MPa"}}
     scene = scene | {"answers": {"exact": source}}
     scene.pop("stress")
-    outcome = run(resolved(scene, folder=tmp_path), None, ("half_plane",))
+    outcome = run_of(resolved(scene, folder=tmp_path), "half_plane")
     known = outcome.figures.of(study="partial_slip", source="exact")
     assert known.one(quantity="stick_length", against="half_plane").verdict == verdict
     norm = known.one(quantity="traction_l2")
@@ -194,7 +193,7 @@ def test_unlike_bodies_may_be_pressed_alone():
     scene = changed(SMOOTH, body={"youngs_modulus": 70e9}, load={"friction": 0.1})
     scene = scene | {"partial_slip": {"loads": [0], "increments": 2}}
     scene.pop("stress")
-    outcome = run(resolved(scene), None, ("half_plane",))
+    outcome = run_of(scene, "half_plane")
     known = values(outcome)
     assert 0.0 < known["stick_ratio"] < 1.0 and "tangential_displacement" not in known
     assert known["held_pressure"] > outcome.problem.hertz.peak_pressure

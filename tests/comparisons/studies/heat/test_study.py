@@ -6,7 +6,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import BOTH_CONDUCT, PROFILES, STEEL, changed, refound, resolved
+from scenes import BOTH_CONDUCT, PROFILES, STEEL, changed, refound, resolved, run_of
 
 from comparisons.figures.quantity import MODELS
 from comparisons.output.flat_csv import rows_of
@@ -112,8 +112,7 @@ def test_below_the_surface_it_cools(rough):
 
 
 def test_one_model_alone():
-    scene = resolved(changed(TRACE, heat={"slide_to_roll": -2.0}))
-    outcome = run(scene, None, ("half_plane",))
+    outcome = run_of(TRACE, "half_plane", heat={"slide_to_roll": -2.0})
     [flash] = outcome.figures.of(study="heat", quantity="flash_temperature", source="half_plane")
     assert (flash.against, flash.verdict) == (None, None)
     assert 0.0 < flash.numerical < 0.05
@@ -153,8 +152,7 @@ def test_thermal_stresses_by_both_models(stressed):
 
 
 def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
-    less = changed(STRESSED, heat={"body_expansion": "1e-9 1/K"})
-    without = run(resolved(less), None, ("half_plane",))
+    without = run_of(STRESSED, "half_plane", heat={"body_expansion": "1e-9 1/K"})
     for name in HEATED:
         assert value(without, name) == pytest.approx(value(without, f"{name}{WITHOUT}"), rel=1e-3)
     assert value(without, "flash_temperature") == value(stressed, "flash_temperature")
@@ -183,7 +181,7 @@ def test_a_slab_is_no_half_space():
     tables = changed(TRACE, body={"thickness": "60 um"}, heat={"speed": 0.05, "tolerance": 0.02})
     tables["load"] = {"hertz_peak_pressure": 1e9, "friction": 0.1}
     del tables["profile"], tables["resolution"]
-    outcome = run(resolved(tables), None, MODELS)
+    outcome = run_of(tables)
     figure = differences(outcome)[0]
     assert figure.verdict == "differ"
     assert outcome.exit_status == 1

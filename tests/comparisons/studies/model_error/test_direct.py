@@ -6,7 +6,7 @@ Here they are switched on in the scene, from the first level to the last: nothin
 
 import numpy as np
 import pytest
-from scenes import KNOWN_RUBBER, KNOWN_STEEL, problem, resolved
+from scenes import KNOWN_RUBBER, KNOWN_STEEL, problem, resolved, run_of
 
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
@@ -16,12 +16,10 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels
 from comparisons.models.window import window_of
-from comparisons.runs.run import Known, run
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.catalogue import contained
 from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.model_error import ModelError
-from comparisons.studies.study import Run
 
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
 ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": KNOWN_RUBBER}
@@ -87,13 +85,6 @@ SCENES = {
 }
 
 
-def outcome_of(tables: dict, levels: int) -> Run:
-    """On three levels, its effects on so many."""
-    judged = {*QUANTITIES, *(STRESSES if "stress" in tables else ())}
-    scene = resolved(tables | {"tolerance": dict.fromkeys(judged, 1e-5)})
-    return run(scene, None, MODELS, known=Known(levels=Levels(3, levels)))
-
-
 def direct_errors(tables: dict) -> dict[str, float]:
     """(half-plane - finite elements) / finite elements on the third level, by quantity."""
     posed = problem(tables)
@@ -112,7 +103,9 @@ def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, floa
     tables, switches = SCENES[name]
     half_width = problem(tables).hertz.half_width
     tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}
-    added, switched = outcome_of(tables, levels), tables | {"finite_element": switches}
+    judged = dict.fromkeys((*QUANTITIES, *(STRESSES if "stress" in tables else ())), 1e-5)
+    added = run_of(tables, levels=Levels(3, levels), tolerance=judged)
+    switched = tables | {"finite_element": switches}
     assert added.data("model_error").levels == levels and added.data("model_error").unsplit is None
     friction = added.problem.scene.load.friction[0]
     split = split_variants(added.problem, added.data("model_error").selection, friction)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from scenes import STEEL, changed, resolved
+from scenes import STEEL, changed, resolved, run_of
 
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
@@ -11,7 +11,6 @@ from comparisons.models.forecast import forecast, time_with_flow
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.output.headline import headline
-from comparisons.runs.run import run
 from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.selection import FLOW
 
@@ -24,37 +23,30 @@ SCENE = {
 }
 
 
-def outcome_of(**sections):
-    return run(resolved(changed(SCENE, **sections)), None, MODELS)
-
-
-@pytest.fixture(scope="module")
+@pytest.fixture
 def beside():
-    return outcome_of()
-
-
-@pytest.fixture(scope="module")
-def switched_on():
-    return outcome_of(finite_element={"plastic": True}, budget={"time": 2.0})  # on as many levels
+    return run_of(SCENE)
 
 
 # between the error and what finite strain may make of it
 OPEN = {"peak_pressure": 0.365, "contact_length": 0.5}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def short():
-    return outcome_of(tolerance=OPEN, budget={"time": 3.0})
+    return run_of(SCENE, tolerance=OPEN)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def finite(short):
     """In the time that the other asks for."""
     time = float(headline(short).paste[0].rpartition("=")[2])
-    return outcome_of(tolerance=OPEN, budget={"time": time})
+    return run_of(SCENE, tolerance=OPEN, budget={"time": time})
 
 
-def test_a_yield_stress_alone_gives_the_figures_of_the_switch(beside, switched_on):
+def test_a_yield_stress_alone_gives_the_figures_of_the_switch(beside):
+    # on as many levels
+    switched_on = run_of(SCENE, finite_element={"plastic": True}, budget={"time": 2.0})
     assert beside.data("model_error").selection.added == {FLOW}
     assert beside.exit_status == ExitStatus.OUTSIDE_TOLERANCE
     for error in beside.model_errors:
@@ -99,7 +91,8 @@ def test_finite_strain_is_chosen_where_it_decides(beside, finite):
 
 def test_flow_at_finite_strain_is_the_scene_with_both_switches(finite):
     switches = {"plastic": True, "deformation": "finite"}
-    both = outcome_of(finite_element=switches, budget={"time": finite.problem.scene.budget.time})
+    time = finite.problem.scene.budget.time
+    both = run_of(SCENE, finite_element=switches, budget={"time": time})
     for error in finite.model_errors:
         known = both.model_errors.one(quantity=error.quantity)
         assert error.scale == pytest.approx(known.scale, rel=1e-9)
@@ -116,11 +109,9 @@ def test_without_time_for_finite_strain_it_says_how_much(short):
 
 
 def test_without_time_it_says_how_long_flow_takes(beside):
-    scene = resolved(changed(SCENE, budget={"time": 2.0}))
-    problem = problem_of(scene)
-    plan = make_plan(problem, MODELS)
+    short = run_of(SCENE, budget={"time": 2.0})
+    problem, plan = short.problem, short.plan
     assert "is left out (budget.time)" in forecast(problem, plan).text
-    short = run(scene, None, MODELS)
     assert "(budget.time)" in short.data("model_error").selection.impossible[FLOW]
     said = headline(short)
     assert said.kind == "fails" and "does not apply" in said.sentence

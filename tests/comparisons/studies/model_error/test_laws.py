@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem, resolved
+from scenes import STEEL, problem, resolved, run_of
 
 from analytic.material import Law
 from comparisons.common.progress import Stages
@@ -12,7 +12,6 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
-from comparisons.runs.run import run
 from comparisons.scenes.materials import measured_solids, scaled_law, solids
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.laws import EFFECT, open_laws, point_of
@@ -119,7 +118,7 @@ def test_a_soft_body_lies_between_the_laws_of_rubbers():
 
 def outcome(body: dict) -> Run:
     tables = scene(body, resolution={"levels": 2}, budget={"time": 20.0})
-    return run(resolved(tables | {"tolerance": {"peak_pressure": 0.015}}), None, MODELS)
+    return run_of(tables, tolerance={"peak_pressure": 0.015})
 
 
 def test_a_named_solid_decides_what_moduli_leave_open():

@@ -3,11 +3,10 @@ scales."""
 
 import json
 from dataclasses import replace
-from pathlib import Path
 from unittest.mock import patch
 
 import pytest
-from scenes import KNOWN_STEEL, refound, resolved
+from scenes import KNOWN_STEEL, refound, resolved, run_of
 
 import comparisons.models.finite_element.level
 from analytic.exact.layers import TABLE
@@ -23,12 +22,6 @@ from meshes.block import MeshError
 
 RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
 RIGID = {"radius": 10e-3, "rigid": True}
-
-
-def outcome_of(tables: dict, out: Path = Path("made")) -> Run:
-    """A run that leaves no files."""
-    with patch("comparisons.runs.write.write_files"):
-        return run(resolved(tables), out, MODELS)
 
 
 def smooth(peak_pressure: float, **tables: dict) -> dict:
@@ -57,7 +50,7 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
         "peak_pressure": float(case["p0_R_over_Eprime_t"]) * modulus * THICKNESS / RADIUS,
         "contact_length": 2.0 * float(case["a_over_t"]) * THICKNESS,
     }
-    outcome = outcome_of(
+    outcome = run_of(
         {
             "roller": {"radius": RADIUS, "rigid": True},
             "body": {
@@ -84,10 +77,10 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
         assert stated.interaction == 0.0
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def outcomes() -> list[Run]:
     """Peak pressures, and so a/R and p/E, of one to two."""
-    return [outcome_of(smooth(pressure)) for pressure in (2.0e9, 4.0e9)]
+    return [run_of(smooth(pressure)) for pressure in (2.0e9, 4.0e9)]
 
 
 class TestSmooth:
@@ -149,7 +142,7 @@ class TestSmooth:
             assert shown == ExitStatus.OUTSIDE_TOLERANCE
 
     def test_models_and_comparison_are_those_without_effects(self, outcomes):
-        plain = outcome_of(smooth(2.0e9, budget={"effects": False}))
+        plain = run_of(smooth(2.0e9, budget={"effects": False}))
         for study in ("contact", "comparison", "problem"):
             assert plain.findings[study].figures == outcomes[0].findings[study].figures
         assert plain.data("model_error").selection.added == frozenset()
@@ -164,7 +157,7 @@ def status_of(outcome: Run, effect: str) -> tuple[str, str]:
 
 def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
     """A large roller under a light load: a/R and p/E of a thousandth and less."""
-    outcome = outcome_of(
+    outcome = run_of(
         {
             "roller": {"radius": 0.1, "rigid": True},
             "body": KNOWN_STEEL,
@@ -188,7 +181,7 @@ def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
         return solve(problem, *arguments, **others)
 
     with patch("comparisons.models.finite_element.level.finite_element_level", without_strain):
-        outcome = outcome_of(smooth(2.0e9))
+        outcome = run(resolved(smooth(2.0e9)), None, MODELS)
     selection = outcome.data("model_error").selection
     assert selection.impossible["finite_strain"] == "no mesh is possible"
     assert selection.added == frozenset()
@@ -207,7 +200,7 @@ def test_without_a_solution_free_of_effects_nothing_is_split():
 
     body = {**KNOWN_STEEL, "thickness": 1e-3}
     with patch("comparisons.models.finite_element.level.finite_element_level", bounded_alone):
-        outcome = outcome_of(smooth(1.0e9, body=body))
+        outcome = run(resolved(smooth(1.0e9, body=body)), None, MODELS)
     assert (
         outcome.data("model_error").unsplit == "no mesh" and outcome.data("model_error").levels >= 2
     )
@@ -236,13 +229,17 @@ def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(t
             raise KeyboardInterrupt
         return solve(problem, *arguments, **others)
 
-    with patch("comparisons.models.finite_element.level.finite_element_level", counted):
+    scene = resolved(smooth(2.0e9))
+    with (
+        patch("comparisons.models.finite_element.level.finite_element_level", counted),
+        patch("comparisons.runs.write.write_files"),
+    ):
         stop = 6  # levels and the half-size block are four; the budget's second level
         with pytest.raises(KeyboardInterrupt, match="goes on from there"):
-            outcome_of(smooth(2.0e9), tmp_path / "out")
+            run(scene, tmp_path / "out", MODELS)
         first, stop = len(solved), None
-        again = outcome_of(smooth(2.0e9), tmp_path / "out")
-        once = outcome_of(smooth(2.0e9), tmp_path / "other")
+        again = run(scene, tmp_path / "out", MODELS)
+        once = run(scene, tmp_path / "other", MODELS)
     assert again.figures == once.figures
     whole = len(solved) - first
     assert whole == 2 * _levels(once) - (first - 1)

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scenes import PROFILES, SMOOTH, changed, problem, resolved
+from scenes import PROFILES, SMOOTH, changed, problem, resolved, run_of
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
@@ -32,9 +32,9 @@ TRACE = {"file": str(PROFILES / "ground_polished.csv"), "x_unit": "um", "z_unit"
 ROUGH = changed(SMOOTH, profile=TRACE, load={"per_length": 2e5})
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def outcome():
-    return run(resolved(SCENE), None, ("half_plane",))
+    return run_of(SCENE, "half_plane")
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def test_the_result_has_it_by_quantity(outcome):
     assert set(figure.spread.shares) == set(INPUTS)
     [counts] = outcome.findings["scatter"].table("samples").rows()
     assert counts["solutions"] == 64 * (3 + 2) and counts["failed"] == 0
-    assert "scatter" not in run(resolved(SMOOTH), None, ("half_plane",)).findings
+    assert "scatter" not in run_of(SMOOTH, "half_plane").findings
 
 
 def test_it_is_the_same_again_and_by_any_executor(outcome):
@@ -87,7 +87,7 @@ def test_it_is_the_same_again_and_by_any_executor(outcome):
         opens = partial(ExecutorWorker, executor)
         again = run(resolved(SCENE), None, ("half_plane",), opens=opens)
     assert again.figures.of(study="scatter") == outcome.figures.of(study="scatter")
-    other = run(resolved(changed(SCENE, scatter={"seed": 4})), None, ("half_plane",))
+    other = run_of(SCENE, "half_plane", scatter={"seed": 4})
     assert other.figures.of(study="scatter") != outcome.figures.of(study="scatter")
 
 
@@ -175,7 +175,7 @@ class TestASample:
 
     def test_what_has_no_solution_is_counted(self):
         beyond = {"position": {"range": [0.0, 1.5e-3]}, "samples": 8}
-        outcome = run(resolved(changed(ROUGH, scatter=beyond)), None, ("half_plane",))
+        outcome = run_of(ROUGH, "half_plane", scatter=beyond)
         findings = outcome.findings["scatter"]
         [counts] = findings.table("samples").rows()
         assert 0 < counts["failed"] < counts["solutions"]

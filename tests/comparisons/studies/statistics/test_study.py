@@ -6,17 +6,16 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scenes import PROFILES, SMOOTH, STEEL, resolved
+from scenes import PROFILES, SMOOTH, STEEL, resolved, run_of
 
 from analytic.statistics.penetration import RIDGE
 from comparisons.cli import main
 from comparisons.common.errors import InputError
-from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.output.record import read_result
-from comparisons.runs.run import Known, run
+from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
 from comparisons.studies.statistics.study import patch_rows, summit_rows
@@ -28,19 +27,19 @@ ROUGH = {
 SCENE = SMOOTH | {"profile": ROUGH, "load": {"per_length": 2e6}, "statistics": {"traces": 8}}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def outcome():
-    return run(resolved(SCENE), None, ("half_plane",))
+    return run_of(SCENE, "half_plane")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def loads(outcome):
     """Columns by name: values (7,) from the heaviest load down."""
     columns = outcome.findings["statistics"].table("loads").columns
     return {name: column.numbers for name, column in columns.items()}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def uncertainties(outcome):
     """The same of their uncertainties."""
     columns = outcome.findings["statistics"].table("loads").columns
@@ -148,7 +147,7 @@ class TestPatches:
 
     def test_one_smooth_patch_has_the_rollers_radius(self):
         """Hertz: h/R of a ridge is (a/R)^2, its radius the roller's."""
-        done = run(resolved(SMOOTH), None, ("half_plane",))
+        done = run_of(SMOOTH, "half_plane")
         wanted = SimpleNamespace(metal="ferrous", lubricated=False)
         scene = done.problem.scene.unchecked({"statistics": wanted})
         level = done.runs["half_plane"].finest
@@ -171,8 +170,7 @@ class TestPatches:
             "stress": {"points": [30, 10]}, "finite_element": {"plastic": True},
             "resolution": {"levels": 2, "pitch": 8e-6}, "budget": {"effects": False},
         }  # fmt: skip
-        known = Known(levels=Levels(2))
-        elastic, flowing = patches_of(run(resolved(tables), None, MODELS, known=known)).values()
+        elastic, flowing = patches_of(run_of(tables, levels=Levels(2))).values()
         assert "plastic_strain" not in elastic[0]
         assert {patch["kinds.exact"] for patch in flowing} == {"elastic"}
         for patch in flowing:
@@ -268,5 +266,5 @@ def test_statistics_of_a_smooth_profile_end_with_two_and_write_nothing(tmp_path,
 def test_the_scene_that_comes_along_has_both_kinds_of_asperities():
     scene = Scene.read("rough-statistics")
     assert scene.statistics.traces >= 8
-    [patches] = patches_of(run(scene, None, ("half_plane",))).values()
+    [patches] = patches_of(run_of(scene, "half_plane")).values()
     assert {patch["kinds.exact"] for patch in patches} == {"elastic", "plastic"}
