@@ -25,7 +25,8 @@ from comparisons.scenes.surface import KnownTrace, ProfileInfo, SceneSurface, su
 from comparisons.studies.study import MODEL_ERROR
 
 SCHEMA = 2  # of record.json; 1 had neither the trace as read nor the number of levels
-_IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"}
+# What is raised where a file is built otherwise than a run writes it.
+BUILT_OTHERWISE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 
 
 def record_of(problem: Problem, runs: dict[str, ModelRun], hashes: dict[str, str]) -> dict:
@@ -84,78 +85,64 @@ def read_record(folder: Path) -> Record:
     content = read_table(path)
     check_schema(path, content, SCHEMA)
     result = read_result(folder / "result.json")
-    models = _part(path, content, "models", list)
-    if not models or any(name not in MODELS for name in models):
-        raise InputError(f"{path}: models: is {models!r}; allowed are {', '.join(MODELS)}")
-    scene, surface = _scene(path, content)
-    return Record(
-        scene=scene,
-        surface=surface,
-        models=tuple(name for name in MODELS if name in models),
-        levels=_levels(path, content, result),
-        result=result,
-        **{name: _part(path, content, name, dict) for name in ("versions", "machine", "hashes")},
-    )
+    try:
+        scene, surface = _scene(path, content)
+        return Record(
+            scene=scene,
+            surface=surface,
+            models=tuple(sorted(content["models"], key=MODELS.index)),
+            levels=_levels(path, content["levels"], result),
+            result=result,
+            **{name: dict(content[name]) for name in ("versions", "machine", "hashes")},
+        )
+    except InputError:
+        raise
+    except BUILT_OTHERWISE as error:
+        raise InputError(f"{path}: is no record of a run ({error!r}); allowed is one") from error
 
 
 def read_result(path: Path) -> Result:
     """What a run's result.json says. Raises InputError, one line, where it is none."""
     content = read_table(path)
+    check_schema(path, content, result_json.SCHEMA)
     try:
-        check_schema(path, content, result_json.SCHEMA)
         return result_json.read_content(content)
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+    except BUILT_OTHERWISE as error:
         raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
 
 
 def _scene(path: Path, content: dict) -> tuple[Scene, SceneSurface]:
-    tables, name = _part(path, content, "scene", dict), _part(path, content, "name", str)
-    name = one_line(name)
-    trace = None
+    tables, trace = content["scene"], None
     if tables.get("profile") is not None:
-        trace = _trace(path, _part(path, content, "profile", dict))
-    scene = Scene.of(tables, Origin(name, path.parent, str(path)))
+        trace = _trace(path, content["profile"])
+    scene = Scene.of(tables, Origin(one_line(content["name"]), path.parent, str(path)))
     return scene, surface_of(scene, trace)
 
 
-def _levels(path: Path, content: dict, result: Result) -> Levels:
+def _levels(path: Path, levels: int, result: Result) -> Levels:
     """As many as the run and its error budget had."""
-    levels = _part(path, content, "levels", int)
-    if not 1 <= levels <= MOST_LEVELS:
-        raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
     cost = result.findings[MODEL_ERROR].table("cost") if MODEL_ERROR in result.findings else None
     effects = None if cost is None else cost.columns["levels"].values[0]
-    if effects is not None and not (type(effects) is int and 0 <= effects <= MOST_LEVELS):
-        where = f"{path.parent / 'result.json'}: levels of the whole model"
-        raise InputError(f"{where}: is {effects!r}; allowed is from 0 to {MOST_LEVELS}")
+    result_path = path.with_name("result.json")
+    for file, known, least in ((path, levels, 1), (result_path, effects or 0, 0)):
+        if not (type(known) is int and least <= known <= MOST_LEVELS):
+            allowed = f"allowed is from {least} to {MOST_LEVELS}"
+            raise InputError(f"{file}: levels: is {known!r}; {allowed}")
     return Levels(levels, effects)
 
 
 def _trace(path: Path, profile: dict) -> KnownTrace:
     """The recorded trace, if it is still what was recorded."""
-    trace = _part(path, profile, "trace", dict, "profile.")
-    where = f"{path}: profile.trace"
-    try:
-        x, height = (np.array(trace[name], dtype=float) for name in ("x", "height"))
-        samples = Profile(x, height)
-        stretch = trace.get("stretch")
-        read = MeasuredProfile(
-            profile=samples,
-            format=trace["format"],
-            place=trace["place"],
-            bridged=int(trace["bridged"]),
-            trimmed=int(trace["trimmed"]),
-            stretch=None if stretch is None else (float(stretch[0]), float(stretch[1])),
-        )
-        same = digest(x, height) == trace["sha256"]
-        wrong = "" if same else ": has another SHA-256 than recorded"
-    except KeyError as error:
-        wrong = f".{error.args[0]}: is missing"
-    except (TypeError, ValueError, IndexError, OverflowError) as error:
-        wrong = f": {error}"
-    if wrong:
-        raise InputError(f"{where}{wrong}; allowed is what was recorded")
-    return KnownTrace(read, profile.get("file_sha256"))
+    trace = profile["trace"]
+    x, height = (np.array(trace[name], dtype=float) for name in ("x", "height"))
+    if digest(x, height) != trace["sha256"]:
+        what = "has another SHA-256 than recorded; allowed is what was recorded"
+        raise InputError(f"{path}: profile.trace: {what}")
+    names = ("format", "place", "bridged", "trimmed")
+    how = {name: trace[name] for name in names}
+    stretch = trace["stretch"] and tuple(trace["stretch"])
+    read = MeasuredProfile(profile=Profile(x, height), stretch=stretch, **how)
+    return KnownTrace(read, profile["file_sha256"])
 
 
 def read_table(path: Path) -> dict:
@@ -182,17 +169,9 @@ def _no_number(name: str) -> None:
 
 def check_schema(path: Path, content: Mapping, known: int) -> None:
     """Raise InputError unless the content of a file is of the schema that is known here."""
-    schema = _part(path, content, "schema", int)
+    schema = content.get("schema")
     if schema != known:
-        age, remedy = ("a later", "") if schema > known else ("an earlier", ": run the scene again")
+        is_later = isinstance(schema, int) and schema > known
+        age, remedy = ("a later", "") if is_later else ("an earlier", ": run the scene again")
         said = f"is {schema}, of {age} crosscheck"
         raise InputError(f"{path}: schema: {said}; allowed is {known}{remedy}")
-
-
-def _part(path: Path, content: Mapping, name: str, kind: type, within: str = "") -> object:
-    """A named part of a table, of the kind that a run writes."""
-    value = content.get(name)
-    if isinstance(value, kind) and not isinstance(value, bool):
-        return value
-    state = "is missing" if value is None else f"is {type(value).__name__}"
-    raise InputError(f"{path}: {within}{name}: {state}; allowed is {_IN_WORDS[kind]}")
