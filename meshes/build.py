@@ -24,6 +24,7 @@ from meshes.quality import check_quality
 WORKER = (sys.executable, "-P", str(Path(__file__).with_name("gmsh_worker.py")))
 # Without these variables of mpirun, gmsh does not start MPI as one more rank.
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "MPI_LOCAL", "HYDI_")
+TIMEOUT = 600.0  # of a mesh [s]
 GRACE = 1.0  # seconds that a worker with its pipes closed may take to end
 # Decimals of lengths in units of surface_size: the same block in other units gives the same mesh.
 UNIT_DECIMALS = 9
@@ -44,16 +45,16 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
 class GmshWorker:
     """A process of `meshes.gmsh_worker`, which has gmsh loaded and forks for every mesh."""
 
-    def __init__(self, environment: dict[str, str]) -> None:
-        self.made_for, self.seconds = (os.getpid(), WORKER, environment), 0.0
+    def __init__(self) -> None:
+        self.made_for, self.seconds = (os.getpid(), WORKER), 0.0
         pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
-        self.process = subprocess.Popen(WORKER, env=environment, **pipes)
+        self.process = subprocess.Popen(WORKER, env=_environment(), **pipes)
 
-    def serves(self, environment: dict[str, str]) -> bool:
+    def serves(self) -> bool:
         """Whether it is alive, of this process, and would be started so again."""
-        return self.made_for == (os.getpid(), WORKER, environment) and self.process.poll() is None
+        return self.made_for == (os.getpid(), WORKER) and self.process.poll() is None
 
-    def filled(self, task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
+    def filled(self, task: tuple) -> tuple[np.ndarray, np.ndarray]:
         """As `run_worker`."""
         late = threading.Event()
 
@@ -61,7 +62,7 @@ class GmshWorker:
             late.set()
             self.process.kill()
 
-        timer = threading.Timer(timeout, stop)
+        timer = threading.Timer(TIMEOUT, stop)
         timer.start()
         try:
             pickle.dump(task, self.process.stdin)
@@ -73,7 +74,7 @@ class GmshWorker:
         finally:
             timer.cancel()
         if late.is_set():
-            raise MeshError(f"gmsh was stopped: not done after {timeout:g} s")
+            raise MeshError(f"gmsh was stopped: not done after {TIMEOUT:g} s")
         if status == -signal.SIGKILL:
             raise MemoryError("gmsh was killed, as the system does where memory ends")
         if status != 0:
@@ -129,32 +130,30 @@ def _environment() -> dict[str, str]:
 
 def start_worker() -> None:
     """Have one worker wait, which loads gmsh while this process does something else."""
-    environment = _environment()
-    while idle and not idle[-1].serves(environment):
+    while idle and not idle[-1].serves():
         idle.pop().close()
     if not idle:
-        idle.append(GmshWorker(environment))
+        idle.append(GmshWorker())
 
 
-def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
+def run_worker(task: tuple) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2) and triangles (m, 3) by `meshes.gmsh_worker.fill` with the arguments `task`.
-    Raises MeshError if the process fails, crashes, or takes longer than timeout [s], MemoryError
-    if it is killed, and so is the next. The process waits for further tasks, but ends where this
+    Raises MeshError if the process fails, crashes, or takes longer than TIMEOUT, MemoryError if
+    it is killed, and so is the next. The process waits for further tasks, but ends where this
     one fails or is interrupted."""
     try:
-        return _filled(task, timeout)
+        return _filled(task)
     except MemoryError:
-        return _filled(task, timeout)
+        return _filled(task)
 
 
-def _filled(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
-    environment = _environment()
-    worker = idle.pop() if idle else GmshWorker(environment)
+def _filled(task: tuple) -> tuple[np.ndarray, np.ndarray]:
+    worker = idle.pop() if idle else GmshWorker()
     try:
-        if not worker.serves(environment):
+        if not worker.serves():
             worker.close()
-            worker = GmshWorker(environment)
-        filled = worker.filled(task, timeout)
+            worker = GmshWorker()
+        filled = worker.filled(task)
     except BaseException:
         worker.close()
         raise
@@ -166,14 +165,6 @@ def explain_failure(status: int, complaint: str) -> str:
     """One sentence for a gmsh process that ended with status and wrote complaint."""
     lines = [line.strip() for line in complaint.splitlines() if line.strip()]
     last = lines[-1] if lines else "it said nothing"
-    if "cannot open shared object file" in last:
-        return (
-            f"gmsh cannot be loaded, a system library is missing ({last}): "
-            "apt install libglu1-mesa libgl1 libxrender1 libxcursor1 libxfixes3 libxft2 "
-            "libfontconfig1 libxinerama1"
-        )
-    if "No module named 'gmsh'" in last:
-        return "gmsh is not installed: pip install gmsh"
     if status < 0:
         return f"gmsh crashed ({signal.Signals(-status).name}): {last}"
     return f"gmsh failed: {last}"
@@ -191,15 +182,13 @@ def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) ->
         )
 
 
-def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
+def build_block(spec: BlockSpec) -> BlockMesh:
     """Flat second-order mesh of the block, with element sizes by `meshes.size_law`.
 
     Each refined range has vertices at both ends and equal edges of surface_size, or of a whole
     fraction of it where a thin block, a fine window or a thin coating needs less. Points on the
     sides and on the interface are exact. The same spec gives the same mesh to the last bit, and a
     spec in other units of length the same triangles.
-
-    timeout   of gmsh [s]
 
     Raises MeshError if spec cannot be meshed, if gmsh fails or runs out of time, or if the elements
     are not fit to solve on, MemoryError if gmsh is killed."""
@@ -212,7 +201,7 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     if scaled.shape != outer.points.shape:
         scaled = outer.points / unit
     points = np.round(scaled, UNIT_DECIMALS)
-    vertices, triangles = run_worker((points, outer.lines, outer.regions, small), timeout)
+    vertices, triangles = run_worker((points, outer.lines, outer.regions, small))
     vertices = vertices * unit
     vertices[: len(outer.points)] = outer.points
     vertices, triangles = with_layers(vertices, triangles, spec.interface, outer.beside)

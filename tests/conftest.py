@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from comparisons.common.progress import machine_memory
-from meshes import build
 
 PROJECT = Path(__file__).resolve().parents[1]
 LAST = ("fem", "meshes", "analytic")  # folders of tests, by how long a file takes
@@ -20,8 +19,6 @@ WORKER_MEMORY = 2.5e9  # bytes that one process with its share of the tests may 
 # rewrite assertions again that it has rewritten once.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
-# Nor does gmsh start again because pytest has named the next test in the environment.
-build.LAUNCHER_VARIABLES += ("PYTEST_CURRENT_TEST",)
 # Nor is what they print as wide as the terminal that pytest writes to.
 os.environ.pop("COLUMNS", None)
 # A shell hands an ignored SIGINT down to what it runs in the background; tests send interrupts.

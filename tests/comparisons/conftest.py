@@ -228,10 +228,10 @@ def meshed_once(meshed: dict[bytes, tuple[np.ndarray, np.ndarray]]) -> Iterator[
     scenes. `tests/meshes` show that equal tasks give equal meshes to the last bit."""
     mesh = meshes.build.run_worker
 
-    def cached(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
+    def cached(task: tuple) -> tuple[np.ndarray, np.ndarray]:
         key = pickle.dumps(task)
         if key not in meshed:
-            meshed[key] = mesh(task, timeout)
+            meshed[key] = mesh(task)
         vertices, triangles = meshed[key]
         return vertices.copy(), triangles.copy()
 
