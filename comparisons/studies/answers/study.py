@@ -40,7 +40,6 @@ from comparisons.figures.uncertainty import (
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.conditions import conditions, operators_of
 from comparisons.studies.answers.hints import hints
@@ -67,41 +66,6 @@ class OutsideAnswers:
     answers: Mapping[str, tuple[Answer, ...]]
 
 
-@dataclass(frozen=True)
-class AnswerRow:
-    """A quantity of an answer at one friction coefficient; figures in SI, the others relative."""
-
-    quantity: str
-    friction: float
-    answer: float | None  # None for a norm of the difference, as the reference
-    reference: float | None
-    difference: float  # (answer - reference) / reference, or the norm
-    # of the difference: the model's, and the answer's own, or else how finely its points are read
-    uncertainty: Uncertainty
-    tolerance: float | None  # None: not judged
-
-    def figures(self, source: str, against: str) -> Iterator[Figure]:
-        """The answer's figure, where it has one, and its difference from a model."""
-        stated = self.uncertainty.parts.get("own")
-        common = {"study": NAME, "quantity": self.quantity, "source": source}
-        common["at"] = {"friction": self.friction}
-        if self.answer is not None:
-            yield Figure(
-                value=self.answer,
-                scale=abs(self.answer) or 1.0,
-                uncertainty=None if stated is None else Uncertainty({"own": stated}),
-                **common,
-            )
-        yield Figure(
-            value=self.difference,
-            against=against,
-            scale=abs(self.reference or 0.0) or 1.0,
-            uncertainty=self.uncertainty,
-            bounds=(-self.tolerance, self.tolerance) if self.tolerance else None,
-            **common,
-        )
-
-
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Raises InputError for a file that cannot be read, before anything is solved."""
     _read(solved, tasks)
@@ -117,8 +81,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         finest, validation = answers[name][-1], []
         frictions = problem.scene.load.friction if source.friction is None else (source.friction,)
         for friction in frictions:
-            for row in _rows(solved, model, friction, source, answers[name]):
-                figures += row.figures(name, model.name)
+            figures += _figures(solved, model, friction, name, answers[name])
             if source.scatter is not None:
                 measured = figures_of_answer(finest, problem, friction)
                 known = scattered.of(friction=friction)
@@ -176,15 +139,14 @@ def figures_of_answer(answer: Answer, problem: Problem, friction: float) -> dict
     return values
 
 
-def _rows(
-    solved: Solved,
-    model: ModelRun,
-    friction: float,
-    source: AnswerSection,
-    answers: tuple[Answer, ...],
-) -> Iterator[AnswerRow]:
-    """At one friction coefficient, in the order of COMPARED."""
+def _figures(
+    solved: Solved, model: ModelRun, friction: float, name: str, answers: tuple[Answer, ...]
+) -> Iterator[Figure]:
+    """An answer's figures at one friction coefficient, where it has them, and their differences
+    from a model's, (answer - model) / model, or norms, in the order of COMPARED. Uncertain is a
+    difference by the model and by the answer's own, or else by how finely its points are read."""
     problem, window, model = solved.problem, solved.window, model.under(friction)
+    scatter, tolerances = problem.scene.answers[name].scatter, problem.scene.tolerances
     finest, first = answers[-1], model.levels[0]
 
     def against(answer: Answer, level: Level) -> dict[str, float]:
@@ -196,29 +158,35 @@ def _rows(
     repeated |= by_repetition(model, lambda level: norms(level, first, friction, window))
     values = figures_of_answer(finest, problem, friction)
     reference = values_of(model.finest, problem, friction)
-    for name, difference in by_level[-1].items():
-        quantity, size = COMPARED[name], abs(1.0 + difference)
-        resolution, reading = 0.0, _reading(finest, name) / abs(reference.get(name) or 1.0)
-        if name == "contact_length":
-            grid, length = model.finest.grid, model.finest.contact_length
-            resolution = length_resolution(grid.pitch, len(model.finest.patches)) / length
-            reading = _reading(finest, name) / length
-        history = [differences[name] for differences in by_level]
-        unsure = grid_convergence(history, quantity.formal_order, resolution).uncertainty
+    for quantity, difference in by_level[-1].items():
+        order, size = COMPARED[quantity].formal_order, abs(1.0 + difference)
+        resolution, scale = 0.0, abs(reference.get(quantity, 0.0)) or 1.0
+        reading = _reading(finest, quantity) / scale
+        if quantity == "contact_length":
+            grid, patches = model.finest.grid, model.finest.patches
+            resolution = length_resolution(grid.pitch, len(patches)) / scale
+        history = [differences[quantity] for differences in by_level]
+        unsure = grid_convergence(history, order, resolution).uncertainty
         unsure += max(1.0, size) * iteration(model.finest)
-        unsure += sum(repeated[name])
-        stated = _stated(name, [differences.get(name) for differences in by_file], answers, reading)
-        if source.scatter is not None:
-            stated = (stated or 0.0) + source.scatter * (1.0 if name in NORMS else size)
-        parts = {"reading": reading} if stated is None else {"own": stated}
-        yield AnswerRow(
-            quantity=name,
-            friction=friction,
-            answer=values.get(name),
-            reference=reference.get(name),
-            difference=difference,
-            uncertainty=Uncertainty({"model": unsure} | parts),
-            tolerance=problem.scene.tolerances.get(name),
+        unsure += sum(repeated[quantity])
+        by_answer = [differences.get(quantity) for differences in by_file]
+        stated = _stated(quantity, by_answer, answers, reading)
+        if scatter is not None:
+            stated = (stated or 0.0) + scatter * (1.0 if quantity in NORMS else size)
+        own = None if stated is None else {"own": stated}
+        common = {"study": NAME, "quantity": quantity, "source": name}
+        common["at"] = {"friction": friction}
+        if (value := values.get(quantity)) is not None:
+            sure = own and Uncertainty(own)
+            yield Figure(value=value, scale=abs(value) or 1.0, uncertainty=sure, **common)
+        tolerance = tolerances.get(quantity)
+        yield Figure(
+            value=difference,
+            against=model.name,
+            scale=scale,
+            uncertainty=Uncertainty({"model": unsure} | (own or {"reading": reading})),
+            bounds=(-tolerance, tolerance) if tolerance else None,
+            **common,
         )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
-from comparisons.figures.quantity import MODELS, Quantity
+from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -52,59 +52,6 @@ OTHER_PRESSURES = "other pressures"  # the part of a difference that these make
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
 Histories = dict[str, list[HeatedContact] | list[HeatedStress]]  # by model, on every level
-
-
-@dataclass(frozen=True)
-class HeatRow:
-    """A quantity by one or both models, from which its figures follow; all but `values`, `cold` and
-    `places` relative."""
-
-    quantity: str
-    values: Mapping[str, float]
-    uncertainties: Mapping[str, float]  # numerical, of each model's value
-    scale: float  # what all that is relative is relative to [SI]
-    # (half-plane - finite elements) / finite elements; None for one model
-    difference: float | None = None
-    # by the half-plane under the finite elements' pressures; of each feature that the finite
-    # elements alone have, what the figure is without it, over what it is with it, less 1
-    parts: tuple[Part, ...] = ()
-    tolerance: float | None = None
-    cold: Mapping[str, float] = field(default_factory=dict)  # of a stress, what it is without heat
-    places: Mapping[str, tuple[float, ...] | None] = field(default_factory=dict)  # by model [m]
-
-    def figures(self, friction: float) -> Iterator[Figure]:
-        """By each model, with heat and without, and their difference."""
-        common = {"study": NAME, "at": {"friction": friction}, "scale": self.scale}
-        for model, value in self.values.items():
-            stated = Uncertainty({"numerical": self.uncertainties[model]})
-            yield Figure(
-                quantity=self.quantity,
-                source=model,
-                value=value,
-                uncertainty=stated,
-                parts=self.parts if self.difference is None and model == MODELS[1] else (),
-                place=self.places.get(model),
-                **common,
-            )
-            if model in self.cold:
-                yield Figure(
-                    quantity=f"{self.quantity}{WITHOUT}",
-                    source=model,
-                    value=self.cold[model],
-                    uncertainty=stated,
-                    **common,
-                )
-        if self.difference is not None:
-            yield Figure(
-                quantity=self.quantity,
-                source="half_plane",
-                value=self.difference,
-                against="finite_element",
-                uncertainty=Uncertainty(self.uncertainties),
-                bounds=(-self.tolerance, self.tolerance),
-                parts=self.parts,
-                **common,
-            )
 
 
 @dataclass(frozen=True)
@@ -222,38 +169,54 @@ def _figures(
     domain: Mapping[str, float],
     name: str,
     parts: list[Part],
-) -> list[Figure]:
-    """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
-    is infinite, they discretise it each in its own way. All is over the finite elements' value; of
-    stresses over that without heat where it is larger, as heat may cancel it; of depths over a."""
-    levels = {model: [known.figures[name] for known in h] for model, h in histories.items()}
-    values, uncertainties = {model: history[-1] for model, history in levels.items()}, {}
+) -> Iterator[Figure]:
+    """One quantity by each model, with heat and without, and their difference. Both models'
+    uncertainties add up: next to the ends of contact, where the flux is infinite, they discretise
+    it each in its own way. All is over the finite elements' value; of stresses over that without
+    heat where it is larger, as heat may cancel it; of depths over a.
+
+    parts  of each feature that the finite elements alone have, what the figure is without it, over
+           what it is with it, less 1"""
+    values = {model: history[-1].figures[name] for model, history in histories.items()}
     cold = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
     size = max(abs(known[list(values)[-1]]) for known in (values, cold) if known)
     size = problem.hertz.half_width if name == "tau1_depth_heated" else size
-    for model, history in levels.items():
-        left = grid_convergence(history, FORMAL_ORDER).uncertainty
-        left += domain[name] if model == "finite_element" else 0.0
+    common = {"study": NAME, "at": {"friction": friction_of(problem)}, "scale": size}
+    uncertainties, alone = {}, len(values) == 1
+    for model, history in histories.items():
+        left = grid_convergence([known.figures[name] for known in history], FORMAL_ORDER)
+        left = left.uncertainty + (domain[name] if model == "finite_element" else 0.0)
         uncertainties[model] = left / size + iteration(runs[model].finest)
-    difference = None
-    if len(values) > 1:
-        difference = (values["half_plane"] - values["finite_element"]) / size
-        if not cold:
-            under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
-            share = (values["half_plane"] - under_theirs) / size
-            parts = [*parts, Part(OTHER_PRESSURES, share)]
-    row = HeatRow(
+        stated = Uncertainty({"numerical": uncertainties[model]})
+        yield Figure(
+            quantity=name,
+            source=model,
+            value=values[model],
+            uncertainty=stated,
+            parts=tuple(parts) if alone and model == "finite_element" else (),
+            place=history[-1].places.get(name),
+            **common,
+        )
+        if cold:
+            without = {"quantity": f"{name}{WITHOUT}", "value": cold[model]}
+            yield Figure(source=model, uncertainty=stated, **without, **common)
+    if alone:
+        return
+    if not cold:
+        under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
+        share = (values["half_plane"] - under_theirs) / size
+        parts = [*parts, Part(OTHER_PRESSURES, share)]
+    tolerance = problem.scene.heat.tolerance
+    yield Figure(
         quantity=name,
-        values=values,
-        uncertainties=uncertainties,
-        scale=size,
-        difference=difference,
+        source="half_plane",
+        value=(values["half_plane"] - values["finite_element"]) / size,
+        against="finite_element",
+        uncertainty=Uncertainty(uncertainties),
+        bounds=(-tolerance, tolerance),
         parts=tuple(parts),
-        tolerance=problem.scene.heat.tolerance,
-        cold=cold,
-        places={model: h[-1].places.get(name) for model, h in histories.items()},
+        **common,
     )
-    return list(row.figures(friction_of(problem)))
 
 
 def _effect(feature: str, pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> Part:
