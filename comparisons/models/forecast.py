@@ -103,7 +103,7 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     if problem.flows and plan.effects and not settings.plastic:
         flow = flow_seconds(problem, flowing)
     if plan.effects and (flow or (settings.plastic and settings.deformation == "linear")):
-        finite_flow = finite_flow_seconds(problem, flowing)
+        finite_flow = flow_seconds(problem, flowing, "finite")
     return Forecast(
         levels=tuple(levels),
         asked=asked,
@@ -136,34 +136,19 @@ def expected_level(
     return replace(cost, seconds=contacts * cost.seconds)
 
 
-def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
-    """Of flow on the first two levels and of the check of its increments, for every friction
-    coefficient, by the laws of cost."""
-    return _flow_seconds(problem, patches, ((0, 1), (1, 1), *((0, times) for times in LONGER)))
-
-
-def finite_flow_seconds(problem: Problem, patches: np.ndarray) -> float:
-    """Of flow at finite strain on the first two levels, for every friction coefficient."""
-    return _flow_seconds(problem, patches, ((0, 1), (1, 1)), "finite")
-
-
-def _flow_seconds(
-    problem: Problem,
-    patches: np.ndarray,
-    solved: tuple[tuple[int, int], ...],
-    deformation: str = "linear",
-) -> float:
-    """Of levels from 0, each by so many times as long increments."""
+def flow_seconds(problem: Problem, patches: np.ndarray, deformation: str = "linear") -> float:
+    """Of flow on the first two levels, at small strains with the check of its increments, for every
+    friction coefficient, by the laws of cost."""
     from comparisons.models.finite_element.cost import expected
     from comparisons.models.finite_element.mesh import Refinement
     from fem.nonlinear.press_plastic import TRAVEL
 
     switches = {"finite_element.plastic": True, "finite_element.deformation": deformation}
     flowing = replace(problem, scene=problem.scene.unchecked(switches))
-    plan = make_plan(flowing, MODELS)
-    refinements = [
-        Refinement(problem.pitches[0] / 2.0**k, travel=times * TRAVEL) for k, times in solved
-    ]
+    plan, coarsest = make_plan(flowing, MODELS), problem.pitches[0]
+    refinements = [Refinement(coarsest), Refinement(0.5 * coarsest)]
+    if deformation == "linear":
+        refinements += [Refinement(coarsest, travel=times * TRAVEL) for times in LONGER]
     seconds = sum(expected(flowing, plan, one, patches).seconds for one in refinements)
     return len(problem.scene.load.friction) * seconds
 

@@ -70,7 +70,6 @@ class SymmetricFactor:
         for used in (ksp.getPC(), ksp):  # they hold the matrix
             used.destroy()
         release_with(self, self._factor, self._right, self._left)
-        self.bytes = 1_000_000 * self._factor.getMumpsInfog(22)
         self.solves = 0
 
     def solve(self, load: np.ndarray) -> np.ndarray:

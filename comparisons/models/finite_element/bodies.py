@@ -51,11 +51,6 @@ class BodyPair:
     def all(self) -> tuple[ElasticBody, ...]:
         return (self.rough,) if self.roller is None else (self.rough, self.roller)
 
-    @property
-    def factor_memory(self) -> int:
-        """Bytes that their factors hold."""
-        return sum(factor.bytes for factor in {body.factor for body in self.all})
-
 
 class BodyCache:
     """The latest meshes and factored bodies, which all that need the same ones share.

@@ -105,7 +105,6 @@ def _level(
         patches=pressed.patches,
         seconds=stages.seconds,
         unknowns=sum(body.unknowns for body in meshed.bodies.all),
-        factor_memory=meshed.bodies.factor_memory,
         expected_seconds=cost.seconds,
         expected_memory=cost.memory,
         mesh=meshed.bodies.rough.mesh,

@@ -205,8 +205,7 @@ def _uncertainty(
         one, *other = (level.figures(path)[name] for level in levels)
         return one - other[0] if other else one
 
-    paired = list(zip(*(_beside(model, models[-1]) for model in models), strict=True))
-    values = [of(*levels) for levels in paired]
+    values = [of(*levels) for levels in zip(*(model.levels for model in models), strict=True)]
     resolution = 0.0
     if name in LENGTHS:
         ends = (length_resolution(m.finest.grid.pitch, len(m.finest.zones[-1])) for m in models)
@@ -225,14 +224,6 @@ def _uncertainty(
     worst = sum(PRESSURE_PER_RESIDUAL * model.finest.worst for model in models)
     left = refined.uncertainty / scale
     return numerical(worst, left, domain / scale, increments / scale, refined)
-
-
-def _beside(model: ModelSlip, other: ModelSlip) -> list[SlippedLevel]:
-    """The model's levels on the pressure elements of the other's, or on the nearest."""
-    return [
-        min(model.levels, key=lambda one: abs(one.grid.pitch - level.grid.pitch))
-        for level in other.levels
-    ]
 
 
 def _series(

@@ -124,7 +124,10 @@ class OperatorModel:
         with stages.stage("contact"):
             operator = operator_of(problem, grid, self.coupling)
             gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
-            solve = partial(self._solved, operator, grid)
+
+            def solve(gap: np.ndarray, start: np.ndarray | None = None) -> ContactSolution:
+                return solve_on(operator, gap, grid.weights, problem.constraints(), start)
+
             solution = solve(gap)
             if self.deformed:
                 solution = _deformed_contact(problem, grid).pressed(solve, solution)
@@ -141,15 +144,6 @@ class OperatorModel:
                 stresses = tuple(_stresses(problem, level, window, self.frictions))
             level = replace(level, stresses=stresses)
         return replace(level, peak_memory=peak_memory())
-
-    def _solved(
-        self,
-        operator: ModelOperator,
-        grid: HatGrid,
-        gap: np.ndarray,
-        start: np.ndarray | None = None,
-    ) -> ContactSolution:
-        return solve_on(operator, gap, grid.weights, self.problem.constraints(), start)
 
 
 def _deformed_contact(problem: Problem, grid: HatGrid) -> DeformedContact:

@@ -141,9 +141,11 @@ class Ladder:
         return [solutions.error(row) for row in judged]
 
     def _figures(self, name: str, errors: Iterable[ModelError]) -> tuple[Figure, ...]:
+        """Model errors as figures of a rung."""
         tolerances = self.solved.problem.scene.tolerances
         judged = (figure_of(error, self.budget.selection, tolerances) for error in errors)
-        return tuple(renamed(figure, name) for figure in judged)
+        rung = {"study": LADDER, "source": name, "parts": (), "place": None}
+        return tuple(replace(figure, **rung) for figure in judged)
 
     def _hertz(self) -> Rung | None:
         if (smooth := closed_form(self.solved.problem)) is None:
@@ -265,13 +267,6 @@ def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
     once = {id(run): run for run in runs.values()}.values()
     memory = max(run.finest.peak_memory for run in once)
     return sum(sum(run.seconds.values()) for run in once), memory
-
-
-def renamed(figure: Figure, rung: str) -> Figure:
-    """A model error as a figure of the ladder."""
-    known = {name: getattr(figure, name) for name in ("quantity", "value", "at", "against")}
-    known |= {name: getattr(figure, name) for name in ("scale", "uncertainty", "unknown", "bounds")}
-    return Figure(study=LADDER, source=rung, **known)
 
 
 def hertz_quantities(

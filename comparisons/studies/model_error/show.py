@@ -259,14 +259,10 @@ def _largest(run: Run, estimate: dict[str, float]) -> float:
 class Waterfall:
     """The steps to the error of a quantity at one or more friction coefficients."""
 
-    quantity: str
     name: str
     # relative sizes by name, with the sign of the error, to which they add up
     steps: dict[str, float]
-    error: float
-    uncertainty: float  # of `error`; `not_modelled` is the estimate of what else it may be
-    not_modelled: float
-    tolerance: float | None
+    error: Figure
 
 
 def waterfalls(run: Run) -> list[Waterfall]:
@@ -277,17 +273,8 @@ def waterfalls(run: Run) -> list[Waterfall]:
         for same in grouped(errors.of(quantity=quantity), _drawn_of):
             some = len(same) < len(run.problem.scene.load.friction)
             frictions = listed(error.friction for error in same)
-            panels.append(
-                Waterfall(
-                    quantity=quantity,
-                    name=label(quantity) + (f", μ = {frictions}" if some else ""),
-                    steps=_steps(same[0]),
-                    error=same[0].value,
-                    uncertainty=same[0].numerical,
-                    not_modelled=same[0].not_modelled,
-                    tolerance=same[0].tolerance,
-                )
-            )
+            name = label(quantity) + (f", μ = {frictions}" if some else "")
+            panels.append(Waterfall(name, _steps(same[0]), same[0]))
     return panels
 
 
@@ -307,9 +294,9 @@ def model_error_picture(run: Run) -> style.Picture | None:
     panels = waterfalls(run)
     if not panels:
         return None
-    judged = [panel for panel in panels if panel.tolerance]
+    judged = [panel for panel in panels if panel.error.tolerance]
     said = "; ".join(
-        f"{panel.name}: {error_text(panel.error, panel.uncertainty)}"
+        f"{panel.name}: {error_text(panel.error.value, panel.error.numerical)}"
         + "".join(f", {name} {error_text(size)}" for name, size in _large(panel))
         for panel in panels
     )
@@ -332,10 +319,10 @@ def _table(panels: list[Waterfall]) -> list[list[object]]:
     rows: list[list[object]] = [["quantity", "step", "relative size"]]
     for panel in panels:
         ends = {
-            ERROR: panel.error,
-            "uncertainty": panel.uncertainty,
-            "not modelled (estimate)": panel.not_modelled,
-            "tolerance": panel.tolerance,
+            ERROR: panel.error.value,
+            "uncertainty": panel.error.numerical,
+            "not modelled (estimate)": panel.error.not_modelled,
+            "tolerance": panel.error.tolerance,
         }
         sizes = (panel.steps | ends).items()
         rows += [[panel.name, step, f"{size:.6g}"] for step, size in sizes if size is not None]
@@ -344,7 +331,7 @@ def _table(panels: list[Waterfall]) -> list[list[object]]:
 
 def _large(panel: Waterfall) -> list[tuple[str, float]]:
     """The steps that are worth a row."""
-    least = max(SHOWN, 0.1 * abs(panel.error))
+    least = max(SHOWN, 0.1 * abs(panel.error.value))
     return [(name, size) for name, size in panel.steps.items() if abs(size) >= least]
 
 
@@ -388,25 +375,25 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
             look = {"height": BAR, "linewidth": 0.5, **LOOKS[size > 0.0]}
             [bar] = axes.barh(y, start - begin, left=begin, **look)
             hatched += [bar] * (size < 0.0)
-            style.beside_bar(axes, max(begin, start), y, error_text(size, panel.uncertainty))
+            style.beside_bar(axes, max(begin, start), y, error_text(size, panel.error.numerical))
         # past a step that does not apply
         top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
         axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
         ends += [begin, start]
     style.hatch(axes, hatched, LOOKS[False]["edgecolor"])
-    value, y = 100.0 * panel.error, place[-1]
+    value, y = 100.0 * panel.error.value, place[-1]
     axes.barh(y, value, height=BAR, facecolor="#bbbbbb", edgecolor="#000000", linewidth=0.8)
-    certain = 100.0 * panel.uncertainty if math.isfinite(panel.uncertainty) else 0.0
-    at = 100.0 * (panel.tolerance or 0.0)
+    certain = 100.0 * panel.error.numerical if math.isfinite(panel.error.numerical) else 0.0
+    at = 100.0 * (panel.error.tolerance or 0.0)
     most = max(*map(abs, ends), abs(value) + certain, at)
-    estimate = min(100.0 * panel.not_modelled, most)  # more would hide the steps
+    estimate = min(100.0 * panel.error.not_modelled, most)  # more would hide the steps
     bars = (certain, 1.4, 3.0), (certain + estimate, 0.6, 2.0 * (estimate < most))
     for reach, thick, caps in bars:
         style.whisker(axes, value, y, (reach, reach), thick, caps)
         ends += [value - reach, value + reach]
-    text = error_text(panel.error, panel.uncertainty)
+    text = error_text(panel.error.value, panel.error.numerical)
     style.beside_bar(axes, max(ends[-1], value, 0.0), y, text)
-    for side in (-1.0, 1.0) if panel.tolerance else ():
+    for side in (-1.0, 1.0) if panel.error.tolerance else ():
         axes.axvline(side * at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
         ends.append(side * at)
     axes.axvline(0.0, color="#555555", linewidth=0.7)

@@ -139,7 +139,6 @@ def test_a_roller_like_the_body_that_flows_shares_its_factor():
     patches, refinement = np.array([[-half, half]]), Refinement(problem.pitches[0])
     bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
     assert bodies.roller is bodies.rough
-    assert bodies.factor_memory == bodies.rough.factor.bytes
     disc = problem.scene.unchecked({"finite_element.roller_body": "disc"})
     problem = replace(problem, scene=disc)
     bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())

@@ -80,10 +80,10 @@ def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
     assert {row[0] for row in steps[1:]} == {panel.name for panel in panels}
     for panel in panels:
         sizes = {step: float(size) for name, step, size in steps[1:] if name == panel.name}
-        assert sizes["model error"] == pytest.approx(panel.error, rel=1e-5)
-        assert sizes["uncertainty"] == pytest.approx(panel.uncertainty, rel=1e-5)
+        assert sizes["model error"] == pytest.approx(panel.error.value, rel=1e-5)
+        assert sizes["uncertainty"] == pytest.approx(panel.error.numerical, rel=1e-5)
         steps_up = sum(sizes[step] for step in panel.steps)
-        assert steps_up == pytest.approx(panel.error, rel=1e-4, abs=1e-6)
+        assert steps_up == pytest.approx(panel.error.value, rel=1e-4, abs=1e-6)
 
 
 def test_no_script_runs(wavy_page):
