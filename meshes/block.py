@@ -3,7 +3,7 @@
 The block occupies |x| <= half_width, 0 <= z <= depth, z into the body. Its top side z = 0 is
 the mean line; a rough boundary is the top side moved to z = -height(x)."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -46,7 +46,6 @@ class BlockMesh:
     triangles: np.ndarray
     shift: np.ndarray  # (n, 2) [m] from the flat block to the real body, rough or bent
     spec: BlockSpec
-    quality: dict = field(default_factory=dict)  # figures of `meshes.quality`
 
 
 def unique_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

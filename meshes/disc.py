@@ -109,5 +109,5 @@ def _bounded(mesh: BlockMesh, radius: float, real: np.ndarray) -> BlockMesh:
     ends = mesh.points[:vertices][kept[:vertices], 0]
     spec = replace(mesh.spec, loaded=(float(ends.min()), float(ends.max())))
     made = replace(mesh, shift=shift, spec=spec)
-    quality = check_quality(made, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
-    return replace(made, quality=mesh.quality | quality)
+    check_quality(made, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
+    return made

@@ -18,7 +18,6 @@ What lies near the contact in a disc (`rounded`): squares about the origin go to
 to curves that divide the disc's angle there, pi - 2 asin(r / 2R), as they divide pi. Base and sides
 become the arc that ends on the rim over the block's ends."""
 
-import time
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -46,7 +45,6 @@ def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> Bloc
 
     Raises MeshError if height is not finite, if an element is inverted (with the place and the
     slope there), or if the elements are not fit to solve on."""
-    began, seconds = time.perf_counter(), mesh.quality.get("seconds", 0.0)
     flat, triangles = mesh.points, mesh.triangles
     top = np.flatnonzero(flat[:, 1] == 0.0)
     wanted = np.asarray(height(flat[top, 0]), dtype=float)
@@ -69,8 +67,8 @@ def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> Bloc
     rough = replace(mesh, shift=np.column_stack([np.zeros_like(shift), shift]))
     points = real_points(rough)
     refuse_inverted(points, triangles, top)
-    quality = check_quality(rough, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
-    return replace(rough, quality=quality | {"seconds": seconds + time.perf_counter() - began})
+    check_quality(rough, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
+    return rough
 
 
 def carried_down(points: np.ndarray, triangles: np.ndarray, shift: np.ndarray) -> np.ndarray:
@@ -148,8 +146,8 @@ def rounded(mesh: BlockMesh, radius: float) -> BlockMesh:
     angle = 0.5 * np.pi - share * np.arctan2(x, z)
     real = chord[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
     disc = replace(mesh, shift=real - mesh.points)
-    quality = check_quality(disc, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
-    return replace(disc, quality=mesh.quality | quality)
+    check_quality(disc, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
+    return disc
 
 
 def bent(mesh: BlockMesh, radius: float) -> BlockMesh:
@@ -170,5 +168,5 @@ def bent(mesh: BlockMesh, radius: float) -> BlockMesh:
     toward = z / radius
     shift = np.column_stack([-x * toward, sagitta(x, radius) * (1.0 - toward)])
     disc = replace(mesh, shift=shift)
-    quality = check_quality(disc, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
-    return replace(disc, quality=mesh.quality | quality)
+    check_quality(disc, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
+    return disc

@@ -8,7 +8,7 @@ import pytest
 
 from meshes.block import EDGES, BlockSpec, MeshError, real_points
 from meshes.build import build_block
-from meshes.quality import corner_jacobians
+from meshes.quality import corner_jacobians, quality_of
 from meshes.real_shape import bent, roughen, rounded, sagitta
 
 RADIUS = 2.0
@@ -91,9 +91,9 @@ def test_area_is_that_of_the_sector(curved_area):
 def test_fit_to_solve_on_up_to_the_bounds(half_width, depth, growth, determinants):
     """0.8 of the radius wide to a side and 0.7 of it deep."""
     mesh = bent(block(half_width, depth, 0.005, growth), RADIUS)
-    assert mesh.quality["least_angle_degrees"] > 12.0
-    assert mesh.quality["least_jacobian"] > 0.2
-    assert mesh.quality["size_jump"] < 2.2
+    assert quality_of(mesh)["least_angle_degrees"] > 12.0
+    assert quality_of(mesh)["least_jacobian"] > 0.2
+    assert quality_of(mesh)["size_jump"] < 2.2
     inside = determinants(mesh, np.random.default_rng(1).dirichlet([1, 1, 1], 30)[:, :2])
     corners = corner_jacobians(real_points(mesh), mesh.triangles).min(axis=1)
     # the corners tell whether an element is turned over although their map is not linear

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshes.block import BlockMesh, BlockSpec, MeshError, add_midpoints
-from meshes.quality import check_quality, corner_jacobians, measure
+from meshes.quality import check_quality, corner_jacobians, measure, quality_of
 
 SPEC = BlockSpec(1.0, 1.0, np.array([[0.0, 1.0]]), 0.1)
 HIGH = np.sqrt(3.0) / 2.0
@@ -24,17 +24,13 @@ def test_equilateral_triangles_are_perfect():
     quality = figures([[0, 0], [1, 0], [0.5, HIGH], [1.5, HIGH]], [[0, 1, 2], [1, 3, 2]])
     assert quality["least_angle_degrees"] == pytest.approx(60.0)
     assert quality["least_jacobian"] == pytest.approx(1.0)
-    assert quality["mean_jacobian"] == pytest.approx(1.0)
-    assert quality["least_gamma"] == pytest.approx(1.0)
     assert quality["size_jump"] == pytest.approx(1.0)
-    assert (quality["elements"], quality["nodes"], quality["unknowns"]) == (2, 9, 18)
 
 
 def test_known_triangle():
-    # Sides 3, 4, 5: inradius 1, circumradius 2.5, least angle asin(3/5).
+    # Sides 3, 4, 5: least angle asin(3/5).
     quality = figures([[0, 0], [4, 0], [0, 3]], [[0, 1, 2]])
     assert quality["least_angle_degrees"] == pytest.approx(np.degrees(np.arcsin(0.6)))
-    assert quality["least_gamma"] == pytest.approx(2.0 * 1.0 / 2.5)
     assert quality["least_jacobian"] == pytest.approx(2.0 / np.sqrt(3.0) * 0.6)
 
 
@@ -66,14 +62,12 @@ def test_inverted_element_is_refused():
 def test_bulge_that_turns_a_corner_inside_out_is_refused():
     flat = mesh_of([[0, 0], [1, 0], [0.5, HIGH]], [[0, 1, 2]])
     shift = np.zeros((6, 2))
-    for bulge, fits in ((0.3, True), (0.5, False)):
-        shift[flat.triangles[0, 3], 1] = bulge
-        mesh = BlockMesh(flat.points, flat.triangles, shift, SPEC)
-        if fits:
-            assert check_quality(mesh)["least_jacobian"] > 0.0
-        else:
-            with pytest.raises(MeshError, match="least_jacobian"):
-                check_quality(mesh)
+    mesh = BlockMesh(flat.points, flat.triangles, shift, SPEC)
+    shift[flat.triangles[0, 3], 1] = 0.3
+    check_quality(mesh)
+    shift[flat.triangles[0, 3], 1] = 0.5
+    with pytest.raises(MeshError, match="least_jacobian"):
+        check_quality(mesh)
 
 
 def test_thin_element_is_refused_unless_allowed():
@@ -81,7 +75,8 @@ def test_thin_element_is_refused_unless_allowed():
     mesh = mesh_of([[0, 0], [1, 0], [0.5, 0.1]], [[0, 1, 2]])
     with pytest.raises(MeshError, match=r"least_angle_degrees is 11\.3, the bound is 15"):
         check_quality(mesh)
-    angle = check_quality(mesh, least_angle_degrees=5.0)["least_angle_degrees"]
+    check_quality(mesh, least_angle_degrees=5.0)
+    angle = quality_of(mesh)["least_angle_degrees"]
     assert angle == pytest.approx(np.degrees(np.arctan(0.2)))
 
 
