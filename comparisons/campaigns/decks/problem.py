@@ -17,7 +17,6 @@ from analytic.contact.patches import contact_patches
 from analytic.material import Material
 from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.bodies import UNBOUNDED_SIDES
-from comparisons.models.finite_element.contact import roller_of
 from comparisons.models.finite_element.mesh import (
     Refinement,
     block_spec,
@@ -28,6 +27,7 @@ from comparisons.models.finite_element.roller import (
     is_disc,
     levelled,
     roller_mesh,
+    roller_of,
     roller_spec,
 )
 from comparisons.models.nearest_operator import nearest_operator, solve_on

@@ -15,7 +15,6 @@ from comparisons.models.finite_element.bodies import BodyPair
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from fem.compliance.operator import FiniteElementCompliance
-from fem.contact.rigid_roller import Roller, circle, parabola
 
 MOST_DENSE = 1500  # pressure elements for which the whole compliance matrix may be formed
 
@@ -93,13 +92,6 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
     return MutualCompliance(
         (BodyShare(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share), turn),)
     )
-
-
-def roller_of(problem: Problem) -> Roller:
-    """The shape of the finite elements' roller."""
-    scene = problem.scene
-    shape = circle if scene.finite_element.roller_shape == "circle" else parabola
-    return shape(scene.roller.radius)
 
 
 def solve_mutual(

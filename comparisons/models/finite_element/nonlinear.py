@@ -13,8 +13,8 @@ from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, assessed, solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ModelOperator
-from comparisons.models.finite_element.contact import MutualCompliance, roller_of
-from comparisons.models.finite_element.roller import is_disc
+from comparisons.models.finite_element.contact import MutualCompliance
+from comparisons.models.finite_element.roller import is_disc, roller_of
 from comparisons.models.finite_element.stress import LoadedBody
 from comparisons.models.level import STRAIN
 from comparisons.models.problem import Problem, mean_height

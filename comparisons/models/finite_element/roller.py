@@ -31,6 +31,13 @@ def roller_key(problem: Problem) -> Hashable:
     return scene.roller.radius, *shape, problem.extent
 
 
+def roller_of(problem: Problem) -> Roller:
+    """The shape of the finite elements' roller."""
+    scene = problem.scene
+    shape = circle if scene.finite_element.roller_shape == "circle" else parabola
+    return shape(scene.roller.radius)
+
+
 def is_disc(problem: Problem) -> bool:
     """Whether the roller is an elastic body of finite size."""
     scene = problem.scene
@@ -72,14 +79,13 @@ def _disc_size(problem: Problem) -> tuple[float, float, float]:
 def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     """The roller's mesh from the flat one: that of a disc; at finite deformation a block with the
     roller's shape on it, which levels off beside the extent."""
-    settings, roller = problem.scene.finite_element, problem.scene.roller
+    roller = problem.scene.roller
     if is_disc(problem):
         shaped = bent if roller.support is None else ring if roller.support.hub else disc
         return shaped(flat, roller.radius)
     if not is_shaped(problem):
         return flat
-    shape = circle if settings.roller_shape == "circle" else parabola
-    return roughen(flat, levelled(shape(roller.radius), np.abs(problem.extent).max()))
+    return roughen(flat, levelled(roller_of(problem), np.abs(problem.extent).max()))
 
 
 def is_shaped(problem: Problem) -> bool:
