@@ -30,12 +30,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 from operator import add
-from typing import Protocol
 
 import numpy as np
 
 from analytic.contact.problem import ContactSolution
-from analytic.grid import HatGrid
 from comparisons.figures.convergence import TWO_GRIDS, Convergence
 
 COVERAGE = 0.95  # of true errors by stated uncertainties: what `verify` demands and measures
@@ -73,22 +71,13 @@ def numerical(
     return Uncertainty(parts | {"increments": increments}, convergence)
 
 
-class SolvedLevel(Protocol):
-    """What is read of a level that is solved (`comparisons.models.level`)."""
-
-    grid: HatGrid
-    solution: ContactSolution
-    patches: np.ndarray  # (k, 2) [m]
-    contact_length: float  # [m]
+def iteration(*solutions: ContactSolution) -> float:
+    """Relative, of pressures and what follows from them, by the contact residuals of all that a
+    figure, a difference or a norm is made from."""
+    return PRESSURE_PER_RESIDUAL * sum(solution.residuals.worst for solution in solutions)
 
 
-def iteration(*levels: SolvedLevel) -> float:
-    """Relative, of pressures and what follows from them, by the contact residuals of all the
-    levels that a figure, a difference or a norm is made from."""
-    return PRESSURE_PER_RESIDUAL * sum(level.solution.residuals.worst for level in levels)
-
-
-def far_boundary(moved: float, first: float = 0.0) -> float:
+def far_boundary(moved: float, first: float) -> float:
     """In the figure's unit, by its values on the coarsest level with a block of half the size and
     with the whole one. For a norm of their difference `moved` is that norm."""
     return DOMAIN * abs(moved - first)
@@ -106,13 +95,6 @@ def length_resolution(pitch: float, patches: int) -> float:
     """How finely the length of contact [m] in a number of patches can be read on a grid. The errors
     of a patch's two edges may add; those of different patches are independent."""
     return 2.0 * EDGE_FOUND * pitch * float(np.sqrt(patches))
-
-
-def relative_resolution(one: SolvedLevel, other: SolvedLevel) -> float:
-    """The same of (one - other) / other, of two models or of an effect: both lengths err."""
-    edges = [length_resolution(level.grid.pitch, len(level.patches)) for level in (one, other)]
-    ratio = one.contact_length / other.contact_length
-    return (edges[0] + ratio * edges[1]) / other.contact_length
 
 
 def peak_resolution(pressure: np.ndarray) -> float:

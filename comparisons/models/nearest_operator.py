@@ -23,6 +23,15 @@ def is_layered(scene: Scene) -> bool:
     return scene.body.thickness is not None or scene.coating is not None
 
 
+def layered_body(scene: Scene) -> LayeredBody | None:
+    """The layer or the coated body of a scene."""
+    if scene.coating is not None:
+        return LayeredBody(scene.coating.material, scene.coating.thickness, scene.body.material)
+    if scene.body.thickness is not None:
+        return LayeredBody(scene.body.material, scene.body.thickness, scene.body.base or "bonded")
+    return None
+
+
 def nearest_operator(scene: Scene, grid: HatGrid, friction: float = 0.0) -> ModelOperator:
     """Mutual compliance of roller and body on a grid of hats.
 
@@ -32,16 +41,13 @@ def nearest_operator(scene: Scene, grid: HatGrid, friction: float = 0.0) -> Mode
         return PeriodicHalfPlane(
             count, pitch, combined_modulus(scene.roller.material, surface_material(scene))
         )
-    if not is_layered(scene):
+    body = layered_body(scene)
+    if body is None:
         modulus = combined_modulus(scene.roller.material, scene.body.material)
         if not friction:
             return HalfPlane(count, pitch, modulus)
         beta = dundurs_constants(scene.body.material, scene.roller.material)[1]
         return CoupledHalfPlane(count, pitch, modulus, friction * beta)
-    if scene.coating is not None:
-        body = LayeredBody(scene.coating.material, scene.coating.thickness, scene.body.material)
-    else:
-        body = LayeredBody(scene.body.material, scene.body.thickness, scene.body.base or "bonded")
     normal = LayeredSurface(count, pitch, body)
     if not scene.roller.rigid:
         roller = HalfPlane(count, pitch, scene.roller.material.plane_strain_modulus)

@@ -10,13 +10,12 @@ import numpy as np
 
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings
-from comparisons.figures.norm import relative_l2
 from comparisons.figures.quantity import COMPARED, MODELS, NORMS, QUANTITIES
 from comparisons.figures.uncertainty import (
     Uncertainty,
     iteration,
+    length_resolution,
     numerical,
-    relative_resolution,
 )
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -64,7 +63,8 @@ def differences_of(
         values = tuple(of_level[name] for of_level in history)
         order = formal_order(name, finest, problem, friction)
         convergence = grid_convergence(values, order, resolution)
-        unsolved = iteration(*finest) * max(1.0, abs(1.0 + difference))
+        unsolved = iteration(*(level.solution for level in finest))
+        unsolved *= max(1.0, abs(1.0 + difference))
         parts = unsolved, convergence.uncertainty, *repeated[name]
         made[name] = Figure(
             study=NAME,
@@ -91,7 +91,7 @@ def norms_of(
     history = [norms(one, other, friction, window) for one, other in pairs]
     first = finite_element.levels[0]
     repeated = by_repetition(finite_element, lambda level: norms(level, first, friction, window))
-    unsolved = iteration(half_plane.finest, finite_element.finest)
+    unsolved = iteration(half_plane.finest.solution, finite_element.finest.solution)
     for name, size in history[-1].items():
         values = tuple(of_level[name] for of_level in history)
         convergence = grid_convergence(values, NORMS[name].formal_order)
@@ -128,6 +128,14 @@ def relative_differences(
     return sizes
 
 
+def relative_resolution(level: Level, reference: Level) -> float:
+    """How finely the difference of two contact lengths is read, of two models or of an effect,
+    relative to the reference's: both err."""
+    edges = [length_resolution(of.grid.pitch, len(of.patches)) for of in (level, reference)]
+    ratio = level.contact_length / reference.contact_length
+    return (edges[0] + ratio * edges[1]) / reference.contact_length
+
+
 def norms(
     level: Level, reference: Level, friction: float, window: Window | None
 ) -> dict[str, float]:
@@ -138,6 +146,20 @@ def norms(
         tuple(None if stress is None else stress.tau1 for stress in stresses),
         window,
     )
+
+
+def relative_l2(
+    values: np.ndarray, reference: np.ndarray, weights: np.ndarray | float = 1.0
+) -> float:
+    """||values - reference|| / ||reference||; points where either is not finite are left out."""
+    known = np.isfinite(values) & np.isfinite(reference)
+    if not known.all():
+        weights = np.broadcast_to(weights, values.shape)[known]
+        values, reference = values[known], reference[known]
+    size = np.sum(weights * reference**2)
+    if size == 0.0:
+        return 0.0 if not np.any(values) else np.inf
+    return float(np.sqrt(np.sum(weights * (values - reference) ** 2) / size))
 
 
 def pair_norms(

@@ -107,7 +107,7 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
         convergence = grid_convergence(values, order, resolution)
         scale = abs(value) or COMPARED[name].scale(problem.hertz)
         domain, increments = (size / scale for size in repeated[name])
-        parts = iteration(run.finest), convergence.uncertainty / scale, domain, increments
+        parts = iteration(run.finest.solution), convergence.uncertainty / scale, domain, increments
         stated[name] = numerical(*parts, convergence)
     return stated
 

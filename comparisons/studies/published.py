@@ -76,7 +76,8 @@ def _lowering(solved: Solved) -> list[Figure]:
     values = [_lowered(level) for level in run.levels]
     refined = grid_convergence(values, LOWERED.formal_order)
     size = values[-1]
-    stated = numerical(iteration(run.finest), refined.uncertainty / size, 0.0, 0.0, refined)
+    left = iteration(run.finest.solution), refined.uncertainty / size
+    stated = numerical(*left, 0.0, 0.0, refined)
     at = {"friction": solved.problem.scene.load.friction[0]}
     return [Figure(NAME, LOWERING, run.name, size, at, None, size, stated, levels=tuple(values))]
 

@@ -32,7 +32,6 @@ from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure, Figures
-from comparisons.figures.norm import relative_l2
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.figures.uncertainty import numerical
 from comparisons.models.half_plane import half_plane_level
@@ -45,6 +44,7 @@ from comparisons.runs.run import solve
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, surface_of
 from comparisons.studies import contact
+from comparisons.studies.comparison import relative_l2
 from comparisons.studies.contact import values_of
 from comparisons.studies.study import MODEL_ERROR, unsolved
 

@@ -72,51 +72,39 @@ def finite_element_level(
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails."""
     body_cache = body_cache or BodyCache()
-    return under_each(
-        problem,
-        "finite_element",
-        lambda problem: _level(problem, plan, refinement, window, stages, body_cache, options),
-    )
 
+    def solve(problem: Problem) -> Level:
+        """Under friction coefficients that share a contact."""
+        solving = _LevelSolution(problem, plan, refinement, stages, options)
+        solving.load_libraries()
+        ranges, start = solving.predicted_contact()
+        flows = problem.scene.finite_element.plastic
+        patches = flowing_contact(problem) if flows else ranges
+        cost = expected(problem, plan, refinement, patches)
+        refuse_too_large(problem, cost, "finite elements", refinement.pitch)
+        meshed = solving.meshed_contact(ranges, start, body_cache)
+        pressed = solving.pressed(meshed)
+        level = Level(
+            grid=solving.grid,
+            solution=pressed.solution,
+            displacement=pressed.displacement / solving.grid.weights,
+            patches=pressed.patches,
+            seconds=stages.seconds,
+            unknowns=sum(body.unknowns for body in meshed.bodies.all),
+            expected_seconds=cost.seconds,
+            expected_memory=cost.memory,
+            mesh=meshed.bodies.rough.mesh,
+            material=pressed.material,
+        )
+        if window is None:
+            return replace(level, peak_memory=peak_memory())
+        with stages.stage("stresses", "finite elements: stresses"):
+            frictions, asperities = problem.scene.load.friction, problem.asperities
+            how = asperities, options.fields
+            stresses, mesh_field = stresses_of(pressed, frictions, window, *how)
+        return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 
-def _level(
-    problem: Problem,
-    plan: Plan,
-    refinement: Refinement,
-    window: Window | None,
-    stages: Stages,
-    body_cache: BodyCache,
-    options: LevelOptions,
-) -> Level:
-    """Under friction coefficients that share a contact."""
-    solving = _LevelSolution(problem, plan, refinement, stages, options)
-    solving.load_libraries()
-    ranges, start = solving.predicted_contact()
-    flows = problem.scene.finite_element.plastic
-    patches = flowing_contact(problem) if flows else ranges
-    cost = expected(problem, plan, refinement, patches)
-    refuse_too_large(problem, cost, "finite elements", refinement.pitch)
-    meshed = solving.meshed_contact(ranges, start, body_cache)
-    pressed = solving.pressed(meshed)
-    level = Level(
-        grid=solving.grid,
-        solution=pressed.solution,
-        displacement=pressed.displacement / solving.grid.weights,
-        patches=pressed.patches,
-        seconds=stages.seconds,
-        unknowns=sum(body.unknowns for body in meshed.bodies.all),
-        expected_seconds=cost.seconds,
-        expected_memory=cost.memory,
-        mesh=meshed.bodies.rough.mesh,
-        material=pressed.material,
-    )
-    if window is None:
-        return replace(level, peak_memory=peak_memory())
-    with stages.stage("stresses", "finite elements: stresses"):
-        frictions, asperities = problem.scene.load.friction, problem.asperities
-        how = asperities, options.fields
-        stresses, mesh_field = stresses_of(pressed, frictions, window, *how)
-    return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
+    return under_each(problem, "finite_element", solve)
 
 
 @dataclass(frozen=True)

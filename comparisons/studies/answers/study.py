@@ -167,7 +167,7 @@ def _figures(
             resolution = length_resolution(grid.pitch, len(patches)) / scale
         history = [differences[quantity] for differences in by_level]
         unsure = grid_convergence(history, order, resolution).uncertainty
-        unsure += max(1.0, size) * iteration(model.finest)
+        unsure += max(1.0, size) * iteration(model.finest.solution)
         unsure += sum(repeated[quantity])
         by_answer = [differences.get(quantity) for differences in by_file]
         stated = _stated(quantity, by_answer, answers, reading)

@@ -19,7 +19,6 @@ from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of
-from comparisons.figures.norm import relative_l2
 from comparisons.figures.quantity import COMPARED, NORMS, Quantity, label
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.half_plane import half_plane_on
@@ -29,6 +28,7 @@ from comparisons.models.posing import surface_ends
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies import contact
+from comparisons.studies.comparison import relative_l2
 from comparisons.studies.contact import values_of
 from comparisons.studies.study import CONVERGED, WHY_NOT, Run, Solved, Study
 

@@ -186,7 +186,7 @@ def _figures(
     for model, history in histories.items():
         left = grid_convergence([known.figures[name] for known in history], FORMAL_ORDER)
         left = left.uncertainty + (domain[name] if model == "finite_element" else 0.0)
-        uncertainties[model] = left / size + iteration(runs[model].finest)
+        uncertainties[model] = left / size + iteration(runs[model].finest.solution)
         stated = Uncertainty({"numerical": uncertainties[model]})
         yield Figure(
             quantity=name,

@@ -16,7 +16,6 @@ from analytic.contact.end_stress import EndStress
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid, roller_gap
-from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import TangentialLayer
 from analytic.layers.stress import AddedStress
 from analytic.material import Material
@@ -28,7 +27,12 @@ from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.half_plane import field_on
 from comparisons.models.level import Level, StressResult, highest
-from comparisons.models.nearest_operator import is_layered, nearest_operator, solve_on
+from comparisons.models.nearest_operator import (
+    is_layered,
+    layered_body,
+    nearest_operator,
+    solve_on,
+)
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
 from comparisons.scenes.scene import Scene
@@ -152,15 +156,6 @@ def _deformed_contact(problem: Problem, grid: HatGrid) -> DeformedContact:
     roller = None if scene.roller.rigid else scene.roller.material
     sagitta = roller_gap(scene.roller.radius, None, scene.finite_element.roller_shape)
     return DeformedContact(grid, scene.body.material, roller, height, sagitta, problem.knots)
-
-
-def layered_body(scene: Scene) -> LayeredBody | None:
-    """The layer or the coated body of a scene."""
-    if scene.coating is not None:
-        return LayeredBody(scene.coating.material, scene.coating.thickness, scene.body.material)
-    if scene.body.thickness is not None:
-        return LayeredBody(scene.body.material, scene.body.thickness, scene.body.base or "bonded")
-    return None
 
 
 def operator_of(problem: Problem, grid: HatGrid, coupling: float) -> ModelOperator:

@@ -12,11 +12,10 @@ c normal-tangential coupling, 0 none:
 These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
 F(W) - F(scene)."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import reduce
 from operator import sub
-from typing import Protocol
 
 from comparisons.models.problem import Problem
 from comparisons.studies.model_error.catalogue import COUPLED, STRAINED, ModelVariant
@@ -82,16 +81,6 @@ class EffectContributions:
         return reduce(sub, map(self.effect, names), self.whole - self.nothing)
 
 
-class VariantSolutions(Protocol):
-    """Solutions by variant, number of the level from 1, and friction coefficient."""
-
-    def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
-        """Of the scene's own finite elements."""
-
-    def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
-        """Of a variant; raises NotComputedError."""
-
-
 def split_variants(problem: Problem, selection: EffectSelection, friction: float) -> SplitVariants:
     """The variants at a friction coefficient, the same on every level."""
     chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
@@ -120,22 +109,16 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
 
 
 def contributions_of(
-    solutions: VariantSolutions,
+    solved: Callable[[ModelVariant | None], QuantitiesOfInterest],
     split: SplitVariants,
-    friction: float,
-    level: int,
     whole_alone: bool = False,
 ) -> EffectContributions:
-    """All contributions on a level, or of the `whole_alone`; raises NotComputedError where that has
-    no solution. An effect without a solution by itself counts in the interaction."""
+    """All contributions on a level, or of the `whole_alone`; an effect without a solution by itself
+    counts in the interaction.
 
-    def solved(variant: ModelVariant) -> QuantitiesOfInterest:
-        return solutions.solution(variant, level, friction)
-
-    whole = solved(split.whole)
-    of_scene = (
-        solved(split.of_scene) if split.of_scene else solutions.scene_solution(level, friction)
-    )
+    solved  the solution of a variant there, of the scene's own finite elements for None; raises
+            NotComputedError where there is none, which is passed on of the whole"""
+    whole, of_scene = solved(split.whole), solved(split.of_scene)
     if whole_alone:
         return EffectContributions(whole, of_scene, None, {})
     try:

@@ -20,10 +20,10 @@ from comparisons.figures.uncertainty import (
     difference_of_figures,
     iteration,
     of_increments,
-    relative_resolution,
 )
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.studies.comparison import relative_resolution
 from comparisons.studies.contact import formal_order, uncertainties, values_of
 from comparisons.studies.model_error.contributions import EffectContributions
 from comparisons.studies.model_error.laws import LawSolutions, LawSpread
@@ -142,7 +142,7 @@ class Solutions:
         """What the solvers' iterations leave, relative."""
         number = len(self.history) - 1
         pairs = ((run.finest, run.levels[number]) for run in self.runs.values())
-        return iteration(*(level for pair in pairs for level in pair))
+        return iteration(*(level.solution for pair in pairs for level in pair))
 
     @cached_property
     def resolutions(self) -> dict[str, float]:

@@ -4,6 +4,7 @@ further level could change is no verdict."""
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from comparisons.common.tasks import LAST
 from comparisons.figures.figure import Figure
@@ -153,10 +154,10 @@ class EffectRefinement:
     def _take(self, number: int, alone: bool) -> None:
         """A level into the history: of the wholes alone, or of every variant."""
         self.solved.prepare(self.wholes if alone else self.every, number)
-        new = {
-            mu: contributions_of(self.solved, self.splits[mu], mu, number, alone)
-            for mu in self.history
-        }
+        new = {}
+        for mu, split in self.splits.items():
+            solved = partial(self.solved.solution, number=number, friction=mu)
+            new[mu] = contributions_of(solved, split, alone)
         for mu, parts in new.items():
             self.history[mu][number - 1 : number] = [parts]
 

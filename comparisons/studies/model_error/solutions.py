@@ -66,14 +66,13 @@ class SolvedVariants:
         scene = self.problem.scene
         self._own_effects = contained(scene) if is_taken_apart(scene) else None
 
-    def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
-        """Of the scene's own finite elements."""
-        return quantities_of(self.of_scene.levels[number - 1], self.problem, friction)
-
-    def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
-        """Of a variant on a level, solved where it is new; raises NotComputedError."""
-        if self._is_own(variant):
-            return self.scene_solution(number, friction)
+    def solution(
+        self, variant: ModelVariant | None, number: int, friction: float
+    ) -> QuantitiesOfInterest:
+        """Of a variant on a level, None for the scene's own finite elements, solved where it is
+        new; raises NotComputedError."""
+        if variant is None or self._is_own(variant):
+            return quantities_of(self.of_scene.levels[number - 1], self.problem, friction)
         self.prepare([variant], number)
         if (variant, number) in self.failed:
             raise self.failed[variant, number]

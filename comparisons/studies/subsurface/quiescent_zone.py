@@ -181,7 +181,7 @@ def zone_figures(
     for name in QUANTITIES:
         values, value = tuple(level[name] for level in levels), getattr(dip, name)
         size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else inf
-        size += iteration(run.finest) * abs(value) + abs(getattr(coarse, name) - value)
+        size += iteration(run.finest.solution) * abs(value) + abs(getattr(coarse, name) - value)
         size = float(size + sum(repeated[name]))
         if isfinite(value):
             scale = abs(value) or 1.0

@@ -41,7 +41,8 @@ def solve(solved, before, tasks):
     means = [load / level.contact_length for level in run.levels]
     refined = grid_convergence(means, 1.0, 1e-3 * means[-1])
     left = refined.uncertainty / means[-1]
-    stated = Uncertainty({"iteration": iteration(run.finest), "discretisation": left}, refined)
+    parts = {"iteration": iteration(run.finest.solution), "discretisation": left}
+    stated = Uncertainty(parts, refined)
     ratio = means[-1] / run.finest.solution.pressure.max()
     exact, tolerance = math.pi / 4.0, problem.scene.mean_pressure.tolerance
     at = {"friction": max(problem.scene.load.friction)}

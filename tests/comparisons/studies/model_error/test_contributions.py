@@ -49,7 +49,7 @@ def what_is_left(parts: EffectContributions) -> QuantitiesOfInterest:
 
 def split_by(problem, solutions, friction=0.0, contained=(), added=()):
     split = split_variants(problem, selection_of(contained, added), friction)
-    return split, contributions_of(solutions, split, friction, 1)
+    return split, contributions_of(solutions, split)
 
 
 @pytest.mark.parametrize("count", range(1, len(SINGLE) + 1))
@@ -142,7 +142,7 @@ class TestWithoutSolution:
     def test_of_the_whole_nothing_is_known(self, problem_with, made_solutions):
         split = split_variants(problem_with(), selection_of(added=self.ADDED), 0.0)
         with pytest.raises(NotComputedError):
-            contributions_of(made_solutions(PLAIN, frozenset({split.whole})), split, 0.0, 1)
+            contributions_of(made_solutions(PLAIN, frozenset({split.whole})), split)
 
 
 class TestLargestValues:

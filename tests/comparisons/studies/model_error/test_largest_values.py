@@ -32,7 +32,9 @@ def errors(
     model's error of the solutions and a quantity."""
     level = SimpleNamespace
     runs = {
-        name: SimpleNamespace(levels=[level(values=of)] * 3, finest=level(values=of))
+        name: SimpleNamespace(
+            levels=[level(values=of, solution=None)] * 3, finest=level(values=of, solution=None)
+        )
         for name, of in (("half_plane", half_plane), ("finite_element", plain))
     }
     pairs = {name: (with_it, plain) for name, with_it in effects.items()}
@@ -50,7 +52,7 @@ def errors(
         quantities_of=lambda level, problem, friction: level.values,
         values_of=lambda level, *of: {n: v[0] for n, v in level.values.largest().figures.items()},
         uncertainties=lambda *arguments: stated,
-        iteration=lambda *levels: 0.0,
+        iteration=lambda *solutions: 0.0,
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
     ):

@@ -5,13 +5,13 @@ import pytest
 from scenes import STEEL, problem
 
 from comparisons.common.progress import Stages
-from comparisons.figures.norm import relative_l2
 from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
+from comparisons.studies.comparison import relative_l2
 from comparisons.studies.model_error.selection import select_effects
 
 HALF_WIDTH = 216e-6  # of the smooth contact

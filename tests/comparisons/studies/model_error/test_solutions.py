@@ -1,6 +1,7 @@
 """Model variants solved by several processes: the same solutions, and what becomes of failures."""
 
 import pickle
+from functools import partial
 from pathlib import Path
 from unittest.mock import patch
 
@@ -57,7 +58,10 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
     solved = {variant for variant, _, _ in shared.solved}
     assert solved == {*split.all} - {split.nothing}  # which is the scene's own
     assert shared.finest(split.whole) is shared.wholes[split.whole] is not None
-    one, two = (contributions_of(bodies, split, 0.0, 1) for bodies in (alone, shared))
+    one, two = (
+        contributions_of(partial(bodies.solution, number=1, friction=0.0), split)
+        for bodies in (alone, shared)
+    )
     for name, values in one.not_contained.figures.items():
         np.testing.assert_array_equal(values, two.not_contained.figures[name])
     assert alone.expected_of(1) == shared.expected_of(1) > 0.0 == shared.expected_of(2)
