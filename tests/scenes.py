@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from comparisons.models.level import Level
     from comparisons.models.problem import Levels, Problem
     from comparisons.scenes.scene import Scene
     from comparisons.studies.study import Run
@@ -80,6 +81,20 @@ def run_of(
             RUNS.pop(next(iter(RUNS)))
         RUNS[key] = run(scene, None, models or MODELS, known=Known(levels=levels))
     return RUNS[key]
+
+
+def finite_elements(posed: "Problem", pitch: float | None = None, fields: bool = False) -> "Level":
+    """The finite elements on one level, the coarsest unless a pitch [m] is given; with the fields
+    of [stress] if asked for."""
+    from comparisons.common.progress import Stages
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement
+    from comparisons.models.plan import make_plan
+    from comparisons.models.window import window_of
+
+    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(pitch or posed.pitches[0])
+    window = window_of(posed) if fields else None
+    return finite_element_level(posed, plan, refinement, window, Stages())
 
 
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:

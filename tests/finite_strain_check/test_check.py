@@ -5,14 +5,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scenes import problem
+from scenes import finite_elements, problem
 
 import comparisons as crosscheck
-from comparisons.common.progress import Stages
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
-from comparisons.models.window import window_of
 from comparisons.notebook import scene_of
 from comparisons.scenes.materials import solids
 from tests.finite_strain_check import cases, check
@@ -120,9 +115,7 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
             "stress": {},
         }
     )
-    plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
-    pitch = scene.hertz.half_width / 32.0
-    level = finite_element_level(scene, plan, Refinement(pitch), window, Stages())
+    level = finite_elements(scene, scene.hertz.half_width / 32.0, fields=True)
     assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=1e-3)
     assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=5e-3)
     [stress] = level.stresses
@@ -155,9 +148,7 @@ def test_measured_constants_are_those_of_the_projects_own_elements(name, surface
     constants = solid.material.youngs_modulus / 1e9, solid.material.poissons_ratio
     task = Task(x, height, constants, None, radius, load, 0.0, law)
     result = cases.solved(task, (2.0, 1.0))[-1]
-    plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
-    pitch = scene.hertz.half_width / 48.0
-    level = finite_element_level(scene, plan, Refinement(pitch), window, Stages())
+    level = finite_elements(scene, scene.hertz.half_width / 48.0, fields=True)
     peak = level.solution.pressure.max()
     assert peak == pytest.approx(1e9 * result.peak, rel=2e-3)
     assert level.contact_length == pytest.approx(
@@ -202,9 +193,7 @@ def test_strong_friction_is_those_of_the_projects_own_elements():
     load = scene.hertz.load_per_length / 1e3
     x = np.linspace(-500.0, 500.0, 101)
     result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.5), (2.0, 1.0))[-1]
-    plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
-    refinement = Refinement(scene.hertz.half_width / 48.0)
-    level = finite_element_level(scene, plan, refinement, window, Stages())
+    level = finite_elements(scene, scene.hertz.half_width / 48.0, fields=True)
     assert level.solution.load == pytest.approx(scene.hertz.load_per_length, rel=1e-6)
     assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=3e-4)
     assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=3e-3)
@@ -231,9 +220,7 @@ def test_a_capped_pressure_is_that_of_the_projects_own_elements():
             "stress": {},
         }
     )
-    plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
-    refinement = Refinement(scene.hertz.half_width / 48.0)
-    level = finite_element_level(scene, plan, refinement, window, Stages())
+    level = finite_elements(scene, scene.hertz.half_width / 48.0, fields=True)
     assert level.solution.converged
     assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=1e-3)
     [stress] = level.stresses
@@ -253,23 +240,6 @@ def test_small_strains_meet_the_half_plane_on_a_rough_body():
     assert 1e9 * result.txz == pytest.approx(known["txz_max_abs"], rel=2e-3)
     assert 1e-6 * result.length == pytest.approx(known["contact_length"], rel=0.015)
     assert len(result.patches) == len(run.outcome.runs["half_plane"].finest.patches)
-
-
-def test_kept_values_are_those_of_the_finest_mesh():
-    values = cases.read_values()
-    assert values.keys() == cases.scene_paths().keys()
-    for name, case in values.items():
-        last, before = case["meshes"][-1], case["meshes"][-2]
-        for quantity, figure in case["figures"].items():
-            if quantity in last:
-                assert figure["value"] == last[quantity]
-                change = abs(last[quantity] - before[quantity])
-                assert figure["uncertainty"] == pytest.approx(
-                    change, rel=1e-2, abs=1e-6 * last[quantity]
-                )
-        assert (
-            max(p["tau1_max"] for p in case["patches"]) == case["figures"]["tau1_max"]["value"]
-        ), name
 
 
 def test_the_project_holds_a_small_rough_scene(capsys):

@@ -1,7 +1,5 @@
-"""The measure of contact conditions is exact and rejects wrong pressures; the race runs, with the
-peers and without."""
+"""The measure of contact conditions is exact and rejects wrong pressures; peers race by it."""
 
-import re
 import sys
 from dataclasses import replace
 from functools import partial
@@ -9,7 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from tests.half_plane_peers.cases import CONTACT_SHARE, REFINED, cylinder, rough, sinusoid
+from tests.half_plane_peers.cases import REFINED, cylinder, rough, sinusoid
 from tests.half_plane_peers.codes import crosscheck
 from tests.half_plane_peers.race import main
 from tests.half_plane_peers.yardstick import TOLERANCE, displacements, measure
@@ -67,22 +65,11 @@ def test_hertz_solves_the_periodic_line_that_the_peers_are_given():
     assert np.log(left[0] / left[1]) / np.log(16.0) == pytest.approx(1.5, abs=0.1)
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_a_tenth_of_a_rough_line_touches(seed):
-    case = rough(1024, seed)
-    pressure = crosscheck()[1].solve(case, 0.0, 0).pressure
-    assert np.mean(pressure > 0.0) == pytest.approx(CONTACT_SHARE, abs=3.0 / 1024)
-
-
-def test_absent_peers_are_named(monkeypatch, capsys):
+def test_the_race_runs_without_peers_and_names_them(monkeypatch, capsys):
     for name in ("tamaas", "ContactMechanics"):
         monkeypatch.setitem(sys.modules, name, None)
-    status = main(["--sizes", "32", "--seeds", "--repeats", "1"])
-    shown = capsys.readouterr().out
-    assert status == 1  # nothing is shown without a peer
-    assert "skipped: Tamaas is not installed: pip install tamaas" in shown
-    assert "skipped: ContactMechanics is not installed" in shown
-    assert len(re.findall(r"(cylinder|sinusoid).*crosscheck, (hats|strips)", shown)) == 4
+    assert main(["--sizes", "32", "--seeds", "--repeats", "1"]) == 1  # without a peer it shows none
+    assert capsys.readouterr().out.count("is not installed") == 2
 
 
 @pytest.mark.parametrize("module", ["tamaas", "ContactMechanics"])

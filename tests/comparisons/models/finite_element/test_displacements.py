@@ -2,16 +2,11 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem
+from scenes import STEEL, changed, finite_elements, problem
 
 from analytic.contact.end_stress import EndStress
 from analytic.material import Material
-from comparisons.common.progress import Stages
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import RecoverableField, deformed_height
-from comparisons.models.plan import make_plan
-from comparisons.models.window import window_of
 from fem.body.coating import Coating
 from fem.body.nodes import nodes_of
 from meshes.block import structured
@@ -46,8 +41,7 @@ def test_the_surface_moved_by_them_is_the_deformed_height(name):
     the surface's own range of displacements (linear elements, whose surface is bent: 0.02). It goes
     into the body, +z, and only the base and the sides stay where they were."""
     posed = problem(changed(SCENE, **SCENES[name]))
-    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
-    level = finite_element_level(posed, plan, refinement, window_of(posed), Stages())
+    level = finite_elements(posed, fields=True)
     field, flat = level.field_on_mesh, level.mesh.points[:, 1]
     moved = field.displacement[0.0]
     assert moved.shape == field.points.shape

@@ -1,14 +1,7 @@
 """Flow at finite strains through a scene: a light load is that of small strains."""
 
 import pytest
-from scenes import STEEL, changed, resolved
-
-from comparisons.common.progress import Stages
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
-from comparisons.models.posing import problem_of
-from comparisons.models.window import window_of
+from scenes import STEEL, changed, finite_elements, problem
 
 LIGHT = {
     "roller": {"radius": 0.8, "rigid": True},
@@ -25,10 +18,7 @@ COATING = {"thickness": 1e-3, "youngs_modulus": 300e9, "poissons_ratio": 0.25, "
 def level_of(deformation, coating):
     settings = {"plastic": True, "deformation": deformation}
     scene = LIGHT | ({"coating": coating} if coating else {})
-    problem = problem_of(resolved(changed(scene, finite_element=settings)))
-    plan = make_plan(problem, ("finite_element",))
-    refinement = Refinement(problem.pitches[0])
-    return finite_element_level(problem, plan, refinement, window_of(problem), Stages())
+    return finite_elements(problem(changed(scene, finite_element=settings)), fields=True)
 
 
 @pytest.mark.parametrize("coating", [None, COATING], ids=["bare", "coated"])

@@ -4,15 +4,10 @@ full solutions at finite deformation under a rigid roller."""
 from functools import cache
 
 import pytest
-from scenes import problem
+from scenes import finite_elements, problem
 
 from analytic.material import Law, Material
 from analytic.material.third_order import LENGTH_OVER_PEAK, peak_change
-from comparisons.common.progress import Stages
-from comparisons.figures.quantity import MODELS
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
 from comparisons.scenes.materials import solids
 
 RATIO = 0.05  # half-width over radius
@@ -32,8 +27,7 @@ def pressed(material: Material) -> tuple[float, float]:
         "finite_element": {"deformation": "finite"},
     }
     posed = problem(tables)
-    plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
-    level = finite_element_level(posed, plan, refinement, None, Stages())
+    level = finite_elements(posed)
     return float(level.solution.pressure.max()), level.contact_length
 
 

@@ -6,17 +6,12 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem
+from scenes import STEEL, finite_elements, problem
 
-from comparisons.common.progress import Stages
 from comparisons.models.finite_element import level as finite_element_level_module
 from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely
-from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
-from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from fem.nonlinear import finite_deformation
 from fem.solver.mumps import FemError
@@ -78,17 +73,12 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
         },
     }
     posed = problem(tables)
-    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
-
-    def level():
-        return finite_element_level(posed, plan, refinement, None, Stages()).solution
-
-    led = level()
+    led = finite_elements(posed).solution
     with (
         patch.object(finite_element_nonlinear, "solve_with_model", side_effect=FemError),
         patch.object(finite_deformation, "ASIDE", 1e-5),
     ):
-        other = level()
+        other = finite_elements(posed).solution
     assert led.iterations["newton_steps"] == 0 < led.iterations["corrections"]
     assert other.iterations["corrections"] == 0 < other.iterations["newton_steps"]
     assert led.converged and other.converged
@@ -100,8 +90,7 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
 def test_a_body_that_deforms_finitely_is_not_pressed_linearly_as_well(monkeypatch):
     monkeypatch.setattr(finite_element_level_module, "pressed_linearly", lambda *arguments: 1 / 0)
     posed = problem_of(Scene.read("finite-strain"))
-    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
-    assert finite_element_level(posed, plan, refinement, None, Stages()).solution.converged
+    assert finite_elements(posed).solution.converged
 
 
 def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():
@@ -115,9 +104,9 @@ def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():
         "finite_element": {"deformation": "finite", "roller_shape": "circle"},
     }
     posed = problem(tables)
-    plan, half_widths, peaks = make_plan(posed, ("finite_element",)), [], []
+    half_widths, peaks = [], []
     for pitch in posed.pitches[:2]:
-        level = finite_element_level(posed, plan, Refinement(pitch), None, Stages())
+        level = finite_elements(posed, pitch)
         solution = level.solution
         assert solution.converged and solution.iterations["increments"] > 1
         assert solution.load == pytest.approx(13.6e3, rel=1e-9)
@@ -144,9 +133,7 @@ def test_a_cap_holds_by_deformed_area_and_small_loads_are_the_linear_theorys(fri
         for deformation in ("linear", "finite"):
             switches = {"deformation": deformation, "coupled": friction > 0.0}
             scene = problem(tables | {"finite_element": switches})
-            plan, window = make_plan(scene, ("finite_element",)), window_of(scene)
-            refinement = Refinement(scene.hertz.half_width / 20.0)
-            level = finite_element_level(scene, plan, refinement, window, Stages())
+            level = finite_elements(scene, scene.hertz.half_width / 20.0, fields=True)
             pressure = level.solution.pressure
             assert level.solution.converged
             assert pressure.max() == pytest.approx(0.7 * peak, rel=1e-12)

@@ -5,12 +5,11 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem
+from scenes import STEEL, changed, finite_elements, problem
 
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
@@ -47,9 +46,7 @@ def posed(material: str, curvature: float, support: object, **switches: object) 
 def half_plane_off(material: str, curvature: float, support: str) -> float:
     """What the half-plane's peak pressure is off by, relative to that of the disc."""
     scene = posed(material, curvature, SUPPORTS[support])
-    pitch = scene.hertz.half_width / 24.0
-    plan = make_plan(scene, ("finite_element",))
-    level = finite_element_level(scene, plan, Refinement(pitch), None, Stages())
+    level = finite_elements(scene, scene.hertz.half_width / 24.0)
     assert level.solution.converged
     return float(scene.hertz.peak_pressure / level.solution.pressure.max() - 1.0)
 
@@ -129,6 +126,5 @@ def test_an_independent_code_finds_the_same_with_that_support(support):
 
 def test_pressures_beyond_a_disc_are_an_error():
     scene = posed("polymer", 0.5, "opposite", roller_shape="parabola")
-    plan, refinement = make_plan(scene, ("finite_element",)), Refinement(scene.pitches[0])
     with pytest.raises(SceneError, match='roller_body: is "disc", but pressures may reach'):
-        finite_element_level(scene, plan, refinement, None, Stages())
+        finite_elements(scene)

@@ -4,11 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import problem
+from scenes import finite_elements, problem
 
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement, block_spec, rough_mesh
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
@@ -90,10 +89,9 @@ def test_fading_roughness_leaves_elements_fit_on_every_level(slope, length, seed
 def test_finite_deformation_takes_no_factorisation_of_its_own():
     """A few tens of back-substitutions by the linear bodies' factors."""
     problem = problem_with(SINUSOID, roller_shape="circle")
-    plan = make_plan(problem, ("finite_element",))
     peaks = []
     for pitch in problem.pitches[0] / np.array([4.0, 8.0]):
-        level = finite_element_level(problem, plan, Refinement(pitch), None, Stages())
+        level = finite_elements(problem, pitch)
         counts = level.solution.iterations
         assert level.solution.converged
         assert counts["newton_steps"] == 0

@@ -4,14 +4,9 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem, resolved
+from scenes import STEEL, changed, finite_elements, problem, resolved
 
 from comparisons.common.errors import SceneError
-from comparisons.common.progress import Stages
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
-from comparisons.models.window import window_of
 
 BASE = {
     "roller": {"radius": 8e-3, "rigid": True},
@@ -56,9 +51,7 @@ def test_pair(pair):
             resolved(tables)
         return
     posed = problem(tables)
-    plan, window = make_plan(posed, ("finite_element",)), window_of(posed)
-    refinement = Refinement(posed.pitches[0])
-    level = finite_element_level(posed, plan, refinement, window, Stages())
+    level = finite_elements(posed, fields=True)
     solution = level.solution
     assert solution.converged
     assert solution.load == pytest.approx(posed.hertz.load_per_length, rel=1e-6)

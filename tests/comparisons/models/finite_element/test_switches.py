@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from scenes import changed, problem
+from scenes import changed, finite_elements, problem
 
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
@@ -34,8 +34,7 @@ def problem_with(tables: dict, finite_element: dict, **sections: dict) -> Proble
 
 def level_of(tables: dict, finite_element: dict, **sections: dict):
     problem = problem_with(tables, finite_element, **sections)
-    plan = make_plan(problem, ("finite_element",))
-    level = finite_element_level(problem, plan, Refinement(problem.pitches[1]), None, Stages())
+    level = finite_elements(problem, problem.pitches[1])
     assert level.solution.converged
     return problem, level
 
@@ -150,10 +149,7 @@ def test_finite_rotations_leave_the_surface_at_the_edge_of_contact_without_shear
     load = {"per_length": 85.0 * RIGID["load"]["per_length"]}
     tables = {**RIGID, "load": load, "stress": {"points": [41, 11]}}
     problem = problem_with(tables, {"deformation": "finite", "roller_shape": "circle"})
-    plan, window = make_plan(problem, ("finite_element",)), window_of(problem)
-    refinement = Refinement(problem.pitches[0])
-    level = finite_element_level(problem, plan, refinement, window, Stages())
-    hertz = problem.hertz
+    level, window, hertz = finite_elements(problem, fields=True), window_of(problem), problem.hertz
     assert hertz.half_width / RADIUS == pytest.approx(0.184, abs=1e-3)
     [stress] = level.stresses
     largest = stress.extremes["tau1"]
