@@ -38,13 +38,6 @@ class TestHertz:
         assert np.ptp(patch) / 2.0 / HERTZ.half_width == pytest.approx(1.0, abs=1e-4)
         assert len(patch) == 1
 
-    @pytest.mark.parametrize("offset", [0.0, 0.3, 0.5, 0.8])
-    def test_edges_lie_between_the_nodes_where_they_should(self, roller, offset):
-        grid, solution, shift = smooth(roller, 500, offset)
-        edges = contact_patches(grid.x, solution.pressure, solution.gap)[0] - shift
-        error = (edges - HERTZ.half_width * np.array([-1.0, 1.0])) / grid.pitch
-        assert np.abs(error).max() < 0.1
-
     def test_peak_pressure_is_of_second_order(self, roller):
         # offsets averaged: the error depends on where the edge falls between two nodes
         errors = []
@@ -57,17 +50,6 @@ class TestHertz:
         orders = observed_orders(errors)
         assert orders.mean() == pytest.approx(2.0, abs=0.25)
         assert errors[-1] < 1e-5
-
-    def test_pressure_l2_is_of_the_order_of_its_square_root_edge(self, roller):
-        errors = []
-        for elements in (120, 240, 480, 960):
-            square = []
-            for offset in (0.0, 0.25, 0.5, 0.75):
-                grid, solution, shift = smooth(roller, elements, offset)
-                exact = HERTZ.pressure(grid.x - shift)
-                square.append(np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2))
-            errors.append(np.sqrt(np.mean(square)))
-        assert observed_orders(errors).mean() == pytest.approx(1.0, abs=0.15)
 
 
 def test_uniform_strips_converge_to_hertz():

@@ -87,16 +87,10 @@ def test_a_bare_scene_has_the_defaults():
     body = scene.body
     assert (body.hardness, body.thickness, body.width, body.base) == (None,) * 4
     assert scene.tolerances == {"peak_pressure": 0.02, "contact_length": 0.02, "tau1_max": 0.02}
-    assert scene.finite_element == FiniteElementSection(
-        roller_shape="parabola",
-        roller_body="half-plane",
-        coupled=False,
-        deformation="linear",
-        plastic=False,
-        element="P2",
-        block=400.0,
-        growth=0.2,
-    )
+    settings = scene.finite_element
+    assert (settings.roller_body, settings.roller_shape) == ("half-plane", "parabola")
+    assert (settings.deformation, settings.plastic, settings.coupled) == ("linear", False, False)
+    assert (settings.element, settings.block, settings.growth) == ("P2", 400.0, 0.2)
     assert (scene.body.yield_stress, scene.coating) == (None, None)
     assert scene.resolution == ResolutionSection(levels=3)
     assert scene.budget == BudgetSection(time=300.0, memory=8e9)
