@@ -83,18 +83,30 @@ def run_of(
     return RUNS[key]
 
 
-def finite_elements(posed: "Problem", pitch: float | None = None, fields: bool = False) -> "Level":
+def finite_elements(
+    posed: "Problem", pitch: float | None = None, fields: bool = False, **refinement: object
+) -> "Level":
     """The finite elements on one level, the coarsest unless a pitch [m] is given; with the fields
-    of [stress] if asked for."""
+    of [stress] if asked for. `refinement` is further of its own."""
     from comparisons.common.progress import Stages
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from comparisons.models.plan import make_plan
     from comparisons.models.window import window_of
 
-    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(pitch or posed.pitches[0])
+    plan, window = make_plan(posed, ("finite_element",)), window_of(posed) if fields else None
+    asked = Refinement(pitch or posed.pitches[0], **refinement)
+    return finite_element_level(posed, plan, asked, window, Stages())
+
+
+def half_plane_at(posed: "Problem", pitch: float | None = None, fields: bool = False) -> "Level":
+    """The half-plane on one level, as `finite_elements` has theirs."""
+    from comparisons.common.progress import Stages
+    from comparisons.models.half_plane import half_plane_level
+    from comparisons.models.window import window_of
+
     window = window_of(posed) if fields else None
-    return finite_element_level(posed, plan, refinement, window, Stages())
+    return half_plane_level(posed, pitch or posed.pitches[0], window, Stages())
 
 
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:

@@ -17,15 +17,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import readme_picture
+from scenes import half_plane_at
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
-from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.posing import problem_of
-from comparisons.models.window import window_of
 from comparisons.output.terminal import SHORT
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
@@ -123,7 +121,7 @@ def unrun() -> dict[float, dict[str, float]]:
     """Figures of the half-plane on the README's first scene, by friction coefficient, on the level
     with which its run ends: one more than it begins with."""
     problem = problem_of(Scene.read("ground-unrun"))
-    level = half_plane_level(problem, problem.pitches[-1] / 2.0, window_of(problem), Stages())
+    level = half_plane_at(problem, problem.pitches[-1] / 2.0, fields=True)
     return {mu: values_of(level, problem, mu) for mu in problem.scene.load.friction}
 
 

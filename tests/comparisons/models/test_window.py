@@ -2,11 +2,9 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, resolved
+from scenes import STEEL, half_plane_at, resolved
 
 from comparisons.common.errors import SceneError
-from comparisons.common.progress import Stages
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.posing import problem_of
 from comparisons.models.window import search_window, window_of
 from comparisons.scenes.files import SCENES, read_toml
@@ -24,7 +22,7 @@ def test_extremes_do_not_depend_on_the_points_of_the_field(name):
     extremes = []
     for points in ([3, 3], [40, 16], [600, 200]):
         posed = problem(name, points=points)
-        level = half_plane_level(posed, posed.pitches[0], window_of(posed), Stages())
+        level = half_plane_at(posed, fields=True)
         extremes.append([e.value for s in level.stresses for e in s.extremes.values()])
     assert extremes[:2] == [pytest.approx(extremes[2], rel=1e-9)] * 2
 

@@ -6,13 +6,9 @@ analytic/exact/layer_contact.json: ten digits, two independent derivations.
 import json
 
 import pytest
-from scenes import problem
+from scenes import finite_elements, problem
 
 from analytic.exact.layers import TABLE
-from comparisons.common.progress import Stages
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 
 CASES = json.loads(TABLE.read_text())["cases"]
@@ -49,9 +45,7 @@ def problem_under(case: dict, nu: float) -> tuple[Problem, float]:
 )
 def test_second_level_meets_the_exact_layer(case, nu):
     posed, peak = problem_under(case, nu)
-    plan = make_plan(posed, ("finite_element",))
-    refinement = Refinement(posed.pitches[1])
-    level = finite_element_level(posed, plan, refinement, None, Stages())
+    level = finite_elements(posed, posed.pitches[1])
     assert level.solution.converged
     assert level.solution.iterations["applications"] <= 6
     half_width = float(case["a_over_t"]) * THICKNESS

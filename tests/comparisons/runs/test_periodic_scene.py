@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem, resolved, run_of
+from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 
 from analytic.layers.layered import LayeredBody, normal_compliance
 from comparisons.common.errors import ExitStatus, SceneError
-from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.smooth import closed_form
 from comparisons.output.page.pictures.contact import surface_picture
 from comparisons.output.page.tables.problem import problem_sheet
@@ -121,7 +119,7 @@ def test_where_the_period_is_cut_changes_nothing():
     levels = []
     for position in (0.0, 0.17e-3):
         posed = problem(changed(WAVE, load={"position": position}))
-        levels.append((posed, half_plane_level(posed, posed.pitches[0], None, Stages())))
+        levels.append((posed, half_plane_at(posed)))
     (first, one), (second, other) = levels
     assert other.patches[-1, 0] < 0.5 * PERIOD < other.patches[-1, 1]
     alike, again = values_of(one, first, 0.0), values_of(other, second, 0.0)

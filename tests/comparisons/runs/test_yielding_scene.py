@@ -3,7 +3,7 @@
 import meshio
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem, resolved, run_of
+from scenes import STEEL, changed, finite_elements, problem, resolved, run_of
 
 from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.progress import Stages
@@ -94,12 +94,11 @@ def test_expected_increments_follow_the_edges_of_patches():
 def test_increments_have_an_uncertainty_of_their_own(outcome):
     """It covers what shorter ones change, and the total contains it."""
     posed, elements = outcome.problem, outcome.runs["finite_element"]
-    plan = make_plan(posed, ("finite_element",))
-    shorter = Refinement(elements.finest.grid.pitch, travel=0.25)
-    level = finite_element_level(posed, plan, shorter, outcome.window, Stages())
+    pitch = elements.finest.grid.pitch
+    level = finite_elements(posed, pitch, fields=True, travel=0.25)
     stated = uncertainties(elements, posed, 0.0)
     reached = values_of(elements.finest, posed, 0.0)
-    edge = length_resolution(shorter.pitch, 1) / elements.finest.contact_length
+    edge = length_resolution(pitch, 1) / elements.finest.contact_length
     moved_to = values_of(level, posed, 0.0)
     # the depth of the maximum jumps on so coarse a mesh
     for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
@@ -146,8 +145,7 @@ def deep(friction=0.0):
 def test_contact_spreads_beyond_one_and_a_half_half_widths(friction):
     """As far as flow takes it: pressures end before the grid does."""
     posed = problem(deep(friction))
-    plan, coarse = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
-    level, a = finite_element_level(posed, plan, coarse, None, Stages()), posed.hertz.half_width
+    level, a = finite_elements(posed), posed.hertz.half_width
     assert level.contact_length > 3.1 * a
     assert not level.solution.pressure[[0, -1]].any()
     assert level.solution.pressure.max() < 4.0 * YIELD_STRESS

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import MEASURED, judging, run_of
+from scenes import MEASURED, half_plane_at, judging, run_of
 
 from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
@@ -12,7 +12,6 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
@@ -37,7 +36,7 @@ def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, pe
     by_level = []
     for refinement in range(5):
         pitch = problem.pitches[0] / 2.0**refinement
-        by_level.append(values_of(half_plane_level(problem, pitch, None, Stages()), problem, 0.0))
+        by_level.append(values_of(half_plane_at(problem, pitch), problem, 0.0))
     two_a = 2.0 * problem.hertz.half_width
     ratios = grid_convergence([f["contact_length"] / two_a for f in by_level], 2.0)
     peaks = grid_convergence([f["peak_pressure"] for f in by_level], 2.0)
@@ -119,7 +118,7 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
     grid: HatGrid = problem.grid(problem.pitches[0])
     weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
     refinement = Refinement(grid.pitch)
-    level = half_plane_level(problem, grid.pitch, None, Stages())
+    level = half_plane_at(problem, grid.pitch)
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5
     bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())

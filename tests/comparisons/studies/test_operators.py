@@ -6,13 +6,13 @@ import json
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem
+from scenes import STEEL, half_plane_at, problem
 
 from analytic.exact.layers import TABLE
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import finished_map
 from comparisons.common.progress import Stages
-from comparisons.models.half_plane import half_plane_level, half_plane_on
+from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import ModelRun
 from comparisons.models.posing import problem_of
 from comparisons.models.smooth import closed_form
@@ -76,7 +76,7 @@ def test_a_coating_of_the_body_itself_is_a_half_plane():
     posed = problem(BODIES | FIELD | {"coating": coating})
     window, pitch = window_of(posed), posed.pitches[0]
     coated = OperatorModel(posed, (0.3,), 0.0).level(pitch, window)
-    plain = half_plane_level(posed, pitch, window, Stages())
+    plain = half_plane_at(posed, pitch, fields=True)
     assert coated.solution.pressure == pytest.approx(
         plain.solution.pressure, rel=1e-8, abs=1e-8 * plain.solution.pressure.max()
     )
@@ -105,7 +105,7 @@ def test_what_an_operator_carries():
     highest = problem(BODIES).hertz.peak_pressure
     body = {**STEEL, "thickness": 1e-3, "width": 40e-3, "yield_stress": 0.3 * highest}
     posed = problem(BODIES | {"body": body})
-    level = half_plane_level(posed, posed.pitches[0], None, Stages())
+    level = half_plane_at(posed)
     flow = flow_assessment(posed, {"half_plane": ModelRun("half_plane", (level,))})
     held = carried(posed, {"finite_size", COUPLED, "finite_strain"}, flow)
     assert held == {"finite_size", COUPLED, CAP}

@@ -4,12 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem, run_of
+from scenes import STEEL, half_plane_at, problem, run_of
 from scipy.optimize import minimize_scalar, root_scalar
 
 from analytic.exact.hertz import HertzContact, hertz_stress
-from comparisons.common.progress import Stages
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.window import window_of
 from comparisons.studies.study import WHY_NOT
 from comparisons.studies.subsurface import quiescent_zone as q
@@ -129,9 +127,7 @@ def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
     other = WAVY | {"stress": {"half_range": half_range, "depth": depth, "points": points}}
     posed = problem(other)
     window = window_of(posed)
-    level = half_plane_level(
-        posed, 0.5 * wavy.runs["half_plane"].finest.grid.pitch, window, Stages()
-    )
+    level = half_plane_at(posed, 0.5 * wavy.runs["half_plane"].finest.grid.pitch, fields=True)
     zone = q.zone_of(posed, level, window, 0.0)
     a = posed.hertz.half_width
     for name in q.QUANTITIES:

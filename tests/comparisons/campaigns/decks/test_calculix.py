@@ -14,12 +14,8 @@ from exact_partial_slip import SlippingContact
 
 import comparisons as crosscheck
 from comparisons.campaigns.decks.write import write_deck
-from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
 
 pytestmark = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="decks in CalculiX: apt-get install calculix-ccx"
@@ -208,8 +204,7 @@ def test_a_body_flows_under_friction_as_in_the_finite_elements(tmp_path, name):
     assert ratios == pytest.approx([0.1] * len(pressed), rel=1e-4)
 
     problem = scenes.problem(tables)
-    plan, refinement = make_plan(problem, MODELS[1:]), Refinement(problem.pitches[0])
-    level = finite_element_level(problem, plan, refinement, None, Stages(lambda stage: None))
+    level = scenes.finite_elements(problem)
     own, theirs = level.solution.pressure, np.interp(level.grid.x, x, pressure)
     inside = own > 0.5 * own.max()
     off = np.linalg.norm((theirs - own)[inside]) / np.linalg.norm(own[inside])

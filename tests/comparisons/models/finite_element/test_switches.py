@@ -5,13 +5,12 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from scenes import changed, finite_elements, problem
+from scenes import changed, finite_elements, half_plane_at, problem
 
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
@@ -105,7 +104,7 @@ def test_a_stiff_coating_narrows_the_contact():
 def test_coupled_both_models_move_alike(tables):
     load = {"friction": 0.5, "coupled": True}
     problem, level = level_of(tables, {}, load=load)
-    other = half_plane_level(problem, problem.pitches[1], None, Stages())
+    other = half_plane_at(problem, problem.pitches[1])
 
     def centroid(pressure: np.ndarray) -> float:
         return float(level.grid.x @ pressure / pressure.sum()) / problem.hertz.half_width

@@ -5,13 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import half_plane_at
 
 import comparisons.models.running_in
 from analytic.profile import Profile
 from analytic.running_in import run_in
 from analytic.surface.roughness import roughness
-from comparisons.common.progress import Stages
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.posing import problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.record import read_result
@@ -139,11 +138,11 @@ def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness()
     assert worn.status == "settled" and worn.converged
     assert not any(one.at_end for one in worn.passes)
     assert 1e-12 * 30.0 < worn.volume < 1e-12 * 45.0
-    level = half_plane_level(problem, problem.pitches[-1], None, Stages())
+    level = half_plane_at(problem, problem.pitches[-1])
     peak = level.solution.pressure.max()
     assert peak == pytest.approx(scene.running_in.hardness, rel=0.02)
     unrun = problem_of(Scene.read("ground-unrun"))
-    before = half_plane_level(unrun, unrun.pitches[-1], None, Stages())
+    before = half_plane_at(unrun, unrun.pitches[-1])
     assert before.solution.pressure.max() > 1.5 * peak
     ratios = [worn.contact_length / problem.hertz.half_width / 2.0 for worn in (before, level)]
     assert ratios == pytest.approx([0.69, 0.72], abs=0.01)

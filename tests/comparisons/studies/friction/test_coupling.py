@@ -7,12 +7,11 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 import scenes
-from scenes import DATA, STEEL, changed, refound, run_of
+from scenes import DATA, STEEL, changed, half_plane_at, refound, run_of
 
 from comparisons.common.numbers import UNKNOWN
-from comparisons.common.progress import Stages, no_progress
+from comparisons.common.progress import no_progress
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
 from comparisons.studies.friction import coupling
 from comparisons.studies.friction.coupling import BEYOND_THE_END, SHIFT, Change, couplings
@@ -49,8 +48,7 @@ def solved(tables: dict, **load) -> Run:
 
 
 def half_plane_of(problem) -> ModelRun:
-    stages = Stages(no_progress)
-    levels = (half_plane_level(problem, pitch, None, stages) for pitch in problem.pitches)
+    levels = (half_plane_at(problem, pitch) for pitch in problem.pitches)
     return ModelRun("half_plane", tuple(levels))
 
 

@@ -5,13 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from exact_partial_slip import SlippingContact
-from scenes import STEEL, changed, problem, resolved, run_of
+from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 
 from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
-from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.output.flat_csv import rows_of
 from comparisons.output.record import read_result
@@ -114,7 +112,7 @@ def test_unlike_bodies_are_loaded_alike_by_both_models(roller):
     scene = SMOOTH | {"roller": radius | roller, "partial_slip": {"load": 0.5}}
     scene = scene | {"body": {"youngs_modulus": 70e9, "poissons_ratio": 0.33}}
     posed = problem(changed(scene, load={"friction": 0.3}))
-    level = half_plane_level(posed, posed.pitches[0], None, Stages())
+    level = half_plane_at(posed)
     one = half_plane_slip(posed, level, None, 3)
     other = finite_element_slip(posed, make_plan(posed, MODELS), None, level, 3)
     assert all(state.converged for state in (*one.states, *other.states))

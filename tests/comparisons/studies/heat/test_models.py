@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from heat_loads import flux_load
 from moving_band import band_maximum, band_mean
-from scenes import BOTH_CONDUCT, STEEL, problem
+from scenes import BOTH_CONDUCT, STEEL, half_plane_at, problem
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import ThermalMaterial
-from comparisons.common.progress import Stages, no_progress
 from comparisons.figures.convergence import grid_convergence
-from comparisons.models.half_plane import half_plane_level
 from comparisons.studies.heat.finite_elements import finite_element_heat
 from comparisons.studies.heat.half_space import half_space_heat, peclet_numbers, what_it_contains
 from fem.heat.body import thermal_body
@@ -36,10 +34,6 @@ SOFT = {"thickness": 20e-6, "youngs_modulus": 210e9, "poissons_ratio": 0.3}
 def made(body=None, coating=None, **heat):
     tables = SCENE | {"body": SCENE["body"] | (body or {}), "heat": SCENE["heat"] | heat}
     return problem(tables | ({"coating": coating} if coating else {}))
-
-
-def level_of(posed):
-    return half_plane_level(posed, posed.pitches[0], None, Stages(no_progress), fields=False)
 
 
 def through_layers(posed, level, held=True):
@@ -75,7 +69,7 @@ def through_layers(posed, level, held=True):
 
 def test_equal_bodies_that_roll_and_slide_share_nearly_evenly():
     posed = made(slide_to_roll=0.01)
-    heat = half_space_heat(posed, level_of(posed))
+    heat = half_space_heat(posed, half_plane_at(posed))
     numbers = peclet_numbers(posed)
     exact = np.sqrt(numbers["body"]) / sum(np.sqrt(number) for number in numbers.values())
     assert heat.fraction == pytest.approx(exact, rel=1e-3)
@@ -84,7 +78,7 @@ def test_equal_bodies_that_roll_and_slide_share_nearly_evenly():
 
 def test_reversed_roles_mirror():
     one, other = made(slide_to_roll=2.0), made(slide_to_roll=-2.0)
-    first, second = (half_space_heat(posed, level_of(posed)) for posed in (one, other))
+    first, second = (half_space_heat(posed, half_plane_at(posed)) for posed in (one, other))
     assert first.body == pytest.approx(second.roller[::-1], rel=1e-6)
     assert first.fraction == pytest.approx(1.0 - second.fraction)
 
@@ -107,7 +101,7 @@ def test_finite_bodies_against_transforms(body, coating, base):
     if base == "insulated":
         heat_section["base"] = base
     posed = made(body, coating, **heat_section, slide_to_roll=2.0)
-    level = level_of(posed)
+    level = half_plane_at(posed)
     heat = finite_element_heat(posed, level)
     assert heat.fraction == pytest.approx(1.0, abs=1e-4)
     exact = through_layers(posed, level, base == "held")
@@ -123,7 +117,7 @@ def test_elements_follow_the_slower_of_body_and_coating():
     the contact; elements as the body's own diffusivity wants them err by 1.5 %."""
     coat = {f"coating_{name}": value for name, value in LAYER.items()} | INSULATOR
     posed = made({}, SOFT | {"thickness": 100e-6}, **coat, slide_to_roll=2.0, speed=4.0)
-    level = level_of(posed)
+    level = half_plane_at(posed)
     heat, exact = finite_element_heat(posed, level), through_layers(posed, level)
     inside = np.flatnonzero(heat.heat)[2:-2]
     assert heat.body[inside] == pytest.approx(exact[inside], abs=6e-3 * exact.max())
@@ -131,7 +125,7 @@ def test_elements_follow_the_slower_of_body_and_coating():
 
 def test_a_square_at_rest_is_a_half_space_with_its_reach():
     posed = made(slide_to_roll=-2.0, reach=1e-3, **INSULATOR)
-    level = level_of(posed)
+    level = half_plane_at(posed)
     finite, half_space = finite_element_heat(posed, level), half_space_heat(posed, level)
     largest = half_space.figures["flash_temperature"]
     assert finite.figures["flash_temperature"] == pytest.approx(largest, rel=1e-3)
@@ -146,7 +140,7 @@ def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
     as tests/fem/heat/test_conduction.py has it."""
     section = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
     posed = made(slide_to_roll=2.0, **section, **({"reach": reach} if reach else {}))
-    level, heat, radius = level_of(posed), posed.scene.heat, posed.scene.roller.radius
+    level, heat, radius = half_plane_at(posed), posed.scene.heat, posed.scene.roller.radius
     far = heat.reach or radius
     half = 0.5 * far / radius
     height = np.sqrt(1.0 - half**2) / far
@@ -168,7 +162,7 @@ def test_a_fast_roller_is_a_half_space():
     section = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
     for speed, least, most in ((20.0, 2e-4, 2e-3), (2.0, 1e-3, 1e-2), (0.05, 0.01, 0.1)):
         posed = made(slide_to_roll=-2.0, speed=speed, **section)
-        level = level_of(posed)
+        level = half_plane_at(posed)
         disc, flat = (finite_element_heat(posed, level, without=w) for w in (set(), {"roller"}))
         assert disc.fraction == pytest.approx(0.0, abs=1e-4)
         one, other = (heat.figures["mean_temperature"] for heat in (disc, flat))
@@ -178,7 +172,7 @@ def test_a_fast_roller_is_a_half_space():
 def test_largest_temperature_of_a_band():
     """A band of uniform pressure: Jaeger's, 0.5 % by finite elements."""
     posed = made(slide_to_roll=2.0, **INSULATOR)
-    level = level_of(posed)
+    level = half_plane_at(posed)
     half = 100e-6
     grid = HatGrid.within(-1.3 * half, 1.3 * half, half / 80)
     pressure = np.where(np.abs(grid.x) < half * (1 + 1e-9), 1e9, 0.0)

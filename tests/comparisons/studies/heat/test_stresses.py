@@ -4,12 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import BOTH_CONDUCT, STEEL, STEEL_HEAT, changed, problem
+from scenes import BOTH_CONDUCT, STEEL, STEEL_HEAT, changed, finite_elements, problem
 
-from comparisons.common.progress import Stages
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.studies.heat.finite_elements import finite_element_stress, solved_heat
 
@@ -29,10 +25,7 @@ COATED = changed(PLAIN, heat={**OF_COAT, "coating_expansion": 12e-6}) | {
 def solved(tables):
     """What `finite_element_stress` takes, on the coarsest level."""
     posed = problem(tables)
-    plan, window = make_plan(posed, ("finite_element",)), window_of(posed)
-    coarsest = Refinement(posed.pitches[0])
-    level = finite_element_level(posed, plan, coarsest, window, Stages())
-    return posed, level, window
+    return posed, finite_elements(posed, fields=True), window_of(posed)
 
 
 def test_a_coating_counts_by_what_it_differs_in():

@@ -6,16 +6,17 @@ Here they are switched on in the scene, from the first level to the last: nothin
 
 import numpy as np
 import pytest
-from scenes import KNOWN_RUBBER, KNOWN_STEEL, problem, resolved, run_of
+from scenes import (
+    KNOWN_RUBBER,
+    KNOWN_STEEL,
+    finite_elements,
+    half_plane_at,
+    problem,
+    resolved,
+    run_of,
+)
 
-from comparisons.common.progress import Stages
-from comparisons.figures.quantity import MODELS
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import Levels
-from comparisons.models.window import window_of
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.catalogue import contained
 from comparisons.studies.model_error.contributions import split_variants
@@ -88,12 +89,9 @@ SCENES = {
 def direct_errors(tables: dict) -> dict[str, float]:
     """(half-plane - finite elements) / finite elements on the third level, by quantity."""
     posed = problem(tables)
-    plan, pitch = make_plan(posed, MODELS), posed.pitches[2]
-    window = window_of(posed) if plan.stress else None
-    friction = posed.scene.load.friction[0]
-    one = half_plane_level(posed, pitch, window, Stages())
-    other = finite_element_level(posed, plan, Refinement(pitch), window, Stages())
-    flat, real = (values_of(level, posed, friction) for level in (one, other))
+    friction, how = posed.scene.load.friction[0], (posed.pitches[2], "stress" in tables)
+    levels = half_plane_at(posed, *how), finite_elements(posed, *how)
+    flat, real = (values_of(level, posed, friction) for level in levels)
     return {name: flat[name] / real[name] - 1.0 for name in flat}
 
 

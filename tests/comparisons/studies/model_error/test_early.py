@@ -3,14 +3,13 @@
 from dataclasses import replace
 
 import pytest
+from scenes import half_plane_at
 
-from comparisons.common.progress import Stages
-from comparisons.models.half_plane import half_plane_level
 from comparisons.studies.model_error.study import early_lines
 
 
 def lines_of(posed) -> tuple[str, str]:
-    return early_lines(posed, half_plane_level(posed, posed.pitches[0], None, Stages()))
+    return early_lines(posed, half_plane_at(posed))
 
 
 @pytest.mark.parametrize(

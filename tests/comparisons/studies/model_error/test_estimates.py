@@ -3,19 +3,12 @@
 from dataclasses import replace
 
 import pytest
-from scenes import STEEL, problem, resolved
+from scenes import STEEL, finite_elements, half_plane_at, problem, resolved
 
 from analytic.material import Law
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import FINISHED, finished_map, finished_names
-from comparisons.common.progress import Stages
-from comparisons.figures.quantity import MODELS
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
-from comparisons.models.window import window_of
 from comparisons.scenes.files import read_toml
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.catalogue import UNKNOWN
@@ -72,9 +65,7 @@ def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
         for body in open_law.bodies:
             fields |= {f"{body}.law": law.name, f"{body}.murnaghan": constants}
         posed = replace(plain, scene=plain.scene.unchecked(fields))
-        plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
-        level = finite_element_level(posed, plan, refinement, None, Stages())
-        peaks.append(float(level.solution.pressure.max()))
+        peaks.append(float(finite_elements(posed).solution.pressure.max()))
         assert "law_of_elasticity" not in estimates(posed, peaks[-1], peaks[-1])
     bound = estimates(plain, peaks[0], peaks[0])["law_of_elasticity"]["peak_pressure"]
     spread = [peak / peaks[0] - 1.0 for peak in peaks[1:]]
@@ -89,11 +80,8 @@ def test_flow_without_a_cap_is_within_its_estimate(friction):
     tables |= {"stress": {"points": [60, 20]}, "resolution": {"elements": 8}}
     posed = problem(tables)
     flowing = problem(tables | {"finite_element": {"plastic": True, "coupled": True}})
-    window, pitch = window_of(posed), posed.pitches[0]
-    elastic = half_plane_level(posed, pitch, window, Stages())
-    plastic = finite_element_level(
-        flowing, make_plan(flowing, MODELS), Refinement(pitch), window, Stages()
-    )
+    elastic = half_plane_at(posed, fields=True)
+    plastic = finite_elements(flowing, posed.pitches[0], fields=True)
     values = [values_of(level, posed, friction) for level in (elastic, plastic)]
     peak = posed.hertz.peak_pressure
     bounds = estimates(posed, peak, peak)["plastic_flow"]

@@ -4,14 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem, resolved, run_of
+from scenes import STEEL, finite_elements, problem, resolved, run_of
 
 from analytic.material import Law
-from comparisons.common.progress import Stages
-from comparisons.figures.quantity import MODELS
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
 from comparisons.scenes.materials import measured_solids, scaled_law, solids
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.laws import EFFECT, open_laws, point_of
@@ -41,9 +36,7 @@ def solved_with():
     def solved(law: Law) -> dict[str, float]:
         if law not in known:
             posed = problem(scene(lawed(law), finite_element=STRAIN))
-            plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
-            level = finite_element_level(posed, plan, refinement, None, Stages())
-            known[law] = values_of(level, posed, 0.0)
+            known[law] = values_of(finite_elements(posed), posed, 0.0)
         return known[law]
 
     return solved

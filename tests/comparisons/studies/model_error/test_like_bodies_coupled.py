@@ -2,14 +2,9 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem
+from scenes import STEEL, finite_elements, problem
 
-from comparisons.common.progress import Stages
-from comparisons.figures.quantity import MODELS
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from comparisons.studies.comparison import relative_l2
 from comparisons.studies.model_error.selection import select_effects
@@ -35,8 +30,7 @@ def solved(tables: dict, **finite_element: object) -> tuple[Problem, Level]:
         "resolution": {"pitch": HALF_WIDTH / 20.0},
     } | tables
     posed = problem(made)
-    plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
-    return posed, finite_element_level(posed, plan, refinement, None, Stages())
+    return posed, finite_elements(posed)
 
 
 def test_half_planes_are_moved_alike():

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
+from scenes import half_plane_at
 
-from comparisons.common.progress import Stages
 from comparisons.common.tasks import Tasks
-from comparisons.models.half_plane import half_plane_level
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.sampling import sampling_changes
 
@@ -30,7 +29,7 @@ def pressed(problem_with, tmp_path):
             load={"hertz_peak_pressure": 1e9},
             resolution={"pitch": 0.4e-6, "levels": 3},
         )
-        levels = [half_plane_level(problem, p, None, Stages()) for p in problem.pitches]
+        levels = [half_plane_at(problem, pitch) for pitch in problem.pitches]
         return problem, levels
 
     return made

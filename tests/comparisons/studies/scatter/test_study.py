@@ -7,16 +7,14 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scenes import PROFILES, SMOOTH, changed, problem, resolved, run_of
+from scenes import PROFILES, SMOOTH, changed, half_plane_at, problem, resolved, run_of
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
 from comparisons.cli import main
 from comparisons.common.cache import Cache
 from comparisons.common.executors import ExecutorWorker
-from comparisons.common.progress import Stages
 from comparisons.common.tasks import Tasks
-from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
@@ -126,9 +124,7 @@ def test_a_run_says_it(tmp_path, capsys):
 
 def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
     kept, posed = Cache(tmp_path, "key", {}), problem(changed(SCENE, scatter={"samples": 8}))
-    half_plane = ModelRun(
-        "half_plane", (half_plane_level(posed, posed.pitches[0], None, Stages()),)
-    )
+    half_plane = ModelRun("half_plane", (half_plane_at(posed),))
     scene = unsolved(posed, make_plan(posed, ("half_plane",)))
 
     def solve_all():
