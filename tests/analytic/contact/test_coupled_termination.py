@@ -35,13 +35,6 @@ class TestContraction:
         assert error < 1e-7 * expected.pressure.max()
         assert solution.approach == pytest.approx(expected.approach, rel=1e-8)
 
-    def test_steps_needed_follow_from_friction_and_beta(self, roller, unsettled):
-        """Each step leaves mu beta of the error, so that 1e-10 takes log 1e-10 / log mu beta."""
-        grid = HatGrid.within(-1.1e-3, 1.1e-3, 10e-6)
-        for size in (0.01, 0.1, 0.3):
-            steps = roller.sliding(grid, roller.rough(1), size).iterations["contractions"]
-            assert 0.4 < steps / (np.log(1e-10) / np.log(size)) < 1.3
-
     @pytest.mark.parametrize("hardness", [np.inf, 6e9])
     def test_prescribed_approach_and_hardness(self, roller, hardness, monkeypatch, unsettled):
         grid = HatGrid.within(-1.1e-3, 1.1e-3, 10e-6)

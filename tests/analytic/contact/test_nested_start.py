@@ -1,4 +1,4 @@
-"""Restriction and prolongation between grids of halved pitch, and what the nested solver costs."""
+"""Restriction to grids of doubled pitch, and what the nested solver costs."""
 
 from functools import partial
 from unittest.mock import patch
@@ -8,7 +8,7 @@ import pytest
 
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
 from analytic.contact.exchange import exchange
-from analytic.contact.nested_start import COARSEST, EDGES_OFF, coarse_start, prolonged
+from analytic.contact.nested_start import COARSEST, EDGES_OFF, coarse_start
 from analytic.contact.problem import solve_contact
 from analytic.grid import HatGrid, restricted, roller_gap
 from analytic.operators.half_plane import HalfPlane
@@ -46,28 +46,6 @@ class TestRestricted:
         assert restricted(fine.hat_integrals(wave), periodic=True) == pytest.approx(
             shifted, abs=1e-12
         )
-
-
-class TestProlonged:
-    @pytest.mark.parametrize("edge", np.arange(0.02, 2.0, 0.04))
-    def test_an_edge_of_root_shape_is_found_between_the_nodes(self, edge):
-        """p = sqrt(e - x) on nodes 1, 3, 5, …: the fine node beyond the last one touches or not."""
-        last = 31.0
-        coarse_x = np.arange(1.0, 64.0, 2.0)
-        fine_x = np.arange(65.0)
-        coarse = np.sqrt(np.maximum(last + edge - coarse_x, 0.0))
-        fine = prolonged(coarse, 65, periodic=False)
-        touching = (fine_x > 0.0) & (fine_x < last + edge)
-        np.testing.assert_array_equal(fine[1:] > 0.0, touching[1:])
-
-    @pytest.mark.parametrize("edge", [0.3, 1.7])
-    def test_an_edge_across_the_seam(self, edge):
-        x = np.arange(1.0, 64.0, 2.0)
-        coarse = np.sqrt(np.maximum(1.0 - ((x - 31.0) / (12.0 + edge)) ** 2, 0.0))
-        here = prolonged(coarse, 64, periodic=True)
-        for turn in range(1, 32):
-            there = prolonged(np.roll(coarse, turn), 64, periodic=True)
-            np.testing.assert_allclose(there, np.roll(here, 2 * turn), atol=1e-15)
 
 
 @pytest.mark.parametrize("count", [COARSEST - 1, COARSEST, 3 * COARSEST, 8 * COARSEST + 1])

@@ -24,19 +24,9 @@ free_sets = pytest.mark.parametrize("nodes", SETS.values(), ids=SETS.keys())
 closings = pytest.mark.parametrize("closed", [False, True], ids=["open", "closed"])
 
 
-def matrix(extension: Extension, free: int) -> np.ndarray:
-    return np.stack([extension.extend(column) for column in np.eye(free)], axis=1)
-
-
 @free_sets
 @closings
 class TestContinuation:
-    def test_gather_is_the_transpose(self, nodes, closed):
-        extension = Extension(nodes, COUNT, closed)
-        forces = np.random.default_rng(2).standard_normal(COUNT)
-        expected = matrix(extension, len(nodes)).T @ forces
-        assert extension.gather(forces) == pytest.approx(expected, abs=1e-14)
-
     def test_the_preconditioner_is_symmetric_positive_definite(self, nodes, closed):
         operator = (PeriodicHalfPlane if closed else HalfPlane)(COUNT, 1.0, 1.0)
         extension = Extension(nodes, operator.ring, closed=True)

@@ -47,13 +47,6 @@ def test_waves_pass_as_the_standard_says(wavelength):
     assert np.max(np.abs(line - share * wave(X, wavelength))[inside(X)]) < 2e-7
 
 
-def test_half_of_a_wave_of_the_cutoff_passes_either_way():
-    profile = Profile(X, wave(X, CUTOFF))
-    half = 0.5 * wave(X, CUTOFF)
-    for passed in (filtered(profile, CUTOFF), filtered(profile, None, CUTOFF)):
-        assert np.max(np.abs(passed.height - half)[inside(X)]) < 1e-7
-
-
 def test_both_cutoffs_leave_the_waves_between():
     waves = {0.125: 1.0, 0.5: 0.3, 8.0: 2.0}
     x = np.linspace(0.0, LENGTH, 40 * 256 + 1)

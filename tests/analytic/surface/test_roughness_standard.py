@@ -7,7 +7,7 @@ import pytest
 
 from analytic.profile import Profile
 from analytic.surface.filters import filtered
-from analytic.surface.roughness import figures_of, roughness, stretch_of, turning_points
+from analytic.surface.roughness import figures_of, roughness, stretch_of
 from analytic.surface.roughness_standard import (
     standard_cutoff,
     standard_roughness,
@@ -205,22 +205,3 @@ def test_samples_too_far_apart_have_no_short_cutoff():
     assert standard_short_cutoff(profile, 0.8e-3) is None
     assert standard_short_cutoff(profile, 2.5e-3) == 8e-6
     assert standard_short_cutoff(profile, 2e-6) is None
-
-
-def test_a_stretch_is_the_same_curve():
-    curve = FINE.spline()
-    part = stretch_of(curve, -3.3e-4, 1.07e-3)
-    x = np.linspace(-3.3e-4, 1.07e-3, 997)
-    np.testing.assert_allclose(part(x), curve(x), rtol=0.0, atol=1e-9 * AMPLITUDE)
-    np.testing.assert_allclose(part(x, 1), curve(x, 1), rtol=0.0, atol=1e-9 * 2 * pi / 50)
-    places = turning_points(part)
-    assert np.all(np.diff(places) >= 0.0)
-    assert np.ptp(part(places)) == pytest.approx(2.0 * AMPLITUDE, rel=1e-7)
-
-
-def test_a_level_of_its_own_counts():
-    profile = Profile(np.linspace(0.0, 1.0, 9), np.full(9, 2.0))
-    assert figures_of(profile.spline()).rq == pytest.approx(0.0, abs=1e-15)
-    figures = figures_of(profile.spline(), level=0.0)
-    assert (figures.ra, figures.rq) == (pytest.approx(2.0), pytest.approx(2.0))
-    assert figures.rku == pytest.approx(1.0)
