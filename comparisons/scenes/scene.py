@@ -252,13 +252,13 @@ def dimension_of(field: str) -> Dimension | None:
     return getattr(getattr(kind, "item", kind), "dimension", None)
 
 
-def with_tolerance(scene: Scene, tolerance: float, source: str = "tolerance") -> Scene:
+def with_tolerance(scene: Scene, tolerance: float) -> Scene:
     """The scene with one relative tolerance for all that it judges.
-    Raises InputError, which calls it by its `source`, unless it is above 0 and below 1."""
+    Raises InputError unless it is above 0 and below 1."""
     is_number = isinstance(tolerance, int | float) and not isinstance(tolerance, bool)
     if not (is_number and 0.0 < tolerance < 1.0):
         shown = f"{tolerance:g}" if is_number else describe(tolerance)
-        raise InputError(f"{source}: is {shown}; allowed is a number above 0 and below 1")
+        raise InputError(f"tolerance: is {shown}; allowed is a number above 0 and below 1")
     return scene.changed("tolerance", dict.fromkeys(scene.tables["tolerance"], tolerance))
 
 

@@ -1,8 +1,8 @@
 """A model's quantities of interest on one level, which can be added and subtracted.
 
-Effects are differences of them, on the same pressure elements. A largest
-value is one of each asperity (`Problem.asperities`): effects may move the largest of all from one
-to another, and the difference of two largest values at different places would measure neither."""
+Effects are differences of them, on the same pressure elements. A largest value is one of each
+asperity (`Problem.asperities`): effects may move the largest of all from one to another, and the
+difference of two largest values at different places would measure neither."""
 
 from __future__ import annotations
 

@@ -67,10 +67,6 @@ def test_two_sources_agree_and_what_is_judged_by_itself_holds(against, words):
     assert tuple(judged(value, size, 0.02, against).verdict for value, size in values) == words
 
 
-def test_what_is_not_modelled_widens_the_interval():
-    assert judged(0.01, 0.005, 0.02, unknown=0.006).verdict == "inconclusive"
-
-
 def test_what_has_no_bounds_is_not_judged():
     assert replace(judged(0.01, 0.0, 0.02), bounds=None).verdict is None
 

@@ -89,46 +89,49 @@ def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
     assert verdict(outside + LITTLE, 0.0625) == "fails"
 
 
-def test_holds_names_the_quantity_nearest_to_its_tolerance():
-    verdict, why = validity([judged(), judged("tau1_max", -0.015)])
-    assert verdict == "holds"
-    assert "tau1_max -1.50%" in why and "peak_pressure" not in why
-
-
-def test_one_error_outside_fails_it():
-    rows = [judged(), judged("contact_length", 0.04), judged("tau1_max", 0.01, 0.05)]
-    verdict, why = validity(rows)
-    assert verdict == "fails"
-    assert "contact_length +4.00%" in why
-    assert "peak_pressure" not in why and "tau1_max" not in why
-
-
-def test_an_uncertain_error_leaves_it_open():
-    verdict, why = validity([judged(), judged("tau1_max", 0.01, 0.015)])
-    assert verdict == "inconclusive"
-    assert "tau1_max +1.00% +- 1.50%" in why and "peak_pressure" not in why
-
-
-def test_what_no_model_shows_can_move_an_error_either_way():
-    rows = [
-        judged(not_modelled={"plastic_flow": 0.03}),
-        judged("tau1_max", not_modelled={"finite_roller": 0.001}),
-    ]
-    verdict, why = validity(rows)
-    assert verdict == "inconclusive"
-    assert "plastic flow 3.0%" in why and "finite roller" not in why
-    beyond = judged(value=-0.04, not_modelled={"plastic_flow": 0.03})
-    assert validity([beyond])[0] == "inconclusive"
-    assert validity([judged(value=-0.06, not_modelled={"plastic_flow": 0.03})])[0] == "fails"
-
-
-def test_an_error_outside_but_for_what_no_model_shows_is_laid_to_that():
-    outside = judged("tau1_max", -0.026, 0.0035, {"finite_strain": 0.046})
-    verdict, why = validity([outside])
-    assert verdict == "inconclusive"
-    assert "finite deformation 4.6%" in why and "cannot be told" not in why
-    blurred = judged("tau1_max", -0.026, 0.0065, {"finite_strain": 0.006})
-    assert "cannot be told from its tolerance" in validity([blurred])[1]
+@pytest.mark.parametrize(
+    ("errors", "verdict", "said", "unsaid"),
+    [
+        # the one nearest to its tolerance
+        ([judged(), judged("tau1_max", -0.015)], "holds", "tau1_max -1.50%", "peak_pressure"),
+        # one outside fails it, whatever is open beside it
+        (
+            [judged("contact_length", 0.04), judged("tau1_max", 0.01, 0.05)],
+            *("fails", "contact_length +4.00%", "tau1_max"),
+        ),
+        (
+            [judged(), judged("tau1_max", 0.01, 0.015)],
+            *("inconclusive", "tau1_max +1.00% +- 1.50%", "peak_pressure"),
+        ),
+        # what no model shows can move an error either way
+        (
+            [
+                judged(not_modelled={"plastic_flow": 0.03}),
+                judged("tau1_max", not_modelled={"finite_roller": 0.001}),
+            ],
+            *("inconclusive", "plastic flow 3.0%", "finite roller"),
+        ),
+        (
+            [judged(value=-0.04, not_modelled={"plastic_flow": 0.03})],
+            *("inconclusive", "plastic flow", "cannot be told"),
+        ),
+        ([judged(value=-0.06, not_modelled={"plastic_flow": 0.03})], "fails", "-6.00%", "told"),
+        # and is blamed where it is the larger unknown
+        (
+            [judged("tau1_max", -0.026, 0.0035, {"finite_strain": 0.046})],
+            *("inconclusive", "finite deformation 4.6%", "cannot be told"),
+        ),
+        (
+            [judged("tau1_max", -0.026, 0.0065, {"finite_strain": 0.006})],
+            *("inconclusive", "cannot be told from its tolerance", "finite deformation"),
+        ),
+        ([], "inconclusive", "", "%"),
+    ],
+)
+def test_the_verdict_on_the_half_plane_names_what_decides_it(errors, verdict, said, unsaid):
+    decided, why = validity(errors)
+    assert decided == verdict
+    assert said in why and unsaid not in why
 
 
 def test_effects_that_are_not_shown_add_as_squares():
@@ -136,7 +139,3 @@ def test_effects_that_are_not_shown_add_as_squares():
     assert judged(not_modelled=both).total == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
     assert validity([judged(value=0.001, not_modelled=both)])[0] == "holds"
     assert validity([judged(value=0.0015, not_modelled=both)])[0] == "inconclusive"
-
-
-def test_nothing_judged_decides_nothing():
-    assert validity([])[0] == "inconclusive"
