@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.cases import Campaign, Case, carry_out
-from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.progress import ProgressCallback
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
 from comparisons.output.terminal import plain_table
@@ -22,14 +22,11 @@ from comparisons.studies.published import HEAD, NAME, table
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-COMMAND = "benchmarks"
 
-
-def cases(names: tuple[str, ...] | None = None) -> list[Case]:
-    """Of benchmarks by name, None: all."""
+def cases() -> list[Case]:
     return [
         Case("benchmark", name, "both", partial(figures_of_benchmark, name))
-        for name in names or benchmark_names()
+        for name in benchmark_names()
     ]
 
 
@@ -74,12 +71,7 @@ class Benchmarks(Campaign):
         return Group(shown, *notes, *self.verdict_lines())
 
 
-def run_benchmarks(
-    out: Path,
-    junit: Path | None = None,
-    callback: ProgressCallback = no_progress,
-    names: tuple[str, ...] | None = None,
-) -> Benchmarks:
-    """Solve benchmarks by name, None: all; leave benchmarks.json in `out`, JUnit XML in the file
-    `junit`. Raises InputError where those cannot be written."""
-    return carry_out(COMMAND, cases(names), out, junit, callback, Benchmarks)
+def run_benchmarks(out: Path, junit: Path | None, callback: ProgressCallback) -> Benchmarks:
+    """Solve all benchmarks; leave benchmarks.json in `out`, JUnit XML in the file `junit`. Raises
+    InputError where those cannot be written."""
+    return carry_out("benchmarks", cases(), out, junit, callback, Benchmarks)

@@ -1,12 +1,17 @@
 """`crosscheck verify` and `crosscheck stability`: what must hold before anything is believed."""
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
 from comparisons.commands.arguments import RESULTS, Junit, job, json_option, out_option
 from comparisons.commands.output import progress, show_written
+
+if TYPE_CHECKING:
+    from comparisons.campaigns.cases import Campaign
 
 
 @job
@@ -19,11 +24,8 @@ def stability(
     from comparisons.campaigns.cases import carry_out
     from comparisons.campaigns.robustness import all_cases
 
-    directory = out or RESULTS / "stability"
-    with progress() as callback:
-        campaign = carry_out("stability", all_cases(), directory, junit, callback)
-    show_written(as_json, directory / "stability.json", lambda: campaign.summary())
-    return campaign.exit_status
+    solve = partial(carry_out, "stability", all_cases())
+    return _solved("stability", solve, out, junit, as_json)
 
 
 @job
@@ -39,15 +41,18 @@ def verify(
     if benchmarks:
         from comparisons.campaigns.benchmarks import run_benchmarks
 
-        directory = out or RESULTS / "benchmarks"
-        with progress() as callback:
-            solved = run_benchmarks(directory, junit, callback)
-        show_written(as_json, directory / "benchmarks.json", lambda: solved.summary())
-        return solved.exit_status
+        return _solved("benchmarks", run_benchmarks, out, junit, as_json)
     from comparisons.campaigns.verify.run import verify as verify_all
 
-    directory = out or RESULTS / "verify"
+    return _solved("verify", verify_all, out, junit, as_json)
+
+
+def _solved(
+    name: str, solve: Callable[..., "Campaign"], out: Path | None, junit: Path | None, as_json: bool
+) -> int:
+    """Carry out a campaign, show it and return its exit status."""
+    directory = out or RESULTS / name
     with progress() as callback:
-        verification = verify_all(directory, junit, callback)
-    show_written(as_json, directory / "verify.json", lambda: verification.summary())
-    return verification.exit_status
+        campaign = solve(directory, junit, callback)
+    show_written(as_json, directory / f"{name}.json", campaign.summary)
+    return campaign.exit_status

@@ -95,11 +95,11 @@ def show_either(as_json: bool, content: object, table: Callable[[], object]) -> 
         show(table())
 
 
-def show_written(as_json: bool, path: Path, *tables: Callable[[], object]) -> None:
-    """Print a file of the results that has just been written, or what `tables` make of it."""
+def show_written(as_json: bool, path: Path, table: Callable[[], object]) -> None:
+    """Print a file of the results that has just been written, or what `table` makes of it."""
     if as_json:
         print(path.read_text(encoding="utf-8"), end="")
-    for table in () if as_json else tables:
+    else:
         show(table())
 
 

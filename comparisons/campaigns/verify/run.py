@@ -7,7 +7,7 @@ orders (`coverage`); manufactured solutions (`manufactured`); the contact by PET
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -47,8 +47,6 @@ if TYPE_CHECKING:
 
 DEGREES = (1, 2, 3)
 COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
-
-Cases = tuple[Sequence[Case], Sequence[Case]]  # of figures with exact values, and others
 
 
 @dataclass(frozen=True)
@@ -115,20 +113,20 @@ def _cells(group: Coverage) -> tuple[str, ...]:
     return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
 
 
-def everything() -> Cases:
+def everything() -> list[Case]:
     from comparisons.campaigns.verify.independent_solver import independent_cases
     from comparisons.campaigns.verify.manufactured import BODIES, manufactured_cases
 
     smooth = [*scene_cases(exact_scenes()), *operator_cases(operator_contacts())]
     bodies = [(kind, degree) for kind in BODIES for degree in DEGREES]
-    return [*smooth, *rough_cases()], [*manufactured_cases(bodies), *independent_cases()]
+    return [*smooth, *rough_cases(), *manufactured_cases(bodies), *independent_cases()]
 
 
 def verify(
     out: Path,
     junit: Path | None = None,
     callback: ProgressCallback = no_progress,
-    cases: Cases | None = None,
+    cases: Sequence[Case] | None = None,
     fewest: tuple[int, int] = (FEWEST, FEWEST_ROUGH),
 ) -> Verification:
     """Verify; leave verify.json in `out`, JUnit XML in the file `junit`. Raises InputError where
@@ -137,16 +135,14 @@ def verify(
     cases   None is everything
     fewest  informative figures that there must be, in all and of rough contacts"""
     check_places("verify", out, junit)  # before the cases, which take seconds
-    exact, others = cases or everything()
-
-    def concluded(command: str, rows: tuple[Row, ...], seconds: float) -> Verification:
-        rows = (*rows[: len(exact)], *order_rows(rows), *rows[len(exact) :])
-        return verification(rows, seconds, fewest)
-
-    return carry_out("verify", (*exact, *others), out, junit, callback, concluded)
+    concluded = partial(verification, fewest=fewest)
+    return carry_out("verify", cases or everything(), out, junit, callback, concluded)
 
 
-def verification(rows: Sequence[Row], seconds: float, fewest: tuple[int, int]) -> Verification:
-    """All rows, with those of the coverage by the stated uncertainties."""
+def verification(
+    command: str, rows: Sequence[Row], seconds: float, fewest: tuple[int, int]
+) -> Verification:
+    """All rows, with those of orders, and of the coverage by the stated uncertainties."""
     pairs = [pair for row in rows for pair in pairs_of(row)]
-    return Verification("verify", (*rows, *coverage_rows(pairs, *fewest)), seconds)
+    rows = *rows, *order_rows(rows), *coverage_rows(pairs, *fewest)
+    return Verification(command, rows, seconds)
