@@ -70,6 +70,7 @@ def table(
     as_json: Annotated[bool, Option("--json", help="Print every figure as JSON.")] = False,
 ) -> int:
     """Put the figures of many runs into one table. Shows what is judged."""
+    from comparisons.common.files import write_whole
     from comparisons.output import flat_csv as flat
 
     if raw and as_json:
@@ -78,7 +79,7 @@ def table(
         flat.check_place(out)
     rows = flat.tidy_rows(folders)
     if out is not None:
-        flat.write_table(out, rows)
+        write_whole(out, flat.as_csv(rows))
     if as_json:
         show_json(rows)
     elif raw:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.files import csv_text, write_whole
+from comparisons.common.files import csv_text
 from comparisons.common.numbers import finite, percent, percent_as_written, plain, with_unit
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
@@ -68,12 +68,6 @@ def check_place(path: Path) -> None:
         raise InputError(f"{path}: is a folder; allowed is a file")
     if not path.parent.is_dir():
         raise InputError(f"{path}: {path.parent} is no folder; allowed is one that is there")
-
-
-def write_table(path: Path, rows: list[Row]) -> None:
-    """Write the table as CSV; whole or not at all."""
-    check_place(path)
-    write_whole(path, as_csv(rows))
 
 
 def _results(folders: Iterable[Path]) -> list[Path]:
