@@ -134,12 +134,6 @@ class RecordedRun(Printed):
         """Of the half-plane here: holds, fails or inconclusive; not compared, not converged."""
         return self.said.verdict
 
-    @property
-    def rows(self) -> list[Row]:
-        """The figures as records, as `table` of the command line has them
-        (`comparisons.output.flat_csv`)."""
-        return self.figures.rows
-
     def contact(self, model: str = "half-plane") -> dict[str, np.ndarray]:
         """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
         return self.arrays.contact(self._known(model), self.said.deciding_friction)
@@ -366,7 +360,7 @@ def compare(*runs: RecordedRun) -> FigureTable:
     """The figures of several runs, a row each."""
     if not runs:
         raise InputError("compare: is given no run; allowed is at least one")
-    return FigureTable(tuple(row for run in runs for row in run.rows))
+    return FigureTable(tuple(row for run in runs for row in run.figures.rows))
 
 
 def cost(

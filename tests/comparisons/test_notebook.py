@@ -160,8 +160,9 @@ def test_curves_are_those_of_the_finest_level(finished):
 
 
 def test_several_runs_in_one_table(finished, smooth_outcome):
-    both = crosscheck.compare(finished, FinishedRun.of(smooth_outcome))
-    assert len(both.rows) == len(finished.rows) + len(FinishedRun.of(smooth_outcome).rows)
+    runs = finished, FinishedRun.of(smooth_outcome)
+    both = crosscheck.compare(*runs)
+    assert len(both.rows) == sum(len(run.figures) for run in runs)
     text = repr(both)
     assert "Wavy body" in text and "Smooth roller" in text
 
