@@ -15,10 +15,11 @@ from analytic.material.hardening import Hardening
 from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem, deck_problem
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import check_writable, publish
-from comparisons.common.progress import no_progress
-from comparisons.models.posing import problem_of
+from comparisons.figures.quantity import MODELS
 from comparisons.output.page.html import rendered
+from comparisons.runs.run import posed
 from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 
 TEMPLATES = Path(__file__).parent / "templates"
 FILES = ("README.md", "answer.toml", "job.inp", "mesh.inp", "solve.py", "mesh.npz")
@@ -53,12 +54,7 @@ def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProble
     if not 1 <= level <= MOST_LEVEL:
         raise InputError(f"--level: is {level}; allowed is 1 to {MOST_LEVEL}")
     check_writable(out, FILES)
-    if scene.load.kind == "approach":
-        from comparisons.models.finite_element.level import problem_of_approach
-
-        problem = problem_of_approach(scene, no_progress)
-    else:
-        problem = problem_of(scene)
+    problem, _ = posed(scene, surface_of(scene), MODELS)
     if scene.finite_element.plastic and code == "fenicsx":
         why = "is true; allowed in a deck for fenicsx are elastic bodies"
         raise SceneError(f"{scene.source}: finite_element.plastic: {why}")

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from analytic.contact.problem import ContactError
 from comparisons.campaigns.maps.groups import GROUPS, smooth_problem
 from comparisons.common.errors import InputError
-from comparisons.common.progress import no_progress
-from comparisons.figures.quantity import QUANTITIES
-from comparisons.models.posing import problem_of
+from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.models.problem import Problem
+from comparisons.runs.run import posed
 from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import surface_of
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -28,11 +28,7 @@ def problem_named(name: str) -> Problem:
     prescribed. Raises InputError where it cannot be solved."""
     scene = Scene.read(name)
     try:
-        if scene.load.kind != "approach":
-            return problem_of(scene)
-        from comparisons.models.finite_element.level import problem_of_approach
-
-        return problem_of_approach(scene, no_progress)
+        return posed(scene, surface_of(scene), MODELS)[0]
     except (ContactError, MeshError, FemError) as error:
         raise InputError(f"--mark: {scene.source}: {error}") from error
 
