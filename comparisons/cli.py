@@ -162,9 +162,8 @@ def _carry_out(arguments: list[str]) -> int:
 
 
 def _interrupted(arguments: list[str], *left: str) -> str:
-    """What an interrupt leaves: as the work says, or else as its command always does; `run` says it
-    as soon as a level is finished."""
-    usual = [WATCHED[name] for name in arguments[:1] if name in WATCHED and name != "run"]
+    """What an interrupt leaves: as the work says, or else as its command always does."""
+    usual = [WATCHED[name] for name in arguments[:1] if name in WATCHED]
     return "; ".join(["interrupted", *(left or usual)])
 
 

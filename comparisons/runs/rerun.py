@@ -2,10 +2,7 @@
 
 In: the folder of a run. Out: the repetition, and every figure that moved."""
 
-import shutil
-import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -68,12 +65,13 @@ def rerun(
     """Repeat the run in a folder, which is only read; `out` keeps the repetition.
     Raises InputError for a folder without a sound record, or one that may not be written to."""
     record = read_record(folder)
+    if out is not None:
+        _check_other(folder, out)
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone
         answers = RunArrays.read(folder).answers
-    with _place(folder, out) as place:
-        known = Known(record.surface, answers, record.levels)
-        outcome = run(record.scene, place, record.models, callback, known=known)
+    known = Known(record.surface, answers, record.levels)
+    outcome = run(record.scene, out, record.models, callback, known=known)
     now = outcome.record
     return Repetition(
         record=record,
@@ -108,22 +106,6 @@ def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:
             yield from _numbers(item, f"{path}[{number}]")
     elif isinstance(table, int | float):
         yield path, table
-
-
-@contextmanager
-def _place(folder: Path, out: Path | None) -> Iterator[Path]:
-    """Where the repetition goes: `out`, or a folder that is dropped with it."""
-    if out is not None:
-        _check_other(folder, out)
-        yield out
-        return
-    scratch = Path(tempfile.mkdtemp(prefix="crosscheck-"))
-    try:
-        yield scratch / "again"
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt from None  # no level is kept to go on from
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
 
 
 def _check_other(folder: Path, out: Path) -> None:

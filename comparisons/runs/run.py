@@ -197,8 +197,6 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
         begin(scene)
         solved = refined(scene, tasks, begin)
         findings = studied(STUDIES, solved, {}, tasks)
-    except KeyboardInterrupt:
-        raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
         tasks.kept.discard()
         raise
@@ -251,8 +249,3 @@ def _for_finite_elements() -> list[Preparation]:
 
     level = partial(import_module, "comparisons.models.finite_element.level")
     return [start_worker, load_dolfinx, level]
-
-
-def _interrupted(out: Path | None) -> KeyboardInterrupt:
-    """With how to go on, where levels are cached."""
-    return KeyboardInterrupt(*([] if out is None else [GOES_ON]))

@@ -107,7 +107,7 @@ def interrupted_import() -> ImportError:
     [
         (InputError("the trace is too short"), 2, "crosscheck: the trace is too short"),
         (KeyboardInterrupt(), 130, "crosscheck: interrupted"),
-        (interrupted_import(), 130, "crosscheck: interrupted\n"),
+        (interrupted_import(), 130, "crosscheck: interrupted"),
         (ImportError("no numpy"), 70, "crosscheck: internal error: ImportError: no numpy in "),
         (OSError(28, "No space left on device"), 74, "crosscheck: OSError: [Errno 28] No space"),
         (OSError(24, "Too many open files"), 71, "crosscheck: OSError: [Errno 24] Too many open f"),

@@ -235,7 +235,7 @@ def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(t
         patch("comparisons.runs.write.write_files"),
     ):
         stop = 6  # levels and the half-size block are four; the budget's second level
-        with pytest.raises(KeyboardInterrupt, match="goes on from there"):
+        with pytest.raises(KeyboardInterrupt):
             run(scene, tmp_path / "out", MODELS)
         first, stop = len(solved), None
         again = run(scene, tmp_path / "out", MODELS)
