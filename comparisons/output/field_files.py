@@ -45,13 +45,7 @@ class FieldFile:
     cells: np.ndarray  # (m, k) indices of points
     arrays: dict[str, np.ndarray]  # (n,) by name, or vectors (n, 3), in `units`
     units: dict[str, str]  # of the arrays by name, and of "points"
-    title: str  # of the run
-    scene: str  # of the run, as JSON
-
-    @property
-    def notes(self) -> dict[str, str]:
-        """What the file says of itself, as texts."""
-        return {"title": self.title, "units": json.dumps(self.units), "scene": self.scene}
+    notes: dict[str, str]  # what the file says of itself, as texts
 
 
 def scene_text(problem: Problem) -> str:
@@ -97,7 +91,8 @@ def field_of(run: Run, level: Level) -> FieldFile:
     points = _in_space(plane).astype(np.float32)
     units = {"points": "m"} | {name: _unit(name) for name in arrays}
     text = scene_text(run.problem)
-    return FieldFile(points, kind, cells, arrays, units, title=scene.title, scene=text)
+    notes = {"title": scene.title, "units": json.dumps(units), "scene": text}
+    return FieldFile(points, kind, cells, arrays, units, notes)
 
 
 def _rounded(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

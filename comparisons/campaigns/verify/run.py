@@ -7,7 +7,7 @@ orders (`coverage`); manufactured solutions (`manufactured`); the contact by PET
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -135,14 +135,14 @@ def verify(
     cases   None is everything
     fewest  informative figures that there must be, in all and of rough contacts"""
     check_places("verify", out, junit)  # before the cases, which take seconds
-    concluded = partial(verification, fewest=fewest)
+
+    def concluded(command: str, rows: tuple[Row, ...], seconds: float) -> Verification:
+        return verification((*rows, *order_rows(rows)), seconds, fewest)
+
     return carry_out("verify", cases or everything(), out, junit, callback, concluded)
 
 
-def verification(
-    command: str, rows: Sequence[Row], seconds: float, fewest: tuple[int, int]
-) -> Verification:
-    """All rows, with those of orders, and of the coverage by the stated uncertainties."""
+def verification(rows: Sequence[Row], seconds: float, fewest: tuple[int, int]) -> Verification:
+    """All rows, with those of the coverage by the stated uncertainties."""
     pairs = [pair for row in rows for pair in pairs_of(row)]
-    rows = *rows, *order_rows(rows), *coverage_rows(pairs, *fewest)
-    return Verification(command, rows, seconds)
+    return Verification("verify", (*rows, *coverage_rows(pairs, *fewest)), seconds)

@@ -53,7 +53,7 @@ def whole(rows: Iterable[Row], error: str | None = None) -> Verification:
     """The verification of some rows, the first of which raised `error`."""
     first, *others = rows
     first = replace(first, error=error)
-    return verification("verify", (first, *others), 0.0, (200, 0))
+    return verification((first, *others), 0.0, (200, 0))
 
 
 ENOUGH = [row()] * 200
