@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Option
 
 from comparisons.commands.arguments import RESULTS, Junit, job, json_option, out_option
-from comparisons.commands.output import progress, show_written
+from comparisons.commands.output import progress, show_either
+from comparisons.common.numbers import finite
 
 if TYPE_CHECKING:
     from comparisons.campaigns.cases import Campaign
@@ -51,8 +52,7 @@ def _solved(
     name: str, solve: Callable[..., "Campaign"], out: Path | None, junit: Path | None, as_json: bool
 ) -> int:
     """Carry out a campaign, show it and return its exit status."""
-    directory = out or RESULTS / name
     with progress() as callback:
-        campaign = solve(directory, junit, callback)
-    show_written(as_json, directory / f"{name}.json", campaign.summary)
+        campaign = solve(out or RESULTS / name, junit, callback)
+    show_either(as_json, finite(campaign.as_dict()), campaign.summary)
     return campaign.exit_status

@@ -7,7 +7,6 @@ import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from time import monotonic
 
 from comparisons.common.errors import tell
@@ -91,14 +90,6 @@ def show_either(as_json: bool, content: object, table: Callable[[], object]) -> 
     """Print the content as JSON, or the table that `table` makes."""
     if as_json:
         show_json(content)
-    else:
-        show(table())
-
-
-def show_written(as_json: bool, path: Path, table: Callable[[], object]) -> None:
-    """Print a file of the results that has just been written, or what `table` makes of it."""
-    if as_json:
-        print(path.read_text(encoding="utf-8"), end="")
     else:
         show(table())
 

@@ -17,7 +17,7 @@ from comparisons.commands.arguments import (
     json_option,
     out_option,
 )
-from comparisons.commands.output import progress, show_either, show_written
+from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus, tell
 
 Axis = Annotated[
@@ -39,7 +39,7 @@ def cost(
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
     """Show error against time of every method. Names the cheapest for each tolerance."""
-    from comparisons.campaigns.cost.cost import COST, PICTURE, cost_table
+    from comparisons.campaigns.cost.cost import COST, PICTURE, content_of, cost_table
     from comparisons.campaigns.cost.cost import cost as solved_cost
     from comparisons.scenes.scene import Scene
 
@@ -47,7 +47,7 @@ def cost(
     directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
         solved = solved_cost(asked, directory, callback)
-    show_written(as_json, directory / COST, lambda: cost_table(solved))
+    show_either(as_json, content_of(solved), lambda: cost_table(solved))
     if not as_json:
         print(f"cost: {directory / COST}, {directory / PICTURE}")
     return ExitStatus.DONE
