@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter
 
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, one_line
@@ -70,7 +69,6 @@ def points_of(
 
 
 Solve = Callable[[Point], dict]  # the answer at a point that has a scene
-Answer = tuple[dict, float | None]  # with the seconds that it took, where that is known
 
 
 def failed(why: str) -> dict:
@@ -110,7 +108,7 @@ def solved_in(
     solve: Solve,
     workers: int | str | None,
     callback: ProgressCallback,
-) -> list[Answer]:
+) -> list[dict]:
     """The answer at every point. Points that `out` has are not solved again, others are kept there;
     one that kills its process has failed.
 
@@ -130,21 +128,19 @@ def solved_in(
                 try:
                     tasks.result(key)
                 except ProcessEnded:
-                    cache.save(key, (failed(DIED), None))
+                    cache.save(key, failed(DIED))
                 callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     return [cache.load(point.key) for point in points]
 
 
-def answered(solve: Solve, point: Point) -> Answer:
+def answered(solve: Solve, point: Point) -> dict:
     """The answer at a point. What is refused, and what solvers and numbers run into, is an answer;
     what is wrong with the machine is raised."""
-    began = perf_counter()
+    if point.scene is None:
+        return failed(point.why)
     try:
-        if point.scene is None:
-            raise InputError(point.why)
-        answer = solve(point)
+        return solve(point)
     except (ValueError, ArithmeticError, RuntimeError) as error:
-        answer = failed(str(error) or type(error).__name__)
-    return answer, perf_counter() - began
+        return failed(str(error) or type(error).__name__)

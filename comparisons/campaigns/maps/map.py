@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
     from comparisons.campaigns.maps.picture import Mark
 
-MAP, PICTURE, TIMES = "map.json", "map.svg", "map_times.json"
+FILES = MAP, PICTURE = "map.json", "map.svg"
 SCHEMA = 2
 FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
@@ -136,12 +136,10 @@ def make_map(
     Raises InputError for what cannot be mapped or written."""
     axes = {"scene": request.tables, "x": request.x, "y": request.y}
     mark = marked and mark_of(axes, marked)  # before anybody waits for the points
-    files = MAP, PICTURE, TIMES
-    answers = solved_in(out, files, request.points, solve_point, workers, callback)
-    content = map_content(request, [answer for answer, _ in answers])
+    answers = solved_in(out, FILES, request.points, solve_point, workers, callback)
+    content = map_content(request, answers)
     callback("map: picture")
-    times = {"seconds": [seconds for _, seconds in answers]}
-    publish(out, _files(content, mark) | {TIMES: as_json(times)})
+    publish(out, _files(content, mark))
     return content
 
 
@@ -157,7 +155,7 @@ def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -
     """Write a map that comes with the project to `out`, and return its content; nothing is solved.
     Raises InputError for a quantity that it does not have, and what cannot be written."""
     content = showing(finished_map(name), quantity)
-    check_writable(out, (PICTURE, MAP))
+    check_writable(out, FILES)
     publish(out, _files(content, marked and mark_of(content, marked)))
     return content
 

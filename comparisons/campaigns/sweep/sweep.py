@@ -164,7 +164,7 @@ def make_sweep(
     workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, and where no point has an answer."""
     answers = solved_in(out, FILES, request.points, solved, workers, callback)
-    content = sweep_content(request, [answer for answer, _ in answers])
+    content = sweep_content(request, answers)
     whys = failures(content["points"])
     if whys.total() == len(content["points"]):
         raise InputError(next(iter(whys)))

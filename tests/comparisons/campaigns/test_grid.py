@@ -51,7 +51,7 @@ def solve_in(monkeypatch, tmp_path):
         monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(opens, 2, kept)))
         points = [point_at(x) for x in places]
         answers = solved_in(tmp_path, ("map.json",), points, solved.solve, None, steps.append)
-        return [answer for answer, _ in answers], solved, steps
+        return answers, solved, steps
 
     return solve
 

@@ -21,7 +21,7 @@ RIGID = {
 
 
 def found_at(scene: Scene) -> dict:
-    return answered(solve_point, Point({}, "peak_pressure", scene, None, "key"))[0]
+    return answered(solve_point, Point({}, "peak_pressure", scene, None, "key"))
 
 
 def solved(scene: Scene) -> dict:
