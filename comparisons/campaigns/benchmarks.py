@@ -7,11 +7,9 @@ is shown with its difference and decides nothing."""
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.campaigns.cases import Campaign, Case, carry_out
-from comparisons.common.progress import ProgressCallback
+from comparisons.campaigns.cases import Campaign, Case
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
 from comparisons.output.terminal import plain_table
@@ -69,9 +67,3 @@ class Benchmarks(Campaign):
                 shown.add_row(f"  {row[0]}", *row[1:-1])
             notes += [f"{name}, {row[0]}: {row[-1]}" for row in rows if row[-1]]
         return Group(shown, *notes, *self.verdict_lines())
-
-
-def run_benchmarks(out: Path, junit: Path | None, callback: ProgressCallback) -> Benchmarks:
-    """Solve all benchmarks; leave benchmarks.json in `out`, JUnit XML in the file `junit`. Raises
-    InputError where those cannot be written."""
-    return carry_out("benchmarks", cases(), out, junit, callback, Benchmarks)

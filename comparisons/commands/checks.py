@@ -40,9 +40,11 @@ def verify(
 ) -> int:
     """Hold both models to exact solutions. Stated uncertainties are held to true errors."""
     if benchmarks:
-        from comparisons.campaigns.benchmarks import run_benchmarks
+        from comparisons.campaigns.benchmarks import Benchmarks, cases
+        from comparisons.campaigns.cases import carry_out
 
-        return _solved("benchmarks", run_benchmarks, out, junit, as_json)
+        solve = partial(carry_out, "benchmarks", cases(), concluded=Benchmarks)
+        return _solved("benchmarks", solve, out, junit, as_json)
     from comparisons.campaigns.verify.run import verify as verify_all
 
     return _solved("verify", verify_all, out, junit, as_json)

@@ -127,14 +127,14 @@ def model_table(rows: Sequence[tuple[str, ...]]) -> TextTable:
     return TextTable("", head, tuple(rows), "comparison")
 
 
-def stated(figure: Figure | None, unit: float = 1.0, digits: int = 3) -> str:
+def stated(figure: Figure | None, unit: float = 1.0) -> str:
     """A figure in a unit [SI] to the first digit of its uncertainty, at most to the fifth of its
-    own; without one in so many digits."""
+    own; without one in three."""
     if figure is None:
         return ""
     value, size = figure.value / unit, figure.numerical * figure.scale / unit
     if not isfinite(size) or size == 0.0:
-        return significant(value, digits)
+        return significant(value, 3)
     last = max(floor(log10(size)), floor(log10(abs(value) or size)) - MOST_DIGITS + 1)
     size = max(size, 10.0**last)
     return f"{value:.{max(0, -last)}f} ± {size:.{max(0, -last)}f}".replace("-", MINUS)

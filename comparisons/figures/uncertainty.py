@@ -79,7 +79,7 @@ def iteration(*solutions: ContactSolution) -> float:
 
 def far_boundary(moved: float, first: float) -> float:
     """In the figure's unit, by its values on the coarsest level with a block of half the size and
-    with the whole one. For a norm of their difference `moved` is that norm."""
+    with the whole one."""
     return DOMAIN * abs(moved - first)
 
 

@@ -6,6 +6,7 @@ import pytest
 from scenes import STEEL, changed, resolved
 
 from comparisons.campaigns import benchmarks
+from comparisons.campaigns.cases import carry_out
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
@@ -21,12 +22,17 @@ PLAIN = {
 }
 
 
+def carried_out(out, junit):
+    how = out, junit, no_progress, benchmarks.Benchmarks
+    return carry_out("benchmarks", benchmarks.cases(), *how)
+
+
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory):
     out = tmp_path_factory.mktemp("benchmarks")
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(benchmarks, "benchmark_names", lambda: ["vm191", "vm272"])
-        return benchmarks.run_benchmarks(out, out / "ci.xml", no_progress), out
+        return carried_out(out, out / "ci.xml"), out
 
 
 def test_published_figures_agree_but_for_the_doubtful_one(solved):
@@ -64,7 +70,7 @@ def test_a_figure_beyond_its_scatter_differs(tmp_path, monkeypatch):
     scene = Scene.read("vm272").changed({"published.p0.value": "9.400 MPa"})
     monkeypatch.setattr(Scene, "read", lambda name: scene)
     monkeypatch.setattr(benchmarks, "benchmark_names", lambda: ["vm272"])
-    campaign = benchmarks.run_benchmarks(tmp_path, None, no_progress)
+    campaign = carried_out(tmp_path, None)
     assert not campaign.holds and "p0" in str(campaign.tables)
 
 
