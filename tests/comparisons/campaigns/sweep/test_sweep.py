@@ -66,7 +66,7 @@ def test_each_point_is_the_scene_with_its_values():
     assert len(swept.content["points"]) == 4
     place, load = swept.content["points"][1]["values"]
     alone = WAVES | {"load": {"hertz_peak_pressure": load, "position": place, "friction": [0.0]}}
-    there = crosscheck.run(alone, "half-plane").rows
+    there = crosscheck.run(alone, "half-plane").figures.rows
     rows = [r for r in swept.rows if (r["load.position"], r["load.hertz_peak_pressure"])
             == (place, load)]  # fmt: skip
     assert [row["value"] for row in rows] == [row["value"] for row in there]
