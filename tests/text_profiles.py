@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-from analytic.profile import MAX_SAMPLES
 from analytic.surface.readers.columns import profile_in
 from analytic.surface.readers.dropouts import MeasuredProfile
 from analytic.surface.readers.files import open_measured, profile_of
@@ -13,12 +12,13 @@ GROUND = {
     "rms_height": 0.4608e-6, "samples": 2237, "length": 2236e-6, "seed": 1,
     "roll_off_wavelength": 80e-6, "shortest_wavelength": 10e-6, "longest_wavelength": 250e-6,
 }  # fmt: skip
+MOST_BYTES = 2**28
 
 
-def read_profile(path, *, max_samples: int = MAX_SAMPLES, **how) -> MeasuredProfile:
+def read_profile(path, **how) -> MeasuredProfile:
     """The profile in a text file of one or two columns; `how` as `profile_in` has it."""
-    table = read_table(Path(path), 100 * max_samples + 2**20, how.get("spacing") is not None)
-    return profile_in(table, max_samples=max_samples, **how)
+    table = read_table(Path(path), MOST_BYTES, how.get("spacing") is not None)
+    return profile_in(table, **how)
 
 
 def read_measured(path, *, columns=None, channel=None, **how) -> MeasuredProfile:

@@ -15,7 +15,9 @@ from analytic.operators.half_plane import ModelOperator
 
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
-TIGHT = 1e-12  # leaves pressures right to 1e-10 of their peak
+# Residual of an accurate equilibrium over the displacements that it balances: leaves pressures
+# right to 1e-10 of their peak.
+TIGHT = 1e-12
 # steps of conjugate gradients without PROGRESS in the residual, after which rounding is reached:
 PATIENT, PROGRESS = 15, 0.7
 IMPATIENT, ROUNDED = 2, 1e3  # once that residual is within 1000 of `tight`
@@ -60,14 +62,13 @@ class Equilibrium:
     weighted_gap: np.ndarray
     # (n,) [m^2] that counts as none: SET_TOLERANCE of the displacements' range, rounding
     overlap: np.ndarray
-    accurate: bool  # whether g vanishes on the free nodes to `tight`, or as far as rounding lets it
+    accurate: bool  # whether g vanishes on the free nodes to TIGHT, or as far as rounding lets it
 
 
 class EquilibriumProblem:
     """Contact on one grid as a family of linear problems, one for each active set.
 
     spent     counters that it adds to: exchanges, applications
-    tight     residual of an accurate equilibrium, over the displacements that it balances
     approach  d [m] of the last equilibrium, or as prescribed"""
 
     def __init__(
@@ -77,10 +78,9 @@ class EquilibriumProblem:
         weights: np.ndarray,
         constraints: Constraints,
         spent: dict[str, int],
-        tight: float = TIGHT,
     ) -> None:
         self.operator, self.weighted_gap, self.weights = operator, weighted_gap, weights
-        self.constraints, self.spent, self.tight = constraints, spent, tight
+        self.constraints, self.spent = constraints, spent
         self.by_load = constraints.load is not None
         self.approach = 0.0 if self.by_load else constraints.approach
         self._rounding = ROUNDING * np.abs(weighted_gap)
@@ -169,7 +169,7 @@ class EquilibriumProblem:
 
     def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
         """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa]. The
-        residual falls to `reduction` of what it is at the start, or to `tight`."""
+        residual falls to `reduction` of what it is at the start, or to TIGHT."""
         self.spent["exchanges"] += 1
         nodes = np.flatnonzero(active.free)
         pressure = np.zeros_like(start)
@@ -230,7 +230,7 @@ class EquilibriumProblem:
         balanced = weighted_displacement[nodes]
         if self.by_load:
             balanced = balanced - balanced.mean()
-        tight = max(self.tight * np.linalg.norm(balanced), floor)
+        tight = max(TIGHT * np.linalg.norm(balanced), floor)
         total = (self.weighted_gap + weighted_displacement)[search.stretch]
         line, places = np.zeros_like(total), nodes - search.stretch.start
         iterate, direction = pressure[nodes], np.zeros(len(nodes))

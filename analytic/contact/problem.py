@@ -18,7 +18,7 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact.equilibrium import SET_TOLERANCE, TIGHT, Constraints, EquilibriumProblem
+from analytic.contact.equilibrium import SET_TOLERANCE, Constraints, EquilibriumProblem
 from analytic.contact.exchange import exchange
 from analytic.contact.nested_start import EDGES_OFF, coarse_start
 from analytic.operators.half_plane import ModelOperator
@@ -112,13 +112,11 @@ def solve_contact(
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None = None,
-    tolerance: float = TIGHT,
 ) -> ContactSolution:
     """Solve the contact problem of this module.
 
     weighted_gap  G (n,) [m^2]      weights  w (n,) [m]
-    start      pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them
-    tolerance  residual of the last equilibrium over the displacements that it balances
+    start         pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them
 
     Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
     KKT_TOLERANCE is returned with `converged` False."""
@@ -126,7 +124,7 @@ def solve_contact(
     spent = {"exchanges": 0, "applications": 0}
     common, constraints = common_gap(weighted_gap, weights, constraints)
     weighted_gap = weighted_gap - common * weights
-    problem = EquilibriumProblem(operator, weighted_gap, weights, constraints, spent, tolerance)
+    problem = EquilibriumProblem(operator, weighted_gap, weights, constraints, spent)
     if start is None:
         start = coarse_start(problem, partial(exchange, settled=EDGES_OFF))
     pressure = np.clip(exchange(problem, start), 0.0, constraints.hardness)

@@ -316,7 +316,6 @@ class NonlinearSolution:
     state: ContactState
     gap: np.ndarray  # (count,) [m] mean opening under each hat
     residuals: tuple[tuple[float, ...], ...]  # of the iterations of each accepted increment
-    cuts: int  # increments that failed and were bisected
     corrections: int = 0  # by the linear bodies' own factors, in place of Newton steps
 
     @property
@@ -397,4 +396,4 @@ def solve_nonlinear_contact(
         histories.append(tuple(history))
         state, done = solution, part
         step = min(1.0, LONGER * step)
-    return NonlinearSolution(state, opening, tuple(histories), cuts)
+    return NonlinearSolution(state, opening, tuple(histories))

@@ -1,4 +1,4 @@
-"""Conduction in a body whose material moves past the contact: the operator and its steady state.
+"""Steady conduction in a body whose material moves past the contact.
 
     rho c V w . grad T = div(k grad T),   k dT/dn = flux in at the surface,
 
@@ -23,7 +23,6 @@ Equal elements of l/128 that grow right behind the band leave 0.08 to 0.1 in the
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Literal, get_args
 
 import numpy as np
@@ -34,7 +33,6 @@ from fem.body.sums import matrix_of
 from fem.body.surface import boundary_points
 from fem.body.triangle import edge_shapes
 from fem.heat.body import ThermalBody
-from fem.solver.mumps import Factor
 
 Boundary = Literal["held", "insulated", "open"]
 Flanks = Literal["held", "insulated", "open", "flow"]
@@ -119,16 +117,3 @@ class Conduction:
         h = material.conductivity * (decay * outwards - rate * normal * axis)
         value = np.einsum("eg,g,e,ga,gb->eab", h, 0.5 * WEIGHTS, length, shape, shape)
         return matrix_of(value, edge[:, :, None], edge[:, None, :], self.body.conduction.shape)
-
-    @cached_property
-    def _factor(self) -> Factor:
-        free = ~self.held
-        return Factor(self.matrix[free][:, free], symmetric=not self.velocity)
-
-    def steady(self, load: np.ndarray, held: np.ndarray | None = None) -> np.ndarray:
-        """Temperature (n,) [K] under nodal heat (n,) [W/m]; `held` (n,) [K] are the given ones,
-        read at held nodes only. Raises FemError if nothing holds the temperature."""
-        free = ~self.held
-        temperature = np.where(free, 0.0, 0.0 if held is None else held)
-        temperature[free] = self._factor.solve((load - self.matrix @ temperature)[free])
-        return temperature

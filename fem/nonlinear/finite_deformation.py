@@ -1,11 +1,8 @@
 """A body pressed by a roller without linearisation: finite strains, current places and normals.
 
-Response and kinematics can be exchanged, to separate the effects that the linear theory neglects: a
-linear body (`fem.contact.terms.LinearResponse`) or one at finite strains
-(`fem.nonlinear.hyperelastic.HyperelasticBody`), contact on the undeformed surface
-(`fem.contact.terms.LinearContact`) or on the deformed one, of a rigid roller
-(`fem.contact.rigid_roller.CurrentContact`) or an elastic one, itself at finite strains
-(`fem.contact.deformed_roller.PairContact`).
+The body follows its law at finite strains (`fem.nonlinear.hyperelastic.HyperelasticBody`). The
+contact is on its deformed surface, with a rigid roller (`fem.contact.rigid_roller.CurrentContact`)
+or an elastic one, itself at finite strains (`fem.contact.deformed_roller.PairContact`).
 
 Friction drags the bodies past each other, by an amount that for unbounded bodies is known but for a
 constant: a held block or a disc gives ten times what the half-plane's own datum gives. Left to
@@ -56,7 +53,6 @@ class FiniteDeformation:
 
     pressure       (count,) [Pa] its vertical force per undeformed length of x, without friction's
     displacement   (n, 2) [m] at the body's nodes
-    roller_displacement  (m, 2) [m] at those of an elastic roller, in its own frame; else empty
     approach       depth [m] of the roller's lowest point, before it deforms, below z = 0 of the
                    undeformed body
     gap            (count,) [m] mean opening under each hat, along z
@@ -73,8 +69,7 @@ class FiniteDeformation:
     def __post_init__(self) -> None:
         state = self.solution.state
         self.pressure, self.approach, self.gap = state.pressure, state.approach, self.solution.gap
-        both = np.split(state.displacements[0], [len(self.body.nodes)])
-        self.displacement, self.roller_displacement = both
+        self.displacement = state.displacements[0][: len(self.body.nodes)]
 
     @cached_property
     def place(self) -> np.ndarray:
@@ -333,7 +328,7 @@ class FiniteCompliance:
         load = float(contact.weights @ pressure)
         gap = contact.contact.loaded(moved, pressure)[0] / contact.weights - approach
         state = ContactState((moved,), pressure, approach, load)
-        return NonlinearSolution(state, gap, ((self.left,),), 0, self.steps)
+        return NonlinearSolution(state, gap, ((self.left,),), self.steps)
 
     def _learn(self, move: np.ndarray, change: np.ndarray) -> None:
         """Keep what a move (2n,) [m] has changed in the correction (2n,) [m], apart from what is

@@ -178,7 +178,7 @@ class _FiniteHistory(LoadHistory):
         common["displacement"] = both[: len(self.body.held)]
         opening = self._contact.contact.loaded(both, state.pressure)[0] / weights
         state = replace(state, displacements=(both,), pressure=common["pressure"])
-        solution = NonlinearSolution(state, opening - state.approach, (), 0)
+        solution = NonlinearSolution(state, opening - state.approach, ())
         return FinitePlasticContact(**common, deformed=self._contact.deformed(solution))
 
     def release(self) -> None:

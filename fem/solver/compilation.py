@@ -109,20 +109,13 @@ def c_function(source: Path, name: str) -> Callable[..., None]:
         spec.loader.exec_module(loaded)
     function, buffer = getattr(loaded.lib, name), loaded.ffi.from_buffer
 
-    def call(*values: float | np.ndarray) -> None:
-        kinds = {"i": ("long[]", np.int_), "f": ("double[]", float)}
-        function(
-            *(
-                buffer(
-                    kinds[item.dtype.kind][0], np.ascontiguousarray(item, kinds[item.dtype.kind][1])
-                )
-                if isinstance(item, np.ndarray)
-                else item
-                for item in values
-            )
-        )
+    def passed(value: float | np.ndarray) -> object:
+        if not isinstance(value, np.ndarray):
+            return value
+        kind, of = ("long[]", np.int_) if value.dtype.kind == "i" else ("double[]", float)
+        return buffer(kind, np.ascontiguousarray(value, of))
 
-    return call
+    return lambda *values: function(*map(passed, values))
 
 
 def remove_leftovers(folder: Path) -> None:

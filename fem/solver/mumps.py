@@ -55,9 +55,6 @@ class SymmetricFactor:
     """LDL^T of an assembled symmetric positive definite PETSc matrix, both triangles stored. It
     does not need the matrix again.
 
-    bytes       memory that MUMPS holds for the factor
-    solves      right-hand sides so far
-
     Raises FemError if MUMPS cannot factor it."""
 
     def __init__(self, matrix) -> None:
@@ -70,11 +67,9 @@ class SymmetricFactor:
         for used in (ksp.getPC(), ksp):  # they hold the matrix
             used.destroy()
         release_with(self, self._factor, self._right, self._left)
-        self.solves = 0
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """The solution for a load (n,), or those for m loads (n, m)."""
-        self.solves += 1 if load.ndim == 1 else load.shape[1]
         if load.ndim == 1:
             self._right.setArray(load)
             self._factor.solve(self._right, self._left)

@@ -1,1 +1,1 @@
-"""Stresses from displacements: recovery, error, kinks, maxima."""
+"""Stresses from displacements: recovery, kinks, maxima."""

@@ -1,4 +1,4 @@
-"""Stresses at the nodes from displacements by superconvergent patch recovery, and their error.
+"""Stresses at the nodes from displacements by superconvergent patch recovery.
 
 The stresses of quadratic displacements are most accurate at the three inner Gauss points of an
 element. A quadratic polynomial is fitted to those of the elements around each vertex; its value is
@@ -12,11 +12,7 @@ it (`fem.stress.kinks`). Patches at the surface have samples on its edges too: t
 stress across the surface, its stretch the stress along it. With hat pressures on a flat surface the
 error in the first layer of elements is 1.2 to 1.8 times that in the third (edges as long as the
 pitch, 10 to 80 to a half-width, friction 0 to 0.3), without treatment of kinks three to six times
-more; on waves of slope 0.1, ten elements long, it is twice that in the third layer.
-
-The difference between recovered and element stresses estimates the error of the latter (same
-source), in the energy norm E^2 = integral (s* - s) : strain of (s* - s).
-"""
+more; on waves of slope 0.1, ten elements long, it is twice that in the third layer."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -11,7 +11,6 @@ import numpy as np
 
 from analytic.surface.readers.source import (
     MAX_BYTES,
-    MAX_NUMBERS,
     ProfileError,
     check_numbers,
     check_unpacked,
@@ -33,10 +32,7 @@ def is_arrays(path: Path, head: bytes) -> bool:
 
 
 def read_arrays(
-    path: Path,
-    columns: Sequence[str | int] | None,
-    channel: str | None,
-    max_numbers: int = MAX_NUMBERS,
+    path: Path, columns: Sequence[str | int] | None, channel: str | None
 ) -> ProfileTable | Topography:
     """What is in the file; `channel` is the name of one array of several.
     Raises ProfileError, one line, for anything else than arrays of real numbers."""
@@ -50,7 +46,7 @@ def read_arrays(
     except Exception as error:  # numpy raises whatever a damaged file brings about
         text = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise ProfileError(path, f"is a damaged {kind} file ({text[:200]})") from error
-    check_numbers(path, sum(array.size for array in arrays.values()), max_numbers)
+    check_numbers(path, sum(array.size for array in arrays.values()))
     arrays = {name: np.asarray(array, dtype=float) for name, array in arrays.items()}
     names = tuple(arrays)
     _check_others(path, arrays, others, channel)

@@ -18,7 +18,6 @@ def profile_in(
     height_scale: float,
     spacing: float | None = None,
     dropouts: str = "refuse",
-    max_samples: int = MAX_SAMPLES,
 ) -> MeasuredProfile:
     """The profile in the rows of a file; heights are not moved, x of heights alone starts at 0.
 
@@ -34,7 +33,7 @@ def profile_in(
     check_positive(x_scale=x_scale, height_scale=height_scale, **pitch)
     if dropouts not in ("refuse", "bridge"):
         raise ValueError(f"dropouts is {dropouts!r}; allowed: refuse, bridge")
-    _check_shape(table, spacing, max_samples)
+    _check_shape(table, spacing)
     lost = np.any(np.isnan(table.numbers), axis=1)
     if dropouts == "refuse" and np.any(lost):
         raise _dropout_error(table, lost)
@@ -43,10 +42,10 @@ def profile_in(
     x, height, rows = known_part(table.path, x, height, lost)
     _check_places(table, x, rows)
     how = {"format": table.format, "place": None, "trimmed": len(lost) - len(rows)}
-    return without_gaps(table.path, x, height, lost[rows], dropouts, max_samples, **how)
+    return without_gaps(table.path, x, height, lost[rows], dropouts, **how)
 
 
-def _check_shape(table: ProfileTable, spacing: float | None, max_samples: int) -> None:
+def _check_shape(table: ProfileTable, spacing: float | None) -> None:
     count = len(table.lines)
     if table.numbers.shape[1] == 2 and spacing is not None:
         message = "two columns bring their own x; the sample spacing is for heights alone"
@@ -58,8 +57,8 @@ def _check_shape(table: ProfileTable, spacing: float | None, max_samples: int) -
         plural = "s" * (count > 1)
         message = f"has {count} sample{plural}; a profile needs at least {MIN_SAMPLES}"
         raise ProfileError(table.path, message)
-    if count > max_samples:
-        raise ProfileError(table.path, f"has {count} samples; at most {max_samples} are allowed")
+    if count > MAX_SAMPLES:
+        raise ProfileError(table.path, f"has {count} samples; at most {MAX_SAMPLES} are allowed")
 
 
 def _dropout_error(table: ProfileTable, lost: np.ndarray) -> ProfileError:

@@ -52,7 +52,6 @@ def without_gaps(
     height: np.ndarray,
     bridged: np.ndarray,
     dropouts: str,
-    max_samples: int = MAX_SAMPLES,
     **how: object,
 ) -> MeasuredProfile:
     """The profile of x and height (n,) [m], `bridged` (n,) of them, with its gaps bridged as well.
@@ -63,7 +62,7 @@ def without_gaps(
         known = Profile(x, height)
     except ValueError as error:
         raise ProfileError(path, f"holds no profile: {error}") from error
-    x, height, filled = fill_gaps(path, known.x, known.height, dropouts, max_samples)
+    x, height, filled = fill_gaps(path, known.x, known.height, dropouts)
     every = filled.copy()
     every[~filled] = bridged
     stretch = longest_bridge(x, every)
@@ -94,7 +93,7 @@ def gaps(x: np.ndarray) -> list[Gap]:
 
 
 def fill_gaps(
-    path: Path, x: np.ndarray, height: np.ndarray, dropouts: str, max_samples: int
+    path: Path, x: np.ndarray, height: np.ndarray, dropouts: str
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x and height (m,) with samples on the straight line across every gap, and which those are."""
     missing = gaps(x)
@@ -108,9 +107,9 @@ def fill_gaps(
             f"x has a gap from {missing[0].start:.6g} m to {missing[0].stop:.6g} m{more} ({lost} "
             f"sample{'s' * (lost > 1)} lost); correct it, or ask for dropouts to be bridged",
         )
-    if len(x) + lost > max_samples:
+    if len(x) + lost > MAX_SAMPLES:
         message = f"x has a gap of {max(gap.lost for gap in missing)} samples"
-        raise ProfileError(path, f"{message}; at most {max_samples} samples are allowed in all")
+        raise ProfileError(path, f"{message}; at most {MAX_SAMPLES} samples are allowed in all")
     across = (np.linspace(gap.start, gap.stop, gap.lost + 2)[1:-1] for gap in missing)
     every = np.sort(np.concatenate([x, *across]))
     return every, np.interp(every, x, height), ~np.isin(every, x)

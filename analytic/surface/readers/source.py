@@ -90,10 +90,10 @@ def contents(path: Path, max_bytes: int) -> bytes:
     return raw
 
 
-def check_numbers(path: Path, count: float, most: int = MAX_NUMBERS) -> None:
+def check_numbers(path: Path, count: float) -> None:
     """Raise ProfileError for more numbers than may be converted to doubles."""
-    if count > most:
-        message = f"is too large: it holds {count:.3g} numbers; allowed are {most:.3g}"
+    if count > MAX_NUMBERS:
+        message = f"is too large: it holds {count:.3g} numbers; allowed are {MAX_NUMBERS:.3g}"
         raise ProfileError(path, message)
 
 

@@ -205,7 +205,6 @@ def test_many_loads_at_once_are_the_loads_one_by_one(small):
     together = body.solve(load)
     for one, moved in zip(load, together, strict=True):
         np.testing.assert_allclose(body.solve(one), moved, rtol=1e-11, atol=1e-14)
-    assert body.factor.solves == 6
 
 
 def test_supports_hold_what_they_say(small, degree):

@@ -227,7 +227,7 @@ class TestPressed:
         for friction in (0.0, 0.2):
             state = pressed(0.1, friction=friction).state
             assert state.solution.iterations <= 6
-            assert state.solution.cuts == 0
+            assert len(state.solution.residuals) == 1
 
     def test_small_loads_are_the_linear_theorys(self):
         """Two linear bodies on the same block: the difference vanishes in proportion to p0/E."""
@@ -289,7 +289,7 @@ class TestPressed:
             state = press_finitely(
                 case.rough, case.hats, against, case.state.pressure, approach=approach
             )
-            moved = state.displacement, state.roller_displacement
+            moved = np.split(state.solution.state.displacements[0], [len(case.rough.nodes)])
             energies.append(sum(map(energy, (case.rough, case.roller), moved)))
         assert np.diff(energies)[0] / (2.0 * h) == pytest.approx(case.load, rel=2e-4)
 

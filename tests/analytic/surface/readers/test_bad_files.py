@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from text_profiles import read_profile
 
+from analytic.surface.readers import columns
 from analytic.surface.readers.source import ProfileError
 
 GOOD = b"0,1.5\n1,2.5\n2,3.5\n3,1.0\n4,0.5\n"
@@ -116,11 +117,13 @@ def test_what_is_no_file(tmp_path):
     assert "no regular file" in refusal(tmp_path / "pipe.csv")[0]
 
 
-def test_too_many_samples(tmp_path):
+def test_too_many_samples(tmp_path, monkeypatch):
     path = tmp_path / "trace.csv"
     path.write_bytes(GOOD)
-    assert "has 5 samples; at most 4 are allowed" in refusal(path, max_samples=4)[0]
-    assert len(read_profile(path, x_scale=1.0, height_scale=1.0, max_samples=5).profile.x) == 5
+    monkeypatch.setattr(columns, "MAX_SAMPLES", 4)
+    assert "has 5 samples; at most 4 are allowed" in refusal(path)[0]
+    monkeypatch.setattr(columns, "MAX_SAMPLES", 5)
+    assert len(read_profile(path, x_scale=1.0, height_scale=1.0).profile.x) == 5
 
 
 def test_a_gigantic_file_is_refused_by_its_size(tmp_path):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from text_profiles import read_measured
 
+from analytic.surface.readers import source
 from analytic.surface.readers.arrays import read_arrays
 from analytic.surface.readers.files import MissingUnitError, open_measured
 from analytic.surface.readers.source import LONGEST_LINE, MAX_LINES, ProfileError
@@ -131,7 +132,7 @@ def test_one_of_several_maps_is_chosen(tmp_path):
     assert "has no channel 'c'; allowed is 'a', 'b'" in refusal(tmp_path / "maps.npz", **options)
 
 
-def test_arrays_that_are_no_profile(tmp_path):
+def test_arrays_that_are_no_profile(tmp_path, monkeypatch):
     np.save(tmp_path / "objects.npy", np.array([{"a": 1}], dtype=object), allow_pickle=True)
     assert "is a damaged npy file" in refusal(tmp_path / "objects.npy")
     (tmp_path / "cut.npy").write_bytes((tmp_path / "objects.npy").read_bytes()[:30])
@@ -139,8 +140,9 @@ def test_arrays_that_are_no_profile(tmp_path):
     np.savez(tmp_path / "words.npz", name="mine")
     assert "holds no arrays of one or two dimensions" in refusal(tmp_path / "words.npz")
     np.savez_compressed(tmp_path / "large.npz", x=np.zeros(100_000, dtype=np.uint8))
+    monkeypatch.setattr(source, "MAX_NUMBERS", 90_000)
     with pytest.raises(ProfileError, match=r"holds 1e\+05 numbers; allowed are 9e\+04"):
-        read_arrays(tmp_path / "large.npz", None, None, max_numbers=90_000)
+        read_arrays(tmp_path / "large.npz", None, None)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from heat_loads import flux_load
+from heat_loads import flux_load, steady
 from moving_band import band_maximum, band_mean
 from scenes import BOTH_CONDUCT, STEEL, half_plane_at, problem
 
@@ -194,7 +194,7 @@ def of_band(peclet, number):
     spec = thermal_spec([[-1.0, 1.0]], 0.2 / 2**number, half_width=10.0, depth=10.0, **law)
     body = thermal_body(build_block(spec), ThermalMaterial(1.0, 1.0, 1.0))
     load = flux_load(body, np.linspace(-1.0, 1.0, 3), np.ones(3))
-    rise = Conduction(body, -2.0 * peclet, Surroundings("open", "open")).steady(load)
+    rise = steady(Conduction(body, -2.0 * peclet, Surroundings("open", "open")), load)
     return rise.max(), 0.5 * load @ rise
 
 
