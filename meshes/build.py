@@ -42,7 +42,7 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
 
 
 class GmshWorker:
-    """A process of `meshes.gmsh_worker`, which has gmsh loaded and forks for every mesh."""
+    """A process of `meshes.gmsh_worker`, which makes one mesh after the other with gmsh."""
 
     def __init__(self) -> None:
         self.made_for, self.seconds = (os.getpid(), WORKER), 0.0
@@ -62,34 +62,34 @@ class GmshWorker:
             self.process.kill()
 
         timer = threading.Timer(TIMEOUT, stop)
-        timer.start()
         try:
+            timer.start()
             pickle.dump(task, self.process.stdin)
             self.process.stdin.flush()
-            status, complaint, output, seconds = pickle.load(self.process.stdout)
-            self.seconds += seconds
+            filled, complaint, seconds = pickle.load(self.process.stdout)
         except Exception:  # it ended, or what it wrote raises errors of many kinds
-            status, complaint, output = *self.last_words(), b""
+            status, said = self.last_words()
+            if late.is_set():
+                raise MeshError(f"gmsh was stopped: not done after {TIMEOUT:g} s") from None
+            if status == -signal.SIGKILL:
+                raise MemoryError("gmsh was killed, as the system does where memory ends") from None
+            how = "failed" if status >= 0 else f"crashed ({signal.Signals(-status).name})"
+            raise MeshError(f"gmsh {how}: {said}") from None
         finally:
             timer.cancel()
-        if late.is_set():
-            raise MeshError(f"gmsh was stopped: not done after {TIMEOUT:g} s")
-        if status == -signal.SIGKILL:
-            raise MemoryError("gmsh was killed, as the system does where memory ends")
-        if status != 0:
-            raise MeshError(explain_failure(status, complaint.decode(errors="replace")))
-        try:
-            return pickle.loads(output)
-        except Exception as error:
-            raise MeshError("gmsh ended without a mesh") from error
+        self.seconds += seconds
+        if complaint:
+            raise MeshError(f"gmsh failed: {complaint}")
+        return filled
 
-    def last_words(self) -> tuple[int, bytes]:
-        """Exit status and standard error of the process, which is ended."""
+    def last_words(self) -> tuple[int, str]:
+        """Exit status of the process, which is ended, and the last line that it wrote."""
         with suppress(subprocess.TimeoutExpired, OSError):
             self.process.stdin.close()
             self.process.wait(timeout=GRACE)
         self.process.kill()
-        return self.process.wait(), self.process.stderr.read()
+        lines = self.process.stderr.read().decode(errors="replace").strip().splitlines()
+        return self.process.wait(), lines[-1] if lines else "it said nothing"
 
     def close(self) -> None:
         """End the process, where it is this one's."""
@@ -158,15 +158,6 @@ def _filled(task: tuple) -> tuple[np.ndarray, np.ndarray]:
         raise
     idle.append(worker)
     return filled
-
-
-def explain_failure(status: int, complaint: str) -> str:
-    """One sentence for a gmsh process that ended with status and wrote complaint."""
-    lines = [line.strip() for line in complaint.splitlines() if line.strip()]
-    last = lines[-1] if lines else "it said nothing"
-    if status < 0:
-        return f"gmsh crashed ({signal.Signals(-status).name}): {last}"
-    return f"gmsh failed: {last}"
 
 
 def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) -> None:

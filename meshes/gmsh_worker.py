@@ -1,17 +1,16 @@
 """Runs gmsh, which can crash its process, in a separate one, which `meshes.build` starts.
 
-Reads the arguments of `fill` from standard input, pickled, one after the other. Each is done by a
-copy of this process that has gmsh loaded already and leaves nothing behind. Its exit status, what
-it wrote to standard error and its results, pickled themselves, go to standard output, pickled."""
+Reads the arguments of `fill` from standard input, pickled, one after the other. What it returns or
+raises, in words, and its processor seconds go to standard output, pickled."""
 
 import ctypes
 import os
 import pickle
 import signal
 import sys
+import time
 from contextlib import suppress
 from importlib import import_module
-from tempfile import TemporaryFile
 
 import numpy as np
 
@@ -56,6 +55,8 @@ def fill(
     (k, 2), lines and regions as in `meshes.boundary.Outline`."""
     import gmsh
 
+    if gmsh.isInitialized():  # by the task before, of which nothing stays
+        gmsh.finalize()
     # The mesh must not depend on a user's configuration files of gmsh.
     gmsh.initialize(argv=[], readConfigFiles=False, interruptible=False)
     for name, value in OPTIONS.items():
@@ -96,45 +97,26 @@ def fill(
     return vertices, triangles
 
 
-def answer(task: tuple) -> tuple[int, bytes, bytes, float]:
-    """Exit status, complaint, pickled results and processor seconds of a fork for the task."""
-    with TemporaryFile() as complaint, TemporaryFile() as output:
-        parent, child = os.getpid(), os.fork()
-        if child == 0:
-            status = 1
-            try:
-                die_with_parent()
-                os.dup2(complaint.fileno(), 2)
-                os.dup2(2, 1)  # what gmsh prints must not get into the results
-                if os.getppid() == parent:
-                    pickle.dump(fill(*task), output)
-                    output.flush()
-                    status = 0
-            except Exception as error:
-                print(f"{type(error).__name__}: {error}", file=sys.stderr, flush=True)
-            finally:
-                os._exit(status)
-        _, status, used = os.wait4(child, 0)
-        status, seconds = os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime
-        complaint.seek(0)
-        output.seek(0)
-        return status, complaint.read(), output.read(), seconds
-
-
-def main() -> int:
+def main() -> None:
+    """Answer one task after the other."""
     die_with_parent()
-    with suppress(Exception):  # the copy that needs it says why it is not there
+    with suppress(Exception):  # the first task says why it is not there
         import_module("gmsh")
     with os.fdopen(os.dup(1), "wb") as answers:
-        os.dup2(2, 1)
+        os.dup2(2, 1)  # what gmsh prints must not get into the results
         while True:
             try:
                 task = pickle.load(sys.stdin.buffer)
             except EOFError:
-                return 0
-            pickle.dump(answer(task), answers)
+                return
+            began, filled, complaint = time.process_time(), None, None
+            try:
+                filled = fill(*task)
+            except Exception as error:
+                complaint = f"{type(error).__name__}: {error}"
+            pickle.dump((filled, complaint, time.process_time() - began), answers)
             answers.flush()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

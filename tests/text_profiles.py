@@ -12,7 +12,7 @@ GROUND = {
     "rms_height": 0.4608e-6, "samples": 2237, "length": 2236e-6, "seed": 1,
     "roll_off_wavelength": 80e-6, "shortest_wavelength": 10e-6, "longest_wavelength": 250e-6,
 }  # fmt: skip
-MOST_BYTES = 2**28
+MOST_BYTES = 100 * 2_000_000 + 2**20
 
 
 def read_profile(path, **how) -> MeasuredProfile:
