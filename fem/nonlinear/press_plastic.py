@@ -39,9 +39,9 @@ from fem.solver.mumps import FemError, solve_once
 from fem.stress.recovery import stress_nodes
 
 # Residual on the way to a load: it moves pressures under the load by 1e-8 of the largest, the
-# plastic strain at single points by 1e-5. With 1e-3, a seventh of the linear contacts less, work
-# and energies differ by 2e-6; with 3e-3 predicted edges are so inaccurate that a finer rough trace
-# takes 88 increments in place of 53.
+# plastic strain at single points by 1e-5. With 1e-3 it takes a seventh of the linear contacts less;
+# with 3e-3 predicted edges are so inaccurate that a finer rough trace takes 88 increments in place
+# of 53.
 ON_THE_WAY = 1e-4
 
 # Hats that an edge of the contact may travel in one increment. Peak pressures of a smooth roller at
