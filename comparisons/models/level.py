@@ -77,24 +77,14 @@ class StressResult:
     friction: float
     # largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
     extremes: dict[str, Extremum]
-    # largest tau1 and |txz| of each asperity: value, x and z (3, k); empty where there is one
-    maxima: dict[str, np.ndarray] = field(default_factory=dict)
+    # largest tau1 and |txz| of each of the problem's asperities: value [Pa], x and z [m] (3, k)
+    maxima: dict[str, np.ndarray]
     field: StressState | None = None  # (m, k) on the common window, where that is asked for
 
     @property
     def tau1(self) -> np.ndarray | None:
         """(m, k) [Pa] on the common window."""
         return None if self.field is None else self.field.tau1
-
-    def of_asperities(self, name: str, cells: tuple[float, ...]) -> np.ndarray:
-        """Value [Pa], x and z [m] (3, k) of the largest tau1 or |txz| of each asperity; where that
-        is known for all together only, 0 of the others. `cells` are the problem's asperities."""
-        if name in self.maxima:
-            return self.maxima[name]
-        maxima, largest = np.full((3, len(cells) + 1), np.nan), self.extremes[name]
-        maxima[0] = 0.0
-        maxima[:, np.searchsorted(cells, largest.x)] = abs(largest.value), largest.x, largest.z
-        return maxima
 
 
 def highest(maxima: np.ndarray) -> Extremum:

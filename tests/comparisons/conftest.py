@@ -95,12 +95,18 @@ def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressRe
         txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
         field = hertz_stress(hertz, window.x, window.z[:, None], friction)
         deepest = Extremum(2.0 * known.tau1.value, known.tau1.x, known.tau1.z)
-        results.append(
-            StressResult(
-                friction, {"tau1": known.tau1, "txz": txz, "von_mises": deepest}, field=field
-            )
-        )
+        extremes = {"tau1": known.tau1, "txz": txz, "von_mises": deepest}
+        maxima = {name: by_asperity(problem, extremes[name]) for name in ("tau1", "txz")}
+        results.append(StressResult(friction, extremes, maxima, field))
     return tuple(results)
+
+
+def by_asperity(problem: Problem, largest: Extremum) -> np.ndarray:
+    """Value [Pa], x and z [m] (3, k): of the largest, 0 of the others."""
+    maxima = np.full((3, len(problem.asperities) + 1), np.nan)
+    maxima[0], place = 0.0, np.searchsorted(problem.asperities, largest.x)
+    maxima[:, place] = abs(largest.value), largest.x, largest.z
+    return maxima
 
 
 def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -> Level:

@@ -106,13 +106,12 @@ def solved(
         return half_plane_level(problem, pitch, window, stages, fields=False)
     if method.element in (OPERATOR, DEFORMED):
         return _by_operator(problem, pitch, window, method.element == DEFORMED)
-    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
+    from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
     problem = method.posed(problem)
     plan, refinement = make_plan(problem, (method.model,)), Refinement(pitch, half_block)
-    options = LevelOptions(fields=False)
-    level = finite_element_level(problem, plan, refinement, window, stages, options=options)
+    level = finite_element_level(problem, plan, refinement, window, stages, fields=False)
     return replace(level, mesh=None)
 
 

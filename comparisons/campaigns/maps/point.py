@@ -92,14 +92,13 @@ def _significant(value: float) -> float:
 def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Runs]:
     """Both models on the first levels, then with one more each time, while there may be."""
     from comparisons.models.finite_element.bodies import BodyCache
-    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
+    from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
     def solved(pitch: float, half_block: bool = False) -> Level:
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
-        options = LevelOptions(fields=False)
         return finite_element_level(
-            problem, plan, refinement, window, Stages(), body_cache, options
+            problem, plan, refinement, window, Stages(), body_cache, fields=False
         )
 
     @lru_cache(maxsize=1)  # the latest pitch's alone: the far-boundary check is on its mesh

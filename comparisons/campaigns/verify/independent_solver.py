@@ -29,7 +29,7 @@ def independent_figures(name: str) -> CaseFigures:
     """Largest difference of the pressures under one load, over the largest pressure; and relative
     difference of the loads at one approach."""
     from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
+    from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from fem.body.surface import hat_forces
     from fem.contact.variational_inequality import solve_variational_inequality
@@ -54,8 +54,7 @@ def independent_figures(name: str) -> CaseFigures:
     pressure = level.solution.pressure
     difference = float(np.abs(pressure - other.pressure).max() / pressure.max())
     approach = other.approach - problem.first_touch
-    asked = LevelOptions(approach=approach)
-    again = finite_element_level(problem, plan, refinement, None, Stages(), body_cache, asked)
+    again = finite_element_level(problem, plan, refinement, None, Stages(), body_cache, approach)
     loads = float(abs(grid.weights @ again.solution.pressure - load) / load)
     if not all(mesh is level.mesh for mesh in (bodies.rough.mesh, again.mesh)):
         raise RuntimeError(f"{name}: the solvers were on different meshes")

@@ -47,14 +47,6 @@ START_TOLERANCE = 1e-3  # of the linear contact that finite deformation starts f
 MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
 
-@dataclass(frozen=True)
-class LevelOptions:
-    """What one level does that others need not."""
-
-    approach: float | None = None  # [m] from first touch, prescribed in place of the load
-    fields: bool = True  # give all stresses on the window and the mesh, not the largest alone
-
-
 def finite_element_level(
     problem: Problem,
     plan: Plan,
@@ -62,20 +54,23 @@ def finite_element_level(
     window: Window | None,
     stages: Stages,
     body_cache: BodyCache | None = None,
-    options: LevelOptions = LevelOptions(),
+    approach: float | None = None,
+    fields: bool = True,
 ) -> Level:
     """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
 
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
     body_cache  shared by levels whose meshes and factors may be the same
+    approach    [m] from first touch, prescribed in place of the load
+    fields      give all stresses on the window and the mesh, not the largest alone
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails."""
     body_cache = body_cache or BodyCache()
 
     def solve(problem: Problem) -> Level:
         """Under friction coefficients that share a contact."""
-        solving = _LevelSolution(problem, plan, refinement, stages, options)
+        solving = _LevelSolution(problem, plan, refinement, stages, approach)
         solving.load_libraries()
         ranges, start = solving.predicted_contact()
         flows = problem.scene.finite_element.plastic
@@ -100,8 +95,7 @@ def finite_element_level(
             return replace(level, peak_memory=peak_memory())
         with stages.stage("stresses", "finite elements: stresses"):
             frictions, asperities = problem.scene.load.friction, problem.asperities
-            how = asperities, options.fields
-            stresses, mesh_field = stresses_of(pressed, frictions, window, *how)
+            stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)
         return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 
     return under_each(problem, "finite_element", solve)
@@ -124,7 +118,7 @@ class _LevelSolution:
     plan: Plan
     refinement: Refinement
     stages: Stages
-    options: LevelOptions
+    approach: float | None  # [m] from first touch, in place of the load
 
     @cached_property
     def grid(self) -> HatGrid:
@@ -144,11 +138,11 @@ class _LevelSolution:
 
     @cached_property
     def constraints(self) -> Constraints:
-        constraints, approach = self.problem.constraints(), self.options.approach
+        constraints = self.problem.constraints()
         if self.problem.scene.finite_element.plastic:  # the body's own flow limits the pressure
             constraints = replace(constraints, hardness=np.inf)
-        if approach is not None:
-            from_touch = approach + self.problem.first_touch
+        if self.approach is not None:
+            from_touch = self.approach + self.problem.first_touch
             constraints = replace(constraints, load=None, approach=from_touch)
         return constraints
 
@@ -246,12 +240,14 @@ def problem_of_approach(
             f"{scene.source}: load.friction: has {len(scene.load.friction)} coefficients, each of "
             "which takes another load for load.approach; allowed is one, or per_length"
         )
-    body_cache, asked = BodyCache(), LevelOptions(approach=scene.load.value)
+    body_cache, approach = BodyCache(), scene.load.value
 
     def pressed(problem: Problem) -> tuple[float, np.ndarray]:
         callback("finite elements: load of the prescribed approach")
         plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[-1])
-        level = finite_element_level(problem, plan, refinement, None, Stages(), body_cache, asked)
+        level = finite_element_level(
+            problem, plan, refinement, None, Stages(), body_cache, approach
+        )
         return level.solution.load, level.patches
 
     return settled(scene, surface or surface_of(scene), pressed, levels=levels)

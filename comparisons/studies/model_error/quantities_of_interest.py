@@ -67,7 +67,7 @@ def quantities_of(level: Level, problem: Problem, friction: float) -> Quantities
     places, stress = {"peak_pressure": x[peaks]}, level.stress(friction)
     if stress is not None:
         for name, key in (("tau1_max", "tau1"), ("txz_max_abs", "txz")):
-            figures[name], places[name], depth = stress.of_asperities(key, problem.asperities)
+            figures[name], places[name], depth = stress.maxima[key]
             if name == "tau1_max":
                 rise = boundary_rise(problem, level, places[name])
                 figures["tau1_max_depth"] = depth + rise

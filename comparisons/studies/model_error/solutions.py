@@ -174,7 +174,7 @@ def _solved(
     """A variant's `problem` on a level, with its `fields` on window and mesh where asked; raises
     NotComputedError."""
     from comparisons.models.finite_element.bodies import BodyCache
-    from comparisons.models.finite_element.level import LevelOptions, finite_element_level
+    from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from fem.nonlinear.press_plastic import TRAVEL
 
@@ -183,9 +183,9 @@ def _solved(
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
     refinement, stages = Refinement(pitch, travel=variant.times * TRAVEL), Stages()
-    how = refinement, window, stages, body_cache, LevelOptions(fields=fields)
+    how = refinement, window, stages, body_cache
     try:
-        level = finite_element_level(problem, plan, *how)
+        level = finite_element_level(problem, plan, *how, fields=fields)
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error
     if not level.converged:
