@@ -244,7 +244,7 @@ class Findings:
     figures: tuple[Figure, ...] = ()
     series: tuple[Series, ...] = ()
     statements: tuple[Statement, ...] = ()
-    # arrays that its pictures are drawn from, in a dataclass
+    # arrays that its pictures are drawn from
     data: object = None
 
     def table(self, name: str, source: str | None = None, **at: float) -> Series | None:

@@ -332,10 +332,9 @@ def _unconverged(run: Run) -> str:
         for level in model.levels
         if not level.converged
     ]
-    moved = run.data(coupling.NAME)
     said += [
         f"half-plane with normal-tangential coupling, friction {plain(change.friction)}"
-        for change in (moved.changes if moved else ())
+        for change in run.data(coupling.NAME) or ()
         if not change.converged
     ]
     run_in = run.problem.surface.run_in

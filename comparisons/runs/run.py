@@ -224,8 +224,7 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
         return NO_CACHE
     shape = scene_key(problem.scene, problem.surface)
     key = cache(lambda: key_of(shape, repr(plan), versions(), program_code(*CODE)))
-    kinds = kinds_of(Level, *(study.data for study in STUDIES if study.data is not None))
-    return Cache(unfinished(out, "run"), key, kinds)
+    return Cache(unfinished(out, "run"), key, kinds_of(Level))
 
 
 def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:

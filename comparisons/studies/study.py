@@ -173,7 +173,6 @@ class Study:
     blocks: Callable[[Run], list[Block]] = lambda run: []  # its parts of the page
     # what draws its pictures, by name; None where there is nothing to draw
     pictures: Mapping[str, Callable[[Run], object]] = field(default_factory=dict)
-    data: type | None = None  # of its findings' `data`
     # files of its own in the run's folder, by path: columns (n,) of a CSV by their headings
     files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = lambda run: {}
     # its lines of the terminal, each with its name

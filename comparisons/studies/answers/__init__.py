@@ -1,7 +1,7 @@
 """Answers from outside: any code's pressures and stresses, or measured ones, beside the models'."""
 
 from comparisons.studies.answers import show
-from comparisons.studies.answers.study import NAME, QUANTITIES, OutsideAnswers, begin, solve
+from comparisons.studies.answers.study import NAME, QUANTITIES, begin, solve
 from comparisons.studies.study import Study
 
 STUDY = Study(
@@ -10,7 +10,6 @@ STUDY = Study(
     solve=solve,
     applies=lambda solved: bool(solved.problem.scene.answers),
     begin=begin,
-    data=OutsideAnswers,
     blocks=show.blocks,
     pictures={"answers": show.answer_pictures},
 )

@@ -44,8 +44,7 @@ u_val: root of the sum of squares of u_num, u_input and u_D."""
 
 def answers_of(run: Run) -> Mapping[str, tuple[Answer, ...]]:
     """By name, each on its resolutions; empty without any."""
-    known = run.data(NAME)
-    return {} if known is None else known.answers
+    return run.data(NAME) or {}
 
 
 def reference_of(run: Run) -> str:

@@ -12,7 +12,7 @@ model error lies within E +- u_val."""
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from itertools import pairwise
 from operator import itemgetter
 
@@ -59,13 +59,6 @@ LEAST_RATIO = 1.2  # of the spacings of two resolutions that show how a figure c
 COVERED = 0.5  # of the window: on less of it two fields are not compared
 
 
-@dataclass(frozen=True)
-class OutsideAnswers:
-    """All of a scene by name, each on its resolutions, coarse to fine."""
-
-    answers: Mapping[str, tuple[Answer, ...]]
-
-
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Raises InputError for a file that cannot be read, before anything is solved."""
     _read(solved, tasks)
@@ -102,7 +95,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         series += _tables_of(name, tables)
         files = columns_of([{"file": a.file, "sha256": a.sha256} for a in answers[name]])
         series.append(Series("files", files, name, is_account=True))
-    return Findings(tuple(figures), tuple(series), data=OutsideAnswers(answers))
+    return Findings(tuple(figures), tuple(series), data=answers)
 
 
 def _read(solved: Solved, tasks: Tasks) -> Mapping[str, tuple[Answer, ...]]:

@@ -1,7 +1,7 @@
 """What friction does by itself: surfaces that it moves, and contacts that it holds."""
 
 from comparisons.studies.friction import show
-from comparisons.studies.friction.partial_slip import NAME, QUANTITIES, SlipStudy, solve
+from comparisons.studies.friction.partial_slip import NAME, QUANTITIES, solve
 from comparisons.studies.study import Study
 
 PARTIAL_SLIP = Study(
@@ -9,7 +9,6 @@ PARTIAL_SLIP = Study(
     quantities=QUANTITIES,
     solve=solve,
     applies=lambda solved: solved.problem.scene.partial_slip is not None,
-    data=SlipStudy,
     blocks=show.blocks,
     pictures=show.PICTURES,
     files=show.files,

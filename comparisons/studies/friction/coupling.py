@@ -71,14 +71,7 @@ class Coupling:
     why: str | None = None  # why there are no changes, None where there are
 
 
-@dataclass(frozen=True)
-class Couplings:
-    """One for each friction coefficient, in the order of the scene."""
-
-    changes: tuple[Coupling, ...]
-
-
-def coupled(solved: Solved, tasks: Tasks) -> Couplings:
+def coupled(solved: Solved, tasks: Tasks) -> tuple[Coupling, ...]:
     """Of the half-plane as far as it is refined, computed once."""
     run, problem = solved.runs["half_plane"], solved.problem
     levels, window = len(run.levels), solved.window
@@ -90,7 +83,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     changes, a shift as the contact's length, a norm as the worst."""
     changed, known = coupled(solved, tasks), before[contact.NAME].figures
     figures, series, said = [], [], []
-    for coupling in changed.changes:
+    for coupling in changed:
         at = {"friction": coupling.friction}
         figures += figures_of_changes(coupling, solved.problem, known)
         if coupling.why is not None:
@@ -121,8 +114,9 @@ def figures_of_changes(
 
 def couplings(
     run: ModelRun, problem: Problem, window: Window | None, callback: ProgressCallback
-) -> Couplings:
-    """From the finished half-plane."""
+) -> tuple[Coupling, ...]:
+    """One for each friction coefficient, in the order of the scene, from the finished
+    half-plane."""
     changes = []
     for friction in problem.scene.load.friction:
         why = no_coupling(problem, friction)
@@ -131,7 +125,7 @@ def couplings(
             changes.append(_coupling(problem.under(friction), level, friction, window, callback))
         else:
             changes.append(Coupling(friction, {}, why=why))
-    return Couplings(tuple(changes))
+    return tuple(changes)
 
 
 def _coupling(
@@ -256,7 +250,6 @@ STUDY = Study(
     quantities=QUANTITIES,
     solve=solve,
     applies=lambda solved: solved.plan.coupling,
-    data=Couplings,
     blocks=blocks,
     lines=lines,
 )

@@ -6,7 +6,7 @@ loads as series. At the scene's largest friction coefficient."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -31,7 +31,6 @@ from comparisons.figures.uncertainty import (
     of_increments,
 )
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import (
@@ -73,25 +72,6 @@ Solve = Callable[[Level, int], SlippedLevel]  # of a level, by so many increment
 
 
 @dataclass(frozen=True)
-class SlipCurves:
-    """Of one model on its finest level, after each of m loads; for pictures and files."""
-
-    x: np.ndarray  # (n,) [m]
-    limit: np.ndarray  # (m, n) [Pa] friction times pressure
-    traction: np.ndarray  # (m, n) [Pa]
-    slip: np.ndarray  # (m, n) [m] in the last step to each load
-    displacement: np.ndarray  # (m,) [m]
-    zones: tuple[np.ndarray, ...] = field(default_factory=tuple)  # (k, 2) [m] of each
-
-
-@dataclass(frozen=True)
-class SlipStudy:
-    """By model."""
-
-    curves: dict[str, SlipCurves]
-
-
-@dataclass(frozen=True)
 class ModelSlip:
     """One model's histories, by level."""
 
@@ -129,10 +109,10 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         name, model = list(models.items())[-1]
         stuck = Figures(figures).one(quantity="stick_length", source=name, against=None)
         slip = problem.scene.partial_slip
-        outside = outside_figures(outside.data.answers, model.levels, stuck, slip.tolerance)
+        outside = outside_figures(outside.data, model.levels, stuck, slip.tolerance)
         figures += outside
-    data = SlipStudy({name: _curves(problem, model.finest) for name, model in models.items()})
-    return Findings(tuple(figures), tuple(series), tuple(said), data)
+    finest = {name: model.finest for name, model in models.items()}
+    return Findings(tuple(figures), tuple(series), tuple(said), finest)
 
 
 def solvers(solved: Solved) -> dict[str, Solve]:
@@ -254,15 +234,3 @@ def _series(
         Series("stick_zones", zones, name, at),
         Series("history", columns_of(rows, units, unsure), name, at),
     ]
-
-
-def _curves(problem: Problem, level: SlippedLevel) -> SlipCurves:
-    friction = friction_of(problem)
-    return SlipCurves(
-        x=level.grid.x,
-        limit=np.array([friction * state.normal.pressure for state in level.states]),
-        traction=np.array([state.traction for state in level.states]),
-        slip=np.array([state.slip for state in level.states]),
-        displacement=level.displacements,
-        zones=level.zones,
-    )

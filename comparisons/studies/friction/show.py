@@ -28,7 +28,7 @@ from comparisons.drawing.curves import (
     panels,
 )
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.studies.friction.half_planes import friction_of, last_visit
+from comparisons.studies.friction.half_planes import SlippedLevel, friction_of, last_visit
 from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES
 from comparisons.studies.study import WHY_NOT, Run
 
@@ -46,13 +46,18 @@ def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
     """partial_slip.csv of each model: a row for each pressure element, at the end of the path."""
     return {
         f"{name}/partial_slip.csv": {
-            "x [m]": curves.x,
-            "friction times pressure [Pa]": curves.limit[-1],
-            "traction [Pa]": curves.traction[-1],
-            "slip in the last step [m]": curves.slip[-1],
+            "x [m]": level.grid.x,
+            "friction times pressure [Pa]": limit_of(run, level),
+            "traction [Pa]": level.states[-1].traction,
+            "slip in the last step [m]": level.states[-1].slip,
         }
-        for name, curves in run.data(NAME).curves.items()
+        for name, level in run.data(NAME).items()
     }
+
+
+def limit_of(run: Run, level: SlippedLevel) -> np.ndarray:
+    """Friction times pressure (n,) [Pa] at the end of the path."""
+    return friction_of(run.problem) * level.states[-1].normal.pressure
 
 
 def blocks(run: Run) -> list[Block]:
@@ -82,7 +87,7 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
     if last_visit(slip.path) is not None:
         facts.append(("the cycle", "since that load was reached before"))
     for figure in known.of(quantity="stick_ratio"):
-        number = len(run.data(NAME).curves[figure.source].zones[-1])
+        number = len(run.data(NAME)[figure.source].zones[-1])
         zones = f"{percent(figure.value)} of the contact, in {number} zone{'s' * (number != 1)}"
         facts.append((f"sticks ({LABELS[figure.source]})", zones))
     for figure in known.of(quantity="stick_length", against=None):
@@ -98,7 +103,7 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
 
 def last(run: Run) -> str:
     """The model that answers from outside are compared with."""
-    return list(run.data(NAME).curves)[-1]
+    return list(run.data(NAME))[-1]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -157,12 +162,13 @@ def tractions_picture(run: Run) -> style.Picture | None:
 
 
 def _tractions(run: Run) -> "Figure":
-    curves = run.data(NAME).curves
-    abreast, room = names_above(style.COLUMN, 2 * len(curves))
+    levels = run.data(NAME)
+    abreast, room = names_above(style.COLUMN, 2 * len(levels))
     drawn, [panel] = panels(style.COLUMN, [(room, 2.5)])
-    unit = scale_of(next(iter(curves.values())).x, "m")
-    tractions = {n: (one.x / unit.factor, one.traction[-1] / 1e6) for n, one in curves.items()}
-    limits = {n: (one.x / unit.factor, one.limit[-1] / 1e6) for n, one in curves.items()}
+    unit = scale_of(next(iter(levels.values())).grid.x, "m")
+    places = {n: one.grid.x / unit.factor for n, one in levels.items()}
+    tractions = {n: (places[n], one.states[-1].traction / 1e6) for n, one in levels.items()}
+    limits = {n: (places[n], limit_of(run, one) / 1e6) for n, one in levels.items()}
     for names, (x, traction) in distinct(tractions).items():
         panel.plot(x, traction, label=joint_label(names, ", traction"), **style.LINES[names[0]])
     apart = distinct(limits)
@@ -171,8 +177,8 @@ def _tractions(run: Run) -> "Figure":
         label = "± μp" if len(apart) == 1 else joint_label(names, ", ± μp")
         panel.plot(x, limit, label=label, **look)
         panel.plot(x, -limit, **look)
-    for row, (name, one) in enumerate(curves.items()):
-        bottom = (-1.08 - 0.05 * row) * one.limit[-1].max() / 1e6
+    for row, (name, one) in enumerate(levels.items()):
+        bottom = (-1.08 - 0.05 * row) * limits[name][1].max()
         for start, stop in one.zones[-1] / unit.factor:
             look = {"color": style.LINES[name]["color"], "linewidth": 3.0}
             panel.plot([start, stop], [bottom, bottom], **look)
@@ -194,11 +200,11 @@ def loop_picture(run: Run) -> style.Picture | None:
 
 
 def _loop(run: Run) -> "Figure":
-    curves, path = run.data(NAME).curves, (0.0, *run.problem.scene.partial_slip.path)
-    abreast, room = names_above(style.COLUMN, len(curves))
+    levels, path = run.data(NAME), (0.0, *run.problem.scene.partial_slip.path)
+    abreast, room = names_above(style.COLUMN, len(levels))
     drawn, [panel] = panels(style.COLUMN, [(room, 2.67)])
-    unit = scale_of(next(iter(curves.values())).displacement, "m")
-    moved = {n: np.append(0.0, one.displacement) / unit.factor for n, one in curves.items()}
+    unit = scale_of(next(iter(levels.values())).displacements, "m")
+    moved = {n: np.append(0.0, one.displacements) / unit.factor for n, one in levels.items()}
     steps = np.arange(len(path))
     for names, (_, along) in distinct({n: (steps, m) for n, m in moved.items()}).items():
         look = {"marker": "o", "markersize": 3, **style.LINES[names[0]]}

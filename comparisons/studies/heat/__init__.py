@@ -1,7 +1,7 @@
 """The heat of friction: flash temperatures by both models, and the verdict on their difference."""
 
 from comparisons.studies.heat import show
-from comparisons.studies.heat.study import NAME, QUANTITIES, HeatStudy, begin, solve
+from comparisons.studies.heat.study import NAME, QUANTITIES, begin, solve
 from comparisons.studies.study import Study
 
 STUDY = Study(
@@ -10,7 +10,6 @@ STUDY = Study(
     solve=solve,
     applies=lambda solved: solved.problem.scene.heat is not None,
     begin=begin,
-    data=HeatStudy,
     blocks=show.blocks,
     pictures=show.PICTURES,
     files=show.files,

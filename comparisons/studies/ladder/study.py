@@ -24,7 +24,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     effects that this selects deform the bodies: it then waits for no finite elements."""
     if list(solved.runs) != [HALF_PLANE]:
         return
-    moved = coupling.coupled(solved, tasks).changes if solved.plan.coupling else ()
+    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
     whole = selected_effects(solved, moved).whole
     held = carried_deformed(solved.problem, whole)
     if held and "plastic_flow" not in whole:

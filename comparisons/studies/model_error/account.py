@@ -74,7 +74,7 @@ class ErrorBudget:
     wholes: dict[float, Level] = field(default_factory=dict)
     # which further level of the whole cannot change a verdict, else None
     left_out: str | None = None
-    # by friction, what else is compared with the whole; empty where it has no solution, and on disk
+    # by friction, what else is compared with the whole; empty where it has no solution
     solutions: dict[float, Solutions] = field(default_factory=dict)
     # by effect, and of the whole beside the scene's own: seconds, and largest memory [bytes]
     took: dict[str, tuple[float, int]] = field(default_factory=dict)

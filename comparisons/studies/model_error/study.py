@@ -19,7 +19,7 @@ from comparisons.studies.contact import values_of
 from comparisons.studies.friction import coupling
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error import show
-from comparisons.studies.model_error.account import NAME, ErrorBudget, findings_of
+from comparisons.studies.model_error.account import NAME, findings_of
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.error_budget import announce_effects, error_budget
 from comparisons.studies.model_error.estimates import estimates
@@ -38,7 +38,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 
 def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
-    moved = coupling.coupled(solved, tasks).changes if solved.plan.coupling else ()
+    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
     more = announce_effects(solved, moved, tasks)
     for line in early_lines(solved.problem, solved.runs["half_plane"].finest, moved):
         tasks.callback(Early(line))
@@ -46,7 +46,7 @@ def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    moved = before[coupling.NAME].data.changes if coupling.NAME in before else ()
+    moved = before[coupling.NAME].data if coupling.NAME in before else ()
     budget = error_budget(solved, before[comparison.NAME].figures, moved, tasks)
     return findings_of(budget, solved.problem)
 
@@ -90,7 +90,6 @@ STUDY = Study(
     solve=solve,
     applies=lambda solved: solved.plan.compares,
     begin=begin,
-    data=ErrorBudget,
     blocks=show.blocks,
     pictures={"model_error": show.model_error_picture},
     lines=show.lines,

@@ -350,7 +350,6 @@ STUDY = Study(
     solve=solve,
     applies=_applies,
     begin=begin,
-    data=PressureBand,
     blocks=blocks,
     lines=lines,
 )

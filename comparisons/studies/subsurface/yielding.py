@@ -378,4 +378,4 @@ def lines(run: Run) -> list[tuple[str, str]]:
     return [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
 
 
-STUDY = Study(NAME, QUANTITIES, solve, data=FlowAssessment, blocks=blocks, lines=lines)
+STUDY = Study(NAME, QUANTITIES, solve, blocks=blocks, lines=lines)

@@ -79,7 +79,7 @@ def test_several_resolutions_state_an_uncertainty(answered, curve):
         return curve(x=lambda x: (1.0 + by) * x, points=round(8.0 / by) + 1)["file"]
 
     outcome = answered({"file": [stretched(by) for by in (0.02, 0.08, 0.04)]})
-    spacing = [answer.spacing for answer in outcome.data("answers").answers["other"]]
+    spacing = [answer.spacing for answer in outcome.data("answers")["other"]]
     assert spacing == sorted(spacing, reverse=True)
     length = row(outcome, "contact_length")
     assert length.value == pytest.approx(0.02, abs=2e-3)
@@ -106,7 +106,7 @@ def test_files_table_and_repetition_follow(answered, curve, tmp_path, undrawn):
     figure = figures.one(study="answers", **wanted)
     assert figure.verdict == "differ" and figure.friction == 0.0
     record = json.loads((tmp_path / "out/record.json").read_text())
-    [answer] = outcome.data("answers").answers["other"]
+    [answer] = outcome.data("answers")["other"]
     assert record["hashes"]["answer_other"] == [answer.sha256]
     rows = [r for r in tidy_rows([tmp_path / "out"]) if r["source"] == "other" and r["against"]]
     assert {"peak_pressure": "differ", "contact_length": "agree"}.items() <= {

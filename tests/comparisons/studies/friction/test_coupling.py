@@ -140,7 +140,7 @@ class TestFigures:
         assert changes["tau1_max_depth"] == Change(3e-5, None)
         assert changes["contact_length"] == Change(0.0, 0.0)
         assert changes["peak_pressure"].difference == pytest.approx(0.5)
-        added = replace(rigid.data("coupling").changes[2], changes=changes)
+        added = replace(rigid.data("coupling")[2], changes=changes)
         figures = coupling.figures_of_changes(added, problem, rigid.findings["contact"].figures)
         figures = [figure for figure in figures if figure.quantity == "tau1_max_depth"]
         assert [(figure.value, figure.against) for figure in figures] == [(3e-5, None)]
@@ -214,7 +214,7 @@ class TestRoughBody:
         return replace(problem, surface=replace(problem.surface, profile=short))
 
     def test_change_under_a_hardness(self, wavy):
-        [result] = couplings(*wavy[::-1], None, no_progress).changes
+        [result] = couplings(*wavy[::-1], None, no_progress)
         assert result.converged
         assert result.changes["peak_pressure"].value <= 4e9
         assert result.changes[SHIFT].value < 0.0
@@ -222,9 +222,9 @@ class TestRoughBody:
     def test_a_trace_that_ends_on_one_side_changes_nothing(self, wavy):
         """The grid is extended where there is a trace, here behind the contact only."""
         problem, levels = wavy
-        [one] = couplings(levels, problem, None, no_progress).changes
+        [one] = couplings(levels, problem, None, no_progress)
         ended = self.cut(problem, -np.inf, levels.finest.grid.x[-1] + 2e-6)
-        [other] = couplings(levels, ended, None, no_progress).changes
+        [other] = couplings(levels, ended, None, no_progress)
         for name, change in one.changes.items():
             assert other.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
@@ -232,12 +232,12 @@ class TestRoughBody:
         """The first stretches are too short for it."""
         problem = problem_of(STRONG, friction=1.5)
         levels = half_plane_of(problem)
-        [expected] = couplings(levels, problem, None, no_progress).changes
+        [expected] = couplings(levels, problem, None, no_progress)
         stretched = coupling._stretched
         monkeypatch.setattr(
             coupling, "_stretched", lambda p, g, more: stretched(p, g, 1 + more // 64)
         )
-        [result] = couplings(levels, problem, None, no_progress).changes
+        [result] = couplings(levels, problem, None, no_progress)
         for name, change in expected.changes.items():
             assert result.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
@@ -253,14 +253,14 @@ class TestRoughBody:
         inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
         solution = replace(level.solution, pressure=level.solution.pressure[inside])
         ending = replace(levels, levels=(replace(level, grid=grid, solution=solution),))
-        [result] = couplings(ending, ended, None, no_progress).changes
+        [result] = couplings(ending, ended, None, no_progress)
         assert result.changes == {} and result.why == BEYOND_THE_END
 
 
 class TestEstimate:
     def test_measured_changes_take_the_place_of_the_estimate(self, rigid):
-        effect = estimate(rigid.problem, rigid.data("coupling").changes)
-        last = rigid.data("coupling").changes[2].changes
+        effect = estimate(rigid.problem, rigid.data("coupling"))
+        last = rigid.data("coupling")[2].changes
         for name in ("peak_pressure", "contact_length", "tau1_max_depth"):
             assert effect[name] == abs(last[name].difference)
 
@@ -268,12 +268,12 @@ class TestEstimate:
         effect = estimate(rigid.problem, ())
         size = 0.3 * rigid.problem.dundurs_beta
         assert effect["tau1_max"] == pytest.approx(0.8 * size)
-        known = rigid.data("coupling").changes
+        known = rigid.data("coupling")
         without = tuple(replace(coupled, changes={}, why=BEYOND_THE_END) for coupled in known)
         assert estimate(rigid.problem, without) == effect
 
     def test_what_both_models_contain_is_not_missing(self, rigid_coupled):
-        assert estimate(rigid_coupled.problem, rigid_coupled.data("coupling").changes) is None
+        assert estimate(rigid_coupled.problem, rigid_coupled.data("coupling")) is None
 
     def test_equal_materials_have_no_such_effect(self, wavy_outcome):
         assert wavy_outcome.problem.dundurs_beta == 0.0
