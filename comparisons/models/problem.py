@@ -146,6 +146,11 @@ class Problem:
         return float(self.gap(np.linspace(*self.extent, FIRST_TOUCH_POINTS)).min())
 
     @property
+    def largest_friction(self) -> float:
+        """The coefficient that partial slip and heat are computed for."""
+        return max(self.scene.load.friction)
+
+    @property
     def dundurs_beta(self) -> float:
         return dundurs_constants(self.scene.body.material, self.scene.roller.material)[1]
 
@@ -153,7 +158,7 @@ class Problem:
     def coupling(self) -> float:
         """Friction times Dundurs' beta, by which traction moves surfaces; 0 where that is out.
         Of several coefficients the largest."""
-        return max(self.scene.load.friction) * self.dundurs_beta if self.scene.load.coupled else 0.0
+        return self.largest_friction * self.dundurs_beta if self.scene.load.coupled else 0.0
 
     def grid(self, pitch: float) -> HatGrid:
         if self.period is not None:

@@ -33,7 +33,7 @@ from fem.nonlinear.press_plastic import (
     press_plastically,
 )
 from fem.solver.mumps import FemError
-from fem.stress.stress import at_nodes
+from fem.stress.stress import NodalStress, at_nodes
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
@@ -56,7 +56,6 @@ def pressed_finitely(
     Pressures are Cauchy's, those on the deformed surface, at its displaced x; a contact length is
     that along x of the deformed configuration. Raises FemError where there is
     no solution, and where contact reaches the grid's ends only at finite deformation."""
-    rough = operator.rough
     finite = finite_contact(problem, operator, linear, constraints, model)
     refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "at finite deformation")
     counts = {
@@ -65,13 +64,9 @@ def pressed_finitely(
         "corrections": finite.solution.corrections,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    nodal = finite.cauchy.nodal
-    loaded = _deformed(rough.body, grid, finite, constraints, counts, FINITE_TOLERANCE)
-    loaded = replace(
-        loaded,
-        stresses=lambda frictions: (nodal,) * len(frictions),
-        across=finite.cauchy.across,
-    )
+    body, cauchy = operator.rough.body, finite.cauchy
+    loaded = _deformed(body, grid, finite, constraints, counts, FINITE_TOLERANCE, cauchy.nodal)
+    loaded = replace(loaded, across=cauchy.across)
     return _on_undeformed_grid(problem, grid, finite.place, loaded)
 
 
@@ -82,8 +77,9 @@ def _deformed(
     constraints: Constraints,
     counts: dict[str, int],
     tolerance: float,
+    stress: NodalStress,
 ) -> LoadedBody:
-    """A contact on deformed surfaces, at the displaced nodes of the grid, without its stresses."""
+    """A contact on deformed surfaces, at the displaced nodes of the grid."""
     weights, x, pressure = grid.weights, grid.x, finite.pressure
     initial = finite.initial_gap * weights
     if constraints.load is not None:  # of which friction on tilted tangents bears a part
@@ -102,7 +98,7 @@ def _deformed(
         body,
         solution,
         depth * grid.weights,
-        lambda frictions: (),
+        lambda frictions: (stress,) * len(frictions),
         patches,
         moved=finite.displacement,
     )
@@ -254,18 +250,13 @@ def pressed_plastically_finitely(
         "linear_contacts": pressed.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    loaded = _deformed(rough.body, grid, finite, constraints, counts, FLOW_TOLERANCE)
+    fields = plastic_fields(body, pressed)
+    stress = at_nodes(rough.body, fields.stress)
+    loaded = _deformed(rough.body, grid, finite, constraints, counts, FLOW_TOLERANCE, stress)
     if pressed.state.equivalent.any():
         averaged = averaged_pressure(loaded.solution.pressure)
         loaded = replace(loaded, solution=replace(loaded.solution, pressure=averaged))
-    fields = plastic_fields(body, pressed)
-    stress = at_nodes(rough.body, fields.stress)
-    loaded = replace(
-        loaded,
-        stresses=lambda frictions: (stress,) * len(frictions),
-        across=fields.sy,
-        others=_of_flow(body, pressed, released),
-    )
+    loaded = replace(loaded, across=fields.sy, others=_of_flow(body, pressed, released))
     return _on_undeformed_grid(problem, grid, finite.place, loaded)
 
 

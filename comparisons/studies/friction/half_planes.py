@@ -126,18 +126,13 @@ def opposite_of(path: tuple[float, ...]) -> int | None:
     return max(range(before, len(path)), key=lambda k: abs(path[k] - path[-1]))
 
 
-def friction_of(problem: Problem) -> float:
-    """The coefficient that holds: the largest of the scene."""
-    return max(problem.scene.load.friction)
-
-
 def half_plane_slip(
     problem: Problem, level: Level, window: Window | None, increments: int
 ) -> SlippedLevel:
     """Of two half-planes on the pressure elements of a level."""
     grid, hardness = level.grid, problem.constraints().hardness
     gap = grid.hat_integrals(problem.gap, problem.knots)
-    bodies = problem.modulus, problem.dundurs_beta, friction_of(problem), hardness
+    bodies = problem.modulus, problem.dundurs_beta, problem.largest_friction, hardness
     pair = half_planes(grid, gap, *bodies)
     slipped = slipped_level(problem, grid, pair, increments)
     if window is None:
@@ -189,7 +184,7 @@ def bulk_stress(problem: Problem, number: int) -> float:
 def steps_of(problem: Problem, unlike: bool, increments: int) -> Iterator[tuple[Loads, ...]]:
     """The steps to each of the scene's loads; alike bodies take one, and are pressed by one."""
     load, slip = problem.hertz.load_per_length, problem.scene.partial_slip
-    limit = friction_of(problem) * load
+    limit = problem.largest_friction * load
     strain = slip.bulk_stress / problem.scene.body.material.plane_strain_modulus / slip.largest
     first = pressed_in(load, increments if unlike else 1)
     for before, after in pairwise((0.0, *slip.path)):

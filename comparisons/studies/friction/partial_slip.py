@@ -35,7 +35,6 @@ from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import (
     SlippedLevel,
-    friction_of,
     half_plane_slip,
 )
 from comparisons.studies.friction.outside import outside_figures
@@ -91,7 +90,7 @@ class ModelSlip:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Every level of every model that was run is loaded along the path."""
     problem, path = solved.problem, solved.problem.scene.partial_slip.path
-    at, models, said = {"friction": friction_of(problem)}, {}, []
+    at, models, said = {"friction": problem.largest_friction}, {}, []
     for name, solve_level in solvers(solved).items():
         tasks.callback(f"partial slip: {name.replace('_', ' ')}")
         models[name] = _model_slip(solved, name, solve_level)
@@ -143,7 +142,7 @@ def _model_slip(solved: Solved, name: str, solve_level: Solve) -> ModelSlip:
 def _figures(solved: Solved, models: Mapping[str, ModelSlip]) -> Iterator[Figure]:
     """By each model, and their difference over the finite elements' figure."""
     slip = solved.problem.scene.partial_slip
-    common = {"study": NAME, "at": {"friction": friction_of(solved.problem)}}
+    common = {"study": NAME, "at": {"friction": solved.problem.largest_friction}}
     for name in QUANTITIES:
         known = {n: m for n, m in models.items() if name in m.finest.figures(slip.path)}
         for source, model in known.items():

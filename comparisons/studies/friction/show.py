@@ -28,7 +28,7 @@ from comparisons.drawing.curves import (
     panels,
 )
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.studies.friction.half_planes import SlippedLevel, friction_of, last_visit
+from comparisons.studies.friction.half_planes import SlippedLevel, last_visit
 from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES
 from comparisons.studies.study import WHY_NOT, Run
 
@@ -57,7 +57,7 @@ def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
 
 def limit_of(run: Run, level: SlippedLevel) -> np.ndarray:
     """Friction times pressure (n,) [Pa] at the end of the path."""
-    return friction_of(run.problem) * level.states[-1].normal.pressure
+    return run.problem.largest_friction * level.states[-1].normal.pressure
 
 
 def blocks(run: Run) -> list[Block]:
@@ -81,7 +81,7 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
     scene, known = run.problem.scene, run.figures.of(study=NAME)
     slip, facts = scene.partial_slip, []
     facts.append(("tangential load over that of sliding", listed(slip.path)))
-    facts.append(("friction", plain(friction_of(run.problem))))
+    facts.append(("friction", plain(run.problem.largest_friction)))
     if slip.bulk_stress:
         facts.append(("bulk stress at the largest load", with_unit(slip.bulk_stress, "Pa")))
     if last_visit(slip.path) is not None:

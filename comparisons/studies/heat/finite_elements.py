@@ -21,7 +21,6 @@ from comparisons.studies.heat.half_space import (
     FARTHEST,
     HeatedContact,
     HeatedStress,
-    friction_of,
     heat_of_friction,
     reach_of,
     surface_places,
@@ -148,7 +147,7 @@ def finite_element_stress(
     problem: Problem, level: Level, window: Window, beyond: float = np.inf
 ) -> HeatedStress:
     """Of a level; an unbounded body is held `beyond` this part of its mesh."""
-    heat, friction, field = problem.scene.heat, friction_of(problem), level.mesh_field
+    heat, friction, field = problem.scene.heat, problem.largest_friction, level.mesh_field
     made = field.mesh, field.material, rough_support(problem, field.mesh.spec, beyond)
     body = elastic_body(*made, degree=field.degree, coating=field.coating)
     expansion = np.where(body.coated, heat.coating_expansion or 0.0, heat.body_expansion)

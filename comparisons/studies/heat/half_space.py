@@ -75,14 +75,9 @@ def reach_of(problem: Problem) -> float:
     return problem.scene.heat.reach or problem.scene.roller.radius
 
 
-def friction_of(problem: Problem) -> float:
-    """The coefficient that heats: the largest of the scene."""
-    return max(problem.scene.load.friction)
-
-
 def heat_of_friction(problem: Problem, level: Level) -> np.ndarray:
     """mu p V (n,) [W/m^2] at the nodes of a level."""
-    return friction_of(problem) * problem.scene.heat.speed * level.solution.pressure
+    return problem.largest_friction * problem.scene.heat.speed * level.solution.pressure
 
 
 def half_spaces(
@@ -200,7 +195,7 @@ def surface_places(level: Level, window: Window, ends: EndStress) -> np.ndarray:
 
 def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedStress:
     """Of the half-plane on a level of its own."""
-    friction, ends = friction_of(problem), ends_of(problem, level.grid, level.solution)
+    friction, ends = problem.largest_friction, ends_of(problem, level.grid, level.solution)
     searched, close = search_window(problem, window), ends.at(friction)
     thermal = _thermal(problem, level, searched)
     field = field_on(level, searched, ends).at(friction)

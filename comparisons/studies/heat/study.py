@@ -23,7 +23,6 @@ from comparisons.studies.heat.half_space import (
     HeatedContact,
     HeatedStress,
     check_heat,
-    friction_of,
     half_plane_stress,
     half_space_heat,
     half_spaces,
@@ -77,7 +76,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     """Temperatures on every level of every model that was run, with thermal stresses in the window
     where they are asked for, and the comparison; what older rules say, and in words what the
     finite elements have."""
-    problem, friction = solved.problem, friction_of(solved.problem)
+    problem, friction = solved.problem, solved.problem.largest_friction
     runs = {name: run.under(friction) for name, run in solved.runs.items()}
     tasks.callback("frictional heat")
     contains = what_it_contains(problem) if "finite_element" in runs else {}
@@ -181,7 +180,7 @@ def _figures(
     cold = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
     size = max(abs(known[list(values)[-1]]) for known in (values, cold) if known)
     size = problem.hertz.half_width if name == "tau1_depth_heated" else size
-    common = {"study": NAME, "at": {"friction": friction_of(problem)}, "scale": size}
+    common = {"study": NAME, "at": {"friction": problem.largest_friction}, "scale": size}
     uncertainties, alone = {}, len(values) == 1
     for model, history in histories.items():
         left = grid_convergence([known.figures[name] for known in history], FORMAL_ORDER)
