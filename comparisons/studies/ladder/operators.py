@@ -54,11 +54,9 @@ THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are
 def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
     """What an operator can carry of the whole's effects, and a cap where the body yields."""
     scene = problem.scene
-    if scene.periodic:
-        return frozenset()
     held = set(carried_linear(scene, effects))
     yields = scene.body.yield_stress is not None and scene.body.hardness is None
-    if yields and flow.worst.peak > TABOR * scene.body.yield_stress:
+    if yields and not scene.periodic and flow.worst.peak > TABOR * scene.body.yield_stress:
         held.add(CAP)
     return frozenset(held)
 

@@ -89,13 +89,11 @@ class Ladder:
         """From the cheapest to the whole."""
         made = [self._hertz(), self._half_plane(), *self._effects(), self._own(), self._whole()]
         made = [rung for rung in made if rung is not None]
-        by_half_plane = [rung for rung in made if rung.name in (HERTZ, HALF_PLANE)]
-        smooth = len(by_half_plane)
+        by_half_plane = HERTZ, HALF_PLANE, OPERATORS
         for make in (self._operators, self._deformed):
-            if any(rung.verdict == "holds" for rung in by_half_plane):
+            if any(rung.verdict == "holds" for rung in made if rung.kind in by_half_plane):
                 break
-            by_half_plane += [rung for rung in [make(made)] if rung is not None]
-        made += by_half_plane[smooth:]
+            made += [rung for rung in [make(made)] if rung is not None]
         order = list(KINDS)
         return sorted(made, key=lambda rung: order.index(rung.kind))
 
@@ -215,10 +213,9 @@ class Ladder:
             ]
         effects = self.budget.selection.whole
         inside = words_of_kind(effects)
-        rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors), WHOLE)
+        rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors))
         seconds, memory = self.budget.took.get(WHOLE, (0.0, 0))
-        cost = rung.seconds + seconds, max(rung.memory, memory)
-        return Rung(WHOLE, WHOLE, rung.words, rung.figures, *cost)
+        return replace(rung, seconds=rung.seconds + seconds, memory=max(rung.memory, memory))
 
     def _rows(self, friction: float) -> list[Figure]:
         return [row for row in self.compared if row.friction == friction]

@@ -110,7 +110,7 @@ def error_budget(
         unsplit=refined.unsplit,
         model_errors=tuple(refined.errors),
         sampling=sampling,
-        seconds=variants.seconds,
+        seconds=math.fsum(seconds for seconds, _ in variants.took.values()),
         wholes=wholes,
         left_out=refined.left_out,
         solutions=refined.solutions,

@@ -54,8 +54,7 @@ class SolvedVariants:
     )
     # why a variant has no solution, by variant and number of the level
     failed: dict[tuple[ModelVariant, int], NotComputedError] = field(default_factory=dict)
-    seconds: float = 0.0  # that the variants took, of all processes together
-    # the same [s] by variant, and the largest memory of its process [bytes]
+    # by variant, seconds that it took and the largest memory of its process [bytes]
     took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
     # the seconds by the laws of cost [s], by variant and number of the level
     expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
@@ -151,7 +150,6 @@ class SolvedVariants:
     def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
         """Note the solution of a variant on a level."""
         seconds = sum(level.seconds.values())
-        self.seconds += seconds
         before, memory = self.took.get(variant, (0.0, 0))
         self.took[variant] = before + seconds, max(memory, level.peak_memory)
         if variant in self.wholes:
