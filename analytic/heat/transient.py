@@ -7,17 +7,7 @@
 Half-space: T = T0 erfc(y / (2 sqrt(kappa t))) after a step of the surface to T0, and
 T = (2 q / k) sqrt(kappa t) ierfc(y / (2 sqrt(kappa t))) under a flux from t = 0 (Carslaw and
 Jaeger 1959, sections 2.4 and 2.9). Slab: images of these at 2 n L below tau = 0.3, the cosine
-series from there on (sections 3.4 and 3.8); either to rounding.
-
-The short formulas are those of Seireg (Friction and Lubrication in Mechanical Design, ch. 5). His
-equations 5.1 and 5.3 are lost in the text that we have: they are what a heat balance over a
-parabola gives, which fits all his numbers. Their largest errors against the exact solutions, as
-the tests measure them:
-
-    parabola       0.033 T0 in the half-space, at y = 1.42 sqrt(kappa t); the same in the slab at tL
-    late_parabola  0.088 T0, at the bottom at 4.6 tL; too cold until 1.2 tL, too hot from then on
-    surface_rise   -0.74 % of the half-space's rise, whose coefficient is 2/sqrt(pi), not 1.12
-"""
+series from there on (sections 3.4 and 3.8); either to rounding."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,17 +17,6 @@ from analytic.material import ThermalMaterial
 
 _SHORT = 0.3  # tau up to which images are summed; from there on the series
 _IMAGES, _TERMS = 7, 7  # to rounding on their side of it
-BOOK_COEFFICIENT = 1.12
-
-
-def penetration_depth(time: ArrayLike, diffusivity: float) -> np.ndarray:
-    """sqrt(12 kappa t) [m] at times [s]: where the parabola ends (Seireg, eq. 5.1)."""
-    return np.sqrt(12.0 * diffusivity * np.asarray(time, dtype=float))
-
-
-def penetration_time(thickness: float, diffusivity: float) -> float:
-    """tL = L^2 / (12 kappa) [s], after which the parabola has reached the far face."""
-    return thickness**2 / (12.0 * diffusivity)
 
 
 def step_half_space(depth: ArrayLike, time: ArrayLike, diffusivity: float) -> np.ndarray:
@@ -103,32 +82,6 @@ def pulse(
 
     after = time > duration
     return since(time) - np.where(after, since(np.where(after, time - duration, 1.0)), 0.0)
-
-
-def parabola(depth: ArrayLike, time: ArrayLike, diffusivity: float) -> np.ndarray:
-    """T / T0 = (1 - y/d)^2 down to the penetration depth d (Seireg, eq. 5.2), for t <= tL."""
-    reach = penetration_depth(time, diffusivity)
-    return np.maximum(1.0 - np.asarray(depth) / reach, 0.0) ** 2
-
-
-def bottom_rise(time: ArrayLike, thickness: float, diffusivity: float) -> np.ndarray:
-    """T / T0 of a slab's insulated face by the short formula, 1 - exp(-(t - tL) / (4 tL)) from
-    t = tL on (Seireg, eq. 5.3; reconstructed)."""
-    late = np.asarray(time) / penetration_time(thickness, diffusivity) - 1.0
-    return -np.expm1(-np.maximum(late, 0.0) / 4.0)
-
-
-def late_parabola(
-    depth: ArrayLike, time: ArrayLike, thickness: float, diffusivity: float
-) -> np.ndarray:
-    """T / T0 in a slab from t = tL on: a parabola down to `bottom_rise` (Seireg, eq. 5.4)."""
-    bottom = bottom_rise(time, thickness, diffusivity)
-    return bottom + (1.0 - bottom) * (1.0 - np.asarray(depth) / thickness) ** 2
-
-
-def surface_rise(time: ArrayLike, flux: float, material: ThermalMaterial) -> np.ndarray:
-    """T [K] of the surface by the short formula 1.12 q sqrt(t) / sqrt(k rho c), for t <= tL."""
-    return BOOK_COEFFICIENT * flux * np.sqrt(time) / material.effusivity
 
 
 def _similarity(depth: ArrayLike, time: ArrayLike, diffusivity: float) -> np.ndarray:
