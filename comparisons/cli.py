@@ -28,7 +28,7 @@ WATCHED = {
     **dict.fromkeys(
         ("cost", "run"), "finished levels are kept, the same command goes on from there"
     ),
-    "rerun": "nothing was changed, the same command starts again",
+    "rerun": "nothing recorded was changed, the same command does it again",
     **dict.fromkeys(
         ("stability", "verify"), "finished cases are kept, the same command goes on from there"
     ),

@@ -86,6 +86,8 @@ def read_record(folder: Path) -> Record:
     check_schema(path, content, SCHEMA)
     result = read_result(folder / "result.json")
     try:
+        if not content["models"]:
+            raise ValueError("without a model")
         scene, surface = _scene(path, content)
         return Record(
             scene=scene,

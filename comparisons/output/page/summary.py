@@ -17,7 +17,7 @@ from comparisons.figures.figure import Findings, grouped
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
 from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pdf import NoPdfError, print_report
-from comparisons.output.record import read_result
+from comparisons.output.record import BUILT_OTHERWISE, read_result
 from comparisons.output.result_json import Result
 from comparisons.studies import contact, problem
 from comparisons.studies.study import MODEL_ERROR
@@ -69,7 +69,11 @@ def read_report(folder: Path, pdf: bool = False) -> Report:
         check_writable(folder, ())
         if not page.is_file():
             raise InputError(f"{folder}: holds no report.html; allowed is what a run wrote")
-    return Report(result, page, cells_of(result))
+    try:
+        return Report(result, page, cells_of(result))
+    except BUILT_OTHERWISE as error:
+        said = f"{folder / 'result.json'}: sums up to nothing ({error!r})"
+        raise InputError(f"{said}; allowed is what a run wrote") from error
 
 
 def printed(report: Report, callback: ProgressCallback) -> Report:

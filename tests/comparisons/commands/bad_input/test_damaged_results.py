@@ -58,6 +58,7 @@ def refused(capsys, *arguments: object) -> str:
         ("report", "result.json", None, ("figures",), "is no result of a run (KeyError"),
         ("report", "result.json", 99, ("schema",), "schema: is 99, of a later crosscheck; allowed"),
         ("report", "result.json", 1, ("schema",), "is 1, of an earlier crosscheck; allowed is 3"),
+        ("report", "result.json", [], ("series",), "sums up to nothing"),
         ("rerun", "result.json", float("nan"), (*FIRST, "value"), "is not JSON: NaN is no number"),
         ("table", "result.json", "high", (*FIRST, "value"), "could not convert string to float"),
         ("table", "result.json", 3.0, ("verdict",), "verdict: is 3.0"),
