@@ -48,13 +48,6 @@ class TestSector:
         assert order == pytest.approx(1.0, abs=0.1)
         assert 0.05 < radii[-1] * difference[-1] / np.linalg.norm(straight) < 5.0
 
-    def test_compliance_is_symmetric_and_positive_definite(self, structured_block):
-        flat = structured_block(np.linspace(-1, 1, 21), np.linspace(0, 1, 11), seed=4)
-        body = elastic_body(bent(flat, 1.6), MATERIAL, Support())
-        matrix = FiniteElementCompliance(body, hat_nodes(-0.5, 0.1, 11)).matrix()
-        np.testing.assert_allclose(matrix, matrix.T, atol=1e-13 * np.abs(matrix).max())
-        assert np.linalg.eigvalsh(matrix).min() > 0.0
-
     @pytest.mark.parametrize("radius", [1.5, 10.0])
     def test_displacement_of_a_bent_body_is_of_order_three(
         self, structured_block, exact_forces, manufactured, radius
@@ -95,23 +88,16 @@ def disc(radius: float, edge: float):
 
 class Pressed:
     """A disc of radius 1 / (a/R) on a rigid flat, or on a half-plane of its own material, under
-    the load that gives Hertz's half-width 1.
+    the load that gives Hertz's half-width 1."""
 
-    slope   of the traction's direction on both bodies, in a unit of x/R
-    """
-
-    def __init__(self, ratio: float, on_half_plane: bool = False, slope: float = 0.0) -> None:
+    def __init__(self, ratio: float, on_half_plane: bool = False) -> None:
         radius, pitch = 1.0 / ratio, 1.0 / EDGES
         grid = HatGrid.within(-1.2, 1.2, pitch)
         hats = hat_nodes(grid.x[0], pitch, grid.count)
         modulus = MATERIAL.plane_strain_modulus / (2.0 if on_half_plane else 1.0)
-
-        def along(share):
-            return lambda x: (share * x / radius, np.ones_like(x))
-
-        bodies = [FiniteElementCompliance(disc(radius, pitch), hats, along(-slope))]
+        bodies = [FiniteElementCompliance(disc(radius, pitch), hats)]
         if on_half_plane:
-            bodies.append(FiniteElementCompliance(half_plane(pitch), hats, along(slope)))
+            bodies.append(FiniteElementCompliance(half_plane(pitch), hats))
         self.hertz = hertz_from_load(np.pi * modulus / (4.0 * radius), radius, modulus)
         self.grid = grid
         constraints = Constraints(load=self.hertz.load_per_length)
@@ -160,22 +146,3 @@ class TestHertz:
         assert peak[0] == pytest.approx(amount * ratios[0] ** 2, rel=0.05)
         norm = np.array([case.norm for case in cases])
         assert np.log2(norm[:-1] / norm[1:]) == pytest.approx(2.0, abs=0.25)
-
-    def test_a_common_direction_of_the_traction_does_not_matter_between_equal_bodies(self):
-        """What leans forward on the one body leans back on the other: the effects of first order
-        cancel."""
-        off = []
-        for ratio in (0.1, 0.05):
-            straight, leaning = pressed(ratio, True), pressed(ratio, True, 1.0)
-            off.append(leaning.peak - straight.peak)
-        assert np.log2(off[0] / off[1]) == pytest.approx(2.0, abs=0.1)
-        assert abs(off[1]) < 5e-4
-
-    def test_on_a_rigid_flat_the_traction_is_upright(self):
-        """Along the disc's own normal the pressure is off in the first order of a/R."""
-        off = []
-        for ratio in (0.05, 0.025):
-            straight, leaning = pressed(ratio), pressed(ratio, False, 1.0)
-            off.append(leaning.peak - straight.peak)
-        assert np.log2(off[0] / off[1]) == pytest.approx(0.9, abs=0.2)
-        assert abs(off[0]) > 4e-3
