@@ -54,6 +54,12 @@ def structured_block() -> Callable[..., BlockMesh]:
     return moved_block
 
 
+@pytest.fixture(scope="module", params=[1, 2, 3])
+def degree(request) -> int:
+    """Of the displacement's elements."""
+    return request.param
+
+
 @pytest.fixture(scope="session")
 def graded() -> Callable[..., np.ndarray]:
     return graded_grid

@@ -58,11 +58,6 @@ def test_constant_strain_is_reproduced_exactly(
     np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
 
 
-@pytest.fixture(params=[1, 2, 3])
-def degree(request):
-    return request.param
-
-
 @pytest.mark.parametrize("ratio", [1e-6, 0.1, 1e6])
 def test_a_coating_under_uniform_traction_is_reproduced_exactly(
     structured_block, exact_forces, degree, ratio
@@ -89,30 +84,11 @@ def test_a_coating_under_uniform_traction_is_reproduced_exactly(
     np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
 
 
-def test_each_triangle_has_the_constants_of_its_material(structured_block):
-    line = np.linspace(-1, 1, 5)
-    mesh = structured_block(line, np.linspace(0, 1, 5))
-    coat = Material(7.0, 0.1)
-    body = elastic_body(mesh, MATERIAL, Support(), coating=Coating(coat, 0.5))
-    depth = body.points[body.mesh.triangles[:, :3], 1].mean(axis=1)
-    np.testing.assert_array_equal(body.coated, depth < 0.5)
-    np.testing.assert_array_equal(body.poissons_ratio, np.where(depth < 0.5, 0.1, 0.3))
-    shear = np.where(depth < 0.5, coat.shear_modulus, MATERIAL.shear_modulus)
-    np.testing.assert_array_equal(body.shear_modulus, shear)
-    assert body.surface_material == coat
-    plain = elastic_body(mesh, MATERIAL, Support())
-    assert not plain.coated.any()
-    assert set(plain.shear_modulus) == {MATERIAL.shear_modulus}
-    assert plain.surface_material == MATERIAL
-
-
 def test_coatings_that_the_mesh_does_not_follow_are_refused(small):
     with pytest.raises(ValueError, match=r"\d+ elements of the mesh cross the coating"):
         elastic_body(small(), MATERIAL, Support(), coating=Coating(MATERIAL, 0.25))
     with pytest.raises(ValueError, match="thickness must be positive"):
         Coating(MATERIAL, 0.0)
-    with pytest.raises(ValueError, match="1, 2 or 3, not 4"):
-        elastic_body(small(), MATERIAL, Support(), degree=4)
 
 
 def test_a_coating_of_the_body_s_material_is_none(structured_block, degree):
@@ -143,7 +119,6 @@ def test_displacements_at_the_mesh_s_points(small, degree, height):
     np.testing.assert_allclose(at_points[0], moved(body.points), atol=1e-14)
     vertices = body.mesh.triangles[:, :3]
     np.testing.assert_array_equal(body.at_points(body.nodes)[vertices], body.points[vertices])
-    np.testing.assert_array_equal(body.elements[:, :3].shape, vertices.shape)
     if degree > 1:
         np.testing.assert_allclose(body.at_points(body.nodes), body.points, atol=1e-15)
 
@@ -199,14 +174,6 @@ def test_displacement_does_not_depend_on_the_unit_of_length(structured_block, de
     )
 
 
-def test_many_loads_at_once_are_the_loads_one_by_one(small):
-    body = elastic_body(small(), MATERIAL, Support())
-    load = np.random.default_rng(1).normal(size=(3, *body.mesh.points.shape))
-    together = body.solve(load)
-    for one, moved in zip(load, together, strict=True):
-        np.testing.assert_allclose(body.solve(one), moved, rtol=1e-11, atol=1e-14)
-
-
 def test_supports_hold_what_they_say(small, degree):
     for base in ("bonded", "frictionless"):
         for sides in ("free", "rollers", "fixed"):
@@ -235,8 +202,6 @@ def test_a_body_held_within_is_the_smaller_body(structured_block):
     moved = held.solve(wider)
     np.testing.assert_allclose(moved[same], alone.solve(load), atol=1e-12)
     assert not np.any(np.delete(moved, same, axis=0))
-    with pytest.raises(ValueError, match="within"):
-        Support(within=(0.0, 1.0))
 
 
 def test_a_body_that_can_slide_refuses_a_net_horizontal_load(small):
@@ -252,11 +217,10 @@ def test_a_body_that_can_slide_refuses_a_net_horizontal_load(small):
     assert np.abs(held.solve(load)).max() > 0.0
 
 
-def test_unknown_supports_are_refused():
-    with pytest.raises(ValueError, match="'glued'"):
-        Support("glued")
-    with pytest.raises(ValueError, match="'loose'"):
-        Support("bonded", "loose")
+@pytest.mark.parametrize("held", [("glued",), ("bonded", "loose"), ("bonded", "free", (0.0, 1.0))])
+def test_supports_without_sense_are_refused(held):
+    with pytest.raises(ValueError):
+        Support(*held)
 
 
 def test_roughness_that_inverts_elements_is_refused(structured_block):
