@@ -9,8 +9,8 @@ from scenes import DATA
 
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
-from fem.stress.kinks import REACH, Kinks, Weights
-from fem.stress.surface_load import SurfaceLoad, from_surface, normal, to_surface
+from fem.stress.kinks import Kinks, Weights
+from fem.stress.surface_load import SurfaceLoad, normal, to_surface
 
 POINTS = json.loads((DATA / "hat_stress.json").read_text(encoding="utf-8"))["points"]
 MATERIAL = Material(3.0, 0.3)
@@ -94,25 +94,6 @@ def test_a_turned_surface_turns_stresses_and_displacements():
     np.testing.assert_allclose(displacement(turned, place @ matrix.T), moved, atol=1e-13)
 
 
-def test_weights_fade_with_the_distance_and_leave_out_other_materials():
-    kinks = Kinks(np.arange(-20.0, 21.0) + 0j, np.ones(41, dtype=complex), np.ones(41) + 0j)
-    centre = np.array([[0.3, 0.0], [0.3, 3.0], [0.3, 100.0], [0.3, 0.0]])
-    seen = np.array([True, True, True, False])
-    weights = as_table(kinks.weights(centre, np.ones(4), seen), 41)
-    distance = np.abs(centre @ [1.0, 1j] - kinks.place[:, None]).T
-    np.testing.assert_array_equal(weights > 0.0, (distance < REACH) & seen[:, None])
-    assert np.all(weights[0][distance[0] < 0.3 * REACH] > 0.97)
-    assert np.all(np.diff(weights[1][20:]) <= 0.0) and weights[1].max() < weights[0].max()
-
-
-def test_a_body_without_kinks_has_no_weights():
-    none = Kinks(np.empty(0, dtype=complex), np.empty(0, dtype=complex), np.empty(0, dtype=complex))
-    weights = none.weights(np.zeros((3, 2)), np.ones(3), np.ones(3, dtype=bool))
-    assert not weights.count.any()
-    every = np.arange(3)
-    assert not none.stress(weights, every, np.ones((3, 2)), every[:, None]).any()
-
-
 def test_sums_over_the_kinks_are_those_of_a_table():
     """Whichever patches share a place."""
     rng = np.random.default_rng(5)
@@ -134,21 +115,13 @@ def test_sums_over_the_kinks_are_those_of_a_table():
     np.testing.assert_allclose(sums, expected, atol=1e-13 * np.abs(expected).max())
 
 
-def inclined(structured_block, rise, hats, pressure):
-    line = np.linspace(-1, 1, 17)
-    mesh = structured_block(line, np.linspace(0, 1, 5), lambda x: -rise * x)
-    body = elastic_body(mesh, Material(1.0, 0.3), Support())
-
-    def direction(x):
-        return 0.1 + 0.0 * x, np.ones_like(x)
-
-    return SurfaceLoad(body, hats, pressure, 0.25, direction)
-
-
 def test_the_kinks_exert_the_load(structured_block):
     """Along a straight surface, kinks alone: the force of the load, by length of arc."""
     rise, hats, pressure = 0.3, np.array([-0.6, -0.3, 0.1, 0.5]), np.array([2.0, 3.0])
-    load = inclined(structured_block, rise, hats, pressure)
+    line = np.linspace(-1, 1, 17)
+    mesh = structured_block(line, np.linspace(0, 1, 5), lambda x: -rise * x)
+    body = elastic_body(mesh, Material(1.0, 0.3), Support())
+    load = SurfaceLoad(body, hats, pressure, 0.25, lambda x: (0.1 + 0.0 * x, np.ones_like(x)))
     x = np.array([-0.8, -0.5, -0.2, 0.3, 0.7])
     place, every = np.column_stack([x, rise * x]), np.arange(len(x))
     count = len(load.kinks.place)
@@ -161,18 +134,3 @@ def test_the_kinks_exert_the_load(structured_block):
     s_nn, s_nt = load.across(x)
     _, kinks_nn, kinks_nt = to_surface(load.tangent(x), np.column_stack([sx, sz, txz]))
     np.testing.assert_allclose([kinks_nn, kinks_nt], [s_nn, s_nt], atol=1e-12)
-
-
-def test_only_bends_of_the_pressure_are_kinks(structured_block):
-    hats, pressure = np.array([-0.5, -0.25, 0.0, 0.25, 0.5]), np.array([1.0, 2.0, 1.0])
-    load = inclined(structured_block, 0.0, hats, pressure)
-    np.testing.assert_array_equal(load.kinks.place, [-0.5, 0.0, 0.5])
-
-
-def test_turning_to_the_surface_and_back():
-    random = np.random.default_rng(7)
-    angle, stress = random.uniform(-1, 1, 9), random.normal(size=(9, 3))
-    t = np.column_stack([np.cos(angle), np.sin(angle)])
-    np.testing.assert_allclose(from_surface(t, *to_surface(t, stress)), stress, atol=1e-14)
-    s_tt, s_nn, s_nt = to_surface(np.array([[1.0, 0.0]]), np.array([[1.0, 2.0, 3.0]]))
-    np.testing.assert_array_equal([s_tt, s_nn, s_nt], [[1.0], [2.0], [-3.0]])
