@@ -116,10 +116,3 @@ def test_what_does_not_converge_is_an_error(grid, block, contact, solve):
     with pytest.raises(FemError, match=r"did not converge beyond 0 % of the load: .*too far"):
         solve([(stuck, contact(block))], grid.smooth, load=0.6)
     assert stuck.accepted == []
-
-
-def test_loads_that_cannot_be_borne_are_refused(grid, block, contact, solve):
-    bodies = [(LinearResponse(block), contact(block))]
-    for wanted in ({"load": 0.0}, {"load": 3.0, "hardness": 1.0}, {}, {"load": 1, "approach": 1}):
-        with pytest.raises(ValueError):
-            solve(bodies, grid.smooth, **wanted)

@@ -201,10 +201,9 @@ class TestRoughProfiles:
         assert solution.approach == pytest.approx(approach, rel=1e-8)
         assert len(contact_patches(grid.x, solution.pressure, solution.gap)) > 1
 
-    @pytest.mark.parametrize("hardness", [2.0, np.inf])
-    def test_the_whole_matrix_gives_the_same(self, hardness):
+    def test_under_a_hardness_the_whole_matrix_gives_the_same(self):
         grid, compliance = rough_surface(0.0)
-        gap, constraints = rough_gap(grid, 4), Constraints(load=LOAD, hardness=hardness)
+        gap, constraints = rough_gap(grid, 4), Constraints(load=LOAD, hardness=2.0)
         model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.25)
         solution = solve_with_coupled_model(
             Sliding(compliance, 0.5), model, gap, grid.weights, constraints

@@ -33,14 +33,20 @@ def system(compliance, hats, soft=0.0, friction=0.0, loaded=True):
     return ContactSystem([(tangent, terms, free)], flexible, WEIGHTS, np.array(hats), *kind)
 
 
+def counted(monkeypatch, worth, accuracy):
+    """A reused factor of a worth in its solutions, and the systems that it has factorised."""
+    monkeypatch.setattr(module, "FACTOR_WORTH", worth)
+    reused, made = ReusedFactor(accuracy), []
+    renew = reused._renew
+    reused._renew = lambda system: (made.append(system), renew(system))
+    return reused, made
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("loaded", [True, False])
 def test_a_solution_is_that_of_the_systems_own_factor(compliance, monkeypatch, friction, loaded):
     """Hats join and leave, at ends and within, and the tangent changes."""
-    monkeypatch.setattr(module, "FACTOR_WORTH", 1000)
-    reused, made = ReusedFactor(1e-11), []
-    renew = reused._renew
-    reused._renew = lambda system: (made.append(system), renew(system))
+    reused, made = counted(monkeypatch, 1000, 1e-11)
     for soft, hats in [(0.0, [5, 6, 7, 9]), (0.0, [4, 6, 7, 8, 10]), (0.1, [6]), (0.1, [5, 6, 7])]:
         now = system(compliance, hats, soft, friction, loaded)
         right = np.random.default_rng(len(hats)).normal(size=now.size)
@@ -49,19 +55,10 @@ def test_a_solution_is_that_of_the_systems_own_factor(compliance, monkeypatch, f
     assert len(made) == 1
 
 
-def test_a_product_is_that_of_the_matrix(compliance):
-    now = system(compliance, [3, 4, 8], 0.2, 0.3)
-    x = np.random.default_rng(1).normal(size=now.size)
-    np.testing.assert_allclose(now @ x, now.matrix() @ x, atol=1e-12)
-
-
 def test_a_factor_is_made_again_where_others_cost_more(compliance, monkeypatch):
     """Its solutions take ever more steps as the tangent softens; with one step each there is one
     factorisation for all."""
-    monkeypatch.setattr(module, "FACTOR_WORTH", 2)
-    reused, made = ReusedFactor(1e-3), []
-    renew = reused._renew
-    reused._renew = lambda system: (made.append(system), renew(system))
+    reused, made = counted(monkeypatch, 2, 1e-3)
     for soft in (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6):
         reused.solve(now := system(compliance, [7, 8], soft), np.ones(now.size))
     assert 1 < len(made) < 7
