@@ -1,4 +1,4 @@
-"""Blocks that meshes start from, by name; Hooke's law in plane strain; two bodies as one."""
+"""Blocks that meshes start from, by name; Hooke's law in plane strain; bodies moved, or as one."""
 
 from dataclasses import replace
 
@@ -78,6 +78,14 @@ def hooke(material: Material, exx, ezz, gxz) -> tuple:
     shear, nu = material.shear_modulus, material.poissons_ratio
     mean = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
     return mean + 2 * shear * exx, mean + 2 * shear * ezz, shear * gxz
+
+
+def moved(body, size: float, seed: int) -> np.ndarray:
+    """A smooth displacement (n, 2) [m] of some `size`, zero where the body is held."""
+    wave = np.random.default_rng(seed).normal(size=(2, 4))
+    x, z = body.nodes.T
+    shape = np.stack([np.sin(row @ [x, z, x * z, z**2 + x**2]) for row in wave], axis=-1)
+    return np.where(body.held, 0.0, size * shape)
 
 
 class SumOfBodies:

@@ -1,12 +1,12 @@
-"""A body pressed from a guessed pressure alone: by a roller, or with a chosen response."""
+"""A body pressed from a guessed pressure alone, at finite strains or by the linear theory."""
 
 import numpy as np
 
 from fem.body.elasticity import ElasticBody
 from fem.compliance.operator import FiniteElementCompliance
-from fem.contact.nonlinear import ContactState, NonlinearSolution, solve_nonlinear_contact
+from fem.contact.nonlinear import ContactState, solve_nonlinear_contact
 from fem.contact.rigid_roller import Roller
-from fem.contact.terms import Contact, Response
+from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear.finite_deformation import FiniteContact, FiniteDeformation
 
 
@@ -33,22 +33,20 @@ def press_finitely(
     return contact.by_newton(load, approach, hardness)
 
 
-def press(
-    bodies: list[tuple[Response, Contact]],
+def press_linearly(
     body: ElasticBody,
     hats: np.ndarray,
+    gap: np.ndarray,
     start: np.ndarray,
-    load: float | None = None,
-    approach: float | None = None,
+    load: float,
     friction: float = 0.0,
-    hardness: float = np.inf,
-    gap: np.ndarray | None = None,
-) -> NonlinearSolution:
-    """The contact of `body` with a chosen response and kinematics, started as `press_finitely`.
-    `gap` (count,) [m^2] is the initial gap, for contact on the undeformed surface only."""
-    moved = FiniteElementCompliance(body, hats).displacement(start, friction)
-    moved = np.where(body.held, 0.0, moved)
-    weights = 0.5 * (hats[2:] - hats[:-2])
-    gap = np.zeros_like(weights) if gap is None else gap
+) -> ContactState:
+    """The linear body's contact on its undeformed surface, started as `press_finitely`.
+
+    gap   (count,) [m^2] initial gap, weighted by each hat"""
+    compliance = FiniteElementCompliance(body, hats)
+    bodies = [(LinearResponse(body), LinearContact(compliance, friction))]
+    moved = np.where(body.held, 0.0, compliance.displacement(start, friction))
     state = ContactState((moved,), start, approach=0.0)
-    return solve_nonlinear_contact(bodies, gap, weights, state, load, approach, hardness)
+    weights = 0.5 * (hats[2:] - hats[:-2])
+    return solve_nonlinear_contact(bodies, gap, weights, state, load).state

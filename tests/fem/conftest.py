@@ -66,6 +66,14 @@ def graded() -> Callable[..., np.ndarray]:
 
 
 @pytest.fixture(scope="session")
+def small_block() -> BlockMesh:
+    """A block of vertical lines 12 half-widths wide and 6 deep: 2200 unknowns."""
+    beyond = graded_grid(4.0, 0.3, 1.4)
+    x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
+    return moved_block(x, graded_grid(6.0, 0.14, 1.2))
+
+
+@pytest.fixture(scope="session")
 def exact_forces() -> Callable[..., np.ndarray]:
     return forces_of
 

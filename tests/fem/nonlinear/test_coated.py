@@ -8,15 +8,13 @@ from functools import cache
 import numpy as np
 import pytest
 from nodal_stress import nodal_stress
-from pressed_bodies import press, press_finitely
+from pressed_bodies import press_finitely, press_linearly
 from scenes import hat_nodes
 
 from analytic.material import Law, Material
 from fem.body.coating import Coating
 from fem.body.elasticity import Support, elastic_body
-from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.rigid_roller import circle
-from fem.contact.terms import LinearContact, LinearResponse
 from fem.stress.recovery import stress_nodes
 from meshes.block import BlockSpec
 from meshes.build import build_block
@@ -45,8 +43,7 @@ def pressed(solid, curvature: float):
     peak = 0.5 * curvature / (1.0 - 0.3**2)
     load, start = 0.5 * np.pi * peak, peak * np.sqrt(np.maximum(1.0 - X**2, 0.0))
     gap = 0.5 * EDGE * curvature * (X**2 + EDGE**2 / 6.0)
-    contact = LinearContact(FiniteElementCompliance(solid, HATS))
-    linear = press([(LinearResponse(solid), contact)], solid, HATS, start, load, gap=gap).state
+    linear = press_linearly(solid, HATS, gap, start, load)
     return linear, press_finitely(solid, HATS, circle(1.0 / curvature), linear.pressure, load)
 
 

@@ -11,7 +11,7 @@ from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import state_at_rest
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear import elastic_contact
-from fem.nonlinear.elastic_contact import ElasticContact, on_vertices
+from fem.nonlinear.elastic_contact import ElasticContact
 from fem.nonlinear.newton import newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
 from fem.solver.mumps import FemError
@@ -128,17 +128,3 @@ def test_hats_between_nodes_of_a_coarse_roller_do_no_harm(compliance, structured
     gap = (GAP + moved + flexible @ end.pressure) / WEIGHTS - end.approach
     on = end.pressure > 0.0
     assert np.abs(gap[on]).max() < 1e-9 * end.approach and gap[~on].min() > 0.0
-
-
-def test_a_body_on_its_vertices_strains_and_is_pressed_as_the_whole_where_it_moves_linearly(
-    compliance,
-):
-    """Energy of a constant strain, and work of the hats' pressures on it."""
-    body, slope = compliance.body, np.array([[0.02, -0.01], [0.03, 0.05]])
-    stiffness, terms, _ = on_vertices(compliance)
-    corners = np.unique(body.elements[:, :3])
-    coarse, fine = ((body.nodes[nodes] @ slope).ravel() for nodes in (corners, slice(None)))
-    assert coarse @ stiffness @ coarse == pytest.approx(fine @ body.stiffness() @ fine, rel=1e-12)
-    at_rest = np.zeros(body.held.shape), np.zeros(len(X))
-    whole = LinearContact(compliance, 0.0).at(*at_rest)
-    assert terms.force.T @ coarse == pytest.approx(whole.force.T @ fine, rel=1e-12)

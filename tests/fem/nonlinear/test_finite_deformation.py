@@ -6,18 +6,16 @@ Lengths in half-widths of the contact that Hertz expects, stresses in Young's mo
 import numpy as np
 import pytest
 from nodal_stress import nodal_stress
-from pressed_bodies import press, press_finitely
+from pressed_bodies import press_finitely, press_linearly
 from scenes import hat_nodes
 
 from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.material import Material
 from analytic.stress_state import von_mises
 from fem.body.elasticity import Support, elastic_body
-from fem.compliance.operator import FiniteElementCompliance
 from fem.contact import nonlinear as nonlinear_contact
 from fem.contact.nonlinear import RESIDUAL
 from fem.contact.rigid_roller import CurrentContact, circle, parabola
-from fem.contact.terms import LinearContact, LinearResponse
 from fem.solver.mumps import FemError
 from fem.stress.maximum import highest_node
 from meshes.block import BlockSpec
@@ -51,13 +49,10 @@ def body():
     return make()
 
 
-def linear(body, curvature, load):
+def linear(body, curvature, load, friction=0.0):
     """The linear theory's pressure and displacement for a parabola, on the same hats."""
-    compliance = FiniteElementCompliance(body, HATS)
-    contact = LinearContact(compliance)
     gap = 0.5 * EDGE * curvature * (X**2 + EDGE**2 / 6.0)
-    start = peak(curvature) * HERTZ
-    return press([(LinearResponse(body), contact)], body, HATS, start, load, gap=gap).state
+    return press_linearly(body, HATS, gap, peak(curvature) * HERTZ, load, friction)
 
 
 def pressed(body, curvature, roller=None, **wanted):
@@ -115,12 +110,10 @@ def test_a_sinusoid_under_a_flat_differs_by_less_than_half_a_per_cent():
     mesh = roughen(build_block(spec), lambda x: amplitude * np.cos(2.0 * np.pi * x / wave))
     body = elastic_body(mesh, Material(1.0, POISSON), Support("bonded", "rollers"))
     hats = hat_nodes(-20 * edge, edge, 41)
-    contact = LinearContact(FiniteElementCompliance(body, hats))
     flat, start = parabola(np.inf), exact.pressure(hats[1:-1])
     gap = CurrentContact(body, hats, flat).at(0.0 * body.nodes, start).gap
     load = exact.load_per_wavelength
-    bodies = [(LinearResponse(body), contact)]
-    rest = press(bodies, body, hats, start, load, gap=gap).state.pressure
+    rest = press_linearly(body, hats, gap, start, load).pressure
     assert rest.max() == pytest.approx(0.015, rel=5e-3)
     state = press_finitely(body, hats, flat, rest, load=load)
     assert state.cauchy_pressure.max() / rest.max() - 1.0 == pytest.approx(0.0042, abs=1e-4)
@@ -164,15 +157,11 @@ def test_stress_at_the_surface_is_the_pressures(body):
     np.testing.assert_allclose(shear, 0.2 * pressure, atol=2e-3 * scale)
 
 
-def test_stresses_at_some_points_are_those_of_all(body):
-    """On the surface and below it; the largest von Mises stress is looked for where it is high."""
+def test_the_largest_von_mises_stress_is_looked_for_where_it_is_high(body):
+    """And found without most of the other stresses."""
     _, state = pressed(body, 0.2, friction=0.2)
     whole, across = state.cauchy.nodal.stress, state.cauchy.across
     _, again = pressed(body, 0.2, friction=0.2)
-    some = np.concatenate([body.top.point[::7], np.arange(0, len(body.points), 11)])
-    np.testing.assert_allclose(
-        again.cauchy.nodal.at(some), state.cauchy.nodal.values[some], rtol=1e-9
-    )
     window = (-1.0, 1.0, 1.0)
     top = highest_node(body, again.cauchy.nodal, again.cauchy.across, window)
     x, z = body.points.T
@@ -186,12 +175,7 @@ def test_friction_moves_the_contact_as_in_the_linear_theory(body):
     """Coupled there too: a rigid roller on a body that is not incompressible."""
     curvature, friction = 0.005, 0.3
     load = 0.5 * np.pi * peak(curvature)
-    forces = FiniteElementCompliance(body, HATS)
-    contact = LinearContact(forces, friction)
-    gap = 0.5 * EDGE * curvature * (X**2 + EDGE**2 / 6.0)
-    bodies = [(LinearResponse(body), contact)]
-    start = peak(curvature) * HERTZ
-    rest = press(bodies, body, HATS, start, load, friction=friction, gap=gap).state
+    rest = linear(body, curvature, load, friction)
     one, other = (
         press_finitely(
             body, HATS, circle(1.0 / curvature), rest.pressure, load=load, friction=sense * friction

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from blocks import moved
 from scipy.linalg import logm
 
 from analytic.material import Law, Material
@@ -65,13 +66,6 @@ def test_stress_and_tangent_are_derivatives_of_the_strain():
 def made(structured_block, material=HENCKY, height=None):
     mesh = structured_block(np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 1.0, 5), height, seed=2)
     return elastic_body(mesh, material, Support("bonded", "free"))
-
-
-def moved(body, size, seed):
-    wave = np.random.default_rng(seed).normal(size=(2, 4))
-    x, z = body.nodes.T
-    shape = np.stack([np.sin(row @ [x, z, x * z, z**2 + x**2]) for row in wave], axis=-1)
-    return np.where(body.held, 0.0, size * shape)
 
 
 @pytest.mark.parametrize("height", [None, lambda x: 0.05 * np.cos(3.0 * x)])

@@ -234,11 +234,3 @@ def test_units_do_not_matter():
     )
     np.testing.assert_array_equal(small.state.strain, large.state.strain)
     np.testing.assert_array_equal(small.softening * 2.0**30, large.softening)
-
-
-@pytest.mark.parametrize("poisson", [0.0, 0.4999])
-def test_no_stress_no_flow(poisson):
-    """Zero strain, and strain that only changes the volume where nu is next to a half."""
-    step = return_mapping(metal(0.0, poisson), np.zeros((1, 3)), PlasticState.virgin(1))
-    assert not step.yields.any()
-    assert np.isfinite(step.state.strain).all()
