@@ -51,19 +51,19 @@ def decades(first: int, last: int) -> tuple[float, ...]:
 def crosscheck() -> list[LineCode]:
     """This project's solver: strips, to which the peers' points are nearest, then hats."""
     return [
-        LineCode(f"crosscheck, {element}s", element, partial(_solved, element), decades(-7, -12))
+        LineCode(f"crosscheck, {element}s", element, partial(_solved, element), decades(-12, -12))
         for element in ("strip", "hat")
     ]
 
 
 def _solved(
-    element: Literal["strip", "hat"], case: LineCase, tolerance: float, _most: int
+    element: Literal["strip", "hat"], case: LineCase, _tolerance: float, _most: int
 ) -> LineAnswer:
     operator = operator_of(case.count, element, case.periodic)
     gap = case.hat_averages if element == "hat" else case.gaps
     weights = np.full(case.count, case.pitch)
     constraints = Constraints(load=case.load)
-    solution = solve_contact(operator, case.pitch * gap, weights, constraints, tolerance=tolerance)
+    solution = solve_contact(operator, case.pitch * gap, weights, constraints)
     return LineAnswer(solution.pressure, solution.iterations["applications"])
 
 

@@ -127,10 +127,11 @@ def _on_undeformed_grid(
 def refuse_cut_off(
     problem: Problem, grid: HatGrid, pressure: np.ndarray, linear: np.ndarray, how: str
 ) -> None:
-    """Raise FemError where pressures (count,) [Pa] reach the grid's ends, and the linear ones do
-    not: on few elements these may."""
-    x, ends, profile = grid.x, [0, -1], problem.surface.profile
-    if np.any(pressure[ends] * (linear[ends] == 0.0)):
+    """Raise FemError where pressures (count,) [Pa] reach the grid's ends, and the linear ones end
+    an element or more before them: on few elements these may."""
+    x, profile = grid.x, problem.surface.profile
+    ends, nearest = [0, -1], linear[[0, 1, -2, -1]].reshape(2, 2)
+    if np.any(pressure[ends] * (nearest == 0.0).all(axis=1)):
         ended = profile is not None and (
             x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
         )

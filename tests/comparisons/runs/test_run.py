@@ -251,7 +251,7 @@ def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smoot
         return original(problem, plan, refinement, *rest, **named)
 
     monkeypatch.setattr(finite_element, "finite_element_level", counted)
-    with pytest.raises(KeyboardInterrupt, match="goes on"):
+    with pytest.raises(KeyboardInterrupt):
         run(resolved(QUICK), tmp_path / "out", MODELS)
     assert [p.name for p in tmp_path.iterdir()] == [".out.unfinished"]
     outcome = run(resolved(QUICK), tmp_path / "out", MODELS)
