@@ -33,22 +33,24 @@ def panels(
 
 def columns(
     drawn: "Figure",
-    rows: Sequence[Sequence[tuple[float, float]]],
+    rows: Sequence[tuple[float, float]],
+    count: int,
+    abreast: int,
     left: float,
-    room: float,
+    right: float,
     between: float,
 ) -> "list[list[Axes]]":
-    """Panels in columns side by side, all in inches.
+    """So many panels, row by row in columns side by side, all in inches.
 
-    rows            of each column: space above each panel and its height
-    left, room      left of the first column, and of all columns with the space beside each
-    between         that space"""
-    width, share = drawn.get_figwidth(), room / len(rows)
-    lefts = [left + side * share for side in range(len(rows))]
-    return [
-        style.stacked(drawn, panel_rows, start, width - start - share + between)
-        for start, panel_rows in zip(lefts, rows, strict=True)
-    ]
+    rows            space above each panel of a column and its height
+    left, right     space beside all columns; between: from one to the next"""
+    width = drawn.get_figwidth()
+    share = (width - left - right + between) / abreast
+    made = []
+    for side in range(abreast):
+        start, own = left + side * share, rows[: -(-(count - side) // abreast)]
+        made.append(style.stacked(drawn, own, start, width - start - share + between))
+    return made
 
 
 def names_above(width: float, names: int) -> tuple[int, float]:

@@ -43,11 +43,34 @@ def round_bands(fields: list[np.ndarray], signed: bool) -> np.ndarray:
     return step * (np.arange(-count, count + 2) - 0.5 if signed else np.arange(count + 1.0))
 
 
-def cross(axes: "Axes", x: float, z: float) -> None:
-    """Mark a point so that it is seen on every colour."""
-    for colour, thick in (("white", 2.6), ("black", 1.1)):
-        look = {"color": colour, "markersize": 7.5, "markeredgewidth": thick, "clip_on": False}
-        axes.plot(x, z, marker="+", **look)
+@dataclass(frozen=True)
+class FieldPanel:
+    """A field under its title, and where it is marked."""
+
+    title: str
+    values: np.ndarray  # (m, n)
+    mark: tuple[float, float] | None = None  # x, z
+
+
+@dataclass(frozen=True)
+class ColourScale:
+    """What a scale is of, its bands, and their colours."""
+
+    label: str
+    bands: np.ndarray  # ascending, in equal steps
+    colours: str
+    signed: bool
+
+    @classmethod
+    def over(
+        cls, label: str, fields: list[np.ndarray], colours: str = "viridis", signed: bool = False
+    ) -> Self:
+        """One scale for all the fields."""
+        return cls(label, round_bands(fields, signed), colours, signed)
+
+    @classmethod
+    def of_differences(cls, label: str, differences: list[np.ndarray]) -> Self:
+        return cls.over(label, differences, DIFFERENCE_COLOURS, signed=True)
 
 
 def layout(models: int, height: float) -> "tuple[Figure, list[Axes], list[Axes]]":
@@ -70,35 +93,29 @@ def layout(models: int, height: float) -> "tuple[Figure, list[Axes], list[Axes]]
     return drawn, places, bars
 
 
-def fill(
-    axes: "Axes",
-    x: np.ndarray,
-    z: np.ndarray,
-    values: np.ndarray,
-    bands: np.ndarray,
-    colours: str,
-    signed: bool,
+def draw_field(
+    axes: "Axes", x: np.ndarray, z: np.ndarray, panel: FieldPanel, scale: ColourScale
 ) -> "ScalarMappable":
-    """Bands of colour, drawn as pixels: as curves they would take megabytes.
-
-    bands   in equal steps
-    What is negative is striped, so that a grey printer leaves the sign.
-    """
+    """Title, mark, and bands of colour, drawn as pixels: as curves they would take megabytes."""
     import matplotlib
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import BoundaryNorm
 
-    ends = "both" if signed else "max"
-    norm = BoundaryNorm(bands, matplotlib.colormaps[colours].N, extend=ends)
-    scale, pixels = ScalarMappable(norm, colours), _pixels(axes, x, z, values)
-    image = scale.to_rgba(np.ma.masked_invalid(pixels), bytes=True)  # nothing where no value is
-    if signed:  # zero lies inside the middle band
+    bands, ends = scale.bands, "both" if scale.signed else "max"
+    norm = BoundaryNorm(bands, matplotlib.colormaps[scale.colours].N, extend=ends)
+    shown, pixels = ScalarMappable(norm, scale.colours), _pixels(axes, x, z, panel.values)
+    image = shown.to_rgba(np.ma.masked_invalid(pixels), bytes=True)  # nothing where no value is
+    if scale.signed:  # zero lies inside the middle band
         struck = _stripes(pixels.shape) & (pixels < bands[bands < 0.0][-1])
         image[struck, :3] = (1.0 - SHADE) * image[struck, :3]
     axes.imshow(image, interpolation="none", aspect="auto", extent=(x[0], x[-1], z[-1], z[0]))
     axes.set(xlim=(x[0], x[-1]), ylim=(z[-1], z[0]), ylabel="z/a")
     axes.grid(False)
-    return scale
+    for colour, thick in (("white", 2.6), ("black", 1.1)) if panel.mark is not None else ():
+        look = {"color": colour, "markersize": 7.5, "markeredgewidth": thick, "clip_on": False}
+        axes.plot(*panel.mark, marker="+", **look)  # seen on every colour
+    axes.set_title(panel.title)
+    return shown
 
 
 def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -120,11 +137,10 @@ def _stripes(shape: tuple[int, int]) -> np.ndarray:
     return ((down + across) / (apart * PIXELS)) % 1.0 < share
 
 
-def colour_bar(
-    drawn: "Figure", axes: "Axes", shown: "ScalarMappable", label: str, bands: np.ndarray
-) -> None:
+def colour_bar(axes: "Axes", shown: "ScalarMappable", scale: ColourScale) -> None:
     """The scale under a field: ticks in round steps, at zero if it is on the scale."""
-    bar = drawn.colorbar(shown, cax=axes, orientation="horizontal")
+    label, bands = scale.label, scale.bands
+    bar = axes.figure.colorbar(shown, cax=axes, orientation="horizontal")
     bar.outline.set_linewidth(0.5)
     step = bands[1] - bands[0]
     apart = step * (1 + len(bands) // MOST_TICKS)
@@ -146,36 +162,6 @@ def colour_bar(
     axes.annotate(label, (0.0, 0.5), **beside, ha="right", va="center")
 
 
-@dataclass(frozen=True)
-class FieldPanel:
-    """A field under its title, and where it is marked."""
-
-    title: str
-    values: np.ndarray  # (m, n)
-    mark: tuple[float, float] | None = None  # x, z
-
-
-@dataclass(frozen=True)
-class ColourScale:
-    """What a scale is of, its bands, and their colours."""
-
-    label: str
-    bands: np.ndarray
-    colours: str
-    signed: bool
-
-    @classmethod
-    def over(
-        cls, label: str, fields: list[np.ndarray], colours: str = "viridis", signed: bool = False
-    ) -> Self:
-        """One scale for all the fields."""
-        return cls(label, round_bands(fields, signed), colours, signed)
-
-    @classmethod
-    def of_differences(cls, label: str, differences: list[np.ndarray]) -> Self:
-        return cls.over(label, differences, DIFFERENCE_COLOURS, signed=True)
-
-
 def draw_fields(
     x: np.ndarray,
     z: np.ndarray,
@@ -192,14 +178,8 @@ def draw_fields(
     if difference is not None:
         title, other = difference
         rows.append((FieldPanel(title, panels[0].values - panels[1].values), other))
-    shown = []
-    for place, (panel, of) in zip(places, rows, strict=True):
-        shown.append(fill(place, x, z, panel.values, of.bands, of.colours, of.signed))
-        if panel.mark is not None:
-            cross(place, *panel.mark)
-        place.set_title(panel.title)
+    shown = [draw_field(place, x, z, *row) for place, row in zip(places, rows, strict=True)]
     for bar, row in zip(bars, (len(panels) - 1, len(rows) - 1), strict=False):
-        of = rows[row][1]
-        colour_bar(drawn, bar, shown[row], of.label, of.bands)
+        colour_bar(bar, shown[row], rows[row][1])
     places[-1].set_xlabel("x/a")
     return drawn

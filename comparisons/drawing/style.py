@@ -164,10 +164,10 @@ def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
     axes.grid(False, axis="y")
 
 
-def beside_bar(axes: "Axes", x: float, y: float, text: str, **look: object) -> None:
+def beside_bar(axes: "Axes", x: float, y: float, text: str) -> None:
     """Words to the right of a bar's end."""
     beside = {"textcoords": "offset points", "va": "center", "bbox": BEHIND_WORDS}
-    axes.annotate(text, (x, y), (5, 0), **beside, **look)
+    axes.annotate(text, (x, y), (5, 0), **beside)
 
 
 def whisker(
@@ -201,13 +201,6 @@ def power_of_ten(power: int) -> str:
     return "10" + str(power).translate(SUPERSCRIPT)
 
 
-def symmetric(axes: "Axes", values: np.ndarray) -> None:
-    """Limits of a difference's axis: zero in the middle, few ticks."""
-    largest = 1.25 * (np.max(np.abs(values), initial=0.0) or 1.0)
-    axes.set_ylim(-largest, largest)
-    axes.locator_params(axis="y", nbins=3)
-
-
 def svg(drawn: "Figure") -> str:
     """The figure as SVG; equal figures give equal text."""
     buffer = io.BytesIO()
@@ -222,25 +215,17 @@ def _shortened(outline: re.Match[bytes]) -> bytes:
     return b' d="' + _INVISIBLE.sub(b"", outline[1]).strip() + b'"'
 
 
-def data_uri(drawn: "Figure") -> str:
-    """The figure as an SVG image; empty inside `collected_figures`."""
-    if _COLLECTED.get() is not None:
-        return ""
-    text = base64.b64encode(svg(drawn).encode()).decode("ascii")
-    return "data:image/svg+xml;base64," + text
-
-
 def picture(
-    drawn: "Figure",
-    alternative: str,
-    caption: str,
-    data: bool | tuple[str, str] = True,
+    drawn: "Figure", alternative: str, caption: str, data: bool | tuple[str, str] = True
 ) -> Picture:
-    """A figure with its words.
+    """A figure as an SVG image, with its words; inside `collected_figures` words alone.
 
     data  whether its curves are offered as CSV, or words of a link and what it leads to"""
+    if _COLLECTED.get() is not None:
+        return Picture("", alternative, caption)
+    text = base64.b64encode(svg(drawn).encode()).decode("ascii")
     return Picture(
-        source=data_uri(drawn),
+        source="data:image/svg+xml;base64," + text,
         data=csv_link(drawn) if data is True else data or None,
         alternative=alternative,
         caption=caption,
@@ -248,11 +233,9 @@ def picture(
     )
 
 
-def csv_link(drawn: "Figure") -> tuple[str, str] | None:
+def csv_link(drawn: "Figure") -> tuple[str, str]:
     """The figure's curves as CSV, columns side by side: x where it is another one, then y, of long
-    curves not every point; None inside `collected_figures`."""
-    if _COLLECTED.get() is not None:
-        return None
+    curves not every point."""
     longest = max(len(line.get_xdata()) for axes in drawn.axes for line in axes.lines)
     step = -(-longest // ROWS)
     columns: list[tuple[str, np.ndarray]] = []

@@ -15,6 +15,7 @@ import numpy as np
 from comparisons.common.numbers import listed, percent, percent_as_written, scale_of, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
+from comparisons.drawing.curves import columns
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.studies import contact
@@ -211,12 +212,8 @@ def contributions_of(error: Figure) -> dict[str, float]:
 
 def contributions_in_words(error: Figure) -> tuple[str, ...]:
     """The same in words, the largest first."""
-    least = max(SHOWN, 0.1 * abs(error.value))
-    return tuple(
-        f"{name} {error_text(size)}"
-        for name, size in sorted(contributions_of(error).items(), key=lambda item: -abs(item[1]))
-        if abs(size) >= least
-    )
+    large = sorted(_large(contributions_of(error), error), key=lambda item: -abs(item[1]))
+    return tuple(f"{name} {error_text(size)}" for name, size in large)
 
 
 def not_modelled_line(run: Run) -> str:
@@ -297,7 +294,7 @@ def model_error_picture(run: Run) -> style.Picture | None:
     judged = [panel for panel in panels if panel.error.tolerance]
     said = "; ".join(
         f"{panel.name}: {error_text(panel.error.value, panel.error.numerical)}"
-        + "".join(f", {name} {error_text(size)}" for name, size in _large(panel))
+        + "".join(f", {name} {error_text(size)}" for name, size in _large(panel.steps, panel.error))
         for panel in panels
     )
     lines = "; broken lines: the tolerance" if judged else ""
@@ -329,36 +326,33 @@ def _table(panels: list[Waterfall]) -> list[list[object]]:
     return rows
 
 
-def _large(panel: Waterfall) -> list[tuple[str, float]]:
-    """The steps that are worth a row."""
-    least = max(SHOWN, 0.1 * abs(panel.error.value))
-    return [(name, size) for name, size in panel.steps.items() if abs(size) >= least]
+def _large(steps: dict[str, float], error: Figure) -> list[tuple[str, float]]:
+    """The steps to an error that are worth a row."""
+    least = max(SHOWN, 0.1 * abs(error.value))
+    return [(name, size) for name, size in steps.items() if abs(size) >= least]
 
 
 def _drawn(panels: list[Waterfall]) -> "Drawn":
     """All panels with the same rows, as many side by side as there is room for."""
-    columns = min(int((style.WIDE - NAMES) / WIDTH), len(panels))
-    worth = {name for panel in panels for name, _ in _large(panel)}
+    abreast = min(int((style.WIDE - NAMES) / WIDTH), len(panels))
+    worth = {name for panel in panels for name, _ in _large(panel.steps, panel.error)}
     names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), *WORDS.values()]
     rows = [name for name in names if name in worth]
     every = [step for panel in panels for step in panel.steps.items()]
     if any(abs(size) > NOTHING for name, size in every if name not in worth):
         rows.append(OTHERS)
     rows.append(ERROR)
-    width = style.WIDE if columns > 1 else style.COLUMN
-    across = (width - NAMES - RIGHT - BETWEEN * (columns - 1)) / columns
-    stacks = -(-len(panels) // columns)
+    width = style.WIDE if abreast > 1 else style.COLUMN
+    across = (width - NAMES - RIGHT - BETWEEN * (abreast - 1)) / abreast
+    stacks = -(-len(panels) // abreast)
     tall = [(TITLE + (FOOT if k else TOP), ROW * len(rows)) for k in range(stacks)]
     drawn = style.figure(width, sum(map(sum, tall)) + FOOT)
-    for column in range(columns):
-        left = NAMES + column * (across + BETWEEN)
-        places = style.stacked(drawn, tall, left, width - left - across)
-        for axes, panel in zip(places, panels[column::columns], strict=False):
-            _draw(axes, panel, rows, across)
-            if column:
-                axes.tick_params(labelleft=False)
-        for axes in places[len(panels[column::columns]) :]:
-            axes.remove()
+    sides = columns(drawn, tall, len(panels), abreast, NAMES, RIGHT, BETWEEN)
+    for number, panel in enumerate(panels):
+        axes = sides[number % abreast][number // abreast]
+        _draw(axes, panel, rows, across)
+        if number % abreast:
+            axes.tick_params(labelleft=False)
     return drawn
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, percent, percent_as_written, plain, significant
 from comparisons.drawing import style
-from comparisons.drawing.field import colour_bar, cross, fill, round_bands
+from comparisons.drawing.field import ColourScale, FieldPanel, colour_bar, draw_field
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, error_text, label
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
@@ -93,14 +93,13 @@ def _shear(axes: "Axes", bar: "Axes", run: Run) -> None:
     """The last model's principal shear."""
     hertz, window, friction = run.problem.hertz, run.window, run.deciding_friction
     [*_, last] = run.levels(friction).values()
-    field = last.stress(friction).field.tau1 / hertz.peak_pressure
-    bands = round_bands([field], signed=False)
+    stress = last.stress(friction)
+    field, place = stress.field.tau1 / hertz.peak_pressure, stress.extremes["tau1"]
+    mark = place.x / hertz.half_width, place.z / hertz.half_width
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
-    shown = fill(axes, x, z, field, bands, "viridis", False)
-    place = last.stress(friction).extremes["tau1"]
-    cross(axes, place.x / hertz.half_width, place.z / hertz.half_width)
-    axes.set_title(_largest(run))
-    colour_bar(axes.figure, bar, shown, "τ₁/p₀", bands)
+    scale = ColourScale.over("τ₁/p₀", [field])
+    shown = draw_field(axes, x, z, FieldPanel(_largest(run), field, mark), scale)
+    colour_bar(bar, shown, scale)
 
 
 def _largest(run: Run) -> str:

@@ -12,18 +12,10 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.curves import (
-    COINCIDE,
-    FOOT,
-    LEFT,
-    distinct,
-    joint_label,
-    over,
-    panels,
-)
+from comparisons.drawing.curves import COINCIDE, FOOT, LEFT, distinct, joint_label, over, panels
 from comparisons.drawing.field import SMALLEST_POWER
 from comparisons.figures.quantity import LABELS
-from comparisons.models.level import Level, deformed_height
+from comparisons.models.level import deformed_height
 from comparisons.models.problem import mean_height
 from comparisons.studies.contact import closed, draw_pressures, peak_position
 from comparisons.studies.study import COMPARISON, Run
@@ -43,15 +35,9 @@ MOST_POINTS = 600  # of a filled outline
 POINTS_PER_INCH = 90  # of an outline across a panel
 
 
-def shown_levels(run: Run) -> dict[str, Level]:
-    """Every model's finest level, at the friction coefficient that decides; the last one is the
-    whole model's, the finite elements', or that of the only model."""
-    return run.levels(run.deciding_friction)
-
-
 def pressure_picture(run: Run) -> style.Picture:
     """Pressures and surfaces over the whole contact."""
-    levels, hertz = shown_levels(run), run.problem.hertz
+    levels, hertz = run.levels(run.deciding_friction), run.problem.hertz
     [*_, last] = levels.values()
     difference = " − ".join(LABELS[name] for name in run.pair(run.deciding_friction))
     middle = f", their difference ({difference})," if len(run.runs) > 1 else ""
@@ -76,7 +62,7 @@ def pressure_picture(run: Run) -> style.Picture:
 
 def close_up_picture(run: Run) -> style.Picture:
     """The same around the highest pressure; of a smooth body, around the contact's edge."""
-    levels = shown_levels(run)
+    levels = run.levels(run.deciding_friction)
     name, level = list(levels.items())[-1]
     pitch = level.grid.pitch
     if run.problem.scene.profile is None:
@@ -151,7 +137,7 @@ def _second_axis(axes: "Axes", half_width: float) -> None:
 def _cap_and_legend(axes: "Axes", run: Run) -> None:
     """The hardness, if it is near; the lines' names above the curves, in two rows if narrow."""
     hardness, p0 = run.problem.scene.body.hardness, run.problem.hertz.peak_pressure
-    levels = shown_levels(run)
+    levels = run.levels(run.deciding_friction)
     peak = max(level.solution.pressure.max() for level in levels.values())
     if hardness is not None and hardness < FARTHEST_CAP * peak:
         look = {"color": "#777777", "linestyle": "-.", "linewidth": 0.9}
@@ -183,14 +169,16 @@ def draw_difference(axes: "Axes", run: Run, across: tuple[float, float], unit: S
         power = -int(np.floor(np.log10(largest)))
         name = f"{style.power_of_ten(power)} {name}"
     axes.plot(x[shown] / unit.factor, difference[shown] * 10.0**power, **style.DIFFERENCE)
-    style.symmetric(axes, difference[shown] * 10.0**power)
+    reach = 1.25 * (largest * 10.0**power or 1.0)
+    axes.set_ylim(-reach, reach)
+    axes.locator_params(axis="y", nbins=3)
     axes.set_ylabel(name)
 
 
 def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Scale) -> None:
     """Every model's surfaces under load over `across` [m], x in `unit`; filled as the last's."""
     drawn: dict[str, tuple[np.ndarray, ...]] = {}
-    for name, level in reversed(shown_levels(run).items()):
+    for name, level in reversed(run.levels(run.deciding_friction).items()):
         shown = style.near(level.grid.x, across, level.grid.pitch)
         x, body = level.grid.x[shown], deformed_height(run.problem, level)[shown]
         if drawn:
@@ -230,7 +218,7 @@ def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Sca
 def surface_picture(run: Run) -> style.Picture:
     """Surfaces of the last model before and under load; below, the gaps of all. Heights are means
     over pressure elements; the body's displacement vanishes at the mean of both ends."""
-    problem, levels = run.problem, shown_levels(run)
+    problem, levels = run.problem, run.levels(run.deciding_friction)
     name, level = list(levels.items())[-1]
     x, body = level.grid.x, deformed_height(problem, level)
     roller, body_before = body + level.solution.gap, mean_height(problem, level.grid)

@@ -51,8 +51,7 @@ def _drawn(panels: list[list[JudgedSequence]]) -> "Figure":
     abreast = -(-len(panels) // -(-len(panels) // ABREAST))  # rows of about equal lengths
     heights = [(TITLE + (FOOT if row else HEAD), TALL) for row in range(-(-len(panels) // abreast))]
     drawn = style.figure(style.WIDE, sum(map(sum, heights)) + FOOT)
-    rows = [heights[: -(-(len(panels) - side) // abreast)] for side in range(abreast)]
-    sides = columns(drawn, rows, LEFT, style.WIDE - LEFT, BETWEEN)
+    sides = columns(drawn, heights, len(panels), abreast, LEFT, BETWEEN, BETWEEN)
     for number, panel in enumerate(panels):
         axes = sides[number % abreast][number // abreast]
         _draw(axes, panel)

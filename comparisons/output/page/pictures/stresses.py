@@ -27,7 +27,7 @@ NEAR = 0.1  # half-widths: depth of what is enlarged next to the surface
 STRETCHED = 1.25  # inches: height of fields next to the surface
 FEWEST_ROWS = 4
 TITLE, TALL, FOOT = 0.3, 1.65, 0.46  # inches, of sections
-LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
+LEFT, RIGHT, BETWEEN = 0.616, 0.392, 0.28  # inches
 
 
 @dataclass(frozen=True)
@@ -203,7 +203,7 @@ def _section_picture(run: Run, column: int, words: str, names: int) -> style.Pic
     if run.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
         depths.append(NEAR)
     rows = [(top + 0.08 if place == 0 else TITLE, TALL) for place in range(len(frictions))]
-    sides = columns(drawn, [rows] * len(depths), LEFT, ROOM, BETWEEN)
+    sides = columns(drawn, rows, len(rows) * len(depths), len(depths), LEFT, RIGHT, BETWEEN)
     for friction, panels in zip(frictions, zip(*sides, strict=True), strict=True):
         for panel, depth in zip(panels, depths, strict=True):
             _section(panel, run, column, friction, depth)
@@ -224,8 +224,8 @@ def _section_picture(run: Run, column: int, words: str, names: int) -> style.Pic
     largest = "; ".join(
         f"friction {plain(mu)}: "
         + ", ".join(
-            f"{LABELS[name]} {significant(np.nanmax(_tau1(run, name, mu, column)), 3)} p₀"
-            for name in run.levels(mu)
+            f"{LABELS[name]} {significant(np.nanmax(tau1), 3)} p₀"
+            for name, (_, tau1) in _curves(run, mu, column).items()
         )
         for mu in frictions
     )
@@ -240,8 +240,10 @@ def _section_picture(run: Run, column: int, words: str, names: int) -> style.Pic
 
 def _curves(run: Run, friction: float, column: int) -> dict[str, Curve]:
     """Every model's over z/a."""
-    z = run.window.z / run.problem.hertz.half_width
-    return {name: (z, _tau1(run, name, friction, column)) for name in run.levels(friction)}
+    hertz, levels = run.problem.hertz, run.levels(friction)
+    z, p0 = run.window.z / hertz.half_width, hertz.peak_pressure
+    fields = {name: level.stress(friction).field for name, level in levels.items()}
+    return {name: (z, field.tau1[:, column] / p0) for name, field in fields.items()}
 
 
 def _zones(run: Run, friction: float) -> list[tuple[float, float]]:
@@ -252,11 +254,6 @@ def _zones(run: Run, friction: float) -> list[tuple[float, float]]:
         for zone in zones_of(run.findings.get(ZONE))
         if (zone.model, zone.friction) == (first, friction) and "start" in zone.figures
     ]
-
-
-def _tau1(run: Run, name: str, friction: float, column: int) -> np.ndarray:
-    field = run.levels(friction)[name].stress(friction).field
-    return field.tau1[:, column] / run.problem.hertz.peak_pressure
 
 
 def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float) -> None:

@@ -8,7 +8,7 @@ from scenes import posed
 from scipy.interpolate import RegularGridInterpolator
 
 from comparisons.drawing.curves import COINCIDE
-from comparisons.drawing.field import fill, layout, round_bands
+from comparisons.drawing.field import ColourScale, FieldPanel, draw_field, layout, round_bands
 from comparisons.drawing.style import drawing
 from comparisons.output.page.pictures.stresses import field_pictures
 from comparisons.studies.study import Run
@@ -75,8 +75,9 @@ def test_a_field_stands_the_right_way_up_on_depths_that_are_not_even():
     x, z = np.linspace(-1.5, 1.5, 31), np.linspace(0.0, 1.0, 20) ** 3
     with drawing():
         _, [axes], _ = layout(1, 1.5)
-        bands = np.linspace(0.0, 1.0, 51)
-        scale = fill(axes, x, z, z[:, None] + 0.0 * x, bands, "viridis", False)
+        panel = FieldPanel("depth", z[:, None] + 0.0 * x)
+        fine = ColourScale("z", np.linspace(0.0, 1.0, 51), "viridis", False)
+        scale = draw_field(axes, x, z, panel, fine)
         pixels = colours_of(axes)
         rows = (np.arange(len(pixels)) + 0.5) / len(pixels)
         expected = np.broadcast_to(scale.to_rgba(rows, bytes=True)[:, None], pixels.shape)
