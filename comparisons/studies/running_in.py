@@ -4,7 +4,6 @@ In: a scene that was run in. Out: figures of it, and the volume that each pass m
 
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,9 +19,6 @@ from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.problem import QUANTITIES as OF_SURFACES
 from comparisons.studies.study import Run, Solved, Study
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 NAME = "running_in"
 POINTS = 4000  # along x; the picture is not finer
@@ -89,19 +85,11 @@ def area(volume: float) -> str:
     return f"{significant(volume / 1e-12, 3)} µm²"
 
 
-def picture(run: Run) -> style.Picture | None:
-    """The surface before and after over the stretch that the contact may reach; None without
-    running-in."""
-    surface = run.problem.surface
-    if surface.run_in is None:
-        return None
-    said = running_in_in_words(run.problem.scene, surface)
-    words = f"The surface before and after running-in{{}}. {said}"
-    return style.picture(_drawn(run), words.format(""), words.format(", heights stretched"))
-
-
-def _drawn(run: Run) -> "Figure":
+def picture(run: Run) -> style.Picture:
+    """The surface before and after over the stretch that the contact may reach."""
     problem, run_in = run.problem, run.problem.surface.run_in
+    said = running_in_in_words(problem.scene, problem.surface)
+    words = f"The surface before and after running-in{{}}. {said}"
     x = np.linspace(*problem.extent, POINTS)
     before, profile = run_in.before.spline()(x), run_in.profile.spline()(x)
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
@@ -111,7 +99,7 @@ def _drawn(run: Run) -> "Figure":
     axes.set_ylabel(f"height [{up.name}]")
     over([axes], f"x [{along.name}]", x / along.factor)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2)
-    return drawn
+    return style.picture(drawn, words.format(""), words.format(", heights stretched"))
 
 
 def files(run: Run) -> dict[str, dict[str, np.ndarray]]:

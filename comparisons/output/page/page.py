@@ -87,12 +87,14 @@ def _listed(drawn: object) -> list[Picture]:
 
 
 def draw(run: Run) -> dict[str, object]:
-    """What each of PICTURES gives, drawn side by side."""
+    """What each of PICTURES gives, drawn side by side; none of studies that the run has not."""
+    missing = {n for study in STUDIES if study.name not in run.findings for n in study.pictures}
+    names = [name for name in PICTURES if name not in missing]
     load_matplotlib()  # with its settings, once for all copies
     with drawing(), tasks_of_copies(run) as tasks:
-        for name in PICTURES:
+        for name in names:
             tasks.add(name, _drawn, name)
-        return {name: tasks.result(name) for name in PICTURES}
+        return {name: tasks.result(name) for name in names}
 
 
 def _drawn(here: Here, name: str) -> object:

@@ -29,7 +29,6 @@ from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawn
 
 PANELS = ((0.3, 2.4), (0.2, 1.0))  # inches above each panel, and its height: pressures, differences
 MARKED = 100  # points: fewer are marked on the curve
@@ -136,10 +135,6 @@ def answer_pictures(run: Run) -> list[style.Picture]:
 def _pressures(run: Run, answers: Mapping[str, Answer]) -> style.Picture:
     words = f"Contact pressures of the models and, wide and pale, of {', '.join(answers)}"
     caption = f"{words}; below, what these differ from the {LABELS[reference_of(run)]} by."
-    return style.picture(_drawn(run, answers), words, caption)
-
-
-def _drawn(run: Run, answers: Mapping[str, Answer]) -> "Drawn":
     half_width = run.problem.hertz.half_width
     drawn, axes = panels(style.WIDE, PANELS)
     ends = np.concatenate([np.array(run.problem.extent), [-1.1 * half_width, 1.1 * half_width]])
@@ -153,7 +148,7 @@ def _drawn(run: Run, answers: Mapping[str, Answer]) -> "Drawn":
     axes[0].legend(ncols=4, **look)
     axes[1].set_ylabel("Δp/p₀")
     over(axes, "x/a", [end / half_width for end in across])
-    return drawn
+    return style.picture(drawn, words, caption)
 
 
 def _curves(axes: "list[Axes]", run: Run, answer: Answer, look: dict) -> None:

@@ -149,10 +149,8 @@ def next_step(run: Run) -> str:
     return f"; next: {steps.get(cause, f'budget = {{time = {2.0 * scene.budget.time:g}}}')}"
 
 
-def tractions_picture(run: Run) -> style.Picture | None:
+def tractions_picture(run: Run) -> style.Picture:
     """Tractions at the end between their limits, and the zones that stick."""
-    if run.data(NAME) is None:
-        return None
     share = f"{run.problem.scene.partial_slip.path[-1]:g}"
     caption = (
         f"Traction on the body under {share} of the load that makes it slide, between the limits "
@@ -189,17 +187,13 @@ def _tractions(run: Run) -> "Figure":
 
 
 def loop_picture(run: Run) -> style.Picture | None:
-    """Tangential load over displacement along the path."""
-    if run.data(NAME) is None or len(run.problem.scene.partial_slip.path) < 2:
+    """Tangential load over displacement along the path; None of a single load."""
+    if len(run.problem.scene.partial_slip.path) < 2:
         return None
     caption = (
         "Tangential load over that of sliding along the path, against the roller's displacement. "
         "Between two loads the line is straight; what is lost is computed from slip."
     )
-    return style.picture(_loop(run), caption, caption)
-
-
-def _loop(run: Run) -> "Figure":
     levels, path = run.data(NAME), (0.0, *run.problem.scene.partial_slip.path)
     abreast, room = names_above(style.COLUMN, len(levels))
     drawn, [panel] = panels(style.COLUMN, [(room, 2.67)])
@@ -212,7 +206,7 @@ def _loop(run: Run) -> "Figure":
     panel.set_ylabel("Q / μP")
     panel.set_xlabel(f"displacement of the roller [{unit.name}]")
     legend_above(panel, abreast)
-    return drawn
+    return style.picture(drawn, caption, caption)
 
 
 PICTURES = {"slip_tractions": tractions_picture, "slip_loop": loop_picture}

@@ -151,10 +151,8 @@ def lines(run: Run) -> list[tuple[str, str]]:
     return said
 
 
-def surfaces_picture(run: Run) -> style.Picture | None:
+def surfaces_picture(run: Run) -> style.Picture:
     """The surfaces' temperatures over the heat, and their stresses where these are known."""
-    if run.data(NAME) is None:
-        return None
     contacts, stresses = run.data(NAME).contacts, run.data(NAME).stresses
     largest = "; ".join(
         f"{LABELS[name]} {significant(contact.figures['flash_temperature'])} K"
@@ -202,9 +200,7 @@ def _surfaces(run: Run) -> "Figure":
 
 def below_pictures(run: Run) -> list[style.Picture]:
     """The rise below either surface."""
-    if (study := run.data(NAME)) is None:
-        return []
-    pictures, half_width = [], run.problem.hertz.half_width
+    study, pictures, half_width = run.data(NAME), [], run.problem.hertz.half_width
     x, z = study.x / half_width, study.z / half_width
     for name, values in zip(("body", "roller"), study.field, strict=True):
         row, column = np.unravel_index(values.argmax(), values.shape)

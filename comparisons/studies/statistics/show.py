@@ -2,8 +2,6 @@
 
 In: a run with [statistics]. Out: tables and pictures for the page, lines for the terminal."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from comparisons.common.numbers import percent, scale_of, significant, with_unit
@@ -12,12 +10,8 @@ from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import legend_above, names_above, over, panels
 from comparisons.figures.figure import Findings, Series
 from comparisons.figures.quantity import LABELS
-from comparisons.models.problem import Problem
 from comparisons.studies.statistics.study import FIGURES, NAME, PRESSURE
 from comparisons.studies.study import Run
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 KINDS = {"elastic": "#0072B2", "plastic": "#E69F00", "cutting": "#D55E00"}
 FLOWS = 1e-6  # equivalent plastic strain
@@ -160,8 +154,7 @@ def _kinds(findings: Findings, kind: str) -> tuple[str, ...]:
 
 
 def statistics_pictures(run: Run) -> list[style.Picture]:
-    """None without [statistics]."""
-    return [_over_load(run), _asperities(run)] if NAME in run.findings else []
+    return [_over_load(run), _asperities(run)]
 
 
 def _over_load(run: Run) -> style.Picture:
@@ -208,13 +201,7 @@ def _asperities(run: Run) -> style.Picture:
     said = f"by relative penetration, {rule}: {', '.join(counts)}"
     caption = f"Patches of contact ({LABELS[patches.source]}) {said}."
     alternative = f"The profile and its patches of contact, {said}."
-    return style.picture(
-        _kinds_along(run.problem, patches, counts), alternative, caption, data=False
-    )
-
-
-def _kinds_along(problem: Problem, patches: Series, counts: list[str]) -> "Figure":
-    x, spline = np.linspace(*problem.extent, POINTS), problem.surface.profile.spline()
+    x, spline = np.linspace(*run.problem.extent, POINTS), run.problem.surface.profile.spline()
     along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
     abreast, room = names_above(style.WIDE, len(KINDS))
     drawn, [axes] = panels(style.WIDE, [(room, 2.34)], foot=0.51)
@@ -228,4 +215,4 @@ def _kinds_along(problem: Problem, patches: Series, counts: list[str]) -> "Figur
     axes.set_ylabel(f"height [{up.name}]")
     over([axes], f"x [{along.name}]", x / along.factor)
     legend_above(axes, abreast)
-    return drawn
+    return style.picture(drawn, alternative, caption, data=False)

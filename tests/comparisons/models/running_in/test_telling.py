@@ -47,7 +47,6 @@ class TestTelling:
 
     def test_result_without_running_in(self, wavy_outcome: Run):
         assert "running_in" not in wavy_outcome.findings
-        assert picture(wavy_outcome) is None
         assert 'id="running-in"' not in render(wavy_outcome)
 
     def test_page_and_terminal_show_it(self, outcome: Run):
