@@ -32,8 +32,7 @@ SIGNIFICANT = 17  # bits of a number on a mesh of finite elements
 COMPONENTS = ("sx", "sz", "sy", "txz", "tau1", "von_mises")  # [Pa]
 # with the direction of s1, the largest principal stress in the plane, as a vector
 STRESSES = (*COMPONENTS, "s1_direction")
-# VTK's number for a kind of cell that meshio knows by name.
-CELL_TYPES = {"quad": 9, "triangle": 5}
+CELL_TYPES = {3: 5, 4: 9}  # VTK's number for triangles and quadrilaterals, by their corners
 
 
 @dataclass(frozen=True)
@@ -41,8 +40,7 @@ class FieldFile:
     """Arrays at points that cells connect."""
 
     points: np.ndarray  # (n, 3) [m] x, z, 0: the plane of mesh.msh
-    kind: str  # of cell, as meshio calls it
-    cells: np.ndarray  # (m, k) indices of points
+    cells: np.ndarray  # (m, k) indices of points, three or four
     arrays: dict[str, np.ndarray]  # (n,) by name, or vectors (n, 3), in `units`
     units: dict[str, str]  # of the arrays by name, and of "points"
     notes: dict[str, str]  # what the file says of itself, as texts
@@ -68,7 +66,6 @@ def field_of(run: Run, level: Level) -> FieldFile:
         on_mesh = on_mesh.at_corners
         plane, stresses = on_mesh.points, on_mesh.stresses
         cells, nu = on_mesh.triangles, on_mesh.poissons_ratio
-        kind = "triangle"
     else:
         x, z = np.meshgrid(run.window.x, run.window.z)
         plane = np.column_stack([x.ravel(), z.ravel()])
@@ -79,7 +76,6 @@ def field_of(run: Run, level: Level) -> FieldFile:
         rows, columns = x.shape
         corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
         cells = np.column_stack([corner, corner + 1, corner + columns + 1, corner + columns])
-        kind = "quad"
     arrays = _named(stresses, lambda s: _components(s, nu) | {"s1_direction": _direction(s)})
     if on_mesh is not None:
         arrays |= _named(on_mesh.displacement, lambda u: {"displacement": _in_space(u)})
@@ -92,7 +88,7 @@ def field_of(run: Run, level: Level) -> FieldFile:
     units = {"points": "m"} | {name: _unit(name) for name in arrays}
     text = scene_text(run.problem)
     notes = {"title": scene.title, "units": json.dumps(units), "scene": text}
-    return FieldFile(points, kind, cells, arrays, units, notes)
+    return FieldFile(points, cells, arrays, units, notes)
 
 
 def _rounded(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -198,7 +194,7 @@ def vtk_grid(field: FieldFile) -> "vtkUnstructuredGrid":
     indices = (starts, field.cells.ravel())
     cells.SetData(*(numpy_to_vtk(numbers.astype(kind), deep=True) for numbers in indices))
     grid.SetPoints(points)
-    grid.SetCells(CELL_TYPES[field.kind], cells)
+    grid.SetCells(CELL_TYPES[field.cells.shape[1]], cells)
     for name, values in field.arrays.items():
         array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
         array.SetName(name)

@@ -154,10 +154,9 @@ def _inputs(run: Run) -> str:
 def _inconclusive(run: Run, several: bool) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
     worst = _worst(run)
-    if not worst.unknown or worst.is_unresolved:
-        return f"{_said(worst, several)}, an uncertainty that reaches across the tolerance"
-    largest = max(worst.unknown, key=worst.unknown.get)
-    if worst.part(largest) is not None:  # its range was solved
+    largest = max(worst.unknown, key=worst.unknown.get, default="")
+    is_solved = worst.part(largest) is not None  # its range
+    if not largest or worst.is_unresolved or is_solved:
         return f"{_said(worst, several)}, an uncertainty that reaches across the tolerance"
     why = run.data(MODEL_ERROR).selection.impossible.get(largest)
     return (

@@ -88,10 +88,13 @@ def read_record(folder: Path) -> Record:
     try:
         if not content["models"]:
             raise ValueError("without a model")
-        scene, surface = _scene(path, content)
+        tables, origin = content["scene"], Origin(one_line(content["name"]), folder, str(path))
+        has_trace = tables.get("profile") is not None
+        trace = _trace(path, content["profile"]) if has_trace else None
+        scene = Scene.of(tables, origin)
         return Record(
             scene=scene,
-            surface=surface,
+            surface=surface_of(scene, trace),
             models=tuple(sorted(content["models"], key=MODELS.index)),
             levels=_levels(path, content["levels"], result),
             result=result,
@@ -111,14 +114,6 @@ def read_result(path: Path) -> Result:
         return result_json.read_content(content)
     except BUILT_OTHERWISE as error:
         raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
-
-
-def _scene(path: Path, content: dict) -> tuple[Scene, SceneSurface]:
-    tables, trace = content["scene"], None
-    if tables.get("profile") is not None:
-        trace = _trace(path, content["profile"])
-    scene = Scene.of(tables, Origin(one_line(content["name"]), path.parent, str(path)))
-    return scene, surface_of(scene, trace)
 
 
 def _levels(path: Path, levels: int, result: Result) -> Levels:

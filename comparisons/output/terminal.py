@@ -12,12 +12,7 @@ from comparisons.output.page.tables.comparison import comparison_rows, figure_ro
 from comparisons.output.page.tables.problem import in_mm
 from comparisons.scenes.surface import ProfileInfo
 from comparisons.studies import STUDIES
-from comparisons.studies.answers.show import (
-    answer_facts,
-    answer_rows,
-    answers_of,
-    reference_of,
-)
+from comparisons.studies.answers.show import answer_facts, answer_rows, answers_of, reference_of
 from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
 

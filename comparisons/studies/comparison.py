@@ -11,12 +11,7 @@ import numpy as np
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings
 from comparisons.figures.quantity import COMPARED, MODELS, NORMS, QUANTITIES
-from comparisons.figures.uncertainty import (
-    Uncertainty,
-    iteration,
-    length_resolution,
-    numerical,
-)
+from comparisons.figures.uncertainty import Uncertainty, iteration, length_resolution, numerical
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window

@@ -58,7 +58,10 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         over = {"peak_pressure_over_hardness": max(f.value for f in peaks) / hardness}
         figures += figures_of(NAME, SCENE, over, _largest(peaks))
     figures += _surface(problem)
-    return Findings(tuple(figures), (_planned(solved),), tuple(_statements(solved)))
+    levels = [asdict(level) for level in forecast(problem, solved.plan).levels]
+    columns = columns_of(levels, {"pitch": "m", "seconds": "s", "memory": "byte"})
+    planned = Series("planned levels", columns, is_account=True)
+    return Findings(tuple(figures), (planned,), tuple(_statements(solved)))
 
 
 def _largest(figures: tuple[Figure, ...] | list[Figure]) -> Uncertainty:
@@ -90,12 +93,6 @@ def _surface(problem: Problem) -> list[Figure]:
     if info.standard is not None:
         figures += figures_of(NAME, STANDARD, asdict(info.standard))
     return figures
-
-
-def _planned(solved: Solved) -> Series:
-    levels = [asdict(level) for level in forecast(solved.problem, solved.plan).levels]
-    columns = columns_of(levels, {"pitch": "m", "seconds": "s", "memory": "byte"})
-    return Series("planned levels", columns, is_account=True)
 
 
 def _statements(solved: Solved) -> list[Statement]:

@@ -17,7 +17,6 @@ from comparisons.figures.figure import Figure, Figures, Findings
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.uncertainty import iteration, numerical
-from comparisons.models.level import Level
 from comparisons.scenes.studies.published import DIMENSIONS, LOWERING, PublishedSection
 from comparisons.studies import contact
 from comparisons.studies.friction import partial_slip
@@ -73,17 +72,14 @@ def _lowering(solved: Solved) -> list[Figure]:
     run = solved.runs.get("finite_element")
     if run is None or solved.problem.scene.body.thickness is None:
         return []
-    values = [_lowered(level) for level in run.levels]
+    curves = [(level.grid.x, level.displacement) for level in run.levels]
+    values = [float(np.interp(0.0, *curve)) for curve in curves]
     refined = grid_convergence(values, LOWERED.formal_order)
     size = values[-1]
     left = iteration(run.finest.solution), refined.uncertainty / size
     stated = numerical(*left, 0.0, 0.0, refined)
     at = {"friction": solved.problem.scene.load.friction[0]}
     return [Figure(NAME, LOWERING, run.name, size, at, None, size, stated, levels=tuple(values))]
-
-
-def _lowered(level: Level) -> float:
-    return float(np.interp(0.0, level.grid.x, level.displacement))
 
 
 def row_of(

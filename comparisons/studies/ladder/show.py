@@ -21,10 +21,13 @@ process."""
 
 
 def blocks(run: Run) -> list[Block]:
-    rows = [
-        (words, *_error_cells(_nearest(errors)), verdict_of(errors), _time(row), _memory(row))
-        for row, words, errors in _rungs(run)
-    ]
+    rows = []
+    for row, words, errors in _rungs(run):
+        worst = _nearest(errors)
+        size, unsure = error_text(worst.value, worst.total), percent(worst.total)
+        memory = with_unit(row["peak_memory"], "byte", 2) if row["peak_memory"] else ""
+        judged = label(worst.quantity), size, unsure, verdict_of(errors)
+        rows.append((words, *judged, _time(row), memory))
     if not rows:
         return []
     head = ("model", "quantity", "error", "uncertainty", "verdict", "time", "memory")
@@ -71,14 +74,5 @@ def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
     return f"{words} ({_time(row)}, {short} {size} ± {percent(worst.total)})"
 
 
-def _error_cells(error: Figure) -> tuple[str, str, str]:
-    size = error_text(error.value, error.total)
-    return label(error.quantity), size, percent(error.total)
-
-
 def _time(row: dict) -> str:
     return with_unit(row["seconds"], "s", 2)
-
-
-def _memory(row: dict) -> str:
-    return with_unit(row["peak_memory"], "byte", 2) if row["peak_memory"] else ""

@@ -5,12 +5,7 @@ one."""
 
 from dataclasses import dataclass
 
-from comparisons.common.numbers import (
-    Scale,
-    listed,
-    percent,
-    with_unit,
-)
+from comparisons.common.numbers import Scale, listed, percent, with_unit
 from comparisons.drawing.blocks import TextTable, compared_cells
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import COMPARED, HYPHENATED, MODELS, NORMS, QUANTITIES, label
@@ -31,11 +26,11 @@ class ComparisonRow:
     friction: str
     half_plane: str  # with unit; empty for the norm of a difference
     finite_element: str
-    in_hertz: tuple[str, str]  # the same two in units of the Hertz contact's
     difference: str  # in the digits that the uncertainty supports
     uncertainty: str
     tolerance: str
     verdict: str  # "" where nothing was judged
+    in_hertz: tuple[str, str]  # both models' figures in units of the Hertz contact's
     reference: str  # what problem the finite elements' figure is one of
     note: str  # what to know before the figures are taken for evidence
 
@@ -136,20 +131,13 @@ def _row(
     run: Run, difference: Figure, models: tuple[Figure | None, Figure | None], frictions: str
 ) -> ComparisonRow:
     name = difference.quantity
-    half_plane, finite_element, *judged = compared_cells(difference, models, COMPARED[name].unit)
-    error, uncertainty, tolerance, verdict = judged
     # the hardness holds the peaks of both models, which makes them equal by itself
     capped = "capped in both" if all(f and "capped" in f.notes for f in models) else ""
     return ComparisonRow(
-        quantity=name,
-        friction=frictions,
-        half_plane=half_plane,
-        finite_element=finite_element,
+        name,
+        frictions,
+        *compared_cells(difference, models, COMPARED[name].unit),
         in_hertz=tuple(in_hertz(run.problem, name, f and f.value) for f in models),
-        difference=error,
-        uncertainty=uncertainty,
-        tolerance=tolerance,
-        verdict=verdict,
         reference=reference_of(run, name),
         note=capped,
     )
