@@ -96,28 +96,28 @@ def _coating(problem: Problem) -> Sizes:
 
 # 0.25 % in contact length and 0.14 % in peak pressure of a ground surface of rms slope 0.066: of
 # second order. The largest tau1 may come to stand below another asperity, at another depth.
-BOUNDARY_PER_SLOPE_SQUARED = 1.0
-BOUNDARY = {"tau1_max_depth": 7.0}
-
-
-def _rough_boundary(problem: Problem) -> Sizes:
-    info = problem.surface.info
-    slope = 0.0 if info is None else info.roughness.rms_slope
-    estimate = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
-    return estimate | {name: factor * slope for name, factor in BOUNDARY.items()}
-
-
+BOUNDARY_PER_SLOPE_SQUARED, BOUNDARY_OF_DEPTH = 1.0, 7.0
 # The roller's tilted normal: 0.3 to 0.5 % in peak pressure and half-width at a/R = 0.02. Once
 # deformed, the surface is shorter by its own strain under the pressure, (1 - 2 nu) (1 + nu)
 # p / E: 2.7 % in the peak pressure of asperities at p/E = 0.054.
 TILT, TILT_OF_STRESS = 0.25, 2.2
+# 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
+# at 0.035; 2 % in tau1 at 0.038.
+STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 
 
-def _deformed_gap(problem: Problem, peak: float) -> Sizes:
-    body, curvature = problem.scene.body.material, _curvature(problem)
+def _finite_deformation(problem: Problem, peak: float) -> Sizes:
+    """Finite strain, the gap on the deformed surface, the trace as boundary."""
+    body, info = problem.scene.body.material, problem.surface.info
+    pressure = peak / body.youngs_modulus
+    strained = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
     strain = (1.0 - 2.0 * body.poissons_ratio) * (1.0 + body.poissons_ratio) / body.youngs_modulus
-    size = TILT * curvature + strain * peak
-    return _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
+    size = TILT * _curvature(problem) + strain * peak
+    moved = _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
+    slope = 0.0 if info is None else info.roughness.rms_slope
+    bounded = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
+    bounded["tau1_max_depth"] = BOUNDARY_OF_DEPTH * slope
+    return {name: strained[name] + moved[name] + bounded[name] for name in strained}
 
 
 # The circle's next term is x^4 / (8 R^3): a^2 / (4 R^2) of the parabola at the contact's edge.
@@ -169,20 +169,6 @@ def _roller_support(problem: Problem) -> Sizes:
     turned = max(problem.scene.load.friction) * share * _curvature(problem)
     moved = TURNED | (TURNED_ROUGH if problem.scene.profile is not None else {})
     return sizes | {name: sizes[name] + of * turned for name, of in moved.items()}
-
-
-# 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
-# at 0.035; 2 % in tau1 at 0.038.
-STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
-
-
-def _finite_deformation(problem: Problem, peak: float) -> Sizes:
-    """Finite strain, the gap on the deformed surface, the trace as boundary."""
-    pressure = peak / problem.scene.body.youngs_modulus
-    estimate = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
-    for sizes in (_deformed_gap(problem, peak), _rough_boundary(problem)):
-        estimate = {name: size + sizes.get(name, 0.0) for name, size in estimate.items()}
-    return estimate
 
 
 # Of a body that flows, under the pressure that it bears. Small strains move its peaks by 0.5 % at
