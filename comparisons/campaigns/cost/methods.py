@@ -13,14 +13,13 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, flowing_contact
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window, window_of
+from comparisons.models.window import window_of
 from comparisons.studies.ladder.operators import (
-    OperatorModel,
     carried_deformed,
     carried_linear,
-    problem_carrying,
+    operator_level,
 )
-from comparisons.studies.model_error.catalogue import COUPLED, contained
+from comparisons.studies.model_error.catalogue import contained
 
 HALF_PLANE_PITCHES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)  # of the scene's coarsest
 FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5, 0.25)
@@ -44,6 +43,13 @@ class SolutionMethod:
         """The problem that these finite elements solve."""
         fields = {"finite_element.element": self.element} | (LINEAR if self.linear else {})
         return replace(problem, scene=problem.scene.unchecked(fields))
+
+    def carried(self, problem: Problem) -> frozenset[str]:
+        """What an operator, or the deformed surface, has of the scene's finite elements."""
+        scene, effects = problem.scene, contained(problem.scene)
+        if self.element == DEFORMED:
+            return carried_deformed(problem, effects)
+        return carried_linear(scene, effects)
 
     def pitches(self, problem: Problem) -> tuple[float, ...]:
         """From coarse to fine."""
@@ -71,17 +77,16 @@ P2_LINEAR = SolutionMethod("elements P2, linear", "finite_element", "P2", linear
 def methods_of(problem: Problem) -> tuple[SolutionMethod, ...]:
     """Those that apply, the half-plane's first: only P2 takes bodies that yield or deform
     finitely."""
-    scene, settings, effects = problem.scene, problem.scene.finite_element, contained(problem.scene)
-    nonlinear = settings.deformation == "finite" or settings.plastic
+    scene, settings = problem.scene, problem.scene.finite_element
     one_contact = len(scene.load.friction) == 1 or not settings.coupled
     applies = {
         HALF_PLANE: True,
-        LAYERED: one_contact and carried_linear(scene, effects),
-        DEFORMING: one_contact and carried_deformed(problem, effects),
-        P1: not nonlinear,
-        P2_LINEAR: nonlinear,
+        LAYERED: one_contact and LAYERED.carried(problem),
+        DEFORMING: one_contact and DEFORMING.carried(problem),
+        P1: not settings.nonlinear,
+        P2_LINEAR: settings.nonlinear,
         P2: True,
-        P3: not nonlinear,
+        P3: not settings.nonlinear,
     }
     return tuple(method for method, does in applies.items() if does)
 
@@ -90,11 +95,10 @@ def is_half_plane_problem(problem: Problem) -> bool:
     """Whether both models solve the same problem, so that their limits are the same."""
     scene, settings = problem.scene, problem.scene.finite_element
     unbounded = scene.body.thickness is None and scene.body.width is None and scene.coating is None
-    linear = settings.deformation == "linear" and not settings.plastic
     moves = bool(any(scene.load.friction) and problem.dundurs_beta)
     same_traction = settings.coupled == scene.load.coupled or not moves
     same_shapes = (settings.roller_shape, settings.roller_body) == ("parabola", "half-plane")
-    return unbounded and linear and same_shapes and same_traction
+    return unbounded and not settings.nonlinear and same_shapes and same_traction
 
 
 def solved(
@@ -105,7 +109,8 @@ def solved(
     if method.element == HAT:
         return half_plane_level(problem, pitch, window, stages, fields=False)
     if method.element in (OPERATOR, DEFORMED):
-        return _by_operator(problem, pitch, window, method.element == DEFORMED)
+        frictions, held = problem.scene.load.friction, method.carried(problem)
+        return operator_level(problem, held, frictions, pitch, window)
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
@@ -113,14 +118,3 @@ def solved(
     plan, refinement = make_plan(problem, (method.model,)), Refinement(pitch, half_block)
     level = finite_element_level(problem, plan, refinement, window, stages, fields=False)
     return replace(level, mesh=None)
-
-
-def _by_operator(problem: Problem, pitch: float, window: Window | None, deformed: bool) -> Level:
-    """With what an operator carries of the scene's finite elements, or on the deformed surface."""
-    frictions, effects = problem.scene.load.friction, contained(problem.scene)
-    held = carried_linear(problem.scene, effects)
-    if deformed:
-        held = carried_deformed(problem, effects)
-    coupling = frictions[0] if COUPLED in held else 0.0
-    model = OperatorModel(problem_carrying(problem, held), frictions, coupling, deformed)
-    return model.level(pitch, window)

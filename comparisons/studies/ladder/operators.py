@@ -111,41 +111,42 @@ def why_no_stresses(problem: Problem, window: Window | None) -> str | None:
     return "the layer is too thin for the waves of its stresses"
 
 
-@dataclass(frozen=True)
-class OperatorModel:
-    """One model of this kind at the friction coefficients whose pressures are the same."""
+def operator_level(
+    problem: Problem,
+    held: frozenset[str],
+    frictions: tuple[float, ...],
+    pitch: float,
+    window: Window | None,
+) -> Level:
+    """Solved on pressure elements of a pitch [m], with the largest stresses in the window.
 
-    problem: Problem  # of `problem_carrying`
-    frictions: tuple[float, ...]
-    coupling: float  # coefficient of the traction that moves the surfaces; 0 leaves it out
-    deformed: bool = False  # contact on the deformed surfaces of half-planes
+    held       what the operator carries, or what the deformed surface has
+    frictions  coefficients whose pressures are the same"""
+    problem, stages = problem_carrying(problem, held), Stages()
+    grid = problem.grid(pitch)
+    with stages.stage("contact"):
+        operator = operator_of(problem, grid, frictions[0] if COUPLED in held else 0.0)
+        gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
 
-    def level(self, pitch: float, window: Window | None) -> Level:
-        """Solved on pressure elements of a pitch [m], with the largest stresses in the window."""
-        stages, problem, grid = Stages(), self.problem, self.problem.grid(pitch)
-        with stages.stage("contact"):
-            operator = operator_of(problem, grid, self.coupling)
-            gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+        def solve(gap: np.ndarray, start: np.ndarray | None = None) -> ContactSolution:
+            return solve_on(operator, gap, grid.weights, problem.constraints(), start)
 
-            def solve(gap: np.ndarray, start: np.ndarray | None = None) -> ContactSolution:
-                return solve_on(operator, gap, grid.weights, problem.constraints(), start)
-
-            solution = solve(gap)
-            if self.deformed:
-                solution = _deformed_contact(problem, grid).pressed(solve, solution)
-            level = Level(
-                grid=grid,
-                solution=solution,
-                displacement=operator.apply(solution.pressure) / grid.weights,
-                patches=contact_patches(grid.x, solution.pressure, solution.gap),
-                seconds=stages.seconds,
-                unknowns=grid.count,
-            )
-        if window is not None:
-            with stages.stage("stresses"):
-                stresses = tuple(_stresses(problem, level, window, self.frictions))
-            level = replace(level, stresses=stresses)
-        return replace(level, peak_memory=peak_memory())
+        solution = solve(gap)
+        if is_deformed(held):
+            solution = _deformed_contact(problem, grid).pressed(solve, solution)
+        level = Level(
+            grid=grid,
+            solution=solution,
+            displacement=operator.apply(solution.pressure) / grid.weights,
+            patches=contact_patches(grid.x, solution.pressure, solution.gap),
+            seconds=stages.seconds,
+            unknowns=grid.count,
+        )
+    if window is not None:
+        with stages.stage("stresses"):
+            stresses = tuple(_stresses(problem, level, window, frictions))
+        level = replace(level, stresses=stresses)
+    return replace(level, peak_memory=peak_memory())
 
 
 def _deformed_contact(problem: Problem, grid: HatGrid) -> DeformedContact:

@@ -20,11 +20,9 @@ from comparisons.models.window import Window
 from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import uncertainties
 from comparisons.studies.ladder.operators import (
-    OperatorModel,
     carried,
     carried_deformed,
-    is_deformed,
-    problem_carrying,
+    operator_level,
     why_no_stresses,
     words_of,
 )
@@ -230,15 +228,13 @@ def announce_operators(
 ) -> dict[tuple[float, ...], list[str]]:
     """Add the half-plane with what an operator carries to the tasks, on pressure elements of each
     pitch [m]: their keys by the friction coefficients that share a contact."""
-    problem, frictions = problem_carrying(problem, held), problem.scene.load.friction
-    keys, pitches = {}, list(pitches)
+    frictions, keys, pitches = problem.scene.load.friction, {}, list(pitches)
     for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
-        coupling = group[0] if COUPLED in held else 0.0
-        model = OperatorModel(problem, group, coupling, is_deformed(held))
         name = "+".join(sorted(held)) + f"@{group[0]:g}"
         keys[group] = [f"operators-{name}-{number}" for number in range(1, len(pitches) + 1)]
         for key, pitch in zip(keys[group], pitches, strict=True):
-            tasks.add(key, called, model.level, pitch, window, urgency=LAST)
+            how = problem, held, group, pitch, window
+            tasks.add(key, called, operator_level, *how, urgency=LAST)
     return keys
 
 

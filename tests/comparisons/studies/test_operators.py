@@ -20,9 +20,8 @@ from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.studies.ladder.operators import (
     CAP,
-    OperatorModel,
     carried,
-    problem_carrying,
+    operator_level,
     words_of,
 )
 from comparisons.studies.model_error.catalogue import COUPLED
@@ -47,9 +46,8 @@ def test_exact_layers(case):
     posed = problem({"roller": roller, "body": body, "load": {"per_length": load}})
     exact = float(case["p0_R_over_Eprime_t"]) * modulus * THICKNESS / RADIUS
     half_width = float(case["a_over_t"]) * THICKNESS
-    model = OperatorModel(problem_carrying(posed, frozenset({"finite_size"})), (0.0,), 0.0)
     for pitch, close in ((posed.pitches[0], 6e-4), (posed.pitches[2], 4e-5)):
-        level = model.level(pitch, None)
+        level = operator_level(posed, frozenset({"finite_size"}), (0.0,), pitch, None)
         assert level.solution.converged
         assert level.solution.pressure.max() == pytest.approx(exact, rel=close)
         assert abs(0.5 * level.contact_length - half_width) < 0.1 * pitch
@@ -64,7 +62,7 @@ def test_westergaard_s_wave(mean_pressure):
     posed = problem(Scene.read("periodic").tables | {"load": {"mean_pressure": mean_pressure}})
     exact, off = closed_form(posed), []
     for pitch in (posed.pitches[0], posed.pitches[2]):
-        level = OperatorModel(posed, (0.0,), 0.0).level(pitch, None)
+        level = operator_level(posed, frozenset(), (0.0,), pitch, None)
         off.append(level.solution.pressure.max() / exact.peak_pressure - 1.0)
         assert abs(level.contact_length - exact.contact_length) < 0.2 * pitch
     assert off[1] < 1.5e-4 and 12.0 < off[0] / off[1] < 22.0
@@ -75,7 +73,7 @@ def test_a_coating_of_the_body_itself_is_a_half_plane():
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | FIELD | {"coating": coating})
     window, pitch = window_of(posed), posed.pitches[0]
-    coated = OperatorModel(posed, (0.3,), 0.0).level(pitch, window)
+    coated = operator_level(posed, frozenset({"coating"}), (0.3,), pitch, window)
     plain = half_plane_at(posed, pitch, fields=True)
     assert coated.solution.pressure == pytest.approx(
         plain.solution.pressure, rel=1e-8, abs=1e-8 * plain.solution.pressure.max()
@@ -92,7 +90,7 @@ def test_traction_moves_both_surfaces_of_a_coated_body(softer):
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | {"roller": roller, "coating": coating})
     pitch, size = posed.pitches[0], 0.3 * posed.dundurs_beta
-    coated = OperatorModel(posed, (0.3,), 0.3).level(pitch, None)
+    coated = operator_level(posed, frozenset({"coating", COUPLED}), (0.3,), pitch, None)
     moved = half_plane_on(posed, posed.grid(pitch), size, (0.3,), None, Stages())
     still = half_plane_on(posed, posed.grid(pitch), 0.0, (0.3,), None, Stages())
     peak = posed.hertz.peak_pressure
@@ -110,8 +108,8 @@ def test_what_an_operator_carries():
     held = carried(posed, {"finite_size", COUPLED, "finite_strain"}, flow)
     assert held == {"finite_size", COUPLED, CAP}
     assert words_of(held) == "half-plane with layer, coupling, pressures up to 3 Y"
-    capped = OperatorModel(problem_carrying(posed, frozenset({CAP})), (0.0,), 0.0)
-    pressure = capped.level(posed.pitches[0], None).solution.pressure
+    capped = operator_level(posed, frozenset({CAP}), (0.0,), posed.pitches[0], None)
+    pressure = capped.solution.pressure
     assert pressure.max() == pytest.approx(0.9 * highest)
 
 
@@ -123,10 +121,9 @@ def test_waves_of_a_finished_map(place):
     point = content["points"][place]
     values = {content[axis]["group"]: point[axis] for axis in "xy"}
     posed = problem_of(scene_with(Scene.of(content["scene"], Origin("map")), values))
-    model = OperatorModel(problem_carrying(posed, frozenset({"exact_circle"})), (0.0,), 0.0, True)
-    peak = model.level(
-        posed.pitches[0] / 2.0 ** (point["levels"] - 1), None
-    ).solution.pressure.max()
+    held, pitch = frozenset({"exact_circle", "finite_strain"}), posed.pitches[0]
+    level = operator_level(posed, held, (0.0,), pitch / 2.0 ** (point["levels"] - 1), None)
+    peak = level.solution.pressure.max()
     known = point["quantities"]["peak_pressure"]
     error = peak / known["finite_element"] - 1.0
     assert abs(error) < 3e-4 + known["uncertainty"] < abs(known["difference"])
