@@ -285,7 +285,7 @@ class Solutions:
         at = self.whole.leading(name)
         scale, middle = self._scale_of(name, at), self._spread(name, at).middle
         apart = [
-            (_leading(one, name) - (1.0 + middle) * _leading(whole, name)) / scale
+            (one.largest()[name] - (1.0 + middle) * whole.largest()[name]) / scale
             for one, whole in zip(levels, self.wholes, strict=False)
         ]
         if not any(apart):
@@ -301,8 +301,8 @@ class Solutions:
         numerical  relative uncertainty of the scene's own finite elements"""
         at = self.whole.leading(name)
         lacking = self._lacking(name, at)
-        scale, value = self._scale_of(name, at), _leading(exact, name)
-        numerical *= abs(_leading(self.of_scene[-1], name)) / scale
+        scale, value = self._scale_of(name, at), exact.largest()[name]
+        numerical *= abs(self.of_scene[-1].largest()[name]) / scale
         unsure = float(difference_of_figures(numerical, value / scale, lacking))
         value = float((value - self._figure(name, at)) / scale)
         return self._plain_error(name, Estimate(value, unsure), at)
@@ -321,11 +321,6 @@ class Solutions:
         return ModelError(
             name, self.friction, {}, 0.0, size.value, size.uncertainty, scale, law=law
         )
-
-
-def _leading(quantities: QuantitiesOfInterest, name: str) -> float:
-    """A figure [SI] at the model's own largest value."""
-    return float(quantities.figures[name][quantities.leading(name)])
 
 
 def _competing(

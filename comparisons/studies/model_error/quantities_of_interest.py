@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import peak_resolution
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
@@ -45,10 +44,9 @@ class QuantitiesOfInterest:
         """The asperity of the largest value that a figure belongs to; 0 where it is none."""
         return int(np.argmax(self.figures[LARGEST[name]])) if name in LARGEST else 0
 
-    def largest(self) -> QuantitiesOfInterest:
-        """The same with the leading asperity alone."""
-        leading = {name: values[[self.leading(name)]] for name, values in self.figures.items()}
-        return QuantitiesOfInterest(leading)
+    def largest(self) -> dict[str, float]:
+        """The figures of the leading asperity alone."""
+        return {name: float(values[self.leading(name)]) for name, values in self.figures.items()}
 
 
 def quantities_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
@@ -72,16 +70,3 @@ def quantities_of(level: Level, problem: Problem, friction: float) -> Quantities
                 rise = boundary_rise(problem, level, places[name])
                 figures["tau1_max_depth"] = depth + rise
     return QuantitiesOfInterest(figures, places, peak_resolution(pressure))
-
-
-def relative_sizes(
-    difference: QuantitiesOfInterest, reference: QuantitiesOfInterest, problem: Problem
-) -> dict[str, float]:
-    """A difference relative to a reference, by quantity, with its sign; largest values are those of
-    the reference's leading asperity. What vanishes is measured by the Hertz contact."""
-    values = {}
-    for name, value in difference.figures.items():
-        at = reference.leading(name)
-        scale = abs(reference.figures[name][at]) or QUANTITIES[name].scale(problem.hertz)
-        values[name] = float(value[at] / scale)
-    return values

@@ -12,7 +12,8 @@ from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.model_error.quantities_of_interest import quantities_of, relative_sizes
+from comparisons.studies.comparison import relative_differences
+from comparisons.studies.model_error.quantities_of_interest import quantities_of
 
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 
@@ -29,8 +30,8 @@ def sampling_changes(
         for friction in problem.scene.load.friction:
             sizes = changes.setdefault(friction, {})
             whole = quantities_of(level, problem, friction).largest()
-            change = quantities_of(other, thinned, friction).largest() - whole
-            for name, size in relative_sizes(change, whole, problem).items():
+            half = quantities_of(other, thinned, friction).largest()
+            for name, size in relative_differences(half, whole, problem).items():
                 sizes[name] = max(sizes.get(name, 0.0), abs(size))
     return changes
 

@@ -41,7 +41,7 @@ def errors(
     history = [EffectContributions(whole, plain, plain, pairs)] * 3
     rows = []
     for name in ("tau1_max", "tau1_max_depth"):
-        one, other = (of.largest().figures[name][0] for of in (half_plane, plain))
+        one, other = (of.largest()[name] for of in (half_plane, plain))
         difference = one / other - 1.0
         sure = Uncertainty({"numerical": settled})
         row = Figure("comparison", name, "half_plane", difference, {"friction": 0.0})
@@ -50,7 +50,7 @@ def errors(
     with patch.multiple(
         MODULE,
         quantities_of=lambda level, problem, friction: level.values,
-        values_of=lambda level, *of: {n: v[0] for n, v in level.values.largest().figures.items()},
+        values_of=lambda level, *of: level.values.largest(),
         uncertainties=lambda *arguments: stated,
         iteration=lambda *solutions: 0.0,
         relative_resolution=lambda *levels: 0.0,
