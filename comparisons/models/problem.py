@@ -60,11 +60,6 @@ class Problem:
     flows: bool = False  # the extent is as wide as flow may make the contact
 
     @property
-    def tables(self) -> dict:
-        """The scene's, with the fields that follow from its surface."""
-        return self.surface.completed(self.scene.tables)
-
-    @property
     def most_levels(self) -> int:
         return MOST_LEVELS if self.levels is None else self.levels.models
 

@@ -33,8 +33,9 @@ def record_of(problem: Problem, runs: dict[str, ModelRun], hashes: dict[str, str
     """record.json: everything that a repetition needs, the profile's samples included.
     Those of `profile` are as pressed, before any running-in; those of its `trace` as read or made.
     A repetition starts from the trace and takes off form and waves, and runs in, itself."""
-    scene, surface, tables = problem.scene, problem.surface, problem.tables
-    profile = surface.as_measured
+    scene, surface = problem.scene, problem.surface
+    tables, run_in = surface.completed(scene.tables), surface.run_in
+    profile = surface.profile if run_in is None else run_in.before
     return {
         "schema": SCHEMA,
         "name": scene.name,

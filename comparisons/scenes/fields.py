@@ -45,6 +45,11 @@ class FieldType(ABC):
     def wrong(self, problem: str) -> ValueError:
         return ValueError(f"{problem}; allowed is {self.allowed()}")
 
+    def hint(self, entry: object, words: Sequence[str]) -> str:
+        """The one of the words that may be meant, for the end of a problem."""
+        near = nearest(entry, words, 0.6) if isinstance(entry, str) else None
+        return f' (did you mean "{near}"?)' if near else ""
+
     def in_si(self, entry: object, dimension: Dimension) -> float:
         """As `comparisons.common.units.to_si`, but of a size that can be computed with."""
         try:
@@ -136,9 +141,7 @@ class OneOf(FieldType):
 
     def read(self, entry: object) -> str:
         if entry not in self.words:
-            near = nearest(entry, self.words, 0.6) if isinstance(entry, str) else None
-            hint = f' (did you mean "{near}"?)' if near else ""
-            raise self.wrong(f"is {describe(entry)}{hint}")
+            raise self.wrong(f"is {describe(entry)}{self.hint(entry, self.words)}")
         return entry
 
     def allowed(self) -> str:

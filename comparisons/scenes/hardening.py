@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from analytic.material.hardening import Hardening
-from comparisons.common.errors import nearest
 from comparisons.common.units import DIMENSIONLESS, PRESSURE, describe
 from comparisons.scenes.fields import MOST_VALUES, FieldType, Number
 
@@ -28,8 +27,7 @@ class HardeningField(FieldType):
         names, read = (*self.LAWS, "table", "kinematic"), {}
         for name, value in entry.items():
             if name not in names:
-                near = nearest(name, names, 0.6)
-                raise self.wrong(f'holds "{name}"' + (f' (did you mean "{near}"?)' if near else ""))
+                raise self.wrong(f'holds "{name}"{self.hint(name, names)}')
             read[name] = self._law(name, value)
         return read
 

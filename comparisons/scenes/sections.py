@@ -9,7 +9,6 @@ from pydantic import Field, model_validator
 
 from analytic.material import LAWS, Law, Material
 from analytic.material.hardening import Hardening
-from comparisons.common.errors import nearest
 from comparisons.common.units import (
     DIMENSIONLESS,
     LENGTH,
@@ -123,14 +122,19 @@ class ElasticSection(SolidSection):
             yield "murnaghan", 'is given for another law; allowed with law = "murnaghan"'
 
     @property
+    def measured_law(self) -> Law | None:
+        """That of the solid it is named after, where it has its measured constants."""
+        law = solids()[self.solid].law if self.solid else None
+        constants = self.murnaghan and tuple(self.murnaghan.values())
+        return law if law is not None and law.murnaghan == constants is not None else None
+
+    @property
     def material(self) -> Material | None:
         """None of a rigid body."""
-        law = Law()
+        law, measured = Law(), self.measured_law
         if self.law is not None:
             constants = self.murnaghan and tuple(self.murnaghan.values())
-            measured = solids()[self.solid].law if self.solid else None
-            is_measured = measured is not None and measured.murnaghan == constants is not None
-            law = Law(self.law, constants, measured.standard_errors if is_measured else None)
+            law = Law(self.law, constants, measured and measured.standard_errors)
         return Material(self.youngs_modulus, self.poissons_ratio, law)
 
 
@@ -160,8 +164,7 @@ class RollerSupportField(FieldType):
         if isinstance(entry, dict):
             return RollerSupport(hub=self.hub.read(entry)["hub"])
         if entry not in RollerSupport.PLACES:
-            near = nearest(entry, RollerSupport.PLACES, 0.6) if isinstance(entry, str) else None
-            hint = f' (did you mean "{near}"?)' if near else ""
+            hint = self.hint(entry, RollerSupport.PLACES)
             raise self.wrong(f"is {describe(entry)}{hint}")
         return RollerSupport(entry)
 
@@ -182,21 +185,17 @@ class RollerSection(ElasticSection):
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from super().broken_rules()
-        if self.rigid and self.solid is not None:
-            yield "material", "is given beside rigid = true; allowed is one of the two"
-        if self.rigid and self.law is not None:
-            yield "law", "is given beside rigid = true; allowed is one of the two"
-        if self.rigid and self.support is not None:
-            yield "support", "is given beside rigid = true; allowed is one of the two"
+        moduli = {name: getattr(self, name) for name in ELASTIC}
+        elastic = {"material": self.solid, "law": self.law, "support": self.support, **moduli}
+        for name, value in elastic.items():
+            if self.rigid and value is not None:
+                yield name, "is given beside rigid = true; allowed is one of the two"
         hub = self.support and self.support.hub
         if hub and self.radius is not None and hub > WIDEST_HUB * self.radius:
             most = f"at most {WIDEST_HUB:g} of the radius, {WIDEST_HUB * self.radius:g} m"
             yield "support", f"has a hub of {hub:g} m; allowed is {most}"
-        for name in ("youngs_modulus", "poissons_ratio"):
-            is_there = getattr(self, name) is not None
-            if self.rigid and is_there:
-                yield name, "is given beside rigid = true; allowed is one of the two"
-            if not self.rigid and not is_there:
+        for name, value in moduli.items():
+            if not self.rigid and value is None:
                 both = "youngs_modulus with poissons_ratio, or rigid = true"
                 yield name, f"is missing; allowed is {both}"
 

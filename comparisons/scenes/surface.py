@@ -121,11 +121,6 @@ class SceneSurface:
     # what running-in did, None until it was done; then the profile and its figures are after it
     run_in: RunIn | None = None
 
-    @property
-    def as_measured(self) -> Profile | None:
-        """The profile before any running-in."""
-        return self.profile if self.run_in is None else self.run_in.before
-
     def completed(self, tables: dict) -> dict:
         """The tables of the scene with the fields that follow from its surface: reading them
         again, in a folder that holds the profile's file, gives scene and surface."""

@@ -32,7 +32,6 @@ from comparisons.scenes.materials import (
     kinds_of,
     measured_solids,
     scaled_law,
-    solids,
 )
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
@@ -124,7 +123,7 @@ def _open_law(section: ElasticSection) -> OpenLaw | None:
     """None where the law is known for certain."""
     material = section.material
     if section.law is not None:
-        return _scattered(material) if _is_measured(section) else None
+        return _scattered(material) if section.measured_law is not None else None
     kinds = kinds_of(section.solid, section.youngs_modulus, section.poissons_ratio)
     if RUBBER in kinds or (not kinds and material.youngs_modulus < SOFT):
         laws = {"neo-Hookean rubber": Law(), "rubber by Hencky's law": Law("hencky")}
@@ -132,13 +131,6 @@ def _open_law(section: ElasticSection) -> OpenLaw | None:
         measured = measured_solids(*kinds)
         laws = {solid.name: scaled_law(solid, material) for solid in measured}
     return OpenLaw(material, tuple(laws.values()), _probes(laws, material))
-
-
-def _is_measured(section: ElasticSection) -> bool:
-    """Whether its law is that of the solid it is named after, with measured constants."""
-    law = section.material.law
-    of_solid = solids()[section.solid].law if section.solid else None
-    return of_solid is not None and None is not of_solid.murnaghan == law.murnaghan
 
 
 def _scattered(material: Material) -> OpenLaw:
@@ -193,10 +185,12 @@ class LawSolutions:
     moved: Mapping[tuple[int, str], QuantitiesOfInterest]  # by place in `laws`, and probe
 
     def spread(self, name: str, at: int) -> "LawSpread":
-        """Of a quantity, at an asperity where it is a largest value."""
+        """Of a quantity, relative, at an asperity where it is a largest value."""
         low = high = scatter = 0.0
+        scale = abs(self.whole.figures[name][at]) or QUANTITIES[name].scale(self.problem.hertz)
         for number, law in enumerate(self.laws):
-            changes = {probe: self._change(number, probe, name, at) for probe in law.probes}
+            moved = {probe: self.moved[number, probe] - self.whole for probe in law.probes}
+            changes = {probe: float(of.figures[name][at] / scale) for probe, of in moved.items()}
             sizes = list(changes.values())
             if law.is_scatter:
                 scatter += law.scatter(sizes)
@@ -205,12 +199,6 @@ class LawSolutions:
                 low, high = low + ends[0], high + ends[1]
         half = 0.5 * (high - low) + SETTLED * max(abs(low), abs(high))
         return LawSpread(0.5 * (low + high), half, (1.0 + SETTLED) * scatter)
-
-    def _change(self, number: int, probe: str, name: str, at: int) -> float:
-        """Relative, of the whole's figure on that level."""
-        change = self.moved[number, probe] - self.whole
-        scale = abs(self.whole.figures[name][at]) or QUANTITIES[name].scale(self.problem.hertz)
-        return float(change.figures[name][at] / scale)
 
 
 @dataclass(frozen=True)

@@ -71,7 +71,7 @@ class TestGroups:
         for slope in (None, 0.03):
             asked = values | ({} if slope is None else {"rms_slope": slope})
             problem = set_to(tables, **asked)
-            section = problem.tables["profile"]
+            section = problem.surface.completed(problem.scene.tables)["profile"]
             name = "wavelength" if kind == "sinusoid" else "shortest_wavelength"
             length = section.get(name, 4.0 * section["length"] / (section.get("samples", 2) - 1))
             assert length / problem.hertz.half_width == pytest.approx(0.5)
