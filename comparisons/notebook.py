@@ -69,12 +69,6 @@ class RunFigures(Printed, Figures):
 
     rows: list[Row]  # the figures as records, one each (`comparisons.output.flat_csv`)
 
-    @classmethod
-    def of_result(cls, result: Result, name: str) -> "RunFigures":
-        made = cls(result.figures)
-        made.rows = rows_of(result, name)
-        return made
-
     def frame(self) -> "DataFrame":
         """`rows` as a table of pandas. Raises InputError where pandas is not installed."""
         try:
@@ -116,7 +110,9 @@ class RecordedRun(Printed):
     @property
     def figures(self) -> RunFigures:
         """Every number that is a result; `figures.of(study="contact")` are some of them."""
-        return RunFigures.of_result(self.said, self.name)
+        figures = RunFigures(self.said.figures)
+        figures.rows = rows_of(self.said, self.name)
+        return figures
 
     def figure(
         self, quantity: str, source: str, study: str = "contact", **at: float

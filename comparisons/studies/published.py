@@ -72,8 +72,7 @@ def _lowering(solved: Solved) -> list[Figure]:
     run = solved.runs.get("finite_element")
     if run is None or solved.problem.scene.body.thickness is None:
         return []
-    curves = [(level.grid.x, level.displacement) for level in run.levels]
-    values = [float(np.interp(0.0, *curve)) for curve in curves]
+    values = [float(np.interp(0.0, one.grid.x, one.displacement)) for one in run.levels]
     refined = grid_convergence(values, LOWERED.formal_order)
     size = values[-1]
     left = iteration(run.finest.solution), refined.uncertainty / size
@@ -82,29 +81,24 @@ def _lowering(solved: Solved) -> list[Figure]:
     return [Figure(NAME, LOWERING, run.name, size, at, None, size, stated, levels=tuple(values))]
 
 
-def row_of(
-    name: str, section: PublishedSection, of_models: Mapping[str, Figure]
-) -> tuple[str, ...]:
-    """Cells of HEAD by each model's figure."""
-    sizes = {model: f.scale * (1.0 + f.value) for model, f in of_models.items()}
-    texts = [section.as_published(sizes[model]) if model in sizes else "" for model in MODELS]
-    [judged] = [f for f in of_models.values() if "judged" in f.notes] or [None]
-    if judged is None:
-        return (name, section.value, *texts, "", "", "not known", section.note or "")
-    difference, uncertainty, _, verdict = judged_cells(judged)
-    spread = f"{section.value} ± {percent(section.spread)}" if section.scatter else section.value
-    if section.doubtful:
-        verdict = "agree" if abs(judged.value) <= section.spread + judged.numerical else "differ"
-        verdict += ", doubtful"
-    return (name, spread, *texts, difference, uncertainty, verdict, section.note or "")
-
-
 def table(sections: Mapping[str, PublishedSection], figures: Figures) -> list[tuple[str, ...]]:
     """Rows of HEAD."""
-    return [
-        row_of(name, section, {f.source: f for f in figures.of(study=NAME, against=name)})
-        for name, section in sections.items()
-    ]
+    rows = []
+    for name, section in sections.items():
+        known = figures.of(study=NAME, against=name)
+        sizes = {f.source: f.scale * (1.0 + f.value) for f in known}
+        texts = [section.as_published(sizes[model]) if model in sizes else "" for model in MODELS]
+        [judged] = [f for f in known if "judged" in f.notes] or [None]
+        shown, cells = section.value, ("", "", "not known")
+        if judged is not None:
+            *cells, _, verdict = judged_cells(judged)
+            shown += f" ± {percent(section.spread)}" if section.scatter else ""
+            if section.doubtful:
+                near = abs(judged.value) <= section.spread + judged.numerical
+                verdict = f"{'agree' if near else 'differ'}, doubtful"
+            cells.append(verdict)
+        rows.append((name, shown, *texts, *cells, section.note or ""))
+    return rows
 
 
 def blocks(run: Run) -> list[Block]:

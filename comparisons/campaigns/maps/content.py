@@ -27,21 +27,17 @@ def significance(answer: dict, quantity: str) -> dict:
     return {"error": BELOW if agrees else INCONCLUSIVE}
 
 
-def differences(content: dict, quantity: str) -> np.ndarray:
-    """(ny, nx) relative model errors with their signs, nan where unknown."""
-    return _values(content, quantity, "difference")
-
-
 def points_within(content: dict, tolerance: float) -> int:
     """How many points have a model error that is within a tolerance with all its uncertainty."""
-    quantity = content["quantity"]
-    largest = np.abs(differences(content, quantity)) + _values(content, quantity, "uncertainty")
+    largest = np.abs(of_points(content, "difference")) + of_points(content, "uncertainty")
     return int(np.count_nonzero(largest <= tolerance))
 
 
-def _values(content: dict, quantity: str, name: str) -> np.ndarray:
-    """(ny, nx) what is called so of a quantity's errors, nan where it is unknown."""
-    entries = (point.get("quantities", {}).get(quantity) or {} for point in content["points"])
+def of_points(content: dict, name: str) -> np.ndarray:
+    """(ny, nx) the relative `difference` with its sign, or the `uncertainty`, of the quantity that
+    is shown, nan where it is unknown."""
+    shown = content["quantity"]
+    entries = (point.get("quantities", {}).get(shown) or {} for point in content["points"])
     values = np.array([entry.get(name) for entry in entries], dtype=float)
     return values.reshape(len(content["y"]["values"]), len(content["x"]["values"]))
 

@@ -242,10 +242,6 @@ def _set_coating_ratio(scene: Scene, value: float) -> Changes:
     return {"coating.youngs_modulus": value * scene.body.youngs_modulus}
 
 
-def _ratio(problem: Problem) -> float:
-    return problem.scene.body.poissons_ratio
-
-
 def _modulus_ratio(problem: Problem) -> float | None:
     """Of the plane strain moduli, which contacts know of; that of Young's where bodies are alike in
     Poisson's ratio."""
@@ -255,10 +251,6 @@ def _modulus_ratio(problem: Problem) -> float | None:
     return roller.material.plane_strain_modulus / body.plane_strain_modulus
 
 
-def _none(problem: Problem) -> None:
-    """A group's that says nothing of how large an effect is."""
-
-
 FUNCTIONS = {  # set_to, value_of
     "a_over_thickness": (partial(_set_size, "thickness"), partial(_size, "thickness")),
     "a_over_width": (partial(_set_size, "width"), partial(_size, "width")),
@@ -266,8 +258,11 @@ FUNCTIONS = {  # set_to, value_of
     "rms_slope": (_set_slope, _slope),
     "wavelength_over_a": (_set_wavelength, _wavelength),
     "friction_dundurs": (_set_friction, _friction),
-    "peak_pressure_over_hardness": (_set_hardness, _none),
-    "poissons_ratio": (lambda scene, value: {"body.poissons_ratio": value}, _ratio),
+    "peak_pressure_over_hardness": (_set_hardness, lambda problem: None),
+    "poissons_ratio": (
+        lambda scene, value: {"body.poissons_ratio": value},
+        lambda problem: problem.scene.body.poissons_ratio,
+    ),
     "modulus_ratio": (_set_modulus_ratio, _modulus_ratio),
     "coating_over_a": (_set_coating, _coating),
     "coating_modulus_ratio": (_set_coating_ratio, _coating_ratio),

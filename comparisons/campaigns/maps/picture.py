@@ -14,7 +14,7 @@ from comparisons.campaigns.maps.content import (
     BELOW,
     INCONCLUSIVE,
     SIGNIFICANT,
-    differences,
+    of_points,
     places,
     scaled,
 )
@@ -132,7 +132,7 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
     Returns the style of the line of every tolerance that the map reaches."""
     from matplotlib.patheffects import Normal, Stroke
 
-    error = differences(content, content["quantity"])
+    error = of_points(content, "difference")
     drawn = {}
     for tolerance, style in zip(content["tolerances"], STYLES, strict=True):
         for side in (-1.0, 1.0):

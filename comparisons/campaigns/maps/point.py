@@ -11,7 +11,7 @@ import numpy as np
 
 from comparisons.campaigns.grid import SOLVED, Point, failed
 from comparisons.common.progress import Stages
-from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, ModelRun
@@ -43,37 +43,30 @@ def solve_point(point: Point) -> dict:
     both models' values, in the digits that do not depend on the machine."""
     problem = problem_of(point.scene)
     plan = make_plan(problem, MODELS)
-    window = window_of(problem) if plan.stress else None
+    window, friction = window_of(problem) if plan.stress else None, problem.largest_friction
     for runs in _refined(problem, plan, window):
         for run in runs.values():
             if not run.finest.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
-        errors, values = errors_of(problem, runs, window)
-        if not is_open(errors.one(quantity=point.asked)):
+        errors = differences_of(*runs.values(), problem, friction)
+        if not is_open(errors[point.asked]):
             break
+    values = {name: values_of(run.finest, problem, friction) for name, run in runs.items()}
     finest = runs["finite_element"].finest
     return {
         "status": SOLVED,
         "half_width": _significant(problem.hertz.half_width),
         "hertz_peak_pressure": _significant(problem.hertz.peak_pressure),
-        "friction": _significant(max(problem.scene.load.friction)),
+        "friction": _significant(friction),
         "levels": len(runs["finite_element"].levels),
         "unknowns": finest.unknowns,
-        "quantities": {error.quantity: _entry(error, values) for error in errors},
+        "quantities": {name: _entry(error, values) for name, error in errors.items()},
     }
 
 
 def is_open(error: Figure) -> bool:
     """Whether another level is worth its time: the uncertainty would show in a map."""
     return error.numerical > SHARE * max(abs(error.value), TOLERANCES[0])
-
-
-def errors_of(problem: Problem, runs: Runs, window: Window | None) -> tuple[Figures, Values]:
-    """The model error in each quantity, and the values of both models on the finest level."""
-    friction = max(problem.scene.load.friction)
-    errors = differences_of(*runs.values(), problem, friction)
-    values = {name: values_of(run.finest, problem, friction) for name, run in runs.items()}
-    return Figures(errors.values()), values
 
 
 def _entry(error: Figure, values: Values) -> dict[str, float | None]:

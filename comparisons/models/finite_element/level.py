@@ -71,7 +71,9 @@ def finite_element_level(
     def solve(problem: Problem) -> Level:
         """Under friction coefficients that share a contact."""
         solving = _LevelSolution(problem, plan, refinement, stages, approach)
-        solving.load_libraries()
+        with stages.stage("assembly", "finite elements: loading"):
+            start_worker()
+            load_dolfinx()
         ranges, start = solving.predicted_contact()
         flows = problem.scene.finite_element.plastic
         patches = flowing_contact(problem) if flows else ranges
@@ -149,11 +151,6 @@ class _LevelSolution:
     @property
     def is_finite(self) -> bool:
         return self.problem.scene.finite_element.deformation == "finite"
-
-    def load_libraries(self) -> None:
-        with self.stages.stage("assembly", "finite elements: loading"):
-            start_worker()
-            load_dolfinx()
 
     def predicted_contact(self) -> tuple[np.ndarray, np.ndarray]:
         """Patches (k, 2) [m] and pressures (n,) [Pa] of the analytic model."""

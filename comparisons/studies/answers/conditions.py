@@ -14,7 +14,7 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import ComplianceOperator
 from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.common.progress import Stages
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer
@@ -27,11 +27,15 @@ def operators_of(
     grid = list(runs.values())[-1].finest.grid
     half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
     operators: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
-    settings = problem.scene.finite_element
-    linear = settings.deformation == "linear" and not settings.plastic
-    if "finite_element" in runs and linear:
+    if "finite_element" in runs and not problem.scene.finite_element.nonlinear:
+        from comparisons.models.finite_element.bodies import BodyCache, bodies_of
+        from comparisons.models.finite_element.contact import mutual_compliance
+        from comparisons.models.finite_element.mesh import Refinement
+
         level = runs["finite_element"].levels[0]
-        operators["finite_element"] = level.grid, _finite_elements(problem, plan, level)
+        how = Refinement(level.grid.pitch), level.patches, Stages(), BodyCache()
+        bodies = bodies_of(problem, plan, *how)  # made again
+        operators["finite_element"] = level.grid, mutual_compliance(problem, bodies, level.grid)
     return operators
 
 
@@ -39,31 +43,13 @@ def conditions(
     answer: Answer, problem: Problem, operators: Mapping[str, tuple[HatGrid, ComplianceOperator]]
 ) -> dict[str, dict]:
     """`Residuals` by model, but for the load; relative and zero when exact."""
-    return {
-        name: _residuals(answer, problem, grid, operator)
-        for name, (grid, operator) in operators.items()
-    }
-
-
-def _residuals(
-    answer: Answer, problem: Problem, grid: HatGrid, operator: ComplianceOperator
-) -> dict[str, float]:
-    pressure = answer.on(grid.x)
-    gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
-    moved, load = operator.apply(pressure), float(grid.weights @ pressure)
-    approach = float(pressure @ (gap + moved)) / load if load > 0.0 else 0.0
-    solved = moved, pressure, gap, grid.weights, approach, problem.constraints()
-    residuals = asdict(assessed(*solved, iterations={}).residuals)
-    del residuals["load_balance"]  # the answer's own points have it
+    residuals = {}
+    for name, (grid, operator) in operators.items():
+        pressure = answer.on(grid.x)
+        gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+        moved, load = operator.apply(pressure), float(grid.weights @ pressure)
+        approach = float(pressure @ (gap + moved)) / load if load > 0.0 else 0.0
+        solved = moved, pressure, gap, grid.weights, approach, problem.constraints()
+        residuals[name] = asdict(assessed(*solved, iterations={}).residuals)
+        del residuals[name]["load_balance"]  # the answer's own points have it
     return residuals
-
-
-def _finite_elements(problem: Problem, plan: Plan, level: Level) -> ComplianceOperator:
-    """The compliance of the scene's finite elements on a level, made again."""
-    from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-    from comparisons.models.finite_element.contact import mutual_compliance
-    from comparisons.models.finite_element.mesh import Refinement
-
-    refinement = Refinement(level.grid.pitch)
-    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), BodyCache())
-    return mutual_compliance(problem, bodies, level.grid)

@@ -1,8 +1,9 @@
 """Partial slip on finite elements: their compliance along the surface, and their stresses."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -60,23 +61,14 @@ def finite_element_slip(
     return slipped if window is None else _with_mesh_stress(problem, operator, slipped, window)
 
 
-@dataclass(frozen=True)
-class Applied:
-    """A compliance by what applies it."""
-
-    apply: Callable[[np.ndarray], np.ndarray]
-
-
 def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatGrid) -> SurfacePair:
     """Both surfaces by their finite elements, solved with the nearest analytic operator for a
     model of either compliance."""
     model, unlike = nearest_operator(problem.scene, grid, 0.0), operator.unlike
 
     def solve(apply: Callable, *problem_of_contact: object) -> object:
-        start = problem_of_contact[-1]
-        return solve_with_model(
-            Applied(apply), model, *problem_of_contact, nearer=start is not None
-        )
+        start, operator = problem_of_contact[-1], SimpleNamespace(apply=apply)
+        return solve_with_model(operator, model, *problem_of_contact, nearer=start is not None)
 
     def normal(pressure: np.ndarray) -> np.ndarray:
         return operator.moved(pressure=pressure)[0]

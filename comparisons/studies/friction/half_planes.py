@@ -118,14 +118,6 @@ def last_visit(path: tuple[float, ...]) -> int | None:
     return next((k for k in reversed(range(len(path) - 1)) if path[k] == path[-1]), None)
 
 
-def opposite_of(path: tuple[float, ...]) -> int | None:
-    """Where in the last cycle the load is farthest from the final one; None without a cycle."""
-    before = last_visit(path)
-    if before is None:
-        return None
-    return max(range(before, len(path)), key=lambda k: abs(path[k] - path[-1]))
-
-
 def half_plane_slip(
     problem: Problem, level: Level, window: Window | None, increments: int
 ) -> SlippedLevel:
@@ -169,9 +161,11 @@ def with_surface(
     problem: Problem, slipped: SlippedLevel, surface: Callable[[int], StressState]
 ) -> SlippedLevel:
     """With stresses (k,) of the surface at the level's places x under the last load, and at the
-    other end of the cycle, of what gives them under each load of the path."""
-    opposite = opposite_of(problem.scene.partial_slip.path)
-    other = None if opposite is None else surface(opposite)
+    other end of the last cycle, where the load is farthest from the final one, of what gives them
+    under each load of the path."""
+    path, other = problem.scene.partial_slip.path, None
+    if (before := last_visit(path)) is not None:
+        other = surface(max(range(before, len(path)), key=lambda k: abs(path[k] - path[-1])))
     return replace(slipped, surface=surface(-1), opposite=other)
 
 

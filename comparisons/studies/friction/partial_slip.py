@@ -83,9 +83,6 @@ class ModelSlip:
     def finest(self) -> SlippedLevel:
         return self.levels[-1]
 
-    def history(self, name: str, path: tuple[float, ...]) -> list[float]:
-        return [level.figures(path)[name] for level in self.levels]
-
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Every level of every model that was run is loaded along the path."""
@@ -155,7 +152,7 @@ def _figures(solved: Solved, models: Mapping[str, ModelSlip]) -> Iterator[Figure
                 scale=scale,
                 uncertainty=_uncertainty(slip.path, name, scale, (model,)),
                 place=model.finest.places.get(name),
-                levels=tuple(model.history(name, slip.path)),
+                levels=tuple(level.figures(slip.path)[name] for level in model.levels),
                 **common,
             )
         if set(known) == set(MODELS) and name in COMPARED:

@@ -99,7 +99,8 @@ class EffectRefinement:
         left_out = self._take_wholes(frugal)
         levels = len(next(iter(self.history.values())))
         for number in range(1, levels + 1):
-            if number <= LEAST_LEVELS or not self._is_open(number):
+            is_open = any(self.solved.is_open(variant, number) for variant in self.every)
+            if number <= LEAST_LEVELS or not is_open:
                 self._take(number, alone=False)
         parts = (level for of_friction in self.history.values() for level in of_friction)
         why = next((level.unsplit for level in parts if level.unsplit), None)
@@ -160,9 +161,6 @@ class EffectRefinement:
             new[mu] = contributions_of(solved, split, alone)
         for mu, parts in new.items():
             self.history[mu][number - 1 : number] = [parts]
-
-    def _is_open(self, number: int) -> bool:
-        return any(self.solved.is_open(variant, number) for variant in self.every)
 
     def _errors(self) -> list[ModelError]:
         return [

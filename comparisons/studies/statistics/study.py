@@ -273,22 +273,14 @@ def _row(
     return _flat(row), sizes | {"difference": prod(causes.values()) * sum(of_pressures)}
 
 
-def _patch_loads(level: Level) -> tuple[np.ndarray, np.ndarray]:
-    """Load [N/m] and peak pressure [Pa] (k,) of a level's patches. Pressures belong to the nearest
-    patch."""
-    patches, x = level.patches, level.grid.x
-    places = np.searchsorted(0.5 * (patches[:-1, 1] + patches[1:, 0]), x)
-    load = np.bincount(places, level.grid.weights * level.solution.pressure, len(patches))
-    peak = np.zeros(len(patches))
-    np.maximum.at(peak, places, level.solution.pressure)
-    return load, peak
-
-
 def patch_rows(problem: Problem, level: Level) -> tuple[dict[str, object], ...]:
     """Every patch of a level, from `start` to `stop` [m]: load [N/m], peak [Pa], and how deep it
-    is penetrated."""
-    patches, wanted = level.patches, problem.scene.statistics
-    load, peak = _patch_loads(level)
+    is penetrated. Pressures belong to the nearest patch."""
+    patches, wanted, pressure = level.patches, problem.scene.statistics, level.solution.pressure
+    places = np.searchsorted(0.5 * (patches[:-1, 1] + patches[1:, 0]), level.grid.x)
+    load = np.bincount(places, level.grid.weights * pressure, len(patches))
+    peak = np.zeros(len(patches))
+    np.maximum.at(peak, places, pressure)
     depth = relative_penetration(peak, problem.modulus)
     rule = wanted.metal, wanted.lubricated
     kinds = {

@@ -158,12 +158,6 @@ def asperity_rows(
     return rows
 
 
-def _asperity_series(rows: list[dict[str, object]], source: str, at: Mapping[str, float]) -> Series:
-    units = {"x": "m", "length": "m", "level": "", "state": ""}
-    columns = {name: Column(tuple(row[name] for row in rows), unit) for name, unit in units.items()}
-    return Series(ASPERITIES, columns, source, at)
-
-
 def zone_figures(
     problem: Problem, run: ModelRun, window: Window, friction: float
 ) -> tuple[tuple[Figure, ...], str]:
@@ -208,6 +202,7 @@ def needs(solved: Solved) -> str | None:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Of every model at every friction coefficient: the dip, and those below single asperities."""
     problem, window, figures, series, states = solved.problem, solved.window, [], [], []
+    units = {"x": "m", "length": "m", "level": "", "state": ""}.items()
     for name, run in solved.runs.items():
         for friction in problem.scene.load.friction:
             at = {"friction": friction}
@@ -215,7 +210,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             figures += of_zone
             states.append(Statement(STATE, state, name, at))
             rows = asperity_rows(problem, run.finest.under(friction), window, friction)
-            series.append(_asperity_series(rows, name, at))
+            columns = {key: Column(tuple(row[key] for row in rows), unit) for key, unit in units}
+            series.append(Series(ASPERITIES, columns, name, at))
     return Findings(tuple(figures), tuple(series), tuple(states))
 
 

@@ -82,9 +82,8 @@ class FlowCheck:
 
     friction: float
     tau1: float  # largest, of an elastic half-plane (with the cap of the scene's hardness, if any)
-    von_mises: float | None  # largest equivalent stress; None where no field was computed
+    von_mises: float | None  # largest equivalent stress; None: no field, tau1 is by the peak
     uncertainty: float  # of tau1, relative
-    from_field: bool  # tau1 was computed on a field, else from the peak pressure
     peak: float  # pressure
     # share of the contact at or above the hardness, or 3 Y; None where neither is known
     at_hardness: float | None
@@ -200,7 +199,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
                 figure = replace(figure, bounds=(0.0, limit / figure.scale))
             figures.append(figure)
         figures += figures_of(NAME, "scene", {"shakedown_limit": check.shakedown}, None, at)
-        said.append(Statement("read", FIELD if check.from_field else PEAK, source, at))
+        said.append(Statement("read", PEAK if check.von_mises is None else FIELD, source, at))
     if flow.flow == "plastic" and MODEL_ERROR in before:
         figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data)
     if flow.beyond_doubt:
@@ -270,7 +269,6 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
         tau1=tau1,
         von_mises=mises,
         uncertainty=uncertainty,
-        from_field=field is not None,
         peak=peak,
         at_hardness=share,
         shakedown=None if hardness is None else shakedown_limit(friction)[0],
@@ -309,7 +307,7 @@ def flow_sentence(run: Run) -> str:
         return flow.beyond_doubt
     worst = flow.worst
     where = f" at friction {plain(worst.friction)}" if len(flow.checks) > 1 else ""
-    where += "" if worst.from_field else ", by the peak pressure (no [stress])"
+    where += ", by the peak pressure (no [stress])" * (worst.von_mises is None)
     if flow.ratio is None:
         shear = with_unit(worst.tau1, "Pa", 2)
         return f"taken as elastic: it flows if its shear yield is below {shear}{where}"

@@ -43,7 +43,7 @@ def test_the_peak_pressure_stands_for_a_field_that_is_not_asked_for(friction):
     by_field, by_peak = (
         outcome_of(friction=friction, stress=s).data("yield").worst for s in (True, False)
     )
-    assert (by_field.from_field, by_peak.from_field) == (True, False)
+    assert by_field.von_mises is not None
     assert by_peak.tau1 == pytest.approx(by_field.tau1, rel=2e-3)
     assert by_peak.von_mises is None
 
