@@ -107,6 +107,19 @@ def assert_close(values, expected, tolerance=EXACT):
 both_ends = pytest.mark.parametrize("periodic", [False, True], ids=["free", "periodic"])
 
 
+@pytest.mark.parametrize(("datum", "most", "least"), [(None, 1e-8, 0.0), (10.0, np.inf, 0.1)])
+def test_a_datum_that_is_not_in_proportion_is_seen(datum, most, least):
+    """A broken kernel: the approach is then no length of the problem any more."""
+    here, approaches = contact(3, periodic=False), []
+    for metre in (1.0, 2.0**10):
+        operator = HalfPlane(len(here.gap), metre * here.pitch, 1.0, datum)
+        load = Constraints(load=here.constraints.load * metre)
+        weights = np.full(len(here.gap), metre * here.pitch)
+        solution = solve_contact(operator, metre**2 * here.pitch * here.gap, weights, load)
+        approaches.append(solution.approach / metre)
+    assert least <= abs(approaches[1] / approaches[0] - 1.0) <= most
+
+
 @both_ends
 class TestUnits:
     @given(seed=seeds, length=factors, modulus=factors, cap=st.booleans())

@@ -13,8 +13,10 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import norm
 
 from analytic.material import Material
+from fem.body import elasticity
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
 from fem.body.surface import hat_forces
+from fem.solver.mumps import SymmetricFactor
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 from meshes.real_shape import roughen
@@ -134,3 +136,26 @@ def test_residuals_are_rounding_and_the_stiffness_is_symmetric(body):
 def test_even_compression_is_given_back(body):
     error, ratio, resultant = compression_errors(confined(*body))
     assert error < GIVEN_BACK and ratio < THRESHOLD and resultant < GIVEN_BACK
+
+
+def test_a_factor_in_32_bits_is_seen(monkeypatch):
+    original = SymmetricFactor.solve
+
+    def rounded(self, load: np.ndarray) -> np.ndarray:
+        return original(self, load).astype(np.float32).astype(float)
+
+    monkeypatch.setattr(SymmetricFactor, "solve", rounded)
+    assert residual_ratio(clamped("plain")) > 1e3 * THRESHOLD
+
+
+def test_a_wrong_stiffness_is_seen(monkeypatch):
+    """Equations that are solved exactly are no proof that they are the right ones."""
+    original = elasticity.relative_constants
+
+    def stiffer(*constants: object) -> tuple[np.ndarray, np.ndarray]:
+        shear, lame = original(*constants)
+        return shear, 1.01 * lame
+
+    monkeypatch.setattr(elasticity, "relative_constants", stiffer)
+    assert compression_errors(confined("plain"))[2] > 1e3 * GIVEN_BACK
+    assert residual_ratio(clamped("plain")) < THRESHOLD
