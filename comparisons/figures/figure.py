@@ -191,6 +191,11 @@ class Figures(tuple[Figure, ...]):
         return next(iter(self.of(**wanted)), None)
 
 
+def nearest_to_tolerance(errors: Sequence[Figure]) -> Figure:
+    """The judged one farthest outside, or nearest to, its tolerance, uncertainty included."""
+    return max(errors, key=lambda error: (abs(error.value) + error.total) / error.tolerance)
+
+
 @dataclass(frozen=True)
 class Column:
     """Values (n,) of one kind, numbers or texts, and their uncertainty (n,), absolute."""

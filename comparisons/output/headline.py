@@ -2,31 +2,26 @@
 
 In: the figures of a run. Out: what terminal, page, JUnit and result.json say alike."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from comparisons.common.numbers import percent, percent_as_written, plain, significant, with_unit
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, nearest_to_tolerance
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text, label
 from comparisons.models.assumptions import laws, without_law
-from comparisons.models.forecast import time_with_flow
-from comparisons.scenes.materials import kinds_like, measured_solids
-from comparisons.scenes.sections import ElasticSection
+from comparisons.output.next_step import next_of, next_of_flow, worst_of
 from comparisons.studies import contact
 from comparisons.studies.friction import coupling
-from comparisons.studies.model_error.account import INPUTS, INTERACTION
+from comparisons.studies.model_error.account import INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.selection import FLOW
-from comparisons.studies.model_error.show import ROUNDING, figure_of_whole, flow_taken, law_range
+from comparisons.studies.model_error.show import flow_taken, law_range
 from comparisons.studies.scatter.study import beside_inputs, by_inputs
 from comparisons.studies.study import MODEL_ERROR, SCATTER, Run
 from comparisons.studies.subsurface import yielding
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
-AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided
 
 
 @dataclass(frozen=True)
@@ -62,7 +57,7 @@ def validity(errors: Sequence[Figure]) -> tuple[Kind, str]:
         return "fails", f"outside the tolerance: {_named(outside)}"
     unclear = [error for error in errors if error.verdict != "holds"]
     if not unclear:
-        nearest = _named([_nearest(errors)])
+        nearest = _named([nearest_to_tolerance(errors)])
         return "holds", f"every judged error is within its tolerance; nearest: {nearest}"
     numerical = [error for error in unclear if error.is_unresolved]
     if numerical:
@@ -100,8 +95,8 @@ def headline(run: Run) -> Headline:
         both = f"--models {','.join(HYPHENATED.values())}"
         return Headline(kind, _one_model(run), f"{both} compares both models.", (both,))
     if flows := run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
-        return Headline(kind, f"{flows[0].upper()}{flows[1:]}.", *_next_of_flow(run))
-    return Headline(kind, f"{_sentence_of(run, kind)}{_inputs(run)}", *_next(run, kind))
+        return Headline(kind, f"{flows[0].upper()}{flows[1:]}.", *next_of_flow(run))
+    return Headline(kind, f"{_sentence_of(run, kind)}{_inputs(run)}", *next_of(run, kind))
 
 
 def _sentence_of(run: Run, kind: Kind) -> str:
@@ -110,12 +105,12 @@ def _sentence_of(run: Run, kind: Kind) -> str:
     several = len(run.problem.scene.load.friction) > 1
     law = _law_leaned_on(run)
     if kind == "holds":
-        nearest = _nearest(errors)
+        nearest = nearest_to_tolerance(errors)
         said = f"{_all_hold(errors)}; nearest to its tolerance, {_said(nearest, several)}"
         return f"The half-plane holds here: {said}{'' if law_range(nearest) else law}."
     if kind == "fails":
         outside = [error for error in errors if error.verdict == "fails"]
-        worst, more = _nearest(outside), len(outside) - 1
+        worst, more = nearest_to_tolerance(outside), len(outside) - 1
         taken = flow_taken([e for e in errors if e.friction == worst.friction])
         taken = f"{taken}; " if taken else ""
         are = "are" if more > 1 else "is"
@@ -143,7 +138,7 @@ def _inputs(run: Run) -> str:
     a model error below that is not what a user would see first."""
     if not run.model_errors:
         return ""
-    error = _nearest(run.model_errors)
+    error = nearest_to_tolerance(run.model_errors)
     wanted = {"quantity": error.quantity, "friction": error.friction}
     figure = run.figures.one(study=SCATTER, **wanted)
     if figure is None or by_inputs(figure) <= error.tolerance:
@@ -153,7 +148,7 @@ def _inputs(run: Run) -> str:
 
 def _inconclusive(run: Run, several: bool) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
-    worst = _worst(run)
+    worst = worst_of(run)
     largest = max(worst.unknown, key=worst.unknown.get, default="")
     is_solved = worst.part(largest) is not None  # its range
     if not largest or worst.is_unresolved or is_solved:
@@ -165,21 +160,11 @@ def _inconclusive(run: Run, several: bool) -> str:
     )
 
 
-def _worst(run: Run) -> Figure:
-    """The error that is farthest from a verdict that holds."""
-    return _nearest([error for error in run.model_errors if error.verdict != "holds"])
-
-
 def _all_hold(errors: Sequence[Figure]) -> str:
     if len(errors) == 1:
         return "the one judged error is within its tolerance"
     several = "both" if len(errors) == 2 else f"all {len(errors)}"
     return f"{several} judged errors are within their tolerances"
-
-
-def _nearest(errors: Sequence[Figure]) -> Figure:
-    """The one farthest outside, or nearest to, its tolerance, uncertainty included."""
-    return max(errors, key=lambda error: (abs(error.value) + error.total) / error.tolerance)
 
 
 def _said(error: Figure, several: bool) -> str:
@@ -205,110 +190,6 @@ def _dominant(error: Figure) -> str:
     if largest is None or sizes[largest] <= 0.5 * abs(error.value):
         return ""
     return f", dominated by {EFFECTS[largest].label}"
-
-
-def _next(run: Run, kind: Kind) -> tuple[str, tuple[str, ...]]:
-    """What would decide or improve a verdict on elastic bodies: a sentence, and text to paste."""
-    if not run.model_errors:
-        paste = "[tolerance]\npeak_pressure = 0.02"
-        return "a tolerance, to judge by: tolerance = {peak_pressure = 0.02}.", (paste,)
-    if kind != "inconclusive":
-        unknown = yielding.may_flow(run, at_any=kind == "fails")
-        if unknown:
-            return f'body.yield_stress = "…": {unknown}.', ()
-        whole = f"{_figures_of_whole(run)} in place of the half-plane's."
-        return ("nothing." if kind == "holds" else whole), ()
-    worst = _worst(run)
-    holds_at = _rounded_up(abs(worst.value) + worst.total)
-    tolerance = f"--tolerance {holds_at:g}" if holds_at else ""
-    largest = max(worst.unknown, key=worst.unknown.get, default="")
-    why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
-    not_asked = "budget.effects" in why
-    if largest == LAW and not worst.is_unresolved and not not_asked:
-        return _next_of_law(run, worst, tolerance)
-    if worst.is_unresolved and worst.uncertainty.parts.get(INPUTS, 0.0) > 0.5 * worst.numerical:
-        return f"{tolerance} holds; third-order constants are measured no better.", (tolerance,)
-    if worst.is_unresolved or not worst.unknown:
-        if worst.total <= AT_TOLERANCE * worst.tolerance:
-            said = f"{tolerance} holds: the error lies at the tolerance, and more digits decide "
-            return f"{said}nothing that matters.", (tolerance,)
-        time = 2.0 * run.problem.scene.budget.time
-        said = f"budget = {{time = {time:g}}}, finer levels for a smaller uncertainty."
-        return said, (f"[budget]\ntime = {time:g}",)
-    if not_asked:
-        asked = "true" if "not asked for" in why else '"all"'
-        return f"budget.effects = {asked} computes it.", (f"[budget]\neffects = {asked}",)
-    if largest == "roller_support":
-        paste = '[roller]\nsupport = "opposite"'
-        others = '"half disc" or {hub = "…"}'
-        return f'roller.support = "opposite", {others}: what holds the roller.', (paste,)
-    if largest == "finite_strain" and (time := run.data(MODEL_ERROR).selection.time):
-        time = _rounded_up(time)
-        return f"budget.time = {time:g} computes it.", (f"[budget]\ntime = {time:g}",)
-    if largest == "plastic_flow":
-        paste = "[finite_element]\nplastic = true"
-        missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"
-        return f"finite_element.plastic = true{missing} computes it.", (paste,)
-    return f"{tolerance} holds.", (tolerance,)
-
-
-def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[str, ...]]:
-    """Name the solid; where that is done, what is not known of it."""
-    scene = run.problem.scene
-    ranges = (law for law in run.data(MODEL_ERROR).selection.laws if not law.is_scatter)
-    sections = {name: getattr(scene, name) for law in ranges for name in law.bodies}
-    unnamed = {name: part for name, part in sections.items() if part.solid is None}
-    if unnamed:
-        paste = tuple(f'[{name}]\nmaterial = "{_like(part)}"' for name, part in unnamed.items())
-        fields = " and ".join(f'{n}.material = "{_like(s)}"' for n, s in unnamed.items())
-        return f"{fields}, or what it is (crosscheck materials), for its moduli.", paste
-    unmeasured = dict.fromkeys(part.solid for part in sections.values())
-    if not unmeasured:
-        return f"{tolerance} holds.", (tolerance,)
-    known = f"no third-order constants of {' or '.join(unmeasured)} are published"
-    return f"{tolerance} holds; {known}.", (tolerance,)
-
-
-def _like(section: ElasticSection) -> str:
-    """A measured solid that a body may be."""
-    kinds = kinds_like(section.youngs_modulus, section.poissons_ratio)
-    return next((solid.name for solid in measured_solids(*kinds) if kinds), "…")
-
-
-def _next_of_flow(run: Run) -> tuple[str, tuple[str, ...]]:
-    """Where a body flows beyond doubt, and no model of the run does."""
-    problem = run.problem
-    why = run.data(MODEL_ERROR).selection.impossible.get(FLOW, "")
-    if problem.scene.body.yield_stress is None:
-        return 'body.yield_stress = "…" computes the flow.', ()
-    if "budget.effects" in why:
-        return "budget.effects = true computes the flow.", ("[budget]\neffects = true",)
-    if "budget.time" in why:
-        patches = run.runs["half_plane"].levels[0].patches
-        time = _rounded_up(time_with_flow(problem, run.plan, patches))
-        return f"budget.time = {time:g} computes the flow.", (f"[budget]\ntime = {time:g}",)
-    return f"a scene whose flow can be computed: {why}.", ()
-
-
-def _figures_of_whole(run: Run) -> str:
-    """The figures to use instead, at the largest friction."""
-    friction = max(run.problem.scene.load.friction)
-    shown = [
-        f"{label(error.quantity)} "
-        f"{with_unit(figure_of_whole(run, error), QUANTITIES[error.quantity].unit)}"
-        for error in run.model_errors
-        if error.friction == friction
-    ]
-    where = f" (friction {plain(friction)})" if len(run.problem.scene.load.friction) > 1 else ""
-    return f"take the whole model's {', '.join(shown)}{where}" if shown else "take the whole model"
-
-
-def _rounded_up(size: float) -> float | None:
-    """To two digits, a tolerance that a user would write; None where it is not known."""
-    if not math.isfinite(size) or size <= 0.0:
-        return None
-    step = 10.0 ** (math.floor(math.log10(size)) - 1)
-    return round(math.ceil(size / step * (1.0 - ROUNDING)) * step, 12)
 
 
 def _one_model(run: Run) -> str:
