@@ -33,12 +33,12 @@ def materials(
 
 
 def solid_or_error(name: str) -> "Solid":
-    """Raises InputError, with the nearest name, for one that no solid has."""
-    from comparisons.scenes.materials import nearest_name, solid_named
+    """Raises InputError, with the names of its class, for one that no solid has."""
+    from comparisons.scenes.materials import names_for, solid_named
 
     solid = solid_named(name)
     if solid is None:
-        raise InputError(f"{name}: is no known solid; the nearest is {nearest_name(name)}")
+        raise InputError(f"{name}: is no known solid; {names_for(name)}")
     return solid
 
 
@@ -50,6 +50,7 @@ def entry_of(solid: "Solid") -> dict:
     return {
         "name": solid.name,
         "aliases": list(solid.aliases),
+        "alias_sources": list(solid.alias_sources),
         "class": solid.kind,
         "description": solid.description,
         "values": {key: _value(key, value) for key, value in solid.values.items()},
@@ -93,7 +94,8 @@ def _bounds(solid: "Solid") -> list[str]:
 def _keys(solid: "Solid") -> list[str]:
     """The keys of every source of a solid, in the order in which they come up."""
     values = (*solid.values.values(), *solid.typical.values())
-    return list(dict.fromkeys([*(k for v in values for k in v.sources), *solid.law_sources]))
+    keys = [key for value in values for key in value.sources]
+    return list(dict.fromkeys([*keys, *solid.law_sources, *solid.alias_sources]))
 
 
 def solids_table(listed: list["Solid"]) -> "Table":
@@ -142,7 +144,9 @@ def page(solid: "Solid") -> "Table":
     def add(*cells: str) -> None:
         table.add_row(*map(Text, cells))  # in a Text brackets are no markup
 
-    add("solid", solid.name, ", ".join(solid.aliases))
+    add("solid", solid.name, "")
+    if solid.aliases:
+        add("other names", ", ".join(solid.aliases), ", ".join(solid.alias_sources))
     add("class", solid.kind, solid.description)
     for key, value in solid.values.items():
         add(key, _shown(key, value), ", ".join(value.sources))

@@ -64,6 +64,9 @@ def init(
         str | None, Option(help="By Hertz, instead of the load, such as 1GPa.")
     ] = None,
     friction: Annotated[str | None, Option(help="Coefficient.")] = None,
+    material: Annotated[
+        str | None, Option(help="Of both bodies: a solid of crosscheck materials.")
+    ] = None,
     youngs_modulus: Annotated[str | None, Option(help='Of both bodies, such as "207 GPa".')] = None,
     poissons_ratio: Annotated[str | None, Option(help="Of both bodies.")] = None,
     hardness: Annotated[str | None, Option(help="Of the rough body, as a pressure.")] = None,
@@ -80,6 +83,7 @@ def init(
     options |= {"channel": channel, "columns": columns, "radius": radius, "friction": friction}
     options |= {"load": load, "peak_pressure": peak_pressure, "hardness": hardness}
     options |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
+    options["material"] = material
     made = write_first_scene(profile, out, sections_of_options(options), force, picture)
     if as_json:
         show_json(made.as_dict())
@@ -100,7 +104,8 @@ def _say_what_was_made(made: "FirstScene", options: Mapping[str, object]) -> Non
         "roller.radius": options["radius"] is None and tables["roller"]["radius"],
         "load.hertz_peak_pressure": options["load"] is options["peak_pressure"] is None
         and tables["load"]["hertz_peak_pressure"],
-        "youngs_modulus": options["youngs_modulus"] is None and tables["body"]["youngs_modulus"],
+        "youngs_modulus": options["youngs_modulus"] is None
+        and tables["body"].get("youngs_modulus"),
     }
     if assumed := [f"{name} = {value}" for name, value in examples.items() if value]:
         print(f"assumed as examples, put in yours: {', '.join(assumed)}")

@@ -3,6 +3,7 @@ that was measured, thermal constants, typical strengths, each with its source.
 
 Also which measured solids a body may be like (`measured_solids`) whose own law is not known."""
 
+import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -56,6 +57,15 @@ RUBBER = "rubber"
 # Moduli and ratios of one kind of solid scatter by so much: steels from 193 to 213 GPa, glasses
 # from 0.19 to 0.24.
 NEAR_MODULUS, NEAR_RATIO = 0.1, 0.03
+# What a designation that no solid has tells of its class.
+LOOKS_LIKE = {
+    "iron": re.compile(r"iron|gj[slmv]|ggg?\d|fcd?\d"),
+    "steel": re.compile(
+        r"steel|\d(cr|mn|ni|mo|si|v\d)|^1\.\d{4}$|^c\d\d|^s[uc]\w?\d|^(1[0-5]|4[0-8]|51|86|93)\d\d$"
+    ),
+}
+NORM = re.compile(r"^(aisi|sae|jis|din|uns|astm|w\.?-?nr\.?)[\s/-]+", re.I)  # before a designation
+SLIP = 0.88  # difflib's ratio of a name and a slip of the pen in it
 SAME = 1e-9  # relative: a value written beside a solid's name is that solid's
 
 
@@ -77,6 +87,7 @@ class Solid:
 
     name: str
     aliases: tuple[str, ...]
+    alias_sources: tuple[str, ...]
     kind: str  # its class
     description: str
     values: dict[str, Value]
@@ -112,8 +123,7 @@ class SolidName(FieldType):
     def read(self, entry: object) -> str:
         solid = solid_named(entry) if isinstance(entry, str) else None
         if solid is None:
-            near = nearest_name(entry) if isinstance(entry, str) else None
-            hint = f'; the nearest is "{near}"' if near else ""
+            hint = f"; {names_for(entry)}" if isinstance(entry, str) else ""
             raise self.wrong(f"is {describe(entry)}, which is no known solid{hint}")
         return solid.name
 
@@ -136,23 +146,39 @@ def sources() -> dict[str, str]:
 
 @cache
 def _names() -> dict[str, str]:
-    """Names and other names, in small letters, of each solid's first name."""
+    """Each solid's first name by its names as `_key` writes them."""
     return {
-        name.casefold(): solid.name
+        _key(name): solid.name
         for solid in solids().values()
         for name in (solid.name, *solid.aliases)
     }
 
 
+def _key(name: str) -> str:
+    """A name without its norm, blanks and hyphens, in small letters: AISI 4140 is 4140."""
+    while (bare := NORM.sub("", name.strip())) != name:
+        name = bare
+    return re.sub(r"[\s_-]", "", name).casefold()
+
+
 def solid_named(name: str) -> Solid | None:
-    """The solid of that name or other name, whatever its case; None if there is none."""
-    first = _names().get(name.strip().casefold())
+    """The solid of that name or other name, with its norm or without; None if there is none."""
+    first = _names().get(_key(name))
     return None if first is None else solids()[first]
 
 
-def nearest_name(name: str) -> str | None:
-    """The first name of the solid whose name is most like `name`."""
-    return _names().get(nearest(name.casefold(), _names()))
+def names_for(name: str) -> str:
+    """What is told of a name that no solid has: the one that it is a slip of the pen for, or the
+    names of the solids of its class, of all where it tells none.
+
+    A name of other digits is another solid, however alike."""
+    digits = re.sub(r"\D", "", name)
+    alike = [known for known in _names() if re.sub(r"\D", "", known) == digits]
+    if near := nearest(_key(name), alike, SLIP):
+        return f'did you mean "{_names()[near]}"?'
+    kind = next((kind for kind, looks in LOOKS_LIKE.items() if looks.search(_key(name))), None)
+    listed = [solid.name for solid in solids().values() if kind in (None, solid.kind)]
+    return f"the known {kind or 'solid'}s are {', '.join(listed)}"
 
 
 def kinds_like(youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
@@ -234,6 +260,7 @@ def _solid(entry: Mapping) -> Solid:
     return Solid(
         name=entry["name"],
         aliases=tuple(entry.get("aliases", ())),
+        alias_sources=_keys({"source": entry.get("alias_source", ())}),
         kind=entry["class"],
         description=entry["description"],
         values=values,

@@ -29,6 +29,7 @@ OPTIONS = {
     "load": (("load", "per_length"),),
     "peak_pressure": (("load", "hertz_peak_pressure"),),
     "friction": (("load", "friction"),),
+    "material": (("roller", "material"), ("body", "material")),
     "youngs_modulus": (("roller", "youngs_modulus"), ("body", "youngs_modulus")),
     "poissons_ratio": (("roller", "poissons_ratio"), ("body", "poissons_ratio")),
     "hardness": (("body", "hardness"),),
@@ -59,7 +60,7 @@ def sections_of_options(options: Mapping[str, str | int | None]) -> Sections:
     chosen = {name: value for name, value in options.items() if value is not None}
     kinds = sections_of(Scene)
     for name, value in chosen.items():
-        if name in OPTIONS:
+        if name in OPTIONS and name != "material":
             value = _number(value)
         elif name == "columns":
             value = [int(w) if w.isdecimal() else w for w in map(str.strip, value.split(","))]
@@ -149,9 +150,10 @@ def _text(
 ) -> str:
     load = sections.get("load", {})
     example_load = {} if "per_length" in load else {"hertz_peak_pressure": PEAK}
+    moduli = {} if "material" in sections.get("body", {}) else STEEL
     values = {
-        "roller": {"radius": radius, **STEEL},
-        "body": STEEL,
+        "roller": {"radius": radius, **moduli},
+        "body": moduli,
         "profile": {"file": os.path.relpath(profile, out.parent), **fields.fields},
         "load": {**example_load, "friction": [0.0, 0.1]},
         "stress": {"depth": 1.0, "half_range": 1.5, "points": [300, 100]},

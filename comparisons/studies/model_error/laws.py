@@ -68,6 +68,7 @@ class OpenLaw:
     named_probes: tuple[tuple[str, Law], ...]  # those of them that the whole is solved with
     # of measured constants, which the probes move one by one: standard errors over the moves
     shares: tuple[float, ...] = ()
+    solid: str | None = None  # that the scene names
     bodies: tuple[str, ...] = ()  # of BODIES
 
     @property
@@ -109,13 +110,14 @@ class OpenLaw:
 
 
 def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
-    """Those of a scene's elastic bodies; bodies of equal constants and laws vary together."""
+    """Those of a scene's elastic bodies; bodies of one solid vary together, as do those of equal
+    constants that name none."""
     bodies: dict[OpenLaw, list[str]] = {}
     for name in BODIES:
         section = getattr(scene, name)
         elastic = section is not None and section.material is not None
         if elastic and (law := _open_law(section)) is not None:
-            bodies.setdefault(law, []).append(name)
+            bodies.setdefault(replace(law, solid=section.solid), []).append(name)
     return tuple(replace(law, bodies=tuple(names)) for law, names in bodies.items())
 
 

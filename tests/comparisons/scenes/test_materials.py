@@ -8,6 +8,7 @@ from analytic.material.third_order import peak_change
 from comparisons.scenes.materials import (
     kinds_like,
     measured_solids,
+    names_for,
     scaled_law,
     solid_named,
     solids,
@@ -30,7 +31,11 @@ def values_of(solid):
 
 
 def keys_of(solid):
-    return {*solid.law_sources, *(key for value in values_of(solid) for key in value.sources)}
+    return {
+        *solid.law_sources,
+        *solid.alias_sources,
+        *(key for value in values_of(solid) for key in value.sources),
+    }
 
 
 @pytest.mark.parametrize("solid", solids().values(), ids=lambda solid: solid.name)
@@ -112,10 +117,34 @@ def test_moduli_follow_from_what_was_measured():
     assert solids()["brass"].material.poissons_ratio == pytest.approx(0.335)
 
 
-def test_a_solid_is_known_by_its_other_names_in_any_case():
-    assert solid_named(" PYREX ") is solids()["borosilicate glass"]
-    assert solid_named("52100") is solids()["100Cr6"]
-    assert solid_named("unobtainium") is None
+@pytest.mark.parametrize(
+    ("name", "others"),
+    [
+        ("borosilicate glass", [" PYREX "]),
+        ("100Cr6", ["1.3505", "AISI 52100", "JIS SUJ2", "100CR6"]),
+        ("16MnCr5", ["1.7131", "SAE 5115"]),
+        ("18CrNiMo7-6", ["1.6587", "17CrNiMo6", "18 CrNiMo 7-6"]),
+        ("42CrMo4", ["W.-Nr. 1.7225", "AISI/SAE 4140", "scm440"]),
+        ("C45", ["1.0503", "AISI 1045", "S45C"]),
+        ("ductile iron", ["EN-GJS-400-15", "EN GJS 500-7", "FCD400"]),
+        ("EN-GJS-700-2", ["EN-JS1070", "GGG-70", "FCD700"]),
+    ],
+)
+def test_a_solid_is_known_by_its_other_names_in_any_case(name, others):
+    assert all(solid_named(other) is solids()[name] for other in others)
+
+
+def test_no_other_steel_is_offered_for_one_that_is_not_known():
+    """20MnCr5 is spelled much like 16MnCr5, and is another steel."""
+    steels = ", ".join(solid.name for solid in solids().values() if solid.kind == "steel")
+    for name in ("20MnCr5", "34CrNiMo6", "18CrNiMo7-7", "1.7139", "AISI 8620", "SCM435", "C46"):
+        assert solid_named(name) is None
+        assert names_for(name) == f"the known steels are {steels}"
+    irons = "iron, grey iron, ductile iron, EN-GJS-700-2"
+    assert names_for("EN-GJL-300") == f"the known irons are {irons}"
+    assert names_for("unobtainium") == f"the known solids are {', '.join(solids())}"
+    assert names_for("carbn steel") == 'did you mean "carbon steel"?'
+    assert names_for("42CrMoS4") == 'did you mean "42CrMo4"?'
 
 
 def test_a_class_has_its_own_measured_solids_or_those_of_wider_ones():

@@ -60,7 +60,7 @@ SOLIDS = [
     (
         SMOOTH,
         {"body": {"material": "carbn steel"}},
-        'body.material: is "carbn steel", which is no known solid; the nearest is "carbon steel"',
+        'body.material: is "carbn steel", which is no known solid; did you mean "carbon steel"?',
     ),
     (SMOOTH, {"body": {"material": 7}}, "body.material: is 7, which is no known solid; allowed is"),
     (

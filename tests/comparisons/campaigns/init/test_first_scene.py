@@ -188,6 +188,10 @@ def test_bodies_and_load_are_options(folder):
     for material in (scene.roller.material, scene.body.material):
         assert (material.youngs_modulus, material.poissons_ratio) == (pytest.approx(70e9), 0.33)
     assert (scene.body.hardness, list(scene.load.friction)) == (pytest.approx(2e9), [0.2])
+    assert main(["init", "trace.csv", "--force", "--material", "AISI 4140"]) == 0
+    scene = Scene.read("trace.toml")
+    assert scene.roller.solid == scene.body.solid == "42CrMo4"
+    assert scene.body.youngs_modulus == pytest.approx(205e9)
 
 
 def test_a_picture_stands_beside_the_scene(folder, capsys, monkeypatch):

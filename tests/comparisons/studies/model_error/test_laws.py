@@ -89,6 +89,18 @@ def test_bodies_of_two_solids_vary_by_themselves():
     assert [law.bodies for law in laws] == [("body",), ("roller",)]
 
 
+def test_a_steel_of_no_measured_constants_may_have_those_of_any_measured_steel():
+    """By itself: another steel of the same moduli need not have the same."""
+    alike = {solids()[name].material for name in ("18CrNiMo7-6", "100Cr6")}
+    assert len(alike) == 1
+    case, ring = {"material": "18CrNiMo7-6"}, {"material": "100Cr6"}
+    laws = open_laws(resolved(scene(case, ring)))
+    assert [law.bodies for law in laws] == [("body",), ("roller",)]
+    assert not any(law.is_scatter for law in laws)
+    assert all(len(law.laws) == len(measured_solids("steel")) == 7 for law in laws)
+    assert [law.bodies for law in open_laws(resolved(scene(case)))] == [("body", "roller")]
+
+
 def test_a_known_law_is_not_open_and_measured_constants_scatter():
     assert open_laws(resolved(scene(STEEL | {"law": "hencky"}))) == ()
     [law] = open_laws(resolved(scene({"material": "rail steel"})))
