@@ -16,6 +16,7 @@ REDUCTION = 3e-3  # of the residual by each exchange while the set moves; 0.1 ma
 SHARPER = 0.1  # times that, after each exchange without progress
 NEARLY = 0.02  # of the edges still move: the next equilibrium is worth making accurate
 MAX_EXCHANGES = 200
+STALLED = 3  # equilibria without less energy than one before, which rounding alone leaves
 WORTHWHILE = 0.1  # of the energy that the equilibrium would release, taken by one step towards it
 
 
@@ -70,8 +71,10 @@ def exchange_feasibly(
     On the way to the equilibrium of the free nodes those that leave the box stay on its sides:
     all of them where that lowers the energy by WORTHWHILE, else the first that are met. At the
     equilibrium every node whose gap calls for it is freed; those that would leave the box at
-    once go back before anything has moved."""
+    once go back before anything has moved. An operator whose waves differ by more than rounding
+    resolves has equilibria that do not lower the energy: after STALLED of them the best is left."""
     hardness = problem.constraints.hardness
+    best, least, since_least = start, np.inf, 0
     if problem.can_carry(active):
         pressure = problem.feasible(start, active.free)
     else:
@@ -84,6 +87,12 @@ def exchange_feasibly(
         equilibrium_gap = state.weighted_gap + problem.approach * problem.weights
         if np.all((state.pressure >= 0.0) & (state.pressure <= hardness)):
             pressure, weighted_gap = state.pressure, equilibrium_gap
+            energy = 0.5 * float(pressure @ (problem.weighted_gap + weighted_gap))
+            since_least = 0 if energy < least else since_least + 1
+            if energy < least:
+                best, least = pressure, energy
+            elif since_least == STALLED:
+                return best
             violated = problem.violations(state, active)
             if not (violated.joining.any() or violated.softening.any()):
                 return pressure
