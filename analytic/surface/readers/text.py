@@ -275,6 +275,9 @@ def _careful_numbers(table: ProfileTable, columns: Sequence[str | int] | None) -
             raise kind(table.path, message, int(table.lines[row]))
         if len(line) != width:
             message = _wrong_columns(table, len(line), width)
+            if row == 0 and line[0].strip().isdecimal() and len(line) == 1:
+                says = f"says that {line[0].strip()} rows follow, and {len(cells) - 1} are there"
+                message = f"{says}; if it is no count, it has {message}"
             raise kind(table.path, message, int(table.lines[row]))
         numbers[row] = [np.nan if value is None else value for value in values]
     return numbers
