@@ -23,6 +23,7 @@ def read_profile(path, **how) -> MeasuredProfile:
 
 def read_measured(path, *, columns=None, channel=None, **how) -> MeasuredProfile:
     """The profile in a file of any kind: `open_measured`, then `profile_of`, which takes `how`."""
-    one_column = how.get("spacing") is not None
-    opened = open_measured(path, columns=columns, channel=channel, one_column=one_column)
+    one_column, is_map = how.get("spacing") is not None, how.get("chosen") is not None
+    which = {"columns": columns, "channel": channel, "one_column": one_column}
+    opened = open_measured(path, **which, is_map=is_map)
     return profile_of(opened, **how)

@@ -51,7 +51,7 @@ _MAKERS = {"sinusoid": sinusoid, "self-affine": self_affine}
 _MAKERS |= {"ground": ground_texture, "turned": turned}
 # What a message allows for a field that neither the file nor the scene gives.
 _ALLOWED = {
-    "x_unit": "exactly one of x_unit and spacing",
+    "x_unit": f"{allowed(ProfileSection, 'x_unit')}, or spacing where the file has no x",
     "z_unit": allowed(ProfileSection, "z_unit"),
     "spacing": allowed(ProfileSection, "spacing"),
 }
@@ -230,7 +230,7 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
         unit_in_si(table[unit], LENGTH) if unit in table else None for unit in ("x_unit", "z_unit")
     )
     spacing, columns = table.get("spacing"), table.get("columns")
-    which = {"columns": columns, "channel": table.get("channel")}
+    which = {"columns": columns, "channel": table.get("channel"), "is_map": bool(place)}
     opened, doubt = open_measured(path, **which, one_column=spacing is not None), ""
     if isinstance(opened, ProfileTable):  # its header may name them
         guesses = header_units(opened, columns is not None)

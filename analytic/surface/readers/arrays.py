@@ -32,9 +32,10 @@ def is_arrays(path: Path, head: bytes) -> bool:
 
 
 def read_arrays(
-    path: Path, columns: Sequence[str | int] | None, channel: str | None
+    path: Path, columns: Sequence[str | int] | None, channel: str | None, is_map: bool = False
 ) -> ProfileTable | Topography:
-    """What is in the file; `channel` is the name of one array of several.
+    """What is in the file; `channel` is the name of one array of several, `is_map` whether one of
+    two dimensions is a map however few its columns are.
     Raises ProfileError, one line, for anything else than arrays of real numbers."""
     check_unpacked(path)
     raw = contents(path, MAX_BYTES)
@@ -73,7 +74,7 @@ def read_arrays(
     if not fields:
         raise ProfileError(path, "holds no arrays of one or two dimensions; a profile is one")
     (field,) = fields.values()
-    if field.shape[1] <= MOST_COLUMNS and field.shape[0] > field.shape[1]:
+    if not is_map and field.shape[1] <= MOST_COLUMNS and field.shape[0] > field.shape[1]:
         return _table(path, kind, field, (), columns)
     return Topography(path, field, None, None, None, kind)
 

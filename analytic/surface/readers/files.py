@@ -1,9 +1,9 @@
 """Measured profiles from any file: text, arrays, or what an instrument wrote.
 
 Text of columns, spreadsheets and arrays are tables, of which one or two columns are a profile
-(`columns`). Everything else is a topography that SurfaceTopography knows (`instruments`), among
-it text that is no profile and whose header gives the map's size and unit. Any of them may be packed
-as gz."""
+(`columns`). Everything else is a topography that SurfaceTopography knows (`instruments`), and
+so is text that is no profile where it knows the size, or where a line of a map is asked for. Any of
+them may be packed as gz."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -35,6 +35,7 @@ from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_col
 from analytic.surface.readers.topography import (
     MapLine,
     Topography,
+    check_chosen,
     refuse_line,
     trace_of,
 )
@@ -58,6 +59,7 @@ def open_measured(
     columns: Sequence[str | int] | None = None,
     channel: str | None = None,
     one_column: bool = False,
+    is_map: bool = False,
 ) -> ProfileTable | Topography:
     """What a file holds: a table of one or two columns, or a topography.
 
@@ -65,25 +67,32 @@ def open_measured(
     channel     of a file with several, by its name (of xlsx a sheet); None is the first, or what
                 the file says
     one_column  as `read_table` has it
+    is_map      whether a line of a map is asked for: numbers that SurfaceTopography takes for a map
+                are then one
     Raises ColumnsError where columns are to be chosen, ProfileError for a file that nothing reads.
     """
     path = Path(path)
     regular_file(path)
     head = beginning(path, HEAD)
+    is_map = is_map and columns is None
     if is_arrays(path, head):
-        return read_arrays(path, columns, channel)
+        return read_arrays(path, columns, channel, is_map)
     is_binary = NOT_TEXT.search(head.decode("latin-1")) and not wide_encoding(head)
     if channel is not None or is_binary:
         return _by_library(path, columns, channel)
     most_bytes = BYTES_PER_SAMPLE * MAX_SAMPLES + BYTES_OF_HEADER
+    opened: ProfileTable | ProfileError
     try:
-        return read_table(path, most_bytes, one_column, columns)
+        opened = read_table(path, most_bytes, one_column, columns)
     except NotTextError:
         return _by_library(path, columns, channel)
-    except NotRowsError as error:
-        if columns is not None:
-            raise
-        return _map_in_text(path, error)
+    except ProfileError as refusal:
+        opened = refusal
+    if is_map or (columns is None and isinstance(opened, NotRowsError)):
+        opened = _map_in_text(path, is_map, opened)
+    if isinstance(opened, ProfileError):
+        raise opened
+    return opened
 
 
 def _by_library(
@@ -127,21 +136,23 @@ def profile_of(
     return read
 
 
-def _map_in_text(path: Path, refusal: ProfileError) -> Topography:
-    """What SurfaceTopography reads of text that is no profile; else it stays a wrong profile."""
+def _map_in_text(
+    path: Path, is_map: bool, opened: ProfileTable | ProfileError
+) -> ProfileTable | Topography | ProfileError:
+    """What SurfaceTopography reads of text that is no profile, or that `is_map`; else as what it
+    was `opened`, where that is refused with what would help."""
     try:
-        topography = read_instrument_file(path)
+        topography = _by_library(path, None, None)
     except AbsentReaderError:
-        if not isinstance(refusal, ColumnsError):
-            raise refusal from None
-        hint = "a map with its size and unit in its header is read by SurfaceTopography"
-        refusal.args = (f"{refusal}; {hint}, to install it: {install_command()}",)
-        raise refusal from None
+        if isinstance(opened, ColumnsError) or (is_map and isinstance(opened, ProfileError)):
+            hint = "a map in text is read by SurfaceTopography, to install it"
+            opened.args = (f"{opened}; {hint}: {install_command()}",)
+        return opened
     except ProfileError:
-        raise refusal from None
-    if topography.unit is None or (topography.pitch is None and topography.x is None):
-        raise refusal
-    return topography
+        return opened
+    has_size = topography.pitch is not None or topography.x is not None
+    is_known = has_size and topography.unit is not None
+    return topography if is_known or (topography.is_map and (is_map or has_size)) else opened
 
 
 def _check_given(path: Path, x: float | None, height: float | None, because: str) -> None:
@@ -160,7 +171,10 @@ def _from_topography(
 ) -> MeasuredProfile:
     path = field.path
     _check_size(field)
-    field = _in_metres(field, x_scale, height_scale, spacing)
+    try:
+        field = _in_metres(field, x_scale, height_scale, spacing)
+    finally:
+        check_chosen(field, chosen)  # before its units: that it is a map explains the rest
     x, height = trace_of(field, chosen)
     lost = np.isnan(height)
     if dropouts == "refuse" and np.any(lost):

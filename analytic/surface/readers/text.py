@@ -90,6 +90,7 @@ class ColumnsError(NotRowsError):
         message += f"chooses them: by numbers from 0 to {width - 1}"
         if table.names:
             message += f", or by names, of {', '.join(map(shown, table.names))}"
+        message += "; of a map row, column or line chooses one line"
         if table.commas_may_be_decimal():
             message += f"; {DECIMAL_COMMAS}"
         super().__init__(table.path, message, int(table.lines[0]))

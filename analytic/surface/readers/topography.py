@@ -75,18 +75,12 @@ def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray
     In the unit of the topography, which must have a pitch or an x. A line that follows neither
     rows nor columns is sampled at its start, at its end and evenly between at about the smaller
     pitch, by cubic interpolation over 4 x 4 samples; where one of these was not measured, the
-    height is NaN. Raises ProfileError where there is nothing to choose from, or outside the map."""
+    height is NaN. Raises ProfileError for a scan of which a line is chosen, or outside the map."""
     if not topography.is_map:
         refuse_line(topography.path, chosen)
         if topography.x is not None:
             return topography.x, topography.heights
         return np.arange(len(topography.heights)) * topography.pitch[0], topography.heights
-    if chosen is None:
-        raise UnchosenLineError(
-            topography.path,
-            f"is a map of {topography.size()}, and a profile is one line of it; allowed is "
-            "row, column (counted from 0) or line (from one point to another)",
-        )
     rows, columns = topography.heights.shape
     along, across = topography.pitch
     for what, number, count in (("row", chosen.row, rows), ("column", chosen.column, columns)):
@@ -101,6 +95,16 @@ def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray
     if chosen.column is not None:
         return np.arange(rows) * across, topography.heights[:, chosen.column]
     return _along(topography, np.array(chosen.line, dtype=float))
+
+
+def check_chosen(topography: Topography, chosen: MapLine | None) -> None:
+    """Raise UnchosenLineError for a map of which no line is chosen."""
+    if topography.is_map and chosen is None:
+        raise UnchosenLineError(
+            topography.path,
+            f"is a map of {topography.size()}, and a profile is one line of it; allowed is "
+            "row, column (counted from 0) or line (from one point to another)",
+        )
 
 
 def refuse_line(path: Path, chosen: MapLine | None) -> None:

@@ -37,6 +37,7 @@ SPACINGS = [
 ]
 TYPICAL_SPACING, TYPICAL_HEIGHT = 1e-6, 0.5e-6  # [m]
 BY_SIZE = {"x_unit": ("mm", "um", "nm", "m"), "z_unit": ("um", "nm", "mm", "m")}
+LINES = ("row", "column")  # fields that choose a line of a map
 LAY = 1.3  # ratio of slopes above which one way is across the lay
 FEWEST_ACROSS = 64  # samples of a column that is suggested
 ROUNDING = 1e-9  # of the largest height: an rms below is rounding
@@ -106,8 +107,9 @@ def _opened(path: Path, chosen: ProfileFields) -> Opened:
     """What the file holds, with guessed columns or channel where it has several."""
     fields = chosen.fields
     how = {name: fields[name] for name in ("columns", "channel") if name in fields}
+    how |= {"one_column": "spacing" in fields, "is_map": not fields.keys().isdisjoint(LINES)}
     try:
-        opened = open_measured(path, **how, one_column="spacing" in fields)
+        opened = open_measured(path, **how)
     except ColumnsError as error:
         columns = _columns_of(error.table)
         if columns is None:
@@ -151,11 +153,7 @@ def _units_by_size(opened: Opened, fields: Mapping[str, object]) -> Guesses:
     bare = {"x_unit": "m", "z_unit": "m"} | fields
     if "spacing" in fields:
         del bare["x_unit"]
-    try:
-        profile = _profile(opened, bare).profile
-    except UnchosenLineError:
-        line = {name: value for name, (value, _) in _line_of(opened).items()}
-        profile = _profile(opened, bare | line).profile
+    profile = _profile(opened, bare).profile
     x, height = profile.x - profile.x.mean(), profile.height
     rough = height - np.polyval(np.polyfit(x, height, 1), x)
     guesses = {}
@@ -228,7 +226,7 @@ def _profile(opened: Opened, fields: Mapping[str, object]) -> MeasuredProfile:
     """The profile as these fields of [profile] read it, lost samples bridged."""
     lengths = ("x_unit", "z_unit", "spacing")
     metres = {name: _in_metres(fields[name]) for name in lengths if name in fields}
-    line = {name: fields[name] for name in ("row", "column") if name in fields}
+    line = {name: fields[name] for name in LINES if name in fields}
     return profile_of(
         opened,
         x_scale=metres.get("x_unit"),

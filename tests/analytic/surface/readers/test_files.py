@@ -146,17 +146,23 @@ COLUMNS = b"".join(b"%d %d %d\n" % (i, i * i % 7, 3 * i % 5) for i in range(5))
 def test_columns_are_a_map_only_where_their_file_says_so(tmp_path, monkeypatch):
     path = text(tmp_path, COLUMNS)
     knows(monkeypatch)
-    assert refusal(path, **SCALES).endswith("columns chooses them: by numbers from 0 to 2")
+    assert refusal(path, **SCALES).endswith(
+        "columns chooses them: by numbers from 0 to 2; of a map row, column or line chooses one "
+        "line"
+    )
     knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
     assert read_measured(path).format.startswith("made")
 
 
-def test_without_the_library_columns_name_what_may_read_them(tmp_path, monkeypatch):
+@pytest.mark.parametrize("chosen", [None, MapLine(row=1)])
+def test_without_the_library_columns_name_what_may_read_them(tmp_path, monkeypatch, chosen):
     program = "import json; print(json.dumps({'absent': 'No module named SurfaceTopography'}))"
     monkeypatch.setattr(instruments, "WORKER", ("-c", program))
-    message = refusal(text(tmp_path, COLUMNS), **SCALES)
+    message = refusal(text(tmp_path, COLUMNS), **SCALES, chosen=chosen)
     assert ", line 1: 3 columns; a profile has two (x, height)" in message
     assert message.endswith(instruments.install_command())
+    scan = refusal(text(tmp_path), **SCALES, chosen=MapLine(row=1))
+    assert scan.endswith("is a line scan, which has no rows; allowed is to leave out row")
 
 
 @pytest.mark.parametrize(

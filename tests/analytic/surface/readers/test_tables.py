@@ -13,7 +13,7 @@ from analytic.surface.readers.arrays import read_arrays
 from analytic.surface.readers.files import MissingUnitError, open_measured
 from analytic.surface.readers.source import LONGEST_LINE, MAX_LINES, ProfileError
 from analytic.surface.readers.text import ColumnsError
-from analytic.surface.readers.topography import MapLine
+from analytic.surface.readers.topography import MapLine, UnchosenLineError
 
 pytestmark = pytest.mark.usefixtures("one_reader")
 X = 0.5 * np.arange(40)  # um
@@ -102,6 +102,43 @@ def test_an_instruments_file_may_be_packed(tmp_path):
     (tmp_path / "map.txt.gz").write_bytes(gzip.compress((head + body).encode()))
     trace = read_measured(tmp_path / "map.txt.gz", chosen=MapLine(row=0))
     np.testing.assert_allclose(trace.profile.height, 1e-6 * RAW, atol=1e-12)
+
+
+SURFACE = RAW[None, :] + 0.1 * np.arange(7)[:, None]  # (rows, columns)
+LIST = [(x, 0.75 * y, z) for y, row in enumerate(SURFACE) for x, z in zip(X, row, strict=True)]
+
+
+@needs_spreadsheets
+@pytest.mark.parametrize("order", [1, -1])
+@pytest.mark.parametrize("delimiter", [" ", ";"])
+def test_a_list_of_the_points_of_a_grid_is_a_map(tmp_path, order, delimiter):
+    points = sorted(LIST, key=lambda point: point[:2][::order])
+    np.savetxt(tmp_path / "map.xyz", points, fmt="%.9f", delimiter=delimiter)
+    message = refusal(tmp_path / "map.xyz", UnchosenLineError, x_scale=None)
+    assert "is a map of 7 rows and 40 columns, and a profile is one line of it" in message
+    assert "row, column (counted from 0) or line" in message
+    holds(tmp_path / "map.xyz", SURFACE[5], chosen=MapLine(row=5))
+    line = (0.0, 1.5e-6), (1e-6 * X[-1], 1.5e-6)
+    holds(tmp_path / "map.xyz", SURFACE[2], chosen=MapLine(line=line))
+    column = read_measured(tmp_path / "map.xyz", **UM, chosen=MapLine(column=9)).profile
+    np.testing.assert_allclose(column.x, 0.75e-6 * np.arange(7), atol=1e-15)
+    np.testing.assert_allclose(column.height, 1e-6 * SURFACE[:, 9], atol=1e-12)
+    with pytest.raises(MissingUnitError, match="names no unit"):
+        read_measured(tmp_path / "map.xyz", chosen=MapLine(row=5))
+
+
+@needs_spreadsheets
+def test_numbers_of_which_a_line_is_asked_for_are_a_map(tmp_path):
+    """Whatever language its header has; without a choice what is said names both ways."""
+    np.savetxt(tmp_path / "map.txt", SURFACE, header="Canal : Hauteur\nLargeur : 20 µm")
+    size = {"spacing": 0.5e-6, "height_scale": 1e-6}
+    holds(tmp_path / "map.txt", SURFACE[3], **size, chosen=MapLine(row=3))
+    message = refusal(tmp_path / "map.txt", ColumnsError)
+    assert "40 columns; a profile has two" in message
+    assert "from 0 to 39; of a map row, column or line chooses one line" in message
+    np.save(tmp_path / "narrow.npy", SURFACE.T)
+    trace = read_measured(tmp_path / "narrow.npy", **size, chosen=MapLine(column=3))
+    np.testing.assert_allclose(trace.profile.height, 1e-6 * SURFACE[3], atol=1e-12)
 
 
 def test_arrays_of_numpy(tmp_path):

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from analytic.surface.readers.files import profile_of
 from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.topography import MapLine, Topography, trace_of
 
@@ -130,6 +131,6 @@ SIZE = "31 rows and 41 columns, 8e-05 m by 9e-05 m"
 )
 def test_choices_that_make_no_sense(topography, chosen, words):
     with pytest.raises(ProfileError) as caught:
-        trace_of(topography, chosen)
+        profile_of(topography, chosen=chosen)
     assert str(caught.value).startswith(f"map.x3p: {words}")
     assert "\n" not in str(caught.value)

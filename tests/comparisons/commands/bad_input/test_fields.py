@@ -104,7 +104,7 @@ COMBINATIONS = [
     ),
     (
         {**MEASURED, "profile.x_unit": None},
-        "profile.x_unit: is missing; allowed is exactly one of x_unit and spacing",
+        'profile.x_unit: is missing; allowed is a unit of length as a string, such as "um", or sp',
     ),
     (
         {**MEASURED, "load.position": '"40 um"'},
