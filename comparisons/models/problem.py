@@ -33,6 +33,7 @@ LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded blo
 # Depth of an unbounded periodic body over its period: a wave of it is off by 1e-7 at half of that.
 PERIODS_DEEP = 3.0
 LEAST_EXTENT = 8.0  # of the farthest pressure: width and depth of an unbounded block
+WIDTHS_DEEP = 3.0  # of a body of finite width: below that its sides have made all stresses even
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ class Problem:
     asperities: tuple[float, ...] = ()
     levels: Levels | None = None  # None: as the scene's resolution and budget have it
     flows: bool = False  # the extent is as wide as flow may make the contact
+    least_block: float = 0.0  # [m] width and depth that an unbounded block has at least
 
     @property
     def most_levels(self) -> int:
@@ -103,7 +105,8 @@ class Problem:
         half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
         farthest = max(abs(self.extent[0]), abs(self.extent[1]))
         size = max(self.scene.finite_element.block * half_width, LEAST_EXTENT * farthest)
-        return size, size
+        size = max(size, self.least_block)
+        return size, max(size, WIDTHS_DEEP * (self.scene.body.width or 0.0))
 
     def under(self, friction: float) -> "Problem":
         """The problem under one of the scene's friction coefficients alone."""

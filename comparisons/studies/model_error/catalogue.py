@@ -64,6 +64,9 @@ PLAIN = {
     "finite_element.deformation": "linear",
     "finite_element.plastic": False,
 }
+# What an unbounded body is held beyond where the scene's is finite, so that it has less of the
+# effect: of tau1, which goes with 1/D, a twentieth; of pressures under a disc, with 1/D^2, as much.
+BEYOND_BODY, BEYOND_ROLLER = 20.0, 4.5
 COUPLED = "normal_tangential_coupling"
 STRAINED = "P2"  # elements of finite deformation
 
@@ -105,6 +108,7 @@ class ModelVariant:
     laws: tuple[tuple[str, Law], ...] = ()  # by body, in place of the scene's own
     laws_name: str = ""  # what these stand for
     times: int = 1  # as long increments of flow
+    half_block: bool = False  # the far boundary of an unbounded body is at half the distance
 
     @property
     def name(self) -> str:
@@ -113,6 +117,7 @@ class ModelVariant:
         words += ["quadratic"] * self.quadratic
         words += [f"as-{self.laws_name}"] * bool(self.laws)
         words += [f"increments-{self.times}"] * (self.times > 1)
+        words += ["half-block"] * self.half_block
         at = "" if self.friction is None else f"@{self.friction:g}"
         return f"effect-{'+'.join(words)}{at}"
 
@@ -127,4 +132,14 @@ def problem_with(problem: Problem, variant: ModelVariant) -> Problem:
     for body, law in variant.laws:
         constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
         scene = scene.unchecked({f"{body}.law": law.name, f"{body}.murnaghan": constants})
-    return replace(problem, scene=scene)
+    return replace(problem, scene=scene, least_block=_least_block(problem.scene, variant))
+
+
+def _least_block(scene: Scene, variant: ModelVariant) -> float:
+    """Size [m] of an unbounded block in a variant that lacks the size of a scene's bodies."""
+    lacking, sizes = contained(scene) - variant.effects, [0.0]
+    if "finite_size" in lacking:
+        sizes += [BEYOND_BODY * min(filter(None, (scene.body.thickness, scene.body.width)))]
+    if "finite_roller" in lacking:
+        sizes += [BEYOND_ROLLER * scene.roller.radius]
+    return max(sizes)

@@ -13,7 +13,7 @@ These add up to the whole, F(W) - F(0), in any order. The scene's own finite ele
 F(W) - F(scene)."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from operator import sub
 
@@ -21,6 +21,8 @@ from comparisons.models.problem import Problem
 from comparisons.studies.model_error.catalogue import COUPLED, STRAINED, ModelVariant
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.model_error.selection import NONLINEAR, ORDER, EffectSelection
+
+OF_SIZE = ("finite_size", "finite_roller")  # effects that a far boundary has, too
 
 
 class NotComputedError(Exception):
@@ -47,6 +49,12 @@ class SplitVariants:
     def wholes(self) -> tuple[ModelVariant, ...]:
         """Those that the model error takes; the others split it."""
         return (self.whole,) if self.of_scene is None else (self.whole, self.of_scene)
+
+    @property
+    def held_nearer(self) -> dict[str, ModelVariant]:
+        """By effect of size, what lacks it with its far boundary at half the distance."""
+        sizes = {name: self.pairs[name][1] for name in OF_SIZE if name in self.pairs}
+        return {name: replace(without, half_block=True) for name, without in sizes.items()}
 
     @property
     def all(self) -> tuple[ModelVariant, ...]:

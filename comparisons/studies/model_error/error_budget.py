@@ -200,6 +200,7 @@ def announce_effects(
         for variant in law_variants(split.whole, selection.laws).values()
     ]
     again += [variant for split in splits for variant in longer_increments(split.whole, selection)]
+    again += [variant for split in splits for variant in split.held_nearer.values()]
     most = min(most_effect_levels(problem), len(half_plane.levels))
     if FLOW in selection.added:
         most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted

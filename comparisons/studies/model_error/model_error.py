@@ -18,6 +18,7 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import (
     difference_of_figures,
+    far_boundary,
     iteration,
     of_increments,
 )
@@ -25,7 +26,7 @@ from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.studies.comparison import relative_resolution
 from comparisons.studies.contact import formal_order, uncertainties, values_of
-from comparisons.studies.model_error.contributions import EffectContributions
+from comparisons.studies.model_error.contributions import OF_SIZE, EffectContributions
 from comparisons.studies.model_error.laws import LawSolutions, LawSpread
 from comparisons.studies.model_error.quantities_of_interest import (
     LARGEST,
@@ -80,6 +81,9 @@ class Solutions:
     # first, and by its own; empty: they have no solution; None: it does not flow, or the scene's
     # own finite elements do
     longer: list[QuantitiesOfInterest] | None = None
+    # by effect of size, what lacks it on the coarsest level with its far boundary at half the
+    # distance, where it has a solution
+    nearer: dict[str, QuantitiesOfInterest] = field(default_factory=dict)
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -216,11 +220,22 @@ class Solutions:
     def _effect(self, name: str, effect: str, at: int, numerical: float) -> Estimate:
         changes = [level.effect(effect) for level in self.split_levels]
         size, pair = self._estimate(name, changes, at), self.split_levels[-1].pairs[effect]
+        if effect in OF_SIZE:
+            size = replace(size, uncertainty=size.uncertainty + self._domain(name, effect, at))
         with_it, without = (solution.figures.get(LARGEST.get(name)) for solution in pair)
         if with_it is None:
             return size
         certain = with_it.max() / (1.0 + max(size.uncertainty, numerical))  # which may be infinite
         return replace(size, moves_maximum=bool(certain > with_it[np.argmax(without)]))
+
+    def _domain(self, name: str, effect: str, at: int) -> float:
+        """What the far boundary of the solution without an effect of size may change, relative;
+        unknown where none is nearer."""
+        if effect not in self.nearer:
+            return np.inf
+        first = self.split_levels[0].pairs[effect][1]
+        values = (solution.figures[name][at] for solution in (self.nearer[effect], first))
+        return far_boundary(*values) / self._scale_of(name, at)
 
     def _of_figure(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
         """Error of a figure, its uncertainty, and what both are relative to [SI]."""

@@ -3,6 +3,7 @@ further level could change is no verdict."""
 
 import math
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -77,6 +78,7 @@ class EffectRefinement:
         longer = {mu: longer_increments(whole, selection) for mu, whole in small.items()}
         self.increments = {mu: (*some, small[mu]) if some else () for mu, some in longer.items()}
         self.longer: dict[float, list[QuantitiesOfInterest]] = {}
+        self.nearer: dict[float, dict[str, QuantitiesOfInterest]] = {mu: {} for mu in splits}
         self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
         self.runs = {"half_plane": half_plane, "finite_element": solved.of_scene}
         self.most = min(most_effect_levels(solved.problem), len(solved.of_scene.levels))
@@ -95,13 +97,15 @@ class EffectRefinement:
         for number in range(1, LEAST_LEVELS + 1):
             self.solved.announce(self.every, number, LAST)
         for mu, variants in self.laws.items():
-            self.solved.announce((*variants.values(), *self.increments[mu]), 1, LAST)
+            nearer = self.splits[mu].held_nearer.values()
+            self.solved.announce((*variants.values(), *self.increments[mu], *nearer), 1, LAST)
         left_out = self._take_wholes(frugal)
         levels = len(next(iter(self.history.values())))
         for number in range(1, levels + 1):
             is_open = any(self.solved.is_open(variant, number) for variant in self.every)
             if number <= LEAST_LEVELS or not is_open:
                 self._take(number, alone=False)
+        self._take_nearer()
         parts = (level for of_friction in self.history.values() for level in of_friction)
         why = next((level.unsplit for level in parts if level.unsplit), None)
         return RefinedEffects(levels, self._errors(), why, left_out, self._solutions())
@@ -152,6 +156,13 @@ class EffectRefinement:
             except NotComputedError:
                 self.longer[mu] = []
 
+    def _take_nearer(self) -> None:
+        """On the coarsest level, what lacks an effect of size with its far boundary nearer."""
+        for mu, split in self.splits.items():
+            for name, variant in split.held_nearer.items():
+                with suppress(NotComputedError):
+                    self.nearer[mu][name] = self.solved.solution(variant, 1, mu)
+
     def _take(self, number: int, alone: bool) -> None:
         """A level into the history: of the wholes alone, or of every variant."""
         self.solved.prepare(self.wholes if alone else self.every, number)
@@ -178,6 +189,7 @@ class EffectRefinement:
                 *(self.problem, runs, parts, mu),
                 laws=self.with_laws.get(mu),
                 longer=self.longer.get(mu, []) if self.increments[mu] else None,
+                nearer=self.nearer[mu],
             )
         return made
 

@@ -124,7 +124,7 @@ class SolvedVariants:
         if effects is not None and variant.friction == 0.0:
             effects = effects - {COUPLED}
         shaped = variant.friction is None or variant.friction in there
-        changed = variant.quadratic or variant.laws or variant.times > 1
+        changed = variant.quadratic or variant.laws or variant.times > 1 or variant.half_block
         return shaped and not changed and variant.effects == effects
 
     def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
@@ -180,7 +180,7 @@ def _solved(
     here.callback(f"error budget: finite elements with {words}, level {number}")
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    refinement, stages = Refinement(pitch, travel=variant.times * TRAVEL), Stages()
+    refinement, stages = Refinement(pitch, variant.half_block, variant.times * TRAVEL), Stages()
     how = refinement, window, stages, body_cache
     try:
         level = finite_element_level(problem, plan, *how, fields=fields)

@@ -5,11 +5,13 @@ import pytest
 from comparisons.studies.model_error.catalogue import (
     EFFECTS,
     UNKNOWN,
+    ModelVariant,
     contained,
     is_taken_apart,
     plain,
     with_effects,
 )
+from comparisons.studies.model_error.catalogue import problem_with as problem_with_effects
 
 SWITCHED = {
     "finite_size": {"body": {"thickness": 1e-3}},
@@ -56,6 +58,25 @@ def test_an_effect_is_given_whatever_else_is_there(problem_with, name):
     scene = problem_with(**SWITCHED[name]).scene
     others = {"finite_strain", "exact_circle"}
     assert contained(with_effects(scene, {name, *others})) == {name, *others}
+
+
+@pytest.mark.parametrize(
+    ("tables", "size"),
+    [
+        ({"body": {"thickness": 0.1}}, 0.1),
+        ({"body": {"width": 0.1}}, 0.1),
+        ({"body": {"thickness": 0.1, "width": 0.2}}, 0.1),
+        ({"finite_element": {"roller_body": "disc"}, "roller": {"radius": 0.5}}, 0.5),
+    ],
+)
+def test_what_lacks_a_size_ends_beyond_it(problem_with, tables, size):
+    posed = problem_with(load={"hertz_peak_pressure": 2e8}, **tables)
+    assert min(problem_with_effects(posed, ModelVariant(frozenset())).unbounded) > 4.0 * size
+    assert posed.unbounded[0] == 400.0 * posed.hertz.half_width
+
+
+def test_a_wide_body_goes_deeper_than_its_sides_are_felt(problem_with):
+    assert problem_with(body={"width": 0.1}).unbounded[1] == pytest.approx(0.3)
 
 
 def test_what_both_models_have_is_no_effect(problem_with):

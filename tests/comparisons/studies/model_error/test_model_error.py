@@ -33,6 +33,12 @@ def smooth(peak_pressure: float, **tables: dict) -> dict:
     } | tables
 
 
+THICK_PLATE = {
+    "roller": {"radius": 25e-3, "youngs_modulus": 200e9, "poissons_ratio": 0.3},
+    "body": {"youngs_modulus": 200e9, "poissons_ratio": 0.3, "thickness": 40e-3},
+    "load": {"per_length": 1e4},
+    "stress": {"depth": 1.5},
+}
 CASES = [
     (case, nu)
     for case in json.loads(TABLE.read_text())["cases"]
@@ -75,6 +81,19 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
         body = stated.effects["finite_size"]
         assert -body.value == pytest.approx(error, abs=stated.uncertainty + body.uncertainty)
         assert stated.interaction == 0.0
+
+
+def test_a_thick_plate_counts_against_a_body_that_ends_farther_away():
+    """743 half-widths thick: by the layer's own operator largest shears rise by 0.15 %."""
+    outcome = run_of(THICK_PLATE)
+    read = outcome.figures.of(
+        quantity="tau1_max", study="layered", source="operators", against=None
+    )
+    layer = read.one().value
+    exact = layer / outcome.problem.hertz.tau1_max - 1.0
+    part = outcome.data("model_error").of("tau1_max", 0.0).effects["finite_size"]
+    assert exact == pytest.approx(0.001448, abs=3e-6)
+    assert part.value == pytest.approx(exact, rel=0.1) and part.uncertainty < 0.5 * exact
 
 
 @pytest.fixture
