@@ -1,12 +1,15 @@
 """What several commands take, what they return, and what the shell may complete."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial, wraps
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 from typer.models import OptionInfo
+
+if TYPE_CHECKING:
+    from comparisons.scenes.scene import Scene
 
 RESULTS = Path("results")
 Job = Callable[[], int]  # the work of a command; returns the exit status
@@ -31,6 +34,13 @@ def json_option(name: str) -> OptionInfo:
 def out_option(content: str, default: str) -> OptionInfo:
     """The option `--out` of a command that writes a folder."""
     return Option(help=f"Folder for the {content}.", show_default=f"results/{default}")
+
+
+def scene_with(scene: str, settings: Sequence[str] | None) -> "Scene":
+    """The scene of a name or path, with the values of `--set` beside what its file says."""
+    from comparisons.scenes.scene import Scene, with_settings
+
+    return with_settings(Scene.read(scene), settings or ())
 
 
 def complete_scenes(incomplete: str) -> list[str]:
@@ -80,7 +90,9 @@ def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
 
 
 SCENE = "A TOML file, or a name that `scenes` lists."
+SET = 'Another value of a field of the scene, such as body.yield_stress="1.2 GPa"; several times.'
 MODELS = "Models to solve with, separated by commas."
 SceneName = Annotated[str, Argument(help=SCENE, autocompletion=complete_scenes)]
+Settings = Annotated[list[str] | None, Option("--set", metavar="FIELD=VALUE", help=SET)]
 Models = Annotated[str, Option(help=MODELS, autocompletion=complete_models)]
 Junit = Annotated[Path | None, Option(help="File for JUnit XML: a testcase a figure.")]

@@ -16,9 +16,11 @@ from comparisons.commands.arguments import (
     Junit,
     Models,
     SceneName,
+    Settings,
     job,
     json_option,
     out_option,
+    scene_with,
 )
 from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus, InputError, drop, tell
@@ -53,6 +55,7 @@ Details = Annotated[
 @job
 def run(
     scene: SceneName,
+    settings: Settings = None,
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Models = BOTH,
     tolerance: Tolerance = None,
@@ -77,7 +80,7 @@ def run(
     gc.freeze()  # a collection would look through all that was imported
     began = perf_counter()
     chosen = models_named(models, "--models")
-    asked = _read(scene, answer or (), tolerance)
+    asked = _read(scene_with(scene, settings), answer or (), tolerance)
     surface = surface_of(asked)
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
@@ -121,13 +124,11 @@ def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | 
     return None
 
 
-def _read(scene: str, answers: Sequence[str], tolerance: str | None) -> "Scene":
-    """The scene of a name or path, with answers from outside, NAME=FILE each, and a tolerance in
-    place of its own."""
-    from comparisons.scenes.scene import Scene, with_tolerance
+def _read(asked: "Scene", answers: Sequence[str], tolerance: str | None) -> "Scene":
+    """The scene with answers from outside, NAME=FILE each, and a tolerance in place of its own."""
+    from comparisons.scenes.scene import with_tolerance
     from comparisons.scenes.studies.answers import answers_named
 
-    asked = Scene.read(scene)
     if answers:
         asked = asked.changed("answers", answers_named(answers, asked.written.get("answers")))
     return asked if tolerance is None else with_tolerance(asked, _relative(tolerance))

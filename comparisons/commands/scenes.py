@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
-from comparisons.commands.arguments import RESULTS, SceneName, job, json_option, out_option
+from comparisons.commands.arguments import (
+    RESULTS,
+    SceneName,
+    Settings,
+    job,
+    json_option,
+    out_option,
+    scene_with,
+)
 from comparisons.commands.output import show, show_json
 from comparisons.common.errors import ExitStatus
 
@@ -117,6 +125,7 @@ def _say_what_was_made(made: "FirstScene", options: Mapping[str, object]) -> Non
 def deck(
     scene: SceneName,
     code: Annotated[Code, Option("--for", help="Code that is to solve it.")],
+    settings: Settings = None,
     out: Annotated[Path | None, out_option("deck", "<name>-<code>")] = None,
     level: Annotated[
         int, Option(help="Of the scene's refinement, 1 the coarsest: elements on the contact.")
@@ -125,9 +134,8 @@ def deck(
 ) -> int:
     """Write a scene as input of another code. A page says how to bring its answer back."""
     from comparisons.campaigns.decks.write import account_of, write_deck
-    from comparisons.scenes.scene import Scene
 
-    asked = Scene.read(scene)
+    asked = scene_with(scene, settings)
     folder = out or RESULTS / f"{asked.name}-{code}"
     written = write_deck(asked, code, folder, level)
     if as_json:

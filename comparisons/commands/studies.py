@@ -9,6 +9,7 @@ from comparisons.commands.arguments import (
     RESULTS,
     Models,
     SceneName,
+    Settings,
     complete_groups,
     complete_maps,
     complete_quantities,
@@ -16,6 +17,7 @@ from comparisons.commands.arguments import (
     job,
     json_option,
     out_option,
+    scene_with,
 )
 from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus, tell
@@ -35,15 +37,15 @@ MAPPED = "As for `run`, or the name of a finished map."
 @job
 def cost(
     scene: SceneName,
+    settings: Settings = None,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
     """Show error against time of every method. Names the cheapest for each tolerance."""
     from comparisons.campaigns.cost.cost import COST, PICTURE, content_of, cost_table
     from comparisons.campaigns.cost.cost import cost as solved_cost
-    from comparisons.scenes.scene import Scene
 
-    asked = Scene.read(scene)
+    asked = scene_with(scene, settings)
     directory = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
         solved = solved_cost(asked, directory, callback)
@@ -56,6 +58,7 @@ def cost(
 @job
 def map_of(
     scene: Annotated[str, Argument(help=MAPPED, autocompletion=complete_maps)],
+    settings: Settings = None,
     points: Annotated[
         str | None, Option(help="Values along x and y, as NxM.", show_default="8x8")
     ] = None,
@@ -91,14 +94,14 @@ def map_of(
     from comparisons.campaigns.maps.mark import problem_named, unlike
 
     marked = mark and problem_named(mark)
-    solves = again or any(option is not None for option in (points, x, y, workers))
+    solves = again or any(option is not None for option in (points, x, y, workers, settings))
     finished = scene in finished_names()
     quantity = quantity or (finished_map(scene)["quantity"] if finished else "peak_pressure")
     if finished and not solves:
         directory = out or RESULTS / scene
         content = show_finished(scene, quantity, marked, directory)
     else:
-        request = request_of(scene, points or SIZE, x, y, quantity)
+        request = request_of(scene, points or SIZE, x, y, quantity, settings or ())
         directory = out or RESULTS / request.scene.name
         with progress() as callback:
             content = make_map(request, directory, workers, callback, marked)
@@ -118,6 +121,7 @@ def sweep(
             "several make every combination."
         ),
     ],
+    settings: Settings = None,
     models: Models = "half-plane",
     workers: Workers = None,
     out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
@@ -126,10 +130,9 @@ def sweep(
     """Solve a scene at many places, loads or other values."""
     from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request, sweep_table
     from comparisons.figures.quantity import models_named
-    from comparisons.scenes.scene import Scene
 
     chosen = models_named(models, "--models")
-    request = sweep_request(Scene.read(scene), over, chosen)
+    request = sweep_request(scene_with(scene, settings), over, chosen)
     directory = out or RESULTS / f"sweep-{request.scene.name}"
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)

@@ -4,6 +4,7 @@ import os
 import re
 import shlex
 import tomllib
+from contextlib import suppress
 from pathlib import Path
 
 from comparisons.common.errors import SceneError, nearest, one_line
@@ -116,3 +117,16 @@ def read_toml(path: Path) -> dict:
     if not tables:
         raise wrong("is empty; allowed are sections, at least [roller], [body], [load]")
     return tables
+
+
+def value_of(text: str) -> object:
+    """The value that a text stands for after "FIELD=": as TOML has it, or else the text itself, as
+    a quantity with its unit and a word need no quotation marks."""
+    with suppress(ValueError, RecursionError):
+        tables = tomllib.loads(f"value = {text}")
+        if list(tables) == ["value"]:
+            return tables["value"]
+    for kind in (int, float) if text.isascii() else ():
+        with suppress(ValueError):  # .5 and 5. are no numbers of TOML
+            return kind(text)
+    return text.strip()

@@ -7,8 +7,10 @@ What is wrong is one line: "file: section.field: problem; allowed is …"."""
 
 import copy
 import os
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+import re
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
@@ -28,7 +30,7 @@ from comparisons.scenes.fields import (
     file_fields,
     plain,
 )
-from comparisons.scenes.files import find_scene, name_of, read_toml
+from comparisons.scenes.files import find_scene, name_of, read_toml, value_of
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.running_in import RunningInSection
@@ -47,6 +49,9 @@ from comparisons.scenes.sections import (
 # What is often called otherwise.
 MEANT = dict.fromkeys(("force", "load", "line_load", "normal_load"), "load.per_length")
 MEANT |= {"diameter": "roller.radius", "e": "body.youngs_modulus", "nu": "body.poissons_ratio"}
+# Of options, beside "load", whichever it is.
+SHORT = {"position": "load.position", "friction": "load.friction"}
+FIELD = re.compile(r"[\w-]+(\.[\w-]+){0,3}", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -56,6 +61,7 @@ class Origin:
     name: str = "scene"  # of the file, without its ending
     folder: Path = Path(".")  # that paths in it count from
     source: str = "scene"  # what messages call it
+    settings: tuple[str, ...] = ()  # FIELD=VALUE, that were set beside the file
 
 
 class SceneBase(SceneSection):
@@ -161,6 +167,12 @@ class SceneBase(SceneSection):
         return self._origin.source
 
     @property
+    def named(self) -> str:
+        """As a command names it: the file, and what is set beside it."""
+        settings = (word for text in self._origin.settings for word in ("--set", text))
+        return shlex.join((self.source, *settings))
+
+    @property
     def tables(self) -> dict:
         """The scene as a file would have it, for JSON and TOML: SI numbers, what follows written
         out, no None. Reading it gives the same scene."""
@@ -252,6 +264,35 @@ def dimension_of(field: str) -> Dimension | None:
     return getattr(getattr(kind, "item", kind), "dimension", None)
 
 
+def assignments(option: str, texts: Sequence[str], scene: Scene, allowed: str) -> dict[str, str]:
+    """By the field's whole name what stands after "FIELD=" in each value of a command's option.
+    Raises InputError for what is no such thing, and for a field that is given twice."""
+    given: dict[str, str] = {}
+    for text in texts:
+        short, _, value = text.partition("=")
+        name = SHORT.get(short.strip(), short.strip())
+        name = f"load.{scene.load.kind}" if name == "load" else name
+        if not FIELD.fullmatch(name) or not value.strip():
+            raise InputError(
+                f"{option}: is {describe(text)}; allowed is {allowed}, with FIELD as in "
+                "body.youngs_modulus, or load, friction or position"
+            )
+        if name in given:
+            raise InputError(f"{option}: {name} is given twice; allowed is every field once")
+        given[name] = value.strip()
+    return given
+
+
+def with_settings(scene: Scene, settings: Sequence[str]) -> Scene:
+    """The scene with other values of fields, each FIELD=VALUE, checked as a file is.
+    Raises InputError for what is no such thing, SceneError where the scene is none then."""
+    fields = assignments("--set", settings, scene, "FIELD=VALUE")
+    changed = scene.changed({name: value_of(text) for name, text in fields.items()})
+    origin = scene._origin
+    changed._origin = replace(origin, settings=(*origin.settings, *settings))
+    return changed
+
+
 def with_tolerance(scene: Scene, tolerance: float) -> Scene:
     """The scene with one relative tolerance for all that it judges.
     Raises InputError unless it is above 0 and below 1."""
@@ -307,9 +348,8 @@ def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
         inside = {field: f"{within}.{field}" for field in file_fields(sections[section[0]])}
     # of the same name in two sections, the first's: what is pressed, not how uncertain it is
     anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
-    near = (
-        MEANT.get(name.casefold()) or _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
-    )
+    near = MEANT.get(name.casefold()) or anywhere.get(name.casefold())
+    near = near or _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
     near = near or _nearest(name, inside)
     meant = ", a force per length" if near == "load.per_length" else ""
     return f"{place}: is no known field; the nearest is {near}{meant}"

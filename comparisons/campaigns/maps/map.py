@@ -6,6 +6,7 @@ a table."""
 
 import json
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -37,7 +38,7 @@ from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.models.problem import Problem
 from comparisons.scenes.files import find_scene, name_of, read_toml
-from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.scene import Origin, Scene, with_settings
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -68,7 +69,7 @@ class MapRequest:
         points = "x".join(str(len(axis["values"])) for axis in axes)
         x, y = (f"{a['group']}={a['values'][0]:g}:{a['values'][-1]:g}" for a in axes)
         asked = f"--points {points} --x {x} --y {y} --quantity {self.quantity}"
-        return f"crosscheck map {self.scene.source} {asked}"
+        return f"crosscheck map {self.scene.named} {asked}"
 
     @property
     def finite_element(self) -> dict:
@@ -99,17 +100,20 @@ def request_of(
     x: str | None = None,
     y: str | None = None,
     quantity: str = "peak_pressure",
+    settings: Sequence[str] = (),
 ) -> MapRequest:
     """The map that the arguments of `crosscheck map` ask for.
 
-    scene   of a finished map, or as for `crosscheck run`
-    points  "NxM"
-    x, y    "GROUP" or "GROUP=FROM:TO"
+    scene     of a finished map, or as for `crosscheck run`
+    points    "NxM"
+    x, y      "GROUP" or "GROUP=FROM:TO"
+    settings  FIELD=VALUE each, beside the scene's file
     Raises InputError for anything that is wrong with them."""
     counts = counts_of(points)
     finished = FINISHED / f"{scene}.toml"
     path = finished if finished.is_file() else find_scene(scene)
-    posed = Scene.of(read_toml(path), Origin(name_of(path), path.parent, scene))
+    asked = Scene.of(read_toml(path), Origin(name_of(path), path.parent, scene))
+    posed = with_settings(asked, settings)
     if quantity not in QUANTITIES:
         raise InputError(f"--quantity: there is no {quantity}; allowed are {', '.join(QUANTITIES)}")
     if QUANTITIES[quantity].needs_stress and posed.stress is None:

@@ -4,8 +4,8 @@ In: a scene, and "FIELD=…" as `crosscheck sweep` takes them. Out: sweep.json, 
 the scatter for the terminal."""
 
 import re
+import shlex
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from math import isfinite
 from operator import itemgetter
@@ -33,7 +33,8 @@ from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.posing import problem_of
 from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
 from comparisons.output.result_json import result_of
-from comparisons.scenes.scene import Scene
+from comparisons.scenes.files import value_of
+from comparisons.scenes.scene import Scene, assignments
 from comparisons.studies import contact, quantity_of
 from comparisons.studies.friction import PARTIAL_SLIP
 from comparisons.studies.heat import STUDY as HEAT
@@ -46,8 +47,8 @@ if TYPE_CHECKING:
 SWEEP, TABLE = "sweep.json", "sweep.csv"
 FILES = (SWEEP, TABLE, PICTURE, ZONES)
 SCHEMA = 2
-SHORT = {"position": POSITION, "friction": FRICTION}  # beside "load", whichever it is
 MOST = 10_000  # points
+ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N or position=N"
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *(f"comparisons/{name}" for name in ("figures", "studies", "output")))
@@ -62,14 +63,14 @@ class SweepRequest:
 
     scene: Scene
     models: tuple[str, ...]
+    over: tuple[str, ...]  # FIELD=…, as asked
     fields: dict[str, tuple[Value, ...]]  # values by "table.field", as TOML would have them
     points: tuple[Point, ...]
 
     @property
     def command(self) -> str:
-        values = (f"{name}={','.join(map(str, values))}" for name, values in self.fields.items())
-        over = " ".join(f"--over {text!r}" for text in values)
-        return f"crosscheck sweep {self.scene.source} {over}"
+        options = (word for text in self.over for word in ("--over", text))
+        return f"crosscheck sweep {self.scene.named} {shlex.join(options)}"
 
 
 def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) -> SweepRequest:
@@ -78,60 +79,41 @@ def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) ->
     over     "position=40" placements along the trace, "FIELD=FROM:TO:N" or "FIELD=A,B,C"
     Raises InputError for anything that is wrong with them, or where no point has a scene."""
     if not over:
-        raise InputError("--over: is missing; allowed is FIELD=A,B,C, FIELD=FROM:TO:N, position=N")
-    fields: dict[str, tuple[Value, ...]] = {}
-    for option in over:
-        name, values = _swept(option, scene)
-        if name in fields:
-            raise InputError(f"--over: {name} is given twice; allowed is every field once")
-        fields[name] = values
+        raise InputError(f"--over: is missing; allowed is {ALLOWED}")
+    asked = assignments("--over", over, scene, ALLOWED)
+    fields = {name: _swept(name, text, scene) for name, text in asked.items()}
     if (count := int(np.prod([len(values) for values in fields.values()]))) > MOST:
         raise InputError(f"--over: asks for {count} scenes; allowed are {MOST}")
-    return SweepRequest(scene, models, fields, points_of(fields, scene.changed, models, CODE))
+    points = points_of(fields, scene.changed, models, CODE)
+    return SweepRequest(scene, models, tuple(over), fields, points)
 
 
-def _swept(option: str, scene: Scene) -> tuple[str, tuple[Value, ...]]:
-    """Name of a field as "table.field", and its values."""
-    short, equals, text = option.partition("=")
-    name = SHORT.get(short.strip(), short.strip())
-    if name == "load":
-        name = f"load.{scene.load.kind}"
-    if not equals or not text.strip() or "." not in name:
-        raise InputError(
-            f"--over: is {option!r}; allowed is FIELD=A,B,C, FIELD=FROM:TO:N or position=N, with "
-            "FIELD as in body.youngs_modulus, or load, friction or position"
-        )
+def _swept(name: str, text: str, scene: Scene) -> tuple[Value, ...]:
+    """Values of a field."""
     parts = [part.strip() for part in text.split(":")]
     if len(parts) == 3:
-        return name, _between(option, *parts)
-    if name == POSITION and len(parts) == 1 and text.strip().isdigit():
-        return name, _placements(int(text), scene)
-    values = tuple(_number(part.strip()) for part in text.split(","))
+        return _between(name, *parts)
+    if name == POSITION and len(parts) == 1 and text.isdigit():
+        return _placements(int(text), scene)
+    values = [part.strip() for part in text.split(",")]
     if len(parts) != 1 or "" in values:
-        raise InputError(f"--over: is {option!r}; allowed is FIELD=A,B,C or FIELD=FROM:TO:N")
-    return name, values
+        raise InputError(
+            f"--over: is {f'{name}={text}'!r}; allowed is FIELD=A,B,C or FIELD=FROM:TO:N"
+        )
+    return tuple(map(value_of, values))
 
 
-def _number(text: str) -> Value:
-    """As TOML reads it: some fields take whole numbers alone."""
-    for kind in (int, float):
-        with suppress(ValueError):
-            return kind(text)
-    return text
-
-
-def _between(option: str, first: str, last: str, count: str) -> tuple[Value, ...]:
+def _between(name: str, first: str, last: str, count: str) -> tuple[Value, ...]:
     ends = _RANGE.fullmatch(first), _RANGE.fullmatch(last)
     units = {end[2] for end in ends if end} - {""}
     if not all(ends) or len(units) > 1 or not count.isdigit() or not 2 <= int(count) <= MOST:
         raise InputError(
-            f"--over: is {option!r}; allowed is FROM:TO:N, two numbers of one unit and how many "
-            f"values, from 2 to {MOST}"
+            f"--over: is '{name}={first}:{last}:{count}'; allowed is FROM:TO:N, two numbers of one "
+            f"unit and how many values, from 2 to {MOST}"
         )
     values = np.linspace(float(ends[0][1]), float(ends[1][1]), int(count))
-    numbers = [_number(f"{value:.10g}") for value in values]
     unit = "".join(units)
-    return tuple(f"{value:.10g} {unit}" if unit else value for value in numbers)
+    return tuple(f"{value:.10g} {unit}" if unit else value_of(f"{value:.10g}") for value in values)
 
 
 def _placements(count: int, scene: Scene) -> tuple[float, ...]:

@@ -193,12 +193,12 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("over", "said"),
     [
-        ("position", "is 'position'; allowed is FIELD=A,B,C"),
+        ("position", 'is "position"; allowed is FIELD=A,B,C'),
         ("load=1 GPa:2 GPa", "allowed is FIELD=A,B,C or FIELD=FROM:TO:N"),
         ("load=1 GPa:2 MPa:3", "two numbers of one unit"),
         ("load=1:2:0", "how many values, from 2"),
         ("position=1", "allowed are from 2 to"),
-        ("amplitude=3", "with FIELD as in body.youngs_modulus"),
+        ("amplitude=3", "the nearest is profile.amplitude"),
         ("body.colour=1,2", "body.colour"),
         ("load=1 m,2 m", "a pressure"),
         ("load.position=0:1:100000", "from 2 to 10000"),
