@@ -51,17 +51,29 @@ def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
         half_width, depth, farthest = _disc_size(problem)
         reached = np.abs(problem.extent).max()
         if reached > farthest:
-            raise SceneError(
-                f'{problem.scene.source}: finite_element.roller_body: is "disc", but pressures may '
-                f"reach to {reached:.3g} m from its centre, farther than {farthest:.3g} m; allowed "
-                "is a lighter load or a larger radius"
-            )
+            raise SceneError(f"{problem.scene.source}: {_beyond_disc(problem, reached, farthest)}")
     else:
         width, depth = problem.unbounded
         half_width = 0.5 * width
         if (spec.half_width, spec.depth, spec.interface) == (half_width, depth, None):
             return spec  # one mesh serves both
     return replace(spec, half_width=half_width, depth=depth, window=None, interface=None)
+
+
+def _beyond_disc(problem: Problem, reached: float, farthest: float) -> str:
+    """Why a disc does not bear pressures that reach so far [m], by what the scene's file has."""
+    written, load = problem.scene.written, problem.scene.load
+    asked = written.get("finite_element", {}).get("roller_body") == "disc"
+    field = "finite_element.roller_body" if asked else f"load.{load.kind}"
+    remedy = "budget.effects = false, without the disc"
+    if asked:
+        remedy = 'finite_element.roller_body = "half-plane" with budget.effects = false'
+    return (
+        f"{field}: pressures may reach to {reached:.3g} m from the middle, "
+        f"{reached / problem.hertz.half_width:.3g} Hertz half-widths; a disc bears them up to "
+        f"{farthest:.3g} m, {farthest / problem.scene.roller.radius:.3g} of roller.radius; allowed "
+        f"is a lighter load, a larger radius or {remedy}"
+    )
 
 
 def _disc_size(problem: Problem) -> tuple[float, float, float]:

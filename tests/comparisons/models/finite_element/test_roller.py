@@ -124,7 +124,20 @@ def test_an_independent_code_finds_the_same_with_that_support(support):
     assert support != "opposite" or abs(other - stated) > 0.5 * bound
 
 
-def test_pressures_beyond_a_disc_are_an_error():
-    scene = posed("polymer", 0.5, "opposite", roller_shape="parabola")
-    with pytest.raises(SceneError, match='roller_body: is "disc", but pressures may reach'):
-        finite_elements(scene)
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("disc", r"finite_element\.roller_body: .* finite_element\.roller_body = \"half-plane\" w"),
+        ("half-plane", r"load\.hertz_peak_pressure: .* or budget\.effects = false, without the d"),
+    ],
+)
+def test_pressures_beyond_a_disc_are_an_error_of_what_the_scene_has(written, said):
+    """A disc is an effect of the whole model, too."""
+    scene = posed("polymer", 0.5, "opposite", roller_shape="parabola", roller_body=written)
+    whole = replace(scene, scene=scene.scene.unchecked({"finite_element.roller_body": "disc"}))
+    with pytest.raises(SceneError, match=said) as refused:
+        finite_elements(whole)
+    reached = np.abs(scene.extent).max()
+    assert reached == pytest.approx(1.5 * scene.hertz.half_width, rel=1e-2)
+    numbers = f"reach to {reached:.3g} m from the middle, 1.5 Hertz half-widths; a disc bears"
+    assert f"{numbers} them up to 0.006 m, 0.6 of roller.radius" in str(refused.value)
