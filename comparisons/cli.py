@@ -11,15 +11,21 @@ import traceback
 import warnings
 from collections.abc import Sequence
 from itertools import pairwise
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from comparisons.commands import checks, doctor, finished, materials, run, scenes, studies
-from comparisons.common.errors import ExitStatus, InputError, SolverError, drop, tell
+from comparisons.common.errors import (
+    TRACEBACK,
+    ExitStatus,
+    InputError,
+    SolverError,
+    defect,
+    drop,
+    tell,
+)
 
-TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 LIMITS = (errno.ENOMEM, errno.EAGAIN, errno.EMFILE, errno.ENFILE)  # of the system, that are reached
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
 # Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map and a
@@ -191,11 +197,9 @@ def _status_of(error: Exception) -> ExitStatus:
 
 def _account(error: Exception, status: ExitStatus) -> str:
     """An error that is not the user's: Python's message, and of a defect where it was raised."""
-    said = f"{type(error).__name__}: {error}"
-    if status != ExitStatus.DEFECT:
-        return said
-    place = traceback.extract_tb(error.__traceback__)[-1]
-    return f"internal error: {said} in {Path(place.filename).name}, line {place.lineno}"
+    if status == ExitStatus.DEFECT:
+        return f"internal error: {defect(error)}"
+    return f"{type(error).__name__}: {error}"
 
 
 if __name__ == "__main__":

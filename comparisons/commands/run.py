@@ -73,6 +73,7 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
+        from comparisons.common.files import REPORT
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.runs.run import Known, finish, solve_scene
         from comparisons.scenes.surface import surface_of
@@ -95,7 +96,8 @@ def run(
     _say_warnings(warnings_about_result(solved))
     with progress() as callback:
         finish(solved, callback)
-        if pdf:
+        is_drawn = (directory / REPORT).is_file()
+        if pdf and is_drawn:
             callback("printing the report")
             _print(directory)
     if junit is not None:
@@ -105,7 +107,8 @@ def run(
     if gone is not None:
         raise gone
     if not as_json:
-        print(f"written: {directory / 'report.html'}, result.json and the fields beside it")
+        first = f"{directory / REPORT}, result.json" if is_drawn else directory / "result.json"
+        print(f"written: {first} and the fields beside it")
     return solved.exit_status
 
 

@@ -4,9 +4,13 @@ import difflib
 import os
 import re
 import sys
+import traceback
 from collections.abc import Iterable
 from enum import IntEnum
+from pathlib import Path
 from typing import TextIO
+
+TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 
 
 class ExitStatus(IntEnum):
@@ -54,6 +58,19 @@ def one_line(text: str) -> str:
     """The text without line breaks, and with what a terminal would obey written as escapes."""
     line = re.sub(r"[ \t\r\n]+", " ", text).strip()
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
+def defect(error: BaseException) -> str:
+    """An error of the program in one phrase: Python's message, and where it was raised."""
+    if not hasattr(error, "__notes__"):
+        note_place(error)
+    return f"{type(error).__name__}: {error} in {error.__notes__[0]}"
+
+
+def note_place(error: BaseException) -> None:
+    """Note where an error was raised: its traceback does not leave the process."""
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    error.add_note(f"{Path(place.filename).name}, line {place.lineno}")
 
 
 def tell(message: str, before: str = "") -> None:

@@ -18,12 +18,13 @@ from pathlib import Path
 from comparisons.common.errors import InputError
 
 OWN_FOLDERS = ("half_plane", "finite_element", "whole")
+REPORT = "report.html"
 # of the second friction coefficient, and so on
 FURTHER = tuple(f"{model}/friction_*" for model in OWN_FOLDERS)
 # What a run may write, by name or pattern; those that a repetition does not write again are
 # removed.
 OWN_FILES = (
-    *("result.json", "report.html", "run.npz", "report.pdf", "record.json"),
+    *("result.json", REPORT, "run.npz", "report.pdf", "record.json"),
     *("run_in_profile.csv", "finite_element/mesh.msh", "finite_element/friction_*/mesh.msh"),
     *(f"{m}/{name}" for m in OWN_FOLDERS + FURTHER for name in ("contact.csv", "stress.vtu")),
 )

@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 from typing import TypeVar
 
 from comparisons.common.cache import NO_CACHE, Cache
-from comparisons.common.errors import SolverError
+from comparisons.common.errors import SolverError, note_place
 from comparisons.common.interrupt import KILLED
 from comparisons.common.processes import (
     ProcessWorker,
@@ -334,11 +334,11 @@ def tasks_here(
     return Tasks(opens, _places(), kept, callback, worth, memory, here=here, there=there)
 
 
-def tasks_of_copies(shared: object) -> Tasks:
+def tasks_of_copies(shared: object, here: Sequence[Preparation] = ()) -> Tasks:
     """Tasks on copies of this process, one a core, that have `shared` in memory; in this process
     where there can be none. They use no MPI, which survives no fork."""
     opens = partial(ProcessWorker, forked=True) if _places() > 1 and is_forkable() else None
-    return Tasks(opens, _places(), shared=shared)
+    return Tasks(opens, _places(), shared=shared, here=here)
 
 
 def called(here: Here, work: Callable[..., object], *args: object) -> object:
@@ -377,6 +377,7 @@ def _answered(work: Work, here: Here, *args: object) -> tuple[bool, object]:
     try:
         return True, work(here, *args)
     except Exception as error:
+        note_place(error)
         return False, error
 
 

@@ -3,10 +3,12 @@
 In: texts, names of pictures. Out: dataclasses, which a template shows by their classes' names; and
 figures as cells of tables, alike wherever they are shown, in the digits that are certain."""
 
-from collections.abc import Sequence
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import floor, isfinite, log10
 
+from comparisons.common.errors import TRACEBACK, defect, tell
 from comparisons.common.numbers import (
     MINUS,
     percent,
@@ -83,8 +85,22 @@ class Block:
     """Items of a section of the page, which the first block of a section gives its title."""
 
     section: str  # id
+    # what a function among them gives for the run stands in its place: an item, several, or None
     items: tuple
     title: str = ""
+
+
+def attempted(what: str, make: Callable[[], object]) -> object:
+    """What `make` gives. If it fails, one line in its place, which standard error gets, too: what
+    is shown of a result is never worth the result. CROSSCHECK_TRACEBACK lets the error through."""
+    try:
+        return make()
+    except Exception as error:
+        if os.environ.get(TRACEBACK):
+            raise
+        said = f"{what.replace('_', ' ')} is not shown: {defect(error)}"
+        tell(said)
+        return Note(f"{said[0].upper()}{said[1:]}")
 
 
 def compared_cells(

@@ -7,7 +7,7 @@ line style, for grey printers.
 import base64
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.files import csv_text
+from comparisons.drawing.blocks import attempted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -208,6 +209,15 @@ def svg(drawn: "Figure") -> str:
     # a hundredth of a point is enough for outlines, and half the size
     short = _OUTLINE.sub(_shortened, buffer.getvalue())
     return short.decode("utf-8")
+
+
+def svgs(draws: "Mapping[str, Callable[[], Figure]]") -> dict[str, str]:
+    """What is drawn as SVG, by file name; without what cannot be drawn."""
+    with drawing():
+        made = {
+            name: attempted(name, lambda draw=draw: svg(draw())) for name, draw in draws.items()
+        }
+    return {name: text for name, text in made.items() if isinstance(text, str)}
 
 
 def _shortened(outline: re.Match[bytes]) -> bytes:

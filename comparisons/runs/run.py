@@ -52,7 +52,7 @@ Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
 GOES_ON = "finished levels are kept, the same command goes on from there"
-WRITES_AGAIN = "nothing was written, but all is solved and kept: the same command writes the files"
+WRITES_AGAIN = "all is solved and kept: the same command writes the files that are missing"
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,18 @@
-"""The files of a finished run: curves, fields, mesh, result, record, report."""
+"""The files of a finished run: curves, fields, mesh, result, record; then the report."""
 
 from collections.abc import Sequence
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 
 from comparisons.common.errors import one_line
-from comparisons.common.files import RECORD, published
+from comparisons.common.files import RECORD, REPORT, published, write_whole
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
+from comparisons.drawing.blocks import attempted
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
@@ -18,19 +21,21 @@ from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
+# Modules that draw, loaded while copies write the fields.
+DRAWS = ("matplotlib.figure", "comparisons.output.page.page")
+
 
 def write_files(outcome: Run, callback: ProgressCallback) -> None:
-    """Write everything into the run's folder; whole files, all at the end."""
+    """Write the run's folder: everything but the report, whole and at once; then the report, which
+    is drawn when nothing that goes wrong can cost a result."""
     callback(Step("writing results", 0.0))
-    from comparisons.output.page.page import render
-
-    # copies of this process write the fields while it loads what draws
-    with published(outcome.directory) as folder, tasks_of_copies(outcome) as tasks:
+    beside = [partial(import_module, name) for name in DRAWS]
+    with published(outcome.directory) as folder, tasks_of_copies(outcome, beside) as tasks:
         levels = levels_by_folder(outcome)
         first, *others = sorted(levels, key=lambda name: levels[name].mesh is None)  # longest first
         for name in levels:
             (folder / name).mkdir(parents=True, exist_ok=True)
-        # two lots: nobody hands out a third while this process draws
+        # two lots: nobody hands out a third while this process writes
         tasks.add(first, _write_level, folder, first)
         tasks.add(FILE, _write_others, folder, others)
         for study in STUDIES:
@@ -39,13 +44,19 @@ def write_files(outcome: Run, callback: ProgressCallback) -> None:
                 _write_csv(folder / path, ",".join(columns), *columns.values())
         content = content_of(result_of(outcome))
         (folder / "result.json").write_text(as_json(content), encoding="utf-8")
-        callback("drawing the report")
-        (folder / "report.html").write_text(render(outcome), encoding="utf-8")
         for key in (first, FILE):
             tasks.result(key)
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
-        record = outcome.record | {"files": [*files, RECORD]}
+        record = outcome.record | {"files": [*files, RECORD, REPORT]}
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
+    callback("drawing the report")
+    page = attempted("report", partial(_page, outcome))
+    if isinstance(page, str):
+        write_whole(outcome.directory / REPORT, page)
+
+
+def _page(outcome: Run) -> str:
+    return import_module(DRAWS[-1]).render(outcome)
 
 
 def _write_others(here: Here, folder: Path, names: Sequence[str]) -> None:

@@ -36,12 +36,15 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+from comparisons.output.page import page
 from comparisons.output.page.page import PICTURES
 from comparisons.output.record import record_of
 from comparisons.studies import STUDIES
 from comparisons.studies.study import Run, Solved, studied
 from meshes.block import BlockMesh, BlockSpec
 
+# What fails on a page fails its test; those of what a failure costs say so.
+page.attempted = lambda what, make: make()
 # Tests count and replace what is done in their own process; those of several processes say so.
 tasks.WORTH_A_FORK = tasks.WORTH_A_START = math.inf
 

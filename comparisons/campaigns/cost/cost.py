@@ -47,7 +47,7 @@ from comparisons.common.provenance import (
     versions,
 )
 from comparisons.common.tasks import Here, Tasks
-from comparisons.drawing.style import REFERENCE, THIRD, drawing, figure, svg
+from comparisons.drawing.style import REFERENCE, THIRD, figure, svgs
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -156,8 +156,8 @@ def cost(scene: Scene, out: Path, callback: ProgressCallback = no_progress) -> C
     cache = Cache(out / FOLDER, key, kinds_of(Level))
     cache.remove_leftovers()
     known = assessed(problem, *rows_of(problem, methods_of(problem), cache, callback))
-    with drawing():
-        publish(out, {COST: as_json(content_of(known)), PICTURE: svg(cost_figure(known))})
+    drawn = svgs({PICTURE: lambda: cost_figure(known)})
+    publish(out, {COST: as_json(content_of(known)), **drawn}, FILES)
     return known
 
 

@@ -35,6 +35,7 @@ from comparisons.common.files import check_writable, publish
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
+from comparisons.drawing.style import svgs
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.models.problem import Problem
 from comparisons.scenes.files import find_scene, name_of, read_toml
@@ -143,7 +144,7 @@ def make_map(
     answers = solved_in(out, FILES, request.points, solve_point, workers, callback)
     content = map_content(request, answers)
     callback("map: picture")
-    publish(out, _files(content, mark))
+    publish(out, _files(content, mark), FILES)
     return content
 
 
@@ -160,14 +161,14 @@ def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -
     Raises InputError for a quantity that it does not have, and what cannot be written."""
     content = showing(finished_map(name), quantity)
     check_writable(out, FILES)
-    publish(out, _files(content, marked and mark_of(content, marked)))
+    publish(out, _files(content, marked and mark_of(content, marked)), FILES)
     return content
 
 
 def _files(content: dict, mark: "Mark | None") -> dict[str, str]:
-    from comparisons.campaigns.maps.picture import map_picture
+    from comparisons.campaigns.maps.picture import map_figure
 
-    return {PICTURE: map_picture(content, mark), MAP: as_json(content)}
+    return {MAP: as_json(content), **svgs({PICTURE: lambda: map_figure(content, mark)})}
 
 
 def exit_status(content: dict) -> ExitStatus:

@@ -18,7 +18,7 @@ from comparisons.campaigns.maps.content import (
     places,
     scaled,
 )
-from comparisons.drawing.style import drawing, figure, svg
+from comparisons.drawing.style import figure
 from comparisons.figures.quantity import label
 
 if TYPE_CHECKING:
@@ -36,16 +36,11 @@ STYLES = ((0, (1, 1.2)), (0, (5, 1.5)), "-", (0, (7, 1.5, 1, 1.5)))
 HATCHES = {BELOW: "....", INCONCLUSIVE: "////"}
 
 
-def map_picture(content: dict, mark: Mark | None = None) -> str:
-    """SVG of a map's content; the same for the same content.
+def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
+    """A map's content; the same for the same content.
 
     mark  name of a scene, and its values of the groups of x and y
     """
-    with drawing():
-        return svg(map_figure(content, mark))
-
-
-def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
     drawn = figure(*SIZE)
     axes = drawn.add_axes(BOX)
     x, y = (places(content[name]) for name in ("x", "y"))

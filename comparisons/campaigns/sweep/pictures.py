@@ -3,6 +3,7 @@
 In: the content of sweep.json. Out: SVG, the same for the same content."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -41,11 +42,10 @@ SQUARE = (-0.5, 0.5, 0.5, -0.5), (-0.5, -0.5, 0.5, 0.5)
 
 def drawn(content: dict) -> dict[str, str]:
     """SVG by file: the sweep, and where its points have quiescent zones their map."""
-    draws = {PICTURE: sweep_figure}
+    draws = {PICTURE: partial(sweep_figure, content)}
     if has_zones(content):
-        draws[ZONES] = zone_map_figure
-    with style.drawing():
-        return {file: style.svg(draw(content)) for file, draw in draws.items()}
+        draws[ZONES] = partial(zone_map_figure, content)
+    return style.svgs(draws)
 
 
 def has_zones(content: dict) -> bool:

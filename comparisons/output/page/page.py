@@ -4,12 +4,22 @@ A loop over blocks: those that every run has, and those by which each study show
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 
 from comparisons.common.numbers import plain
 from comparisons.common.processes import uncollected
 from comparisons.common.tasks import Here, tasks_of_copies
-from comparisons.drawing.blocks import Block, Box, Bullets, Heading, Names, Note, Pictures
-from comparisons.drawing.style import Picture, drawing, load_matplotlib
+from comparisons.drawing.blocks import (
+    Block,
+    Box,
+    Bullets,
+    Heading,
+    Names,
+    Note,
+    Pictures,
+    attempted,
+)
+from comparisons.drawing.style import drawing, load_matplotlib
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.models.forecast import forecast
@@ -48,7 +58,7 @@ NOTES = verification.WORDING["how_to_read"]
 def render(run: Run) -> str:
     """The page of a finished run; equal runs give equal text."""
     pictures = draw(run)
-    shown = [_shown(block, pictures) for block in sections(run)]
+    shown = [_shown(block, run, pictures) for block in sections(run)]
     [first, *others] = (HYPHENATED[name] for name in run.runs)
     return rendered(
         "page.html.j2",
@@ -56,34 +66,40 @@ def render(run: Run) -> str:
         title=run.problem.scene.title,
         headline=headline(run),
         models="half-plane against finite elements" if others else f"{first} model only",
-        answer=_shown(_answer(run), pictures),
+        answer=_shown(_answer(run), run, pictures),
         sections=[block for block in shown if block.items],
         folded=FOLDED,
     )
 
 
-def _shown(block: Block, pictures: Mapping[str, object]) -> Block:
-    return replace(block, items=tuple(_filled(block.items, pictures)))
+def _shown(block: Block, run: Run, pictures: Mapping[str, object]) -> Block:
+    return replace(block, items=tuple(_filled(block.items, run, pictures)))
 
 
-def _filled(items: Iterable, pictures: Mapping[str, object]) -> Iterator[object]:
-    """The items with pictures in the place of their names, without boxes that stay empty."""
+def _filled(items: Iterable, run: Run, pictures: Mapping[str, object]) -> Iterator[object]:
+    """The items with pictures in the place of their names, and with what functions among them give,
+    without boxes that stay empty."""
     for item in items:
         if isinstance(item, Pictures):
-            drawn = [one for name in item.names for one in _listed(pictures[name])]
-            drawn = drawn if item.part is None else drawn[item.part]
+            drawn = [one for name in item.names for one in _listed(pictures[name], item.part)]
             yield from [Heading(item.heading)] * bool(drawn and item.heading)
             yield from [Box("columns", tuple(drawn))] if drawn and item.abreast else drawn
         elif isinstance(item, Box):
-            inside = tuple(_filled(item.items, pictures))
+            inside = tuple(_filled(item.items, run, pictures))
             yield from [replace(item, items=inside)] * bool(inside)
+        elif callable(item):
+            name = getattr(item, "func", item).__name__.strip("_")
+            made = _listed(attempted(name, partial(item, run)))
+            yield from _filled(made, run, pictures)
         else:
             yield item
 
 
-def _listed(drawn: object) -> list[Picture]:
-    """What a function of PICTURES gave, as a list."""
-    return drawn if isinstance(drawn, list) else [] if drawn is None else [drawn]
+def _listed(made: object, part: slice | None = None) -> list:
+    """What a function gave as a list; of several a part."""
+    if isinstance(made, list):
+        return made if part is None else made[part]
+    return [] if made is None else [made]
 
 
 def draw(run: Run) -> dict[str, object]:
@@ -94,7 +110,7 @@ def draw(run: Run) -> dict[str, object]:
     with drawing(), tasks_of_copies(run) as tasks:
         for name in names:
             tasks.add(name, _drawn, name)
-        return {name: tasks.result(name) for name in names}
+        return {name: attempted(name, partial(tasks.result, name)) for name in names}
 
 
 def _drawn(here: Here, name: str) -> object:
@@ -107,7 +123,10 @@ def sections(run: Run) -> list[Block]:
     blocks = [*_before(run), *_stresses(run), *_after(run)]
     for study in STUDIES:
         if study.name in run.findings:
-            blocks += study.blocks(run)
+            made = attempted(study.name, partial(study.blocks, run))
+            if not isinstance(made, list):
+                made = [Block(study.name, (made, Pictures(tuple(study.pictures))), study.name)]
+            blocks += made
     order = (*ORDER, *FOLDED)
     blocks.sort(key=lambda block: order.index(block.section if block.section in order else ""))
     return [
@@ -118,22 +137,28 @@ def sections(run: Run) -> list[Block]:
 
 def _answer(run: Run) -> Block:
     """Beside the verdict: what is judged, the run in one picture, and on paper what is signed."""
-    signed = Box("signed", (Names(verification.signed_rows(run)),))
-    return Block("answer", (Pictures(("judged",)), Pictures(("overview",)), signed))
+    return Block("answer", (Pictures(("judged",)), Pictures(("overview",)), _signed))
+
+
+def _signed(run: Run) -> Box:
+    return Box("signed", (Names(verification.signed_rows(run)),))
 
 
 def _before(run: Run) -> Iterator[Block]:
     picture = Pictures(("problem",)), Heading("Assumptions"), Bullets(run.plan.assumptions)
-    sheet = [item for name, rows in problem_sheet(run) for item in (Heading(name), Names(rows))]
-    columns = Box("columns", (Box("sheet", picture), Box("sheet", tuple(sheet))))
+    columns = Box("columns", (Box("sheet", picture), Box("sheet", (_problem,))))
     yield Block("problem", (columns,), "Problem")
     if run.plan.compares:
         note = Note(NOTES["comparison"] + _of_layered(run, "layered"))
-        yield Block("comparison", (comparison_table(run), note), "Comparison")
+        yield Block("comparison", (comparison_table, note), "Comparison")
     else:
-        yield Block("comparison", (figure_table(run),), "Figures")
+        yield Block("comparison", (figure_table,), "Figures")
     beside = Pictures(("close_up", "surface"), abreast=True)
     yield Block("contact", (Pictures(("pressure",)), beside), "Contact")
+
+
+def _problem(run: Run) -> list:
+    return [item for name, rows in problem_sheet(run) for item in (Heading(name), Names(rows))]
 
 
 def _of_layered(run: Run, words: str) -> str:
@@ -162,31 +187,33 @@ def _stresses(run: Run) -> Iterator[Block]:
 
 
 def _after(run: Run) -> Iterator[Block]:
-    items: list = []
-    if (judged := verification.judged_table(run)) is not None:
-        note = Note(NOTES["orders"] + _of_layered(run, "layered_levels"))
-        items += [judged, note, Pictures(("convergence",))]
-        halves = [Box("half", (Heading("Words"), Names(verification.WORDS)))]
-        if (validation := verification.validation_table(run)) is not None:
-            halves.append(Box("half", (validation, Note(NOTES["validation"]))))
-        items.append(Box("columns", tuple(halves)))
     norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
     far = NOTES["far_boundary"] if run.plan.domain_check else ""
     why = verification.refinement_text(run)
     note = Note(NOTES["levels"].format(far=far, norms=norms, refinement=why))
-    levels = Heading("All figures"), *verification.convergence_tables(run), note
-    yield Block("convergence", (*items, *levels), "Convergence")
+    levels = Heading("All figures"), verification.convergence_tables, note
+    yield Block("convergence", (_refinement, *levels), "Convergence")
     yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
     note = "By the laws of cost, before anything was solved and without effects, "
     note += f"{forecast(run.problem, run.plan).text}."
-    cost = Box("columns", (Pictures(("cost",)), verification.cost_table(run)))
+    cost = Box("columns", (Pictures(("cost",)), verification.cost_table))
     yield Block("cost", (cost, Note(note)), "Cost")
-    items = [verification.check_table(run), Note(NOTES["checks"])]
-    yield Block("checks", tuple(items), "Checks")
+    yield Block("checks", (verification.check_table, Note(NOTES["checks"])), "Checks")
     skipped = tuple((item.step, item.because) for item in run.plan.skipped)
     yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")
-    yield Block(
-        "record",
-        (Names(verification.record_rows(run), tuple(verification.commands(run))),),
-        "Record",
-    )
+    yield Block("record", (_record,), "Record")
+
+
+def _refinement(run: Run) -> list:
+    """The judged figures over the levels, and what the columns mean; nothing where none is."""
+    if (judged := verification.judged_table(run)) is None:
+        return []
+    note = Note(NOTES["orders"] + _of_layered(run, "layered_levels"))
+    halves = [Box("half", (Heading("Words"), Names(verification.WORDS)))]
+    if (validation := verification.validation_table(run)) is not None:
+        halves.append(Box("half", (validation, Note(NOTES["validation"]))))
+    return [judged, note, Pictures(("convergence",)), Box("columns", tuple(halves))]
+
+
+def _record(run: Run) -> Names:
+    return Names(verification.record_rows(run), tuple(verification.commands(run)))

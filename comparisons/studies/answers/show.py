@@ -3,6 +3,7 @@
 In: a run with answers. Out: tables, facts, pictures of pressures and of principal shears."""
 
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -54,9 +55,10 @@ def reference_of(run: Run) -> str:
 def blocks(run: Run) -> list[Block]:
     items: list = [Pictures(("answers",))]
     for name in answers_of(run):
-        items += [Heading(name), answer_table(run, name), Names(answer_facts(run, name))]
+        table = partial(answer_table, answer=name)
+        items += [Heading(name), table, Names(answer_facts(run, name))]
         if (measured := run.findings[NAME].table(VALIDATION, name)) is not None:
-            items.append(_validation_table(measured))
+            items.append(partial(_validation_table, measured=measured))
     return [Block("answers", (*items, Note(NOTE)), "Answers from outside")]
 
 
@@ -109,7 +111,7 @@ def answer_table(run: Run, answer: str) -> TextTable:
     return TextTable("", head, rows, "comparison")
 
 
-def _validation_table(measured: Series) -> TextTable:
+def _validation_table(run: Run, measured: Series) -> TextTable:
     """V&V 20's comparison of measured data with each model."""
     sizes = ("u_num", "u_input", "u_D", "u_val")
     rows = tuple(

@@ -61,7 +61,7 @@ def limit_of(run: Run, level: SlippedLevel) -> np.ndarray:
 
 
 def blocks(run: Run) -> list[Block]:
-    shown = slip_table(run), Names(slip_facts(run)), Note(NOTE)
+    shown = slip_table, Names(slip_facts(run)), Note(NOTE)
     pictures = Pictures(("slip_tractions", "slip_loop"), abreast=True)
     return [Block("heat", (pictures, *shown), "Partial slip")]
 

@@ -77,9 +77,7 @@ def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
 def blocks(run: Run) -> list[Block]:
     note = Note(NOTE + OF_STRESSES * bool(run.data(NAME).stresses))
     shown = Names(heat_facts(run)), note, Pictures(("heat_below",), abreast=True)
-    return [
-        Block("heat", (Pictures(("heat_surfaces",)), heat_table(run), *shown), "Frictional heat")
-    ]
+    return [Block("heat", (Pictures(("heat_surfaces",)), heat_table, *shown), "Frictional heat")]
 
 
 def heat_table(run: Run) -> TextTable:

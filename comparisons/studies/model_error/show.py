@@ -57,10 +57,13 @@ exceeds a tenth of a tolerance; an effect that was not computed counts with its 
 
 
 def blocks(run: Run) -> list[Block]:
-    items = [Pictures(("model_error",)), error_table(run), Note(NOTE)]
-    if (effects := effects_table(run)) is not None:
-        items += [effects, Note(OF_EFFECTS)]
-    return [Block("model-error", tuple(items), "Model error of the half-plane")]
+    items = Pictures(("model_error",)), error_table, Note(NOTE), _effects
+    return [Block("model-error", items, "Model error of the half-plane")]
+
+
+def _effects(run: Run) -> list:
+    table = effects_table(run)
+    return [] if table is None else [table, Note(OF_EFFECTS)]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:

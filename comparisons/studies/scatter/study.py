@@ -274,7 +274,7 @@ def blocks(run: Run) -> list[Block]:
     why = findings.said("first failure")
     failures = f" {counts['failed']} had no solution, the first because: {why}."
     note = NOTE.format(solutions=counts["solutions"], failures=failures if why else "")
-    return [Block("inputs", (scatter_table(run), Note(note)), "Uncertain inputs")]
+    return [Block("inputs", (scatter_table, Note(note)), "Uncertain inputs")]
 
 
 def scatter_table(run: Run) -> TextTable:

@@ -49,18 +49,9 @@ counts the patches above a plastic strain."""
 
 
 def blocks(run: Run) -> list[Block]:
-    section, findings = run.problem.scene.statistics, run.findings[NAME]
-    models = [LABELS[patches.source] for patches in _patches(findings)]
-    kinds = ("", *(f"{model}, {how}" for model in models for how in ("book", "exact")))
-    asperities = "Patches of contact by relative penetration"
-    if any(STRAIN in patches.columns for patches in _patches(findings)):
-        asperities += "; after a semicolon, how many of them flow"
-    summits = tuple(map(_summits, findings.table("summits").rows()))
+    section = run.problem.scene.statistics
     items = (
-        Pictures(("statistics",)),
-        TextTable("Summits, by moments / by peaks", SUMMITS, summits),
-        *_by_load(findings.table("loads")),
-        TextTable(asperities, kinds, tuple(_kinds(findings, kind) for kind in KINDS)),
+        *(Pictures(("statistics",)), _summit_table, _load_tables, _patch_table),
         Note(ON_THEORY),
         Note(
             ON_PENETRATION.format(
@@ -109,6 +100,11 @@ def _random(loads: Series) -> list[str]:
     ]
 
 
+def _summit_table(run: Run) -> TextTable:
+    summits = tuple(map(_summits, run.findings[NAME].table("summits").rows()))
+    return TextTable("Summits, by moments / by peaks", SUMMITS, summits)
+
+
 def _summits(row: dict) -> tuple[str, ...]:
     name = row["treatment"]
     name += "" if name == "as pressed" else f" {with_unit(row['size'], 'm', 3)}"
@@ -122,8 +118,9 @@ def _summits(row: dict) -> tuple[str, ...]:
     return tuple(cells)
 
 
-def _by_load(loads: Series) -> tuple[TextTable, TextTable]:
+def _load_tables(run: Run) -> list[TextTable]:
     """Pressures; and how far the theory is off, why, and the widths."""
+    loads = run.findings[NAME].table("loads")
     pressures, factors, differences = [], [], loads.columns["difference"].sizes
     for row, random, uncertainty in zip(loads.rows(), _random(loads), differences, strict=True):
         widths = (row[f"figures.{n}.{FIGURES[2]}"] for n in ("moments", "random", "trace"))
@@ -136,10 +133,20 @@ def _by_load(loads: Series) -> tuple[TextTable, TextTable]:
         factors.append((load, excess, *_causes(row).values(), *widths))
     head = ("load", "theory over random", *_causes(loads.rows()[0]), *WIDTHS)
     title = "Mean real pressure, load over real length"
-    return (
+    return [
         TextTable(title, PRESSURES, tuple(pressures)),
         TextTable("Theory over solved, and half-widths", head, tuple(factors)),
-    )
+    ]
+
+
+def _patch_table(run: Run) -> TextTable:
+    findings = run.findings[NAME]
+    models = [LABELS[patches.source] for patches in _patches(findings)]
+    title = "Patches of contact by relative penetration"
+    if any(STRAIN in patches.columns for patches in _patches(findings)):
+        title += "; after a semicolon, how many of them flow"
+    head = ("", *(f"{model}, {how}" for model in models for how in ("book", "exact")))
+    return TextTable(title, head, tuple(_kinds(findings, kind) for kind in KINDS))
 
 
 def _kinds(findings: Findings, kind: str) -> tuple[str, ...]:

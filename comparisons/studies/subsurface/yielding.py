@@ -359,7 +359,7 @@ def blocks(run: Run) -> list[Block]:
         note += f" {OF_A_YIELD_STRESS.format(*caps)}" + f" {OF_A_TRACE}" * bool(scene.profile)
     else:
         note += " The scene has neither yield stress nor hardness: what flows is not known."
-    return [Block("yield", (flow_table(run), Note(note)), "Yield")]
+    return [Block("yield", (flow_table, Note(note)), "Yield")]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:

@@ -188,10 +188,11 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
     out, err = capsys.readouterr()
     assert "peak pressure" in out and "NOT COMPARED" in out
     assert err == (
-        "crosscheck: interrupted; nothing was written, but all is solved and kept: the same "
-        "command writes the files\n"
+        "crosscheck: interrupted; all is solved and kept: the same command writes the files that "
+        "are missing\n"
     )
     assert (folder / ".out.unfinished/run" / "half_plane-1.npz").exists()
+    assert (folder / "out/result.json").exists() and not (folder / "out/report.html").exists()
 
 
 def test_a_command_whose_process_is_killed_has_a_status_of_its_own(folder):

@@ -7,9 +7,10 @@ import pytest
 
 from comparisons.campaigns.grid import FAILED, SOLVED
 from comparisons.campaigns.maps.map import FINISHED, finished_map, request_of
-from comparisons.campaigns.maps.picture import map_picture
+from comparisons.campaigns.maps.picture import map_figure
 from comparisons.campaigns.maps.point import TOLERANCES, solve_point
 from comparisons.common.provenance import versions
+from comparisons.drawing.style import svgs
 
 # A point of each that costs little and whose error is well above its uncertainty: column, row.
 CHEAP = {
@@ -80,4 +81,5 @@ def test_pictures_show_the_points(finished):
     name, content = finished
     if versions()["matplotlib"] != content["versions"]["matplotlib"]:
         pytest.skip("another matplotlib draws another file")
-    assert (FINISHED / f"{name}.svg").read_text(encoding="utf-8") == map_picture(content)
+    drawn = svgs({"map.svg": lambda: map_figure(content)})
+    assert (FINISHED / f"{name}.svg").read_text(encoding="utf-8") == drawn["map.svg"]
