@@ -73,7 +73,6 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
-        from comparisons.common.files import REPORT
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.runs.run import Known, finish, solve_scene
         from comparisons.scenes.surface import surface_of
@@ -95,9 +94,8 @@ def run(
     gone = _say_answer(solved, details, as_json)  # before the report is drawn
     _say_warnings(warnings_about_result(solved))
     with progress() as callback:
-        finish(solved, callback)
-        is_drawn = (directory / REPORT).is_file()
-        if pdf and is_drawn:
+        drawn = finish(solved, callback)
+        if pdf and drawn:
             callback("printing the report")
             _print(directory)
     if junit is not None:
@@ -107,7 +105,7 @@ def run(
     if gone is not None:
         raise gone
     if not as_json:
-        first = f"{directory / REPORT}, result.json" if is_drawn else directory / "result.json"
+        first = f"{directory / 'report.html'}, result.json" if drawn else directory / "result.json"
         print(f"written: {first} and the fields beside it")
     return solved.exit_status
 

@@ -203,18 +203,19 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     return Run(solved, findings, record_of(problem, solved.runs, _hashes(solved, findings)), out)
 
 
-def finish(run: Run, callback: ProgressCallback = no_progress) -> None:
+def finish(run: Run, callback: ProgressCallback = no_progress) -> bool:
     """Write the files of a solved run into its folder, if it has one; what was kept of it goes.
-    Raises InputError for a folder that cannot be written."""
+    Whether its report could be drawn. Raises InputError for a folder that cannot be written."""
     if run.directory is None:
-        return
+        return False
     from comparisons.runs.write import write_files
 
     try:
-        write_files(run, callback)
+        drawn = write_files(run, callback)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(WRITES_AGAIN) from None
     replace(NO_CACHE, folder=unfinished(run.directory, "run")).discard()
+    return drawn
 
 
 def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:

@@ -25,9 +25,9 @@ from meshes.block import BlockMesh
 DRAWS = ("matplotlib.figure", "comparisons.output.page.page")
 
 
-def write_files(outcome: Run, callback: ProgressCallback) -> None:
+def write_files(outcome: Run, callback: ProgressCallback) -> bool:
     """Write the run's folder: everything but the report, whole and at once; then the report, which
-    is drawn when nothing that goes wrong can cost a result."""
+    is drawn when nothing that goes wrong can cost a result. Whether it could be."""
     callback(Step("writing results", 0.0))
     beside = [partial(import_module, name) for name in DRAWS]
     with published(outcome.directory) as folder, tasks_of_copies(outcome, beside) as tasks:
@@ -51,8 +51,9 @@ def write_files(outcome: Run, callback: ProgressCallback) -> None:
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
     callback("drawing the report")
     page = attempted("report", partial(_page, outcome))
-    if isinstance(page, str):
+    if drawn := isinstance(page, str):
         write_whole(outcome.directory / REPORT, page)
+    return drawn
 
 
 def _page(outcome: Run) -> str:

@@ -54,7 +54,7 @@ class Run:
 def solver(monkeypatch, tmp_path):
     run = Run()
     monkeypatch.setattr("comparisons.runs.run.solve_scene", lambda *asked: run.run(*asked))
-    monkeypatch.setattr("comparisons.runs.run.finish", lambda *_: None)
+    monkeypatch.setattr("comparisons.runs.run.finish", lambda *_: True)
     table = types.SimpleNamespace(
         summary=lambda outcome, details: "peak pressure agree", PLAIN={ord("µ"): "u"}
     )
