@@ -28,7 +28,8 @@ A run prints in ten lines; in a notebook the tables of the command line are show
 
 >>> print(run)  # doctest: +ELLIPSIS
 Steel on steel
-peak pressure   0, 0.1  1.000 GPa ...
+How wrong the half-plane may be here is not known: only the half-plane model was run.
+NOT COMPARED  Peak pressure 1.000 GPa, ...
 
 `run.figures` are all of them, `run.figures.rows` records of them, `run.plot` draws.
 

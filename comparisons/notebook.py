@@ -130,6 +130,12 @@ class RecordedRun(Printed):
         """Of the half-plane here: holds, fails or inconclusive; not compared, not converged."""
         return self.said.verdict
 
+    @property
+    def within(self) -> float | None:
+        """The least tolerance at which every judged figure holds, relative: the half-plane is right
+        within it. None where it is not known."""
+        return self.said.within
+
     def contact(self, model: str = "half-plane") -> dict[str, np.ndarray]:
         """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
         return self.arrays.contact(self._known(model), self.said.deciding_friction)
@@ -172,7 +178,7 @@ class FinishedRun(RecordedRun):
         return cls(result_of(outcome), RunArrays.of(outcome), name, outcome)
 
     def __repr__(self) -> str:
-        """In ten lines: title, the first figures, the verdict and what to do next. A notebook
+        """In ten lines: title, the verdict, the first figures and what to do next. A notebook
         shows the tables of the command line."""
         from comparisons.output.headline import headline
         from comparisons.output.page.tables.comparison import figure_rows
@@ -193,8 +199,8 @@ class FinishedRun(RecordedRun):
             ]
         left = len(rows) - SHOWN
         more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
-        ends = f"{said.kind.upper()}  {said.sentence}", f"Next:  {said.next}"
-        lines = run.problem.scene.title, *rows[:SHOWN], *more, *ends
+        first = said.within.sentence, f"{said.kind.upper()}  {said.sentence}"
+        lines = run.problem.scene.title, *first, *rows[:SHOWN], *more, f"Next:  {said.next}"
         return "\n".join(part for line in lines for part in wrap(line, COLUMNS))
 
     @property

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from comparisons.figures.figure import Figure
     from comparisons.models.level import Level
     from comparisons.models.problem import Levels, Problem
     from comparisons.scenes.scene import Scene
@@ -142,3 +143,28 @@ def budgeted(run: "Run", budget: object) -> "Run":
 
     findings = findings_of(budget, run.problem)
     return replace(run, findings={**run.findings, NAME: findings})
+
+
+def judged(
+    quantity: str = "peak_pressure",
+    value: float = 0.001,
+    uncertainty: float = 0.002,
+    not_modelled: dict[str, float] | None = None,
+    tolerance: float = 0.02,
+    friction: float = 0.0,
+) -> "Figure":
+    """A model error of the half-plane; all sizes relative."""
+    from comparisons.figures.figure import Figure
+    from comparisons.figures.uncertainty import Uncertainty
+
+    return Figure(
+        study="model_error",
+        quantity=quantity,
+        source="half_plane",
+        value=value,
+        at={"friction": friction},
+        against="whole",
+        uncertainty=Uncertainty({"numerical": uncertainty}),
+        unknown=not_modelled or {},
+        bounds=(-tolerance, tolerance),
+    )

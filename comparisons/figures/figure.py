@@ -133,6 +133,12 @@ class Figure:
         return self.numerical + self.not_modelled
 
     @property
+    def reach(self) -> float:
+        """How far it may lie, and the least tolerance at which it holds: |value| and total, over
+        the scale."""
+        return abs(self.relative) + self.total
+
+    @property
     def tolerance(self) -> float | None:
         """Of what is judged to both sides alike."""
         return None if self.bounds is None else self.bounds[1]
@@ -193,7 +199,7 @@ class Figures(tuple[Figure, ...]):
 
 def nearest_to_tolerance(errors: Sequence[Figure]) -> Figure:
     """The judged one farthest outside, or nearest to, its tolerance, uncertainty included."""
-    return max(errors, key=lambda error: (abs(error.value) + error.total) / error.tolerance)
+    return max(errors, key=lambda error: error.reach / error.tolerance)
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 In: the result.json of runs. Out: records, CSV, or a table for people. Columns:
   run, scene, title      folder, name, title
+  within                 the least tolerance at which every judged figure of the run holds
   study, quantity, source, against, friction   name the figure within its run
   value                  in `unit`, SI; relative where it is `against` a reference
   uncertainty, not_modelled   relative
@@ -22,6 +23,7 @@ from comparisons.figures.quantity import LABELS
 from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
 from comparisons.output.terminal import PLAIN, STYLES, plain_table, plain_text
+from comparisons.output.within import rounded_up
 from comparisons.studies import contact, meaning
 from comparisons.studies.study import LADDER
 
@@ -31,7 +33,8 @@ if TYPE_CHECKING:
 FILE = "result.json"
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 COLUMNS = (
-    *("run", "scene", "title", "study", "quantity", "unit", "source", "against", "friction"),
+    *("run", "scene", "title", "within"),
+    *("study", "quantity", "unit", "source", "against", "friction"),
     *("value", "uncertainty", "not_modelled", "low", "high", "verdict"),
 )
 
@@ -88,6 +91,7 @@ def _results(folders: Iterable[Path]) -> list[Path]:
 def rows_of(result: Result, run: str) -> list[Row]:
     """A row a figure, of every study of one run, each with all COLUMNS."""
     common = {"run": run, "scene": result.scene["name"], "title": result.scene["title"]}
+    common["within"] = result.within
     names = ("study", "quantity", "source", "against", "friction", "value", "not_modelled")
     rows = []
     for figure in result.figures:
@@ -111,7 +115,7 @@ def judged_rows(rows: Iterable[Row]) -> list[Row]:
 def rows_tables(rows: Iterable[Row], name: str = "run") -> "Group":
     """A table a run for people: four digits with their unit, differences in per cent.
 
-    name  column that is a table's title"""
+    name  column that is a table's title, beside what the half-plane is right within; "": none"""
     from rich.console import Group
 
     tables = []
@@ -119,7 +123,10 @@ def rows_tables(rows: Iterable[Row], name: str = "run") -> "Group":
         numbers = ("mu", "value", "+-", "tol.")
         table = plain_table("quantity", "source", "against", numbers=numbers)
         table.add_column("verdict", no_wrap=True)
-        table.title = plain_text(same[0][name])
+        if name:
+            within = same[0]["within"]
+            size = "unknown" if within is None else percent_as_written(rounded_up(within))
+            table.title = plain_text(f"{same[0][name]}, right within {size}")
         for row in same:
             table.add_row(*map(plain_text, _cells(row)))
         tables += [table, ""]
@@ -127,16 +134,18 @@ def rows_tables(rows: Iterable[Row], name: str = "run") -> "Group":
 
 
 def result_summary(result: Result) -> "Group":
-    """A run's title, what it judges, or else its contact, the verdict, and what to paste next."""
+    """A run's title, the verdict, what to paste next, and what it judges, or else its contact."""
     from rich.console import Group
     from rich.text import Text
 
     rows = judged_rows(rows_of(result, result.scene["name"]))
+    title = plain_text(result.scene["title"])
+    within = Text(result.within_words.translate(PLAIN), style="bold")
     stamp = result.verdict.upper(), STYLES.get(result.verdict, "bold")
     verdict = Text.assemble(stamp, f"  {result.why.translate(PLAIN)}")
     pasted = (f"  {text.translate(PLAIN)}" for text in result.next)
     next_steps = (Text.assemble(("Next:", "bold"), text) for text in pasted)
-    return Group(rows_tables(rows, "title"), "", verdict, *next_steps)
+    return Group(title, within, verdict, *next_steps, "", rows_tables(rows, name=""))
 
 
 def _cells(row: Row) -> tuple[str, ...]:

@@ -74,7 +74,8 @@ def run_cases_of(run: Run) -> list[JunitCase]:
     """That the solvers converged, and each judged figure. One that differs or fails is a failure;
     an inconclusive one is skipped, with the reason; all are errors where a solver did not
     converge."""
-    scene, sentence = run.problem.scene.name, headline(run).sentence
+    scene, said = run.problem.scene.name, headline(run)
+    sentence = f"{said.within.sentence} {said.sentence}"
     cases = [JunitCase(f"{scene}.solvers", "converged", sentence)]
     for figure in run.judged:
         table = f"answers.{figure.source}" if figure.study == "answers" else figure.study

@@ -37,7 +37,7 @@ def next_of(run: Run, kind: str) -> tuple[str, tuple[str, ...]]:
         whole = f"{_figures_of_whole(run)} in place of the half-plane's."
         return ("nothing." if kind == "holds" else whole), ()
     worst = worst_of(run)
-    holds_at = _rounded_up(abs(worst.value) + worst.total)
+    holds_at = _rounded_up(worst.reach)
     tolerance = f"--tolerance {holds_at:g}" if holds_at else ""
     largest = max(worst.unknown, key=worst.unknown.get, default="")
     why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")

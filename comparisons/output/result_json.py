@@ -28,13 +28,14 @@ from comparisons.figures.figure import (
 )
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
-from comparisons.output.headline import headline, verdict_of
+from comparisons.output.headline import headline
 from comparisons.studies import contact, meaning
 from comparisons.studies.ladder.show import ESCALATE_TO, SUFFICES
 from comparisons.studies.study import LADDER, MODEL_ERROR, Run, deciding_friction
 
 SCHEMA = 3
-KINDS = {"scene": dict, "record": dict, "verdict": str, "why": str}
+KINDS = {"scene": dict, "record": dict, "within": int | float | None, "within_words": str}
+KINDS |= {"verdict": str, "why": str}
 RECORDED = ("made", "versions", "machine", "seed", "hashes")  # of record.json
 
 
@@ -44,6 +45,8 @@ class Result:
 
     scene: dict  # as resolved, SI units
     record: dict
+    within: float | None  # the least tolerance at which every judged figure holds; None: unknown
+    within_words: str  # a sentence: which figure makes it, or why it is not known
     verdict: str  # holds | fails | inconclusive | not compared | not converged
     why: str
     next: tuple[str, ...]  # what would decide or improve it, as text to paste
@@ -77,10 +80,17 @@ class Result:
 
 
 def result_of(run: Run) -> Result:
-    verdict, why = verdict_of(run)
-    record = {name: run.record[name] for name in RECORDED}
-    scene = run.problem.surface.as_dict(run.problem.scene)
-    return Result(scene, record, verdict, why, headline(run).paste, run.findings)
+    said = headline(run)
+    return Result(
+        scene=run.problem.surface.as_dict(run.problem.scene),
+        record={name: run.record[name] for name in RECORDED},
+        within=said.within.size,
+        within_words=said.within.sentence,
+        verdict=said.kind,
+        why=said.sentence,
+        next=said.paste,
+        findings=run.findings,
+    )
 
 
 def content_of(result: Result) -> dict:

@@ -30,7 +30,8 @@ PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt"}
 
 
 def summary(run: Run, details: bool = False) -> "RenderableType":
-    """Tables, verdict, what to do next and times; readable at 80 columns and without colour.
+    """Within what the half-plane is right, verdict, what to do next, tables and times; readable at
+    80 columns and without colour.
 
     details  every compared quantity, where the models agree in all that is judged"""
     from rich.console import Group
@@ -50,7 +51,8 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
             tables += ["", _model_errors(run)]
     for answer in answers_of(run):
         tables += ["", *_answer(run, answer)]
-    return Group(title, "", *tables, "", verdict, next_step, "", _facts(run))
+    within = Text(said.within.sentence.translate(PLAIN), style="bold")
+    return Group(title, within, verdict, next_step, "", *tables, "", _facts(run))
 
 
 def agreement_line(run: Run) -> str:

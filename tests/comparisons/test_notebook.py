@@ -84,8 +84,10 @@ def test_a_run_prints_in_ten_lines_and_shows_its_tables(tables):
     finished = crosscheck.run(tables)
     title, first, *others = str(finished).splitlines()
     assert title == tables["title"] and len(others) <= 8
-    assert first.startswith("peak pressure") and "whole" in first
-    assert any(line.lower().startswith(finished.verdict) for line in others)
+    assert finished.within == max(error.reach for error in finished.outcome.model_errors)
+    assert first.startswith("The half-plane is right within ")
+    assert any(line.lower().startswith(finished.verdict) for line in others[:2])
+    assert any(line.startswith("peak pressure") and "whole" in line for line in others)
     assert any(line.startswith("Next:  ") for line in others)
     assert "model error of the half-plane" in finished._repr_html_()
 

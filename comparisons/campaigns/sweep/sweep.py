@@ -25,7 +25,7 @@ from comparisons.campaigns.sweep.pictures import (
 )
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
-from comparisons.common.numbers import percent, with_unit
+from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.figure import Figure, Findings, grouped
@@ -33,6 +33,7 @@ from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.posing import problem_of
 from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
 from comparisons.output.result_json import result_of
+from comparisons.output.within import rounded_up
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Scene, assignments
 from comparisons.studies import contact, quantity_of
@@ -160,7 +161,9 @@ def solved(point: Point) -> dict:
     from comparisons.runs.run import run
 
     outcome = run(point.scene, None, point.asked)
-    answer = {"status": SOLVED, "rows": tuple(rows_of(result_of(outcome), point.scene.name))}
+    result = result_of(outcome)
+    rows = tuple(rows_of(result, point.scene.name))
+    answer = {"status": SOLVED, "within": result.within, "rows": rows}
     if zones := _zones(outcome.findings.get(quiescent_zone.NAME)):
         answer[quiescent_zone.NAME] = zones
     return answer
@@ -262,6 +265,10 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
         *names, mean, deviation, low, high = (cell.translate(PLAIN) for cell in _cells(row))
         table.add_row(*names, *((mean, deviation) if is_sample else ()), low, high)
     points = content["points"]
+    withins = [point["within"] for point in points if point.get("within") is not None]
+    if withins:
+        ends = (percent_as_written(rounded_up(size)) for size in (min(withins), max(withins)))
+        table.add_row("right within", "half plane", "", *("" for _ in spread), *ends)
     whys = failures(points)
     files = TABLE, PICTURE, *([ZONES] if has_zones(content) else []), SWEEP
     over = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in content["over"])

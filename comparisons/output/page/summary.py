@@ -19,6 +19,7 @@ from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pdf import NoPdfError, print_report
 from comparisons.output.record import BUILT_OTHERWISE, read_result
 from comparisons.output.result_json import Result
+from comparisons.output.within import rounded_up
 from comparisons.studies import contact, problem
 from comparisons.studies.study import MODEL_ERROR
 
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 FIGURES = ("peak_pressure", "contact_length", "tau1_max")
 # What a row may show, in the order of columns: name, head.
 COLUMNS = {
+    "within": "right within",
     **{name: problem.QUANTITIES[name].label.rpartition(", ")[2] for name in problem.GROUPS},
     **{name: label(name) for name in FIGURES},
     **{f"model_error_{name}": f"model error: {label(name)}" for name in QUANTITIES},
@@ -104,7 +106,7 @@ def summary_content(reports: Sequence[Report], summary: Path | None) -> dict:
             {
                 "scene": report.title,
                 "verdict": report.result.verdict,
-                "sentence": report.result.why,
+                "sentence": f"{report.result.within_words} {report.result.why}",
                 "report": str(report.page),
                 "pdf": None if report.pdf is None else str(report.pdf),
                 "figures": {name: cell.value for name, cell in report.cells.items()},
@@ -142,7 +144,14 @@ def summary_page(reports: Sequence[Report], place: Path) -> str:
 
 def cells_of(result: Result) -> dict[str, Cell]:
     """What a row shows of a run."""
-    return _groups(result) | _figures(result) | _model_errors(result) | _times(result)
+    figures = _groups(result) | _figures(result) | _model_errors(result)
+    return _within(result) | figures | _times(result)
+
+
+def _within(result: Result) -> dict[str, Cell]:
+    if result.within is None:
+        return {}
+    return {"within": Cell(percent_as_written(rounded_up(result.within)), result.within)}
 
 
 def _groups(result: Result) -> dict[str, Cell]:

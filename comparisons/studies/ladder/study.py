@@ -6,7 +6,13 @@ coefficient; what each rung took; which one suffices, and the assumption worth d
 from collections.abc import Mapping, Sequence
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.figure import (
+    Column,
+    Findings,
+    Series,
+    Statement,
+    nearest_to_tolerance,
+)
 from comparisons.figures.quantity import WHOLE
 from comparisons.studies import comparison
 from comparisons.studies.friction import coupling
@@ -77,15 +83,10 @@ def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Sta
 def _worth_dropping(errors: Findings) -> str | None:
     """The effect that the half-plane's worst judged error is mostly made of."""
     judged = [f for f in errors.figures if f.against == WHOLE and f.bounds is not None]
-    worst = max(judged, key=_reach)
+    worst = nearest_to_tolerance(judged)
     sizes = {part.name: abs(part.value) for part in worst.parts if part.name in EFFECTS}
     sizes |= {name: size for name, size in worst.unknown.items() if name in EFFECTS}
     return max(sizes, key=sizes.get, default=None)
-
-
-def _reach(figure: Figure) -> float:
-    """How far an error may lie, over its tolerance."""
-    return (abs(figure.value) + figure.total) / figure.tolerance
 
 
 def _applies(solved: Solved) -> bool:

@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from scenes import judged
 
-from comparisons.figures.figure import Figure, is_within, judge
-from comparisons.figures.uncertainty import Uncertainty
+from comparisons.figures.figure import is_within, judge
 from comparisons.output.headline import validity
 
 LITTLE = 1e-15  # more than rounding of numbers below 1 loses
@@ -52,24 +52,7 @@ def test_both_tables_are_judged_alike(value, uncertainty):
     words = {"agree": "holds", "differ": "fails", "inconclusive": "inconclusive"}
     expected = words[judge(value, uncertainty, 0.02)]
     figure = judged(value=value, uncertainty=uncertainty)
-    assert figure.verdict == validity([figure])[0] == expected
-
-
-def judged(
-    quantity="peak_pressure", value=0.001, uncertainty=0.002, not_modelled=None, tolerance=0.02
-):
-    """A model error."""
-    return Figure(
-        study="model_error",
-        quantity=quantity,
-        source="half_plane",
-        value=value,
-        at={"friction": 0.0},
-        against="whole",
-        uncertainty=Uncertainty({"numerical": uncertainty}),
-        unknown=not_modelled or {},
-        bounds=(-tolerance, tolerance),
-    )
+    assert figure.verdict == validity([figure]) == expected
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -78,9 +61,8 @@ def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
 
     def verdict(value, uncertainty):
         not_modelled = {"exact_circle": 0.0, "coating": 0.125}
-        return validity(
-            [judged("peak_pressure", sign * value, uncertainty, not_modelled, tolerance=0.5)]
-        )[0]
+        error = judged("peak_pressure", sign * value, uncertainty, not_modelled, tolerance=0.5)
+        return validity([error])
 
     inside, outside = 0.5 - 0.125 - 0.0625, 0.5 + 0.125 + 0.0625
     assert verdict(inside, 0.0625) == "holds"
@@ -89,53 +71,8 @@ def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
     assert verdict(outside + LITTLE, 0.0625) == "fails"
 
 
-@pytest.mark.parametrize(
-    ("errors", "verdict", "said", "unsaid"),
-    [
-        # the one nearest to its tolerance
-        ([judged(), judged("tau1_max", -0.015)], "holds", "tau1_max -1.50%", "peak_pressure"),
-        # one outside fails it, whatever is open beside it
-        (
-            [judged("contact_length", 0.04), judged("tau1_max", 0.01, 0.05)],
-            *("fails", "contact_length +4.00%", "tau1_max"),
-        ),
-        (
-            [judged(), judged("tau1_max", 0.01, 0.015)],
-            *("inconclusive", "tau1_max +1.00% +- 1.50%", "peak_pressure"),
-        ),
-        # what no model shows can move an error either way
-        (
-            [
-                judged(not_modelled={"plastic_flow": 0.03}),
-                judged("tau1_max", not_modelled={"finite_roller": 0.001}),
-            ],
-            *("inconclusive", "plastic flow 3.0%", "finite roller"),
-        ),
-        (
-            [judged(value=-0.04, not_modelled={"plastic_flow": 0.03})],
-            *("inconclusive", "plastic flow", "cannot be told"),
-        ),
-        ([judged(value=-0.06, not_modelled={"plastic_flow": 0.03})], "fails", "-6.00%", "told"),
-        # and is blamed where it is the larger unknown
-        (
-            [judged("tau1_max", -0.026, 0.0035, {"finite_strain": 0.046})],
-            *("inconclusive", "finite deformation 4.6%", "cannot be told"),
-        ),
-        (
-            [judged("tau1_max", -0.026, 0.0065, {"finite_strain": 0.006})],
-            *("inconclusive", "cannot be told from its tolerance", "finite deformation"),
-        ),
-        ([], "inconclusive", "", "%"),
-    ],
-)
-def test_the_verdict_on_the_half_plane_names_what_decides_it(errors, verdict, said, unsaid):
-    decided, why = validity(errors)
-    assert decided == verdict
-    assert said in why and unsaid not in why
-
-
 def test_effects_that_are_not_shown_add_as_squares():
     both = {"exact_circle": 0.012, "coating": 0.012}  # 0.024 by sum, 0.0170 by squares
     assert judged(not_modelled=both).total == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
-    assert validity([judged(value=0.001, not_modelled=both)])[0] == "holds"
-    assert validity([judged(value=0.0015, not_modelled=both)])[0] == "inconclusive"
+    assert validity([judged(value=0.001, not_modelled=both)]) == "holds"
+    assert validity([judged(value=0.0015, not_modelled=both)]) == "inconclusive"

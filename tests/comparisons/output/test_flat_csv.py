@@ -10,6 +10,7 @@ from comparisons.cli import main
 from comparisons.common.provenance import as_json
 from comparisons.output.flat_csv import COLUMNS, judged_rows, tidy_rows
 from comparisons.output.result_json import content_of, result_of
+from comparisons.output.within import rounded_up
 from comparisons.studies import meaning
 
 
@@ -43,7 +44,10 @@ def test_people_see_what_is_judged_and_of_a_run_that_judges_nothing_its_contact(
         rows = [r for r in judged_rows(tidy_rows([runs])) if r["run"] == str(runs / name)]
         assert all(row["study"] == "contact" if name == "c" else row["verdict"] for row in rows)
         title, _, _, *lines = said.splitlines()
-        assert title == str(runs / name) and len(lines) == len(rows) > 0
+        assert len(lines) == len(rows) > 0
+        size = rows[0]["within"]
+        size = "unknown" if size is None else f"{100.0 * rounded_up(size):.2g} %"
+        assert title == f"{runs / name}, right within {size}"
 
 
 def test_a_run_is_counted_once(runs):

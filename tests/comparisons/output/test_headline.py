@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 
+import pytest
+from scenes import judged as figure_of
 from scenes import judging, posed, refound, unconverged
 
 from comparisons.common.numbers import with_unit
@@ -35,10 +37,8 @@ def test_agreement_names_what_is_nearest_to_its_tolerance(smooth_outcome: Run):
     errors = error_of("peak_pressure", 1e-3, 1e-4), error_of("tau1_max", -0.0123, 1e-3)
     said = headline(judged(smooth_outcome, *errors))
     assert said.kind == "holds"
-    assert "both judged errors are within their tolerances" in said.sentence
-    assert (
-        "principal shear stress τ₁ is −1.2 % (tolerance 2 %, uncertainty 0.10 %)" in said.sentence
-    )
+    assert said.sentence.startswith("Both judged errors are within the tolerance of 2 %")
+    assert "tau1 max, −1.2 ± 0.10 %" in said.within.sentence
 
 
 def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_outcome: Run):
@@ -49,9 +49,9 @@ def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_o
     )
     said = headline(judged(smooth_outcome, *errors))
     assert said.kind == "fails"
-    assert "contact length is −70 %" in said.sentence
+    assert "contact length, −70" in said.within.sentence
     assert "dominated by finite thickness or width" in said.sentence
-    assert "1 more of 3 judged errors is outside" in said.sentence
+    assert "2 of 3 judged errors are outside the tolerance of 2 %" in said.sentence
     shared = error_of("contact_length", -0.7, 1e-3, finite_size=0.3, exact_circle=0.3)
     assert "dominated" not in headline(judged(smooth_outcome, shared)).sentence
 
@@ -62,7 +62,8 @@ def test_a_range_by_the_law_is_said_with_its_ends_and_what_would_narrow_it(smoot
     spread = replace(NONE, laws=open_laws(smooth_outcome.problem.scene))
     said = headline(judged(smooth_outcome, error, selection=spread))
     assert said.kind == "inconclusive"
-    assert "is −2.5 to +0.50 % by the law of elasticity (tolerance 2 %" in said.sentence
+    assert "−2.5 to +0.50 ± 0.01" in said.within.sentence
+    assert "the law of elasticity this error reaches across the tolerance of 2 %" in said.sentence
     assert said.next.startswith('body.material = "carbon steel" and roller.material = "carbon')
     assert said.paste == (
         '[body]\nmaterial = "carbon steel"',
@@ -86,7 +87,7 @@ def test_next_names_the_figures_to_use_or_the_tolerance_that_holds(smooth_outcom
 def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: Run):
     said = headline(judged(smooth_outcome, error_of("contact_length", 0.01, math.inf)))
     assert said.kind == "inconclusive"
-    assert "uncertainty that reaches across the tolerance" in said.sentence
+    assert "uncertainty of this error reaches across the tolerance of 2 %" in said.sentence
     sizes = {"plastic_flow": {"contact_length": 0.1}, "exact_circle": {"contact_length": 0.001}}
     missing = EffectSelection(
         frozenset(),
@@ -99,13 +100,61 @@ def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: 
         error = error_of("contact_length", value, 1e-4)
         said = headline(judged(smooth_outcome, error, selection=missing))
         assert said.kind == "inconclusive"
-        assert "but plastic flow, which is not modelled (the body has no yield" in said.sentence
-        assert "may change it by 10 % (estimate)" in said.sentence
+        assert "Plastic flow, which is not modelled (the body has no yield" in said.sentence
+        assert "may change this error by 10 % (estimate), across the tol" in said.sentence
         assert "plastic = true, with body.yield_stress, computes it" in said.next
+
+
+@pytest.mark.parametrize(
+    ("errors", "kind", "said", "unsaid"),
+    [
+        # one outside fails it, whatever is open beside it
+        (
+            [figure_of("contact_length", 0.04), figure_of("tau1_max", 0.01, 0.05)],
+            *("fails", "1 of 2 judged errors is outside the tolerance of 2 %: contact", "tau1"),
+        ),
+        # of other tolerances the nearest is another than the largest
+        (
+            [figure_of(tolerance=0.0032), figure_of("tau1_max", -0.015)],
+            *("holds", "; nearest to its tolerance: peak pressure, +0.10 ± 0.20 % (tol", "tau1"),
+        ),
+        (
+            [figure_of(tolerance=0.002), figure_of("tau1_max", -0.015)],
+            *("inconclusive", "The uncertainty of the error of peak pressure, +0.10", "tau1"),
+        ),
+        # what no model shows can move an error either way
+        (
+            [
+                figure_of(not_modelled={"plastic_flow": 0.03}),
+                figure_of("tau1_max", not_modelled={"finite_roller": 0.001}),
+            ],
+            *("inconclusive", "Plastic flow, which is not modelled, may", "finite roller"),
+        ),
+        (
+            [figure_of(value=-0.04, not_modelled={"plastic_flow": 0.03})],
+            *("inconclusive", "Plastic flow", "uncertainty"),
+        ),
+        ([figure_of(value=-0.06, not_modelled={"plastic_flow": 0.03})], "fails", "The one", "flow"),
+        # and is blamed where it is the larger unknown
+        (
+            [figure_of("tau1_max", -0.026, 0.0035, {"finite_strain": 0.046})],
+            *("inconclusive", "this error by 4.6 %", "uncertainty"),
+        ),
+        (
+            [figure_of("tau1_max", -0.026, 0.0065, {"finite_strain": 0.006})],
+            *("inconclusive", "uncertainty of this error reaches across", "deformation"),
+        ),
+        ([], "inconclusive", "Nothing is judged.", "%"),
+    ],
+)
+def test_the_verdict_names_what_decides_it(smooth_outcome: Run, errors, kind, said, unsaid):
+    decided = headline(refound(smooth_outcome, "model_error", figures=tuple(errors)))
+    assert decided.kind == kind
+    assert said in decided.sentence and unsaid not in decided.sentence
 
 
 def test_a_level_that_did_not_converge_is_named_in_few_digits(smooth_outcome: Run):
     said = headline(unconverged(smooth_outcome, "finite_element"))
     assert said.kind == "not converged"
     pitch = f"{1e6 * smooth_outcome.runs['finite_element'].finest.grid.pitch:#.3g}".rstrip(".")
-    assert f"(finite elements, pressure elements of {pitch} µm)" in said.sentence
+    assert f"(finite elements, pressure elements of {pitch} µm)" in said.within.sentence

@@ -13,6 +13,7 @@ from scenes import posed, refound
 
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.output.terminal import SHORT, summary
+from comparisons.output.within import rounded_up, within_of
 from comparisons.studies.study import Run
 
 UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "": 1.0}
@@ -96,12 +97,16 @@ def test_where_the_models_agree_one_line_says_how_well(wavy_outcome: Run):
     assert printed(apart, details=False) == printed(apart)  # the whole table, then
 
 
-def test_verdict_and_time_follow_the_table(smooth_outcome: Run):
-    text = " ".join(printed(smooth_outcome).split())
-    figures, _, rest = text.rpartition(list(SHORT.values())[-1])
-    assert figures
-    assert "INCONCLUSIVE The half-plane cannot be judged here" in rest
-    assert rest.index("INCONCLUSIVE") < rest.index(" Next: ") < rest.index(" time ")
+def test_what_is_judged_stands_before_the_tables_and_time_after_them(smooth_outcome: Run):
+    _title, *lines = printed(smooth_outcome).splitlines()
+    text, within = " ".join(" ".join(lines).split()), within_of(smooth_outcome).size
+    assert text.startswith(
+        f"The half-plane is right within {100.0 * rounded_up(within):.2g} % here"
+    )
+    rest = text.rpartition(list(SHORT.values())[-1])[2]
+    assert (
+        text.index("INCONCLUSIVE") < text.index(" Next: ") < text.index(" mu ") < text.index(rest)
+    )
     # three levels of 0.4683 s and of 3 s
     assert "half-plane 1.40 s, finite elements 9.00 s" in rest
 

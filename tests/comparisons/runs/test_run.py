@@ -17,7 +17,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
-from comparisons.output.headline import verdict_of
+from comparisons.output.headline import kind_of
 from comparisons.output.record import read_result
 from comparisons.output.result_json import content_of, result_of
 from comparisons.runs.run import level_cache, run, solve
@@ -58,7 +58,7 @@ class TestSmooth:
         assert {row.verdict for row in smooth.figures.of(study="comparison") if row.tolerance} == {
             "agree"
         }
-        assert verdict_of(smooth)[0] == "inconclusive"
+        assert kind_of(smooth) == "inconclusive"
         assert smooth.solved.refinement == "every judged quantity is resolved"
 
     @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from scenes import STEEL, run_of
 
 from analytic.material import Material
 from comparisons.common.errors import ExitStatus
-from comparisons.output.headline import headline, verdict_of
+from comparisons.output.headline import headline, kind_of
 from comparisons.output.junit import run_cases_of
 from comparisons.studies.subsurface.yielding import (
     blocks,
@@ -110,9 +110,9 @@ def test_plasticity_indices_of_a_wave(wavy_outcome):
 
 def test_the_verdict_fails_where_nothing_stands_for_flow(smooth_outcome, finish, smooth_tables):
     weak = finish({**smooth_tables, "body": {**STEEL, "yield_stress": 1e8}})
-    verdict, why = verdict_of(weak)
-    assert verdict == headline(weak).kind == "fails"
-    assert why.startswith("the elastic half-plane does not apply: its largest shear")
+    said = headline(weak)
+    assert said.kind == "fails" and said.within.size is None
+    assert said.within.said.startswith("the elastic half-plane does not apply: its largest shear")
     assert weak.exit_status == ExitStatus.OUTSIDE_TOLERANCE
     [figure] = weak.judged.of(study="yield")  # which has a case for continuous integration, too
     assert figure.verdict == "fails"
@@ -120,7 +120,7 @@ def test_the_verdict_fails_where_nothing_stands_for_flow(smooth_outcome, finish,
         case.classname for case in run_cases_of(weak) if case.result != "passed"
     }
     strong = finish({**smooth_tables, "body": {**STEEL, "yield_stress": 5e9}})
-    assert verdict_of(strong)[0] != "fails"
+    assert kind_of(strong) != "fails"
 
 
 def test_shakedown_is_said_beside_a_yield_stress(smooth_outcome, finish, smooth_tables):

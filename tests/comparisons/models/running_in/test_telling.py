@@ -80,4 +80,4 @@ class TestTelling:
         assert failed.exit_status == ExitStatus.NOT_CONVERGED
         said = headline(failed)
         assert said.kind == "not converged"
-        assert f"running-in, 1 of {len(passes)} passes" in said.sentence
+        assert f"running-in, 1 of {len(passes)} passes" in said.within.sentence

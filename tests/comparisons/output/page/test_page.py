@@ -140,7 +140,7 @@ def test_the_answer_comes_first_and_what_checks_it_is_folded_away(wavy_page, wav
 def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page):
     assert set(SECTIONS) - set(half_plane_page.sections) == {"model-error", "stresses", "mesh"}
     assert len(half_plane_page.images) == 7
-    assert "Only the half-plane model was run" in half_plane_page.text
+    assert "not known: only the half-plane model was run" in half_plane_page.text
     assert "finite elements" not in half_plane_page.text
     assert "neither model" not in half_plane_page.text
     assert "free to slide on a rigid base" in half_plane_page.text

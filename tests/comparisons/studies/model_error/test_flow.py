@@ -63,7 +63,7 @@ def test_the_verdict_says_what_flow_takes(beside):
     assert said.kind == "fails"
     error = beside.model_errors.one(quantity="peak_pressure")
     taken = 100.0 * error.value / (1.0 + error.value)
-    assert f"flow takes {taken:.0f} % off the peak pressure and adds" in said.sentence
+    assert f"Flow takes {taken:.0f} % off the peak pressure and adds" in said.sentence
     assert said.next.startswith("take the whole model's peak pressure 2.")
 
 
@@ -105,7 +105,7 @@ def test_without_time_for_finite_strain_it_says_how_much(short):
     assert "; at finite strain, where that matters, " in forecast(short.problem, short.plan).text
     selection, said = short.data("model_error").selection, headline(short)
     assert selection.impossible["finite_strain"].endswith("s more (budget.time)")
-    assert said.kind == "inconclusive" and "finite deformation, which is" in said.sentence
+    assert said.kind == "inconclusive" and "Finite deformation, which is" in said.sentence
 
 
 def test_without_time_it_says_how_long_flow_takes(beside):
@@ -114,7 +114,7 @@ def test_without_time_it_says_how_long_flow_takes(beside):
     assert "is left out (budget.time)" in forecast(problem, plan).text
     assert "(budget.time)" in short.data("model_error").selection.impossible[FLOW]
     said = headline(short)
-    assert said.kind == "fails" and "does not apply" in said.sentence
+    assert said.kind == "fails" and "does not apply" in said.within.sentence
     patches = short.runs["half_plane"].levels[0].patches
     time = float(said.paste[0].rpartition("=")[2])
     assert 1.0 <= time / time_with_flow(problem, plan, patches) < 2.0

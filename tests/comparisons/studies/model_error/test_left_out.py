@@ -70,7 +70,7 @@ def test_verdicts_are_those_with_all_effects(budgets, name):
         for result in (frugal, whole)
     )
     assert [figure.verdict for figure in frugally] == [figure.verdict for figure in wanted]
-    assert validity(frugally)[0] == validity(wanted)[0]
+    assert validity(frugally) == validity(wanted)
     selections = [result.selection.added for result in (frugal, whole)]
     assert (selections[0] < selections[1]) == (name in DECIDED)
     assert (frugal.left_out is not None) == (frugal.levels < whole.levels) == (name in FIXED)

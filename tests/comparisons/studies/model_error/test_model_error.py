@@ -14,7 +14,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level
-from comparisons.output.headline import validity, verdict_of
+from comparisons.output.headline import kind_of, validity
 from comparisons.runs.run import run
 from comparisons.studies.model_error.account import ErrorBudget
 from comparisons.studies.study import Run
@@ -136,7 +136,7 @@ class TestSmooth:
         assert row.verdict == "agree" and abs(row.value) < 3e-4
         assert stated.value == pytest.approx(-0.0024, abs=0.0006) and stated.uncertainty < 6e-4
         errors = last.data("model_error").figures({"peak_pressure": 1e-3})
-        assert validity([error for error in errors if error.bounds])[0] == "fails"
+        assert validity([error for error in errors if error.bounds]) == "fails"
 
     def test_the_exit_status_counts_both_tables(self, outcomes):
         """The models agree; with this model error the half-plane holds, fails, or neither."""
@@ -165,7 +165,7 @@ class TestSmooth:
         for study in ("contact", "comparison", "problem"):
             assert plain.findings[study].figures == outcomes[0].findings[study].figures
         assert plain.data("model_error").selection.added == frozenset()
-        assert verdict_of(plain)[0] == "inconclusive"
+        assert kind_of(plain) == "inconclusive"
 
 
 def status_of(outcome: Run, effect: str) -> tuple[str, str]:
@@ -188,7 +188,7 @@ def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
         stated = outcome.data("model_error").of(quantity, 0.0)
         computed = sum(abs(effect.value) for effect in stated.effects.values())  # p/E is not zero
         assert abs(stated.value) <= stated.uncertainty + computed < 0.02
-    assert verdict_of(outcome)[0] == "holds"
+    assert kind_of(outcome) == "holds"
 
 
 def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():

@@ -1,0 +1,113 @@
+"""How far the half-plane is right: the least tolerance at which every judged figure holds.
+
+In: a finished run. Out: that number and the figure that makes it, or why there is none; and the
+sentence that stands first wherever a run is shown.
+
+It is the largest `Figure.reach` of the judged model errors. What else may move one of them belongs
+into its uncertainty or its estimates, where the verdict sees it, too; what leaves all of them
+unknown is one of REASONS."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, Decimal
+from math import hypot, isfinite
+
+from comparisons.common.numbers import percent, percent_as_written, plain, with_unit
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text
+from comparisons.studies.friction import coupling
+from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.show import law_range
+from comparisons.studies.study import Run
+from comparisons.studies.subsurface import yielding
+
+DIGITS = 2  # of a tolerance that a user would write
+SMALL = 0.02  # of an error's reach: what is not modelled is not said below it
+
+
+@dataclass(frozen=True)
+class Within:
+    """The least tolerance at which every judged figure of a run holds."""
+
+    size: float | None  # relative; None: not known
+    figure: Figure | None  # that makes it, or that is not known
+    said: str  # that figure with its error, or why it is not known, as a clause
+
+    @property
+    def sentence(self) -> str:
+        if self.size is None:
+            return f"How wrong the half-plane may be here is not known: {self.said}."
+        size = percent_as_written(rounded_up(self.size))
+        how = f"right within {size}" if self.size < 1.0 else f"off by up to {size}"
+        return f"The half-plane is {how} here (largest: {self.said})."
+
+
+def within_of(run: Run) -> Within:
+    if why := next(filter(None, (reason(run) for reason in REASONS)), ""):
+        return Within(None, None, why)
+    largest = max(run.model_errors, key=lambda error: (not isfinite(error.reach), error.reach))
+    if isfinite(largest.reach):
+        return Within(largest.reach, largest, f"{name_of(run, largest)}, {size_of(largest)}")
+    open_effects = (EFFECTS[n].label for n, size in largest.unknown.items() if not isfinite(size))
+    what = f"the {name_of(run, largest)}, whose uncertainty has no bound"
+    if effect := next(open_effects, ""):
+        what = f"the effect of {effect} on the {name_of(run, largest)}"
+    return Within(None, largest, what)
+
+
+def rounded_up(size: float) -> float:
+    """To two digits, never below it: a tolerance that a user would write."""
+    exact = Decimal(repr(size))
+    step = Decimal(1).scaleb(exact.adjusted() - DIGITS + 1)
+    return float(exact.quantize(step, ROUND_CEILING)) if size else size
+
+
+def name_of(run: Run, error: Figure) -> str:
+    """A judged error's quantity, and its friction coefficient where there are several."""
+    several = len(run.problem.scene.load.friction) > 1
+    at = f" at friction {plain(error.friction)}" if several else ""
+    return f"{QUANTITIES[error.quantity].short}{at}"
+
+
+def size_of(error: Figure) -> str:
+    """An error with its uncertainty, its range by the law of elasticity, and what else may add."""
+    size = law_range(error) or error_text(error.value, error.numerical)
+    size = f"{size.removesuffix(' %')} ± {percent(error.numerical)}"
+    others = hypot(*(of for name, of in error.unknown.items() if not error.part(name)))
+    return f"{size}, {percent(others)} not modelled" if others > SMALL * error.reach else size
+
+
+def _not_converged(run: Run) -> str:
+    said = [
+        f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
+        for name, model in run.runs.items()
+        for level in model.levels
+        if not level.converged
+    ]
+    said += [
+        f"half-plane with normal-tangential coupling, friction {plain(change.friction)}"
+        for change in run.data(coupling.NAME) or ()
+        if not change.converged
+    ]
+    run_in = run.problem.surface.run_in
+    if run_in is not None and not run_in.converged:
+        failed = sum(not one.converged for one in run_in.passes)
+        said.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")
+    return "" if run.converged else f"a solver did not converge ({', '.join(said)})"
+
+
+def _one_model(run: Run) -> str:
+    [name, *_] = run.runs
+    return "" if run.plan.compares else f"only the {HYPHENATED[name]} model was run"
+
+
+def _flows(run: Run) -> str:
+    return run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT) or ""
+
+
+def _nothing_judged(run: Run) -> str:
+    return "" if run.model_errors else "no figure has a tolerance"
+
+
+# Each says of a run why it is not known, as a clause; nothing where it does not apply.
+REASONS: tuple[Callable[[Run], str], ...] = (_not_converged, _one_model, _flows, _nothing_judged)
