@@ -151,14 +151,10 @@ def _relative(text: str) -> float:
 def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) -> int:
     """What a run would do, by the laws of cost: levels, and steps with what makes them needless."""
     from comparisons.output.terminal import PLAIN
-    from comparisons.runs.run import planned, posed
-    from comparisons.studies.study import unsolved
+    from comparisons.runs.run import planned
 
-    problem, plan = posed(scene, surface, models)
-    for line in planned(unsolved(problem, plan)):
+    for line in planned(scene, surface, models):
         print(line.translate(PLAIN))
-    for step in plan.skipped:
-        print(f"skipped: {step.step}: {step.because}".translate(PLAIN))
     return ExitStatus.DONE
 
 

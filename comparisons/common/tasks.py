@@ -33,6 +33,7 @@ Held = TypeVar("Held")
 # Seconds of work that are worth a process: one forked and a fresh one, which imports for itself.
 WORTH_A_FORK, WORTH_A_START = 0.1, 10.0
 SOON = 0.02  # seconds in which a task comes that is already known
+SILENT = 30.0  # seconds without a word of any worker, after which its stage is told again
 PREPARATION = 0.2  # seconds that processes save where they have something to prepare
 SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
 # Urgencies: others wait for the first kind, nothing for the fifth, and the last may turn out to be
@@ -187,6 +188,19 @@ class Tasks:
             return answer
         raise answer
 
+    def left(self) -> dict[str, _Task]:
+        """What is known and not done, by key, without what may turn out to be for nothing."""
+        return {
+            key: task
+            for key, task in self._tasks.items()
+            if key not in self._answers and task.urgency < PERHAPS
+        }
+
+    def seconds_left(self) -> float:
+        """Seconds by the clock that this takes on the workers that there may be."""
+        seconds = [task.seconds for task in self.left().values()]
+        return max(sum(seconds) / self.at_once, max(seconds, default=0.0))
+
     def as_done(self, keys: Iterable[str]) -> Iterator[str]:
         """Known keys in the order in which they are done."""
         left = dict.fromkeys(keys)
@@ -269,7 +283,10 @@ class Tasks:
         ready = partial(next(iter(self._running)).ready, list(self._running))
         if all(self._tasks[key].urgency > AT_ONCE for key in self._running.values()):
             _prepare(self._left, lambda: ready(0.0))
-        for worker in ready():
+        said = ready(SILENT)
+        if not said and (stage := self._tasks[next(iter(self._running.values()))].stage):
+            self._tell(stage)
+        for worker in said:
             try:
                 kind, content = worker.receive()
             except (EOFError, ConnectionError):
@@ -310,11 +327,7 @@ class Tasks:
             self.kept.save(key, self._unkept.pop(key))
 
     def _tell(self, stage: str) -> None:
-        left = sum(
-            task.seconds
-            for key, task in self._tasks.items()
-            if key not in self._answers and task.urgency < PERHAPS
-        )
+        left = sum(task.seconds for task in self.left().values())
         if self._done:
             self._share = max(self._share, self._done / (self._done + left))
         self.callback(Step(stage, self._share))

@@ -35,21 +35,6 @@ class Forecast:
     # pressure elements to the shortest wave on the last of them; None for smooth bodies
     per_wave: float | None
     ends: str  # why there are no more
-    # [s] of flow beside finite elements that have none, where it may be found; None: it cannot
-    flow: float | None = None
-    leaves_out_flow: bool = False  # the budget is too small for it
-    # [s] of the same at finite strain, where small ones are not enough; None: it cannot be found
-    finite_flow: float | None = None
-
-    @property
-    def seconds_asked(self) -> float:
-        """Of the levels to begin with and of flow, one after the other."""
-        return sum(level.seconds for level in self.levels[: self.asked]) + self.seconds_of_flow
-
-    @property
-    def seconds_of_flow(self) -> float:
-        """Beside finite elements that have none."""
-        return 0.0 if self.leaves_out_flow else (self.flow or 0.0) + (self.finite_flow or 0.0)
 
     @property
     def text(self) -> str:
@@ -57,18 +42,11 @@ class Forecast:
         begin = self.levels[: self.asked]
         count = "1 level" if len(begin) == 1 else f"{len(begin)} levels"
         few = f" of {self.asked} asked for" if len(begin) < self.asked else ""
-        text = f"planned: {count}{few} ({_cost(begin)})"
+        text = f"{count}{few} ({_size(begin)})"
         if len(self.levels) > len(begin):
-            text += f", up to {len(self.levels)} where a figure needs them ({_cost(self.levels)})"
+            text += f", up to {len(self.levels)} where a figure needs them ({_size(self.levels)})"
         if self.per_wave is not None:
             text += f" with {significant(self.per_wave, 2)} pressure elements to the shortest wave"
-        if self.flow is not None:
-            more = "would take" if self.leaves_out_flow else "takes"
-            text += f"; flow, where it is beyond doubt, {more} {with_unit(self.flow, 's', 2)} more"
-            text += " and is left out (budget.time)" * self.leaves_out_flow
-        if self.finite_flow is not None and not self.leaves_out_flow:
-            text += f"; at finite strain, where that matters, {with_unit(self.finite_flow, 's', 2)}"
-            text += " more"
         return f"{text}; {self.ends}"
 
 
@@ -78,9 +56,8 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     were all over the stretch of pressures, which it never exceeds."""
     scene, levels, total, ends = problem.scene, [], 0.0, ""
     window = window_of(problem) if plan.stress else None
-    may_flow = scene.finite_element.plastic or problem.flows
-    flowing = flowing_contact(problem) if may_flow else None
-    patches = flowing if scene.finite_element.plastic else np.array([problem.extent])
+    plastic = scene.finite_element.plastic
+    patches = flowing_contact(problem) if plastic else np.array([problem.extent])
     for number in range(problem.most_levels):
         pitch = problem.pitches[0] / 2.0**number
         elements = problem.grid(pitch).count
@@ -99,19 +76,11 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
         levels.append(PlannedLevel(pitch, elements, unknowns, seconds, memory))
     wave = None if scene.profile is None else shortest_wavelength(problem.surface.profile)
     per_wave = None if wave is None or np.isinf(wave) else float(wave / levels[-1].pitch)
-    asked, settings, flow, finite_flow = len(problem.pitches), scene.finite_element, None, None
-    if problem.flows and plan.effects and not settings.plastic:
-        flow = flow_seconds(problem, flowing)
-    if plan.effects and (flow or (settings.plastic and settings.deformation == "linear")):
-        finite_flow = flow_seconds(problem, flowing, "finite")
     return Forecast(
         levels=tuple(levels),
-        asked=asked,
+        asked=len(problem.pitches),
         per_wave=per_wave,
         ends=ends or f"{len(levels)} levels are the most",
-        flow=flow,
-        finite_flow=finite_flow,
-        leaves_out_flow=flow is not None and time_with_flow(problem, plan, flowing) > problem.time,
     )
 
 
@@ -163,9 +132,8 @@ def time_with_flow(problem: Problem, plan: Plan, patches: np.ndarray) -> float:
     return sum(seconds_of_parts) + flow_seconds(problem, patches)
 
 
-def _cost(levels: tuple[PlannedLevel, ...]) -> str:
-    """Unknowns of the last one, seconds of all, largest memory."""
-    seconds = sum(level.seconds for level in levels)
+def _size(levels: tuple[PlannedLevel, ...]) -> str:
+    """Unknowns of the last one, largest memory."""
     memory = max(level.memory for level in levels)
     unknowns = significant(float(levels[-1].unknowns), 2)
-    return f"{unknowns} unknowns, {with_unit(seconds, 's', 2)}, {with_unit(memory, 'byte', 2)}"
+    return f"{unknowns} unknowns, {with_unit(memory, 'byte', 2)}"

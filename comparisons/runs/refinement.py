@@ -9,7 +9,7 @@ from itertools import count
 
 import numpy as np
 
-from comparisons.common.progress import Stages, machine_memory, no_progress
+from comparisons.common.progress import Stages, machine_memory
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
 from comparisons.models.forecast import expected_level
 from comparisons.models.level import (
@@ -32,8 +32,17 @@ SHORT = 0.5  # seconds of a level that this process solves itself while others h
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 
 
+def announce(scene: Solved, tasks: Tasks, begin: Callable[[Solved], None]) -> None:
+    """Make known to the tasks what a run begins with, as `refined` does; only the half-plane is
+    solved, on the levels asked for."""
+    _Levels(scene, tasks).begin(begin)
+
+
 def refined(
-    scene: Solved, tasks: Tasks, begin: Callable[[Solved], None] = lambda solved: None
+    scene: Solved,
+    tasks: Tasks,
+    begin: Callable[[Solved], None] = lambda solved: None,
+    is_known: Callable[[], None] = lambda: None,
 ) -> Solved:
     """The runs of the plan's models, and why their refinement stopped. Raises FemError where one of
     the least levels has no solution; a finer one that has none ends the refinement.
@@ -42,11 +51,11 @@ def refined(
     are found necessary.
     scene  nothing of it is solved yet
     begin  called with the half-plane on the levels asked for, while others are solved, and again
-           once levels of both models leave a judged quantity unresolved"""
+           once levels of both models leave a judged quantity unresolved
+    is_known  called when all that is asked for is known to the tasks"""
     levels = _Levels(scene, tasks)
-    levels.begin()
-    if "half_plane" in scene.plan.models:
-        begin(levels.solved(len(scene.problem.pitches), ["half_plane"]))
+    levels.begin(begin)
+    is_known()
     asked, unresolved_now, begun = len(scene.problem.pitches), {}, False
     for number in count(1):
         try:
@@ -113,7 +122,12 @@ class _LevelTask:
 
     def solve(self, here: Here) -> Level:
         """Imports what this model needs alone."""
-        stages = Stages(lambda stage: here.callback(f"{stage}, level {self.number}"))
+        words = f"level {self.number}"
+        if self.half_block:
+            words = "far boundary at half the distance"
+        elif self.times > 1:
+            words = f"increments of flow {self.times} times as long"
+        stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
         if self.name == "half_plane":
             from comparisons.models.half_plane import half_plane_level
 
@@ -124,13 +138,6 @@ class _LevelTask:
         from comparisons.models.finite_element.mesh import Refinement
         from fem.nonlinear.press_plastic import TRAVEL
 
-        is_check = self.half_block or self.times > 1
-        if is_check:
-            what = "far boundary at half the distance"
-            if not self.half_block:
-                what = f"increments of flow {self.times} times as long"
-            here.callback(f"finite elements: {what}")
-            stages = Stages(no_progress)
         return finite_element_level(
             self.problem,
             self.plan,
@@ -156,9 +163,9 @@ class _Levels:
         # [bytes] that the machine has to give at the start
         self.machine = machine_memory()
 
-    def begin(self) -> None:
+    def begin(self, begin: Callable[[Solved], None]) -> None:
         """Make known the levels that the scene asks for; the half-plane's first tells what the
-        others will take."""
+        others will take. With the half-plane on all of them call `begin`."""
         asked = range(1, len(self.problem.pitches) + 1)
         if "half_plane" in self.levels:  # first, while nothing else is in memory
             for task in (self.task("half_plane", number) for number in asked):
@@ -175,6 +182,8 @@ class _Levels:
                 self.add(self.task("finite_element", number))
             for task in self.checks:
                 self.add(task)
+        if "half_plane" in self.levels:
+            begin(self.solved(len(self.problem.pitches), ["half_plane"]))
 
     def add(self, task: _LevelTask) -> None:
         cost = task.expected(self.patches)

@@ -13,6 +13,7 @@ from analytic.contact.problem import ContactError
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.files import unfinished
+from comparisons.common.processes import cores
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import (
     LEVEL_CODE,
@@ -24,19 +25,19 @@ from comparisons.common.provenance import (
 )
 from comparisons.common.tasks import Opens, Preparation, ProcessEnded, Tasks, tasks_here
 from comparisons.figures.figure import Findings
-from comparisons.models.forecast import Forecast, forecast
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.record import record_of
-from comparisons.runs.long import recorded
-from comparisons.runs.refinement import refined
+from comparisons.runs.long import expected, told
+from comparisons.runs.refinement import announce, refined
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
+from comparisons.studies.model_error.study import selection_lines
 from comparisons.studies.study import Run, Solved, studied, unsolved
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
@@ -103,11 +104,6 @@ def solve_scene(
             tasks.prepare()
             problem, plan = posed(scene, surface, models, known.levels, callback)
             scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
-            levels = forecast(problem, plan)
-            said = "; ".join(planned(scene_now, levels))
-            callback(said)
-            kept = None if out is None else unfinished(out, "run")
-            callback = recorded(kept, levels, said, callback)
             return _solve(scene_now, out, callback, tasks)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
@@ -142,15 +138,26 @@ def posed(
     return problem, make_plan(problem, models)
 
 
-def planned(scene: Solved, levels: Forecast | None = None) -> list[str]:
-    """What a run of a scene will do and what it takes, by the laws of cost: its levels; why a study
-    is left out."""
-    said = [(levels or forecast(scene.problem, scene.plan)).text]
+def planned(scene: Scene, surface: SceneSurface, models: tuple[str, ...]) -> list[str]:
+    """What a run would do and what it would take; the half-plane alone is solved for that, on the
+    levels asked for. Steps that the scene does not need, each with its reason, come last."""
+    problem, plan = posed(scene, surface, models)
+    tasks, scene_now, effects = Tasks(at_once=cores()), unsolved(problem, plan), []
+
+    def begin(solved: Solved) -> None:
+        _begin(scene_now, tasks, solved)
+        effects.extend(selection_lines(solved, tasks))
+
+    announce(scene_now, tasks, begin)
+    skipped = [f"skipped: {step.step}: {step.because}" for step in plan.skipped]
+    return [*expected(scene_now, tasks), *effects, *skipped]
+
+
+def _begin(scene: Solved, tasks: Tasks, solved: Solved) -> None:
+    """Let the studies that the scene asks for begin with what is solved."""
     for study in STUDIES:
-        if study.applies(scene):
-            why_not = study.needs(scene)
-            said += [] if why_not is None else [f"{study.name} is left out: it {why_not}"]
-    return said
+        if study.applies(scene) and study.needs(scene) is None:
+            study.begin(solved, tasks)
 
 
 def _problem(
@@ -187,15 +194,14 @@ def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
 def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
     problem, plan = scene.problem, scene.plan
     tasks.kept, tasks.callback = level_cache(out, problem, plan), callback
-    chosen = [s for s in STUDIES if s.applies(scene) and s.needs(scene) is None]
+    begin, kept = partial(_begin, scene, tasks), None if out is None else unfinished(out, "run")
 
-    def begin(solved: Solved) -> None:
-        for study in chosen:
-            study.begin(solved, tasks)
+    def say() -> None:
+        tasks.callback = told(kept, expected(scene, tasks), tasks, callback)
 
     try:
         begin(scene)
-        solved = refined(scene, tasks, begin)
+        solved = refined(scene, tasks, begin, say)
         findings = studied(STUDIES, solved, {}, tasks)
     except (ContactError, FemError, InputError, MeshError):
         tasks.kept.discard()

@@ -13,7 +13,7 @@ step to step; the contact that is left is right to the residual.
 
 Nomenclature as of `fem.contact.nonlinear`."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,7 +50,11 @@ class FinitePlasticContact(PlasticContact):
 
 
 def press_plastically_finitely(
-    contact: FiniteContact, metal: ElasticPlastic, loads: Sequence[float], travel: float = TRAVEL
+    contact: FiniteContact,
+    metal: ElasticPlastic,
+    loads: Sequence[float],
+    travel: float = TRAVEL,
+    reached: Callable[[float], None] = lambda share: None,
 ) -> tuple[FinitePlasticBody, tuple[FinitePlasticContact, ...]]:
     """The body at the end, and the contact under each of the loads in turn.
 
@@ -60,12 +64,13 @@ def press_plastically_finitely(
     loads    P [N/m] vertical force of pressures and their friction, the first positive; 0 removes
              the roller
     travel   hats that an edge of the contact may travel in one increment
+    reached  called after each increment with its load over the largest
 
     Stresses and plastic strain at the mesh's points, which move by `displacement`, are
     `fem.nonlinear.press_plastic.plastic_fields` of the two results; they are Cauchy's. Raises
     ValueError for negative loads, FemError if a load cannot be reached."""
     way = _FiniteHistory(contact, metal, travel)
-    return way.body, way.through(loads)
+    return way.body, way.through(loads, reached)
 
 
 class _Surfaces:

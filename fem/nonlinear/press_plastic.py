@@ -18,7 +18,7 @@ however short the increments are. The mean over neighbouring hats, `averaged_pre
 
 Nomenclature as of `fem.contact.nonlinear`."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
@@ -97,6 +97,7 @@ def press_plastically(
     friction: float = 0.0,
     roller: FiniteElementCompliance | None = None,
     travel: float = TRAVEL,
+    reached: Callable[[float], None] = lambda share: None,
 ) -> tuple[PlasticBody, tuple[PlasticContact, ...]]:
     """The body at the end, and the contact under each of the loads in turn.
 
@@ -108,10 +109,11 @@ def press_plastically(
     friction    of the traction friction * pressure, towards +x on the body
     roller      the elastic roller's body on the same hats, may be `compliance`; None: rigid
     travel      hats that an edge of the contact may travel in one increment
+    reached     called after each increment with its load over the largest
 
     Raises ValueError for negative loads, FemError if a load cannot be reached."""
     way = LoadHistory(compliance, metal, gap, weights, guess, friction, roller, travel)
-    return way.body, way.through(loads)
+    return way.body, way.through(loads, reached)
 
 
 class LoadHistory:
@@ -157,9 +159,12 @@ class LoadHistory:
         # load, plastic state and contact before the last increment
         self._former, self._last = (0.0, self.body.state), self.state
 
-    def through(self, loads: Sequence[float]) -> tuple[PlasticContact, ...]:
-        """The contact under each of the loads P [N/m] in turn; 0 removes the roller. Raises
-        ValueError for negative loads, FemError if a load cannot be reached."""
+    def through(
+        self, loads: Sequence[float], reached: Callable[[float], None] = lambda share: None
+    ) -> tuple[PlasticContact, ...]:
+        """The contact under each of the loads P [N/m] in turn; 0 removes the roller. As of
+        `press_plastically`."""
+        self._reached = lambda load: reached(load / max(loads))
         if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
             raise ValueError("the first load must be positive, and none negative")
         history = []
@@ -201,6 +206,7 @@ class LoadHistory:
                 step = max(least, 0.5 * step)
                 continue
             self._accept(end)
+            self._reached(end.load)
             contacts += count
             moved = edge_travel(before.pressure, self.state.pressure)
             step *= min(LONGER, self._travel / moved) if moved else LONGER
@@ -233,6 +239,7 @@ class LoadHistory:
                     raise
                 continue
             self._accept(end)
+            self._reached(end.load)
             if end.load == target:
                 return contacts
             failures, moved = 0, edge_travel(here.pressure, end.pressure)

@@ -5,6 +5,7 @@ large that it stands for a half-plane. An elastic roller is a second body under 
 a flat block, or a sector of its exact circle. The contact is solved on the sum of both surface
 compliances; analytic operators only predict it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -196,28 +197,28 @@ class _LevelSolution:
         operator, solution = contact.operator, contact.solution
         flows = problem.scene.finite_element.plastic
         if self.is_finite and flows:
-            with self.stages.stage("plastic flow", "finite elements: flow at finite deformation"):
-                return pressed_plastically_finitely(
-                    *(problem, operator, grid, solution, self.constraints, self.refinement.travel)
-                )
+            words = "finite elements: flow at finite deformation"
+            with self.stages.stage("plastic flow", words):
+                how = self.constraints, self.refinement.travel, self._reached(words)
+                return pressed_plastically_finitely(problem, operator, grid, solution, *how)
         if self.is_finite:
             with self.stages.stage("finite deformation", "finite elements: finite deformation"):
                 return pressed_finitely(
                     problem, operator, grid, solution, self.constraints, self.model
                 )
         if flows:
-            with self.stages.stage("plastic flow", "finite elements: plastic flow"):
+            words = "finite elements: plastic flow"
+            with self.stages.stage("plastic flow", words):
+                how = self.constraints, self.refinement.travel, self._reached(words)
                 return pressed_plastically(
-                    problem,
-                    operator,
-                    grid,
-                    solution,
-                    self.weighted_gap,
-                    self.constraints,
-                    self.refinement.travel,
+                    problem, operator, grid, solution, self.weighted_gap, *how
                 )
         with self.stages.stage("contact", "finite elements: contact"):
             return pressed_linearly(problem, operator, grid, solution, self.weighted_gap)
+
+    def _reached(self, words: str) -> Callable[[float], None]:
+        """Tell how far flow has come."""
+        return lambda share: self.stages.callback(f"{words}, {100.0 * share:.0f} % of the load")
 
 
 def problem_of_approach(

@@ -2,6 +2,7 @@
 
 Both start from the linear solution."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -186,12 +187,14 @@ def pressed_plastically(
     gap: np.ndarray,
     constraints: Constraints,
     travel: float,
+    reached: Callable[[float], None],
 ) -> LoadedBody:
     """The body flowing where it must, under its load and when the roller is gone again. Where it
     flows, pressures are means over neighbouring hats.
 
     gap     (count,) [m^2] initial, weighted by each hat
     travel  hats that an edge of the contact may move in one increment of the load
+    reached called after each increment with its load over the whole
 
     Raises FemError where a load is not reached, and where contact spreads to the grid's ends."""
     scene, rough, weights = problem.scene, operator.rough, grid.weights
@@ -200,7 +203,7 @@ def pressed_plastically(
     body, loads = scene.body, (constraints.load, 0.0)
     metal = ElasticPlastic(body.material, body.flow_stress())
     body, (loaded, released) = press_plastically(
-        rough, metal, gap, weights, loads, linear.pressure, friction, roller, travel
+        rough, metal, gap, weights, loads, linear.pressure, friction, roller, travel, reached
     )
     refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
     moved = rough.weighted(loaded.displacement)
@@ -236,6 +239,7 @@ def pressed_plastically_finitely(
     linear: ContactSolution,
     constraints: Constraints,
     travel: float,
+    reached: Callable[[float], None],
 ) -> LoadedBody:
     """The body flowing at finite strains, under its load and when the roller is gone again; its
     elastic part follows Hencky's law. Pressures are as of `pressed_finitely`, where it flows as of
@@ -244,7 +248,7 @@ def pressed_plastically_finitely(
     contact = _unpressed_contact(problem, operator, linear.pressure)
     metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
     loads = constraints.load, 0.0
-    body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel)
+    body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel, reached)
     finite = pressed.deformed
     refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
     counts = {

@@ -22,7 +22,6 @@ from comparisons.drawing.blocks import (
 from comparisons.drawing.style import drawing, load_matplotlib
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
-from comparisons.models.forecast import forecast
 from comparisons.output.headline import headline
 from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
@@ -194,10 +193,8 @@ def _after(run: Run) -> Iterator[Block]:
     levels = Heading("All figures"), verification.convergence_tables, note
     yield Block("convergence", (_refinement, *levels), "Convergence")
     yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
-    note = "By the laws of cost, before anything was solved and without effects, "
-    note += f"{forecast(run.problem, run.plan).text}."
     cost = Box("columns", (Pictures(("cost",)), verification.cost_table))
-    yield Block("cost", (cost, Note(note)), "Cost")
+    yield Block("cost", (cost,), "Cost")
     yield Block("checks", (verification.check_table, Note(NOTES["checks"])), "Checks")
     skipped = tuple((item.step, item.because) for item in run.plan.skipped)
     yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")

@@ -177,10 +177,11 @@ def _solved(
     from fem.nonlinear.press_plastic import TRAVEL
 
     words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
-    here.callback(f"error budget: finite elements with {words}, level {number}")
+    words = f"with {words}, level {number}"
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    refinement, stages = Refinement(pitch, variant.half_block, variant.times * TRAVEL), Stages()
+    refinement = Refinement(pitch, variant.half_block, variant.times * TRAVEL)
+    stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
     how = refinement, window, stages, body_cache
     try:
         level = finite_element_level(problem, plan, *how, fields=fields)

@@ -19,9 +19,13 @@ from comparisons.studies.contact import values_of
 from comparisons.studies.friction import coupling
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error import show
-from comparisons.studies.model_error.account import NAME, findings_of
+from comparisons.studies.model_error.account import NAME, effect_account, findings_of
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.error_budget import announce_effects, error_budget
+from comparisons.studies.model_error.error_budget import (
+    announce_effects,
+    error_budget,
+    selected_effects,
+)
 from comparisons.studies.model_error.estimates import estimates
 from comparisons.studies.study import Solved, Study
 
@@ -35,6 +39,23 @@ def begin(solved: Solved, tasks: Tasks) -> None:
         more = tasks.held(NAME, NAME, lambda: _announced(solved, tasks))
         if "finite_element" in solved.runs:
             more()
+
+
+def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
+    """Which effects a run of both models will compute, and which matter and cannot be, as the
+    half-plane selects them."""
+    if not solved.plan.compares:
+        return []
+    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
+    selection = selected_effects(solved, moved)
+    account = {name: effect_account(name, selection) for name in EFFECTS}
+    lines = []
+    for status in ("computed", "not computed"):
+        names = [name for name, (what, _) in account.items() if what == status]
+        why = {name: f" ({account[name][1]})" if status != "computed" else "" for name in names}
+        named = ", ".join(f"{EFFECTS[name].label}{why[name]}" for name in names)
+        lines += [f"effects {status}: {named}"] if named else []
+    return lines
 
 
 def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:

@@ -73,7 +73,7 @@ def test_a_tolerance_may_be_a_percentage(folder, capsys, undrawn):
 def test_a_plan_says_levels_and_seconds_and_solves_nothing(folder, capsys):
     assert main(["run", "mine.toml", "--plan"]) == 0
     out = capsys.readouterr().out
-    assert out.startswith("planned: 3 levels (") and " s, " in out
+    assert out.startswith("planned: about ") and " s on " in out and "\n3 levels (" in out
     assert "skipped: coupling: there is no friction" in out
     assert [path.name for path in folder.iterdir()] == ["mine.toml"]
 

@@ -56,6 +56,21 @@ def home(here: Here) -> int:
     return os.getpid()
 
 
+def test_a_silent_worker_is_heard_of(monkeypatch):
+    """Each time that nothing was said for a while; without a share before anything is done."""
+    monkeypatch.setattr(module, "SILENT", 0.05)
+    said = []
+    with Tasks(ProcessWorker, callback=said.append, **LATE) as tasks:
+        tasks.add("home", announced_home)
+        tasks.result("home")
+    assert 3 < len(said) < 20 and set(said) == {"going home"}
+
+
+def announced_home(here: Here) -> int:
+    here.callback("going home")
+    return home(here)
+
+
 def met(here: Here, folder: Path, name: str, other: str) -> int:
     """The process, which waits until the other task is worked on, too."""
     (folder / name).touch()

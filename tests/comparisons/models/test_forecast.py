@@ -56,13 +56,13 @@ def test_waves_of_a_five_hundredth_of_the_half_width_are_told_to_be_coarse():
     assert len(cast.levels) == 4 and "budget.memory" in cast.ends
     assert 4.0 < cast.per_wave < 10.0
     assert cast.levels[-1].unknowns > 5e5
-    assert cast.text.startswith("planned: 3 levels (") and "up to 4 where" in cast.text
+    assert cast.text.startswith("3 levels (") and "up to 4 where" in cast.text
 
 
 def test_less_time_is_fewer_levels_but_never_none():
     _, _, cast = planned(budget={"time": 1e-6, "effects": False})
     assert len(cast.levels) == 1
-    assert "planned: 1 level of 3 asked for" in cast.text
+    assert "1 level of 3 asked for" in cast.text
 
 
 def test_the_half_plane_alone_takes_no_finite_elements():

@@ -1,6 +1,7 @@
 """Whole runs of both models: files, figures against exact values, repetition, pruning, refusals."""
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -8,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import QUICK, changed, problem, resolved
+from scenes import QUICK, STEEL, changed, problem, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
@@ -20,8 +21,9 @@ from comparisons.models.posing import problem_of
 from comparisons.output.headline import kind_of
 from comparisons.output.record import read_result
 from comparisons.output.result_json import content_of, result_of
-from comparisons.runs.run import level_cache, run, solve
+from comparisons.runs.run import level_cache, planned, run, solve
 from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
 from comparisons.studies.study import unsolved
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -265,20 +267,41 @@ def test_a_long_run_says_what_it_will_take_and_writes_what_it_does(tmp_path, mon
     monkeypatch.setattr("comparisons.runs.long.LONG", 0.0)
     said, path = [], tmp_path / ".out.unfinished" / "run" / "progress.txt"
 
-    def stopped(*_, **__):
+    def stopped(problem, plan, refinement, window, stages, *_, **__):
+        stages.callback("finite elements: mesh")
         raise KeyboardInterrupt
 
     monkeypatch.setattr(finite_element, "finite_element_level", stopped)
-    for solved in ("nothing", "half_plane-1, half_plane-2, half_plane-3"):
-        with pytest.raises(KeyboardInterrupt):
-            run(resolved(QUICK), tmp_path / "out", MODELS, said.append)
-        began, planned, expected, before, *_ = path.read_text().splitlines()
-        assert began.startswith("started 20") and planned.startswith("planned: 3 levels")
-        assert "level 1 " in expected and "level 2 " in expected
-        assert before == f"solved before: {solved}"
+    with pytest.raises(KeyboardInterrupt):
+        run(resolved(QUICK), tmp_path / "out", MODELS, said.append)
+    began, total, levels, stage, *_ = path.read_text().splitlines()
+    assert began.startswith("started 20") and levels.startswith("3 levels (")
+    assert "finite elements: " in stage and "level " in stage
     line = next(line for line in said if isinstance(line, Lasting))
-    assert line.startswith("started ") and line.endswith(str(path))
+    assert f"{began.removeprefix('started ')}: {total}; " in line and line.endswith(str(path))
     assert any("half-plane: contact, level 1" in line for line in said)
+    with pytest.raises(KeyboardInterrupt):  # with what is kept by now
+        run(resolved(QUICK), tmp_path / "out", MODELS)
+    assert path.read_text().splitlines()[1] == total
+
+
+def test_a_plan_says_what_the_run_then_says_and_flow_how_far_it_is(monkeypatch):
+    monkeypatch.setattr("comparisons.common.tasks.cores", lambda: 1)
+    monkeypatch.setattr("comparisons.runs.run.cores", lambda: 1)
+    said, body = [], {**STEEL, "yield_stress": 1e9}
+    pressed = {"load": {"hertz_peak_pressure": 3e9}, "resolution": {"elements": 4, "levels": 2}}
+    pressed |= {"budget": {"time": 5.0}, "tolerance": {"peak_pressure": 0.02}}
+    scene = resolved(QUICK | {"roller": {"radius": 8e-3, "rigid": True}, "body": body} | pressed)
+    run(scene, None, MODELS, said.append)
+    [total] = [line for line in said if line.startswith("planned: ")]
+    total_of_plan, _, effects, *_, skipped = planned(scene, surface_of(scene), MODELS)
+    assert total == total_of_plan and "both models" in total and "leaves out" in total
+    assert effects.startswith("effects computed: ") and "plastic flow" in effects
+    assert skipped.startswith("skipped: ")
+    shares = [
+        int(share) for share in re.findall(r"plastic flow, (\d+) % of the load", "\n".join(said))
+    ]
+    assert len(shares) > 10 and min(shares) < 60 and max(shares) == 100
 
 
 def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):

@@ -6,9 +6,7 @@ import pytest
 from scenes import STEEL, changed, resolved, run_of
 
 from comparisons.common.errors import ExitStatus
-from comparisons.figures.quantity import MODELS
-from comparisons.models.forecast import forecast, time_with_flow
-from comparisons.models.plan import make_plan
+from comparisons.models.forecast import time_with_flow
 from comparisons.models.posing import problem_of
 from comparisons.output.headline import headline
 from comparisons.studies.model_error.contributions import split_variants
@@ -102,7 +100,6 @@ def test_flow_at_finite_strain_is_the_scene_with_both_switches(finite):
 
 
 def test_without_time_for_finite_strain_it_says_how_much(short):
-    assert "; at finite strain, where that matters, " in forecast(short.problem, short.plan).text
     selection, said = short.data("model_error").selection, headline(short)
     assert selection.impossible["finite_strain"].endswith("s more (budget.time)")
     assert said.kind == "inconclusive" and "Finite deformation, which is" in said.sentence
@@ -111,7 +108,6 @@ def test_without_time_for_finite_strain_it_says_how_much(short):
 def test_without_time_it_says_how_long_flow_takes(beside):
     short = run_of(SCENE, budget={"time": 2.0})
     problem, plan = short.problem, short.plan
-    assert "is left out (budget.time)" in forecast(problem, plan).text
     assert "(budget.time)" in short.data("model_error").selection.impossible[FLOW]
     said = headline(short)
     assert said.kind == "fails" and "does not apply" in said.within.sentence
@@ -128,7 +124,6 @@ def test_below_first_flow_nothing_changes():
     )
     assert not with_it.flows
     assert (with_it.extent, with_it.pitches) == (without.extent, without.pitches)
-    assert forecast(with_it, make_plan(with_it, MODELS)).flow is None
 
 
 def test_where_flow_would_leave_the_trace_the_half_plane_is_solved_all_the_same():
