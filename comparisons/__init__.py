@@ -1,6 +1,8 @@
 """Scene in, figures out: what notebooks and scripts need, each loaded when it is used first.
 
-    import comparisons as crosscheck
+    import crosscheck
+
+where it is installed, which is this package: `import comparisons as crosscheck` in any case.
 
 A scene is read, made of tables as TOML has them, and changed; texts carry units, numbers are SI.
 
@@ -39,7 +41,11 @@ NOT COMPARED  Peak pressure 1.000 GPa, ...
 >>> [round(f.value, 3) for f in run.figures.of(quantity="contact_ratio")]
 [1.0, 1.0]"""
 
+import sys
+import warnings
 from importlib import import_module
+from importlib.machinery import ModuleSpec, PathFinder
+from pathlib import Path
 
 # By name, the module that has it.
 PUBLIC = {
@@ -47,6 +53,40 @@ PUBLIC = {
     **dict.fromkeys(("compare", "cost", "map", "read", "run", "sweep"), "comparisons.notebook"),
 }
 __all__ = list(PUBLIC)
+ROOT = str(Path(__file__).resolve().parents[1])
+
+
+class OwnPackages:
+    """Finds the packages beside this one there, whatever lies before them on the path under their
+    names: the folder of a user's script, which is first, may hold a module `fem` of his own."""
+
+    NAMES = ("analytic", "meshes", "fem")
+
+    @classmethod
+    def find_spec(cls, name: str, path: object = None, target: object = None) -> ModuleSpec | None:
+        return PathFinder.find_spec(name, [ROOT]) if path is None and name in cls.NAMES else None
+
+    @classmethod
+    def install(cls) -> None:
+        """Raises ImportError where the process has imported another module of such a name already;
+        warns of one that can no longer be."""
+        for name in cls.NAMES:
+            ours, loaded = cls.find_spec(name).origin, sys.modules.get(name)
+            spec = PathFinder.find_spec(name) if loaded is None else loaded.__spec__
+            if spec is None or spec.origin is None or Path(spec.origin).samefile(ours):
+                continue
+            clash = f"{spec.origin}: crosscheck has a package {name} too"
+            if loaded is not None:
+                raise ImportError(f"{clash}, and a process cannot have both: rename yours")
+            warnings.warn(f"{clash}, which `import {name}` now gives", stacklevel=3)
+        sys.meta_path.insert(0, cls)
+
+
+OwnPackages.install()
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 def __getattr__(name: str) -> object:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.errors import InputError
+from comparisons.common.errors import InputError, nearest
 from comparisons.common.files import check_writable, write_whole
 from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -114,16 +114,25 @@ class RecordedRun(Printed):
         figures.rows = rows_of(self.said, self.name)
         return figures
 
-    def figure(
-        self, quantity: str, source: str, study: str = "contact", **at: float
-    ) -> Figure | None:
-        """One of them, by the model or other source that it is of; None where the run has none.
+    def figure(self, quantity: str, source: str, study: str = "contact", **at: float) -> Figure:
+        """One of them, by the model or other source that it is of. Raises InputError, with the
+        nearest name, where the run has none.
 
         study  that found it
         at     of several friction coefficients: friction=0.1"""
+        figures = self.said.figures
         wanted = {"study": study, "quantity": quantity, "source": _model(source)}
-        figures = self.said.figures.of(**wanted)
-        return next((figure for figure in figures if at.items() <= figure.at.items()), None)
+        for field, name in wanted.items():
+            names = sorted({getattr(figure, field) for figure in figures})
+            figures = figures.of(**{field: name})
+            if not figures:
+                near, there = nearest(name, names), ", ".join(names)
+                raise InputError(f"{field}: is {name}; the nearest here is {near}, of {there}")
+        for figure in figures:
+            if at.items() <= figure.at.items():
+                return figure
+        known = ", ".join(_place(figure.at) for figure in figures)
+        raise InputError(f"{quantity}: is not known at {_place(at)}; allowed is {known}")
 
     @property
     def verdict(self) -> str:
@@ -358,11 +367,15 @@ def read(folder: str | os.PathLike) -> RecordedRun:
     return RecordedRun(read_result(place / "result.json"), RunArrays.read(place), str(place))
 
 
-def compare(*runs: RecordedRun) -> FigureTable:
-    """The figures of several runs, a row each."""
-    if not runs:
-        raise InputError("compare: is given no run; allowed is at least one")
-    return FigureTable(tuple(row for run in runs for row in run.figures.rows))
+def compare(*runs: RecordedRun | Sequence[RecordedRun]) -> FigureTable:
+    """The figures of runs, or of lists of them, a row each."""
+    every = [
+        run for given in runs for run in (given if isinstance(given, list | tuple) else [given])
+    ]
+    if not every or not all(isinstance(run, RecordedRun) for run in every):
+        given = next((describe(run) for run in every if not isinstance(run, RecordedRun)), "no run")
+        raise InputError(f"compare: is given {given}; allowed are runs, at least one")
+    return FigureTable(tuple(row for run in every for row in run.figures.rows))
 
 
 def cost(
@@ -461,6 +474,10 @@ is a length above 0: a number in m or "8.2 mm"
         allowed = "allowed is a name, a path, tables or a Scene"
         raise InputError(f"scene: is {describe(scene)}; {allowed}")
     return scene
+
+
+def _place(at: Mapping[str, float]) -> str:
+    return " and ".join(f"{name} = {value:g}" for name, value in at.items()) or "no other place"
 
 
 def _model(name: str) -> str:

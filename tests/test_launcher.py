@@ -251,6 +251,9 @@ def test_changed_dependencies_set_up_again_and_tool_settings_do_not(checkout):
     project.write_text(text.replace('"rich', '"seaborn",\n    "rich'))
     checkout.call()
     assert checkout.set_ups() == 2
+    project.write_text(text.replace("force-include = {", "force-include = {a = 'b', "))
+    checkout.call()
+    assert checkout.set_ups() == 3
 
 
 def test_moved_checkout_sets_up_again(checkout):

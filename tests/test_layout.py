@@ -17,7 +17,6 @@ import shutil
 import subprocess
 import sys
 import tomllib
-import zipfile
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -234,27 +233,6 @@ def test_packages_are_the_folders_with_python_in_them():
     listed = project_table()["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
     folders = {path.name for path in PROJECT.iterdir() if (path / "__init__.py").exists()}
     assert set(listed) == folders == set(MAY_IMPORT)
-
-
-def test_wheel_holds_every_file_of_the_packages(tmp_path):
-    """Scenes, profiles and templates too: an installed crosscheck works without the checkout."""
-    source = tmp_path / "source"
-    for package in MAY_IMPORT:
-        unwanted = shutil.ignore_patterns("__pycache__")
-        shutil.copytree(PROJECT / package, source / package, ignore=unwanted)
-    for name in ("pyproject.toml", ".gitignore"):
-        shutil.copy(PROJECT / name, source)
-    subprocess.run(
-        [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", tmp_path],
-        cwd=source,
-        check=True,
-        capture_output=True,
-    )
-    (wheel,) = tmp_path.glob("*.whl")
-    with zipfile.ZipFile(wheel) as archive:
-        packed = {name for name in archive.namelist() if ".dist-info/" not in name}
-    files = (path for package in MAY_IMPORT for path in (source / package).rglob("*"))
-    assert packed == {str(path.relative_to(source)) for path in files if path.is_file()}
 
 
 def test_command_leads_to_the_function_that_it_names():

@@ -9,6 +9,7 @@ import io
 import re
 import shlex
 import shutil
+import sys
 import tomllib
 from contextlib import redirect_stdout
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ import pytest
 import readme_picture
 from scenes import half_plane_at
 
+import comparisons
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
@@ -208,7 +210,8 @@ def test_scenes_are_those_that_come_along():
     )
 
 
-def test_python_lines_work():
+def test_python_lines_work(monkeypatch):
+    monkeypatch.setitem(sys.modules, "crosscheck", comparisons)  # as where it is installed
     names: dict = {}
     with redirect_stdout(io.StringIO()) as printed:
         exec(fenced("python", GUIDE), names)

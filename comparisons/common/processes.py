@@ -14,6 +14,7 @@ from multiprocessing.connection import Connection, wait
 from threading import Lock
 from types import ModuleType
 
+from comparisons import ROOT
 from comparisons.common.interrupt import KILLED, end_with_parent
 
 # Of processes that this one starts: one thread, and no code from the working folder.
@@ -131,14 +132,16 @@ def uncollected() -> Iterator[None]:
 
 @contextmanager
 def _without_main() -> Iterator[None]:
-    """Processes that start inside do not run the script again that this one runs: theirs is the
-    project's code alone, and a script needs no guard around its calls."""
-    script = sys.modules["__main__"]
+    """Processes that start inside do not run the script again that this one runs, nor look for
+    modules beside it first: theirs is the project's code alone, and a script needs no guard around
+    its calls."""
+    script, path = sys.modules["__main__"], list(sys.path)
     sys.modules["__main__"] = ModuleType("__main__")
+    sys.path.insert(0, ROOT)
     try:
         yield
     finally:
-        sys.modules["__main__"] = script
+        sys.modules["__main__"], sys.path[:] = script, path
 
 
 @contextmanager

@@ -107,6 +107,7 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
         (lambda: crosscheck.run("smooth", "fem"), "models: there is no model fem"),
         (lambda: crosscheck.run("smooth", ()), "models: is empty"),
         (lambda: crosscheck.compare(), "is given no run"),
+        (lambda: crosscheck.compare(["out"]), 'is given "out"; allowed are runs'),
         (lambda: crosscheck.read("nowhere"), "nowhere: holds no result.json"),
         (lambda: crosscheck.map("smooth", "8"), "--points"),
         (lambda: crosscheck.cost("periodic"), "profile.periodic: is true"),
@@ -289,6 +290,32 @@ def test_a_model_has_one_name_written_in_two_ways(finished, name):
     assert finished.figure("peak_pressure", name, friction=0.1).source == "half_plane"
     assert finished.contact(name)["x"] is not None and finished.stress(name)["x"] is not None
     assert models_named(name, "models") == ("half_plane",)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "words"),
+    [
+        (("peak_presure", "half-plane"), "quantity: is peak_presure; the nearest here is peak_pre"),
+        (("peak_pressure", "halfplane"), "source: is halfplane; the nearest here is half_plane"),
+        (("peak_pressure", "half-plane", "contacts"), "study: is contacts; the nearest here is co"),
+    ],
+)
+def test_a_figure_that_a_run_has_not_raises_with_the_nearest(finished, wanted, words):
+    with pytest.raises(InputError, match=words):
+        finished.figure(*wanted)
+
+
+def test_a_figure_at_another_friction_raises_with_those_that_are_known(finished):
+    known = "allowed is friction = 0, friction = 0.1"
+    with pytest.raises(InputError, match=rf"is not known at friction = 0\.3; {known}"):
+        finished.figure("peak_pressure", "half-plane", friction=0.3)
+
+
+def test_runs_are_compared_one_by_one_or_as_lists(finished):
+    alone = crosscheck.compare(finished).rows
+    assert crosscheck.compare([finished]).rows == alone
+    assert crosscheck.compare([finished], finished).rows == 2 * alone
+    assert repr(crosscheck.compare([finished])).startswith(repr(crosscheck.compare(finished))[:20])
 
 
 def test_a_scene_prints_itself_in_few_lines():
