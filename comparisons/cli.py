@@ -28,17 +28,15 @@ from comparisons.common.errors import (
 
 LIMITS = (errno.ENOMEM, errno.EAGAIN, errno.EMFILE, errno.ENFILE)  # of the system, that are reached
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
-# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map and a
-# sweep have processes of their own, and end them.
-WATCHED = {
-    **dict.fromkeys(
-        ("cost", "run"), "finished levels are kept, the same command goes on from there"
-    ),
-    "rerun": "nothing recorded was changed, the same command does it again",
-    **dict.fromkeys(
-        ("stability", "verify"), "finished cases are kept, the same command goes on from there"
-    ),
+# Commands that Ctrl-C ends in their midst, and what they leave then.
+LEFT = {
+    **dict.fromkeys(("cost", "run"), "finished levels are kept"),
+    **dict.fromkeys(("map", "sweep"), "finished points are kept"),
+    **dict.fromkeys(("stability", "verify"), "finished cases are kept"),
 }
+LEFT = {name: f"{left}, the same command goes on from there" for name, left in LEFT.items()}
+LEFT["rerun"] = "nothing recorded was changed, the same command does it again"
+WATCHED = LEFT.keys() - {"map", "sweep"}  # work in a child; these have processes of their own
 # Options that name a place. An empty one, as an unset variable leaves it, would mean the working
 # folder and replace what stands there.
 PLACES = ("--out", "--summary", "--junit")
@@ -117,7 +115,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if is_own and arguments[:1] and arguments[0] in WATCHED:
         from comparisons.common.interrupt import watched
 
-        return watched(lambda: _carry_out(arguments), WATCHED[arguments[0]])
+        return watched(lambda: _carry_out(arguments), LEFT[arguments[0]])
     return _carry_out(arguments)
 
 
@@ -151,6 +149,8 @@ def _carry_out(arguments: list[str]) -> int:
     except Exception as error:
         if _is_interrupt(error):
             return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
+        if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
+            return _end(ExitStatus.BAD_INPUT, f"{_too_long(error)}; allowed is a shorter one")
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             said = error.format_message().replace("Value error, ", "")
             return _end(ExitStatus.BAD_INPUT, f"{said} (see crosscheck --help)")
@@ -169,7 +169,7 @@ def _carry_out(arguments: list[str]) -> int:
 
 def _interrupted(arguments: list[str], *left: str) -> str:
     """What an interrupt leaves: as the work says, or else as its command always does."""
-    usual = [WATCHED[name] for name in arguments[:1] if name in WATCHED]
+    usual = [LEFT[name] for name in arguments[:1] if name in LEFT]
     return "; ".join(["interrupted", *(left or usual)])
 
 
@@ -177,6 +177,12 @@ def _end(status: ExitStatus, message: str) -> int:
     """Print the line that goes with a status."""
     tell(message)
     return int(status)
+
+
+def _too_long(error: OSError) -> str:
+    """The beginning of a name that the system does not take."""
+    name = os.fsdecode(error.filename or "")
+    return f"{name[:40]}…: is a name of {len(name)} characters, too long for a file"
 
 
 def _is_interrupt(error: BaseException) -> bool:

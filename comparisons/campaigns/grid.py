@@ -16,6 +16,7 @@ from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, one_line
 from comparisons.common.executors import cluster
 from comparisons.common.files import check_writable
+from comparisons.common.numbers import is_whole
 from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import key_of, program_code, versions
@@ -25,7 +26,6 @@ from comparisons.scenes.surface import scene_key, surface_of
 
 SOLVED, FAILED = "solved", "failed"
 DIED = "the process that solved it died"
-GOES_ON = "finished points are kept, the same command goes on from there"
 
 Value = float | str
 Asked = str | tuple[str, ...]
@@ -86,7 +86,7 @@ def tasks_by(workers: int | str | None, kept: Cache) -> Iterator[Tasks]:
     """Tasks on so many processes, one a core (None), or on a Dask cluster, by its address. Raises
     InputError for other workers."""
     text = str(cores() if workers is None else workers)
-    if text.isdigit():
+    if is_whole(text):
         if int(text) < 1:
             raise InputError(f"--workers: is {text}; allowed is from 1 on")
         with Tasks(ProcessWorker, int(text), kept) as tasks:
@@ -114,24 +114,21 @@ def solved_in(
 
     files    that are to be written in `out`; the points are kept under the first one's name
     workers  as `tasks_by` takes them
-    Raises InputError for what cannot be written, KeyboardInterrupt with how to go on."""
+    Raises InputError for what cannot be written."""
     what, keys = files[0].partition(".")[0], dict.fromkeys(point.key for point in points)
     cache = Cache(out / f"{what}_points", "", {})
-    try:
-        with tasks_by(workers, cache) as tasks:
-            check_writable(out, files)
-            cache.remove_leftovers()
-            callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
-            for point in points:
-                tasks.add(point.key, called, answered, solve, point, seconds=1.0)
-            for number, key in enumerate(tasks.as_done(keys), start=1):
-                try:
-                    tasks.result(key)
-                except ProcessEnded:
-                    cache.save(key, failed(DIED))
-                callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(GOES_ON) from None
+    with tasks_by(workers, cache) as tasks:
+        check_writable(out, files)
+        cache.remove_leftovers()
+        callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
+        for point in points:
+            tasks.add(point.key, called, answered, solve, point, seconds=1.0)
+        for number, key in enumerate(tasks.as_done(keys), start=1):
+            try:
+                tasks.result(key)
+            except ProcessEnded:
+                cache.save(key, failed(DIED))
+            callback(Step(f"{what}: {number} of {len(keys)} points", number / len(keys)))
     return [cache.load(point.key) for point in points]
 
 

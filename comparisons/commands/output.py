@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from time import monotonic
 
 from comparisons.common.errors import tell
+from comparisons.common.numbers import is_whole
 from comparisons.common.progress import Early, Lasting, ProgressCallback, Step
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
@@ -79,7 +80,7 @@ def show(renderable: object) -> None:
         Console().print(renderable)
         return
     asked = os.environ.get("COLUMNS", "")
-    width = int(asked) if asked.isascii() and asked.isdigit() and int(asked) else UNSEEN_WIDTH
+    width = int(asked) if is_whole(asked) and int(asked) else UNSEEN_WIDTH
     unseen = Console(width=width, force_terminal=False)
     with unseen.capture() as printed:
         unseen.print(renderable)

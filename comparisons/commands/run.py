@@ -140,7 +140,7 @@ def _relative(text: str) -> float:
     from comparisons.common.units import DIMENSIONLESS, to_si
 
     try:
-        value = to_si(text, DIMENSIONLESS) if "%" in text else float(text)
+        value = to_si(text, DIMENSIONLESS) if "%" in text else float(text.encode("ascii"))
     except ValueError:
         value = math.nan
     if not 0.0 < value < 1.0:

@@ -93,15 +93,17 @@ def map_of(
     )
     from comparisons.campaigns.maps.mark import problem_named, unlike
 
-    marked = mark and problem_named(mark)
+    marked = None if mark is None else problem_named(mark)
     solves = again or any(option is not None for option in (points, x, y, workers, settings))
     finished = scene in finished_names()
-    quantity = quantity or (finished_map(scene)["quantity"] if finished else "peak_pressure")
+    if quantity is None:
+        quantity = finished_map(scene)["quantity"] if finished else "peak_pressure"
     if finished and not solves:
         directory = out or RESULTS / scene
         content = show_finished(scene, quantity, marked, directory)
     else:
-        request = request_of(scene, points or SIZE, x, y, quantity, settings or ())
+        size = SIZE if points is None else points
+        request = request_of(scene, size, x, y, quantity, settings or ())
         directory = out or RESULTS / request.scene.name
         with progress() as callback:
             content = make_map(request, directory, workers, callback, marked)

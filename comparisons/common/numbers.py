@@ -51,6 +51,11 @@ def scale_of(values: Iterable[float | None], unit: str) -> Scale:
     return Scale(*next(choice for choice in choices if choice[0] == 1.0))
 
 
+def is_whole(text: str) -> bool:
+    """Whether a text is a whole number from 0 on, in the digits that Python and TOML write."""
+    return text.isascii() and text.isdecimal()
+
+
 def with_unit(value: float | None, unit: str, digits: int = 4) -> str:
     """One figure [SI] in the unit that suits it."""
     return scale_of([value], unit).text(value, digits)

@@ -13,6 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
+from comparisons.common.numbers import is_whole
+
 PROJECT = Path(__file__).resolve().parents[2]
 # Folders and files whose code shapes a level of a scene.
 LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
@@ -67,7 +69,7 @@ def machine() -> dict[str, str | int | None]:
 def _threads() -> int | None:
     """Of the outermost level, as OMP_NUM_THREADS asks for; None where it says nothing legal."""
     first = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
-    return int(first) or None if first.isdecimal() and first.isascii() else None
+    return int(first) or None if is_whole(first) else None
 
 
 def _processor() -> str | None:

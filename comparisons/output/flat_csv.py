@@ -15,7 +15,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import InputError, one_line
+from comparisons.common.errors import InputError, one_line, tell
 from comparisons.common.files import csv_text
 from comparisons.common.numbers import finite, percent, percent_as_written, plain, with_unit
 from comparisons.figures.figure import grouped
@@ -42,10 +42,20 @@ Row = dict[str, str | float | None]
 
 
 def tidy_rows(folders: Iterable[Path]) -> list[Row]:
-    """The rows of every run in or below the folders.
-    Raises InputError, one line, for a folder without runs and for a result that cannot be read."""
-    paths = _results(folders)
-    return [row for path in paths for row in rows_of(read_result(path), one_line(str(path.parent)))]
+    """The rows of every run in or below the folders. A result that is none is passed over, with a
+    line on standard error.
+    Raises InputError, one line, for a folder without runs, and where no result is one."""
+    rows, wrong = [], []
+    for path in _results(folders):
+        try:
+            rows += rows_of(read_result(path), one_line(str(path.parent)))
+        except InputError as error:
+            wrong.append(error)
+    if not rows:
+        raise wrong[0]
+    for error in wrong:
+        tell(f"{error}; it is passed over")
+    return rows
 
 
 def as_csv(rows: Iterable[Row]) -> str:

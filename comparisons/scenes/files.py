@@ -59,7 +59,7 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
     path = Path(name)
     beside = path.with_suffix(".toml")
     others = [other.name for other in path.parent.glob("*.toml")]
-    alike = beside.name if beside.exists() else nearest(path.name, others, ALIKE)
+    alike = beside.name if os.path.lexists(beside) else nearest(path.name, others, ALIKE)
     if alike is not None:
         there = f"there is no such file, but {path.with_name(alike)}"
         raise SceneError(f"{name}: {there}; allowed is a scene's file or name")

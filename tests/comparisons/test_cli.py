@@ -126,6 +126,20 @@ def test_how_failures_end(solver, capsys, monkeypatch, error, status, line):
     assert err.startswith(line) and err.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("command", "kept"),
+    [("map", "points"), ("sweep", "points"), ("cost", "levels"), ("verify", "cases")],
+)
+def test_an_interrupt_says_what_is_kept_whenever_it_comes(monkeypatch, capsys, command, kept):
+    def interrupted(arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("comparisons.cli._check_places", interrupted)
+    assert main([command]) == ExitStatus.INTERRUPTED
+    left = f"finished {kept} are kept, the same command goes on from there"
+    assert capsys.readouterr().err == f"crosscheck: interrupted; {left}\n"
+
+
 def test_traceback_on_request(solver, capsys, monkeypatch):
     monkeypatch.setenv("CROSSCHECK_TRACEBACK", "1")
     solver.raises = ZeroDivisionError("why")

@@ -17,9 +17,11 @@ from comparisons.campaigns.init.guess import ProfileFields, fields_of_profile, o
 from comparisons.campaigns.init.show import FirstScene, picture
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
+from comparisons.common.numbers import is_whole
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.scenes.fields import allowed, field_type
+from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Origin, Scene, sections_of
 
 # Options of `crosscheck init` by the fields that they are, both bodies' for moduli; others are
@@ -61,9 +63,9 @@ def sections_of_options(options: Mapping[str, str | int | None]) -> Sections:
     kinds = sections_of(Scene)
     for name, value in chosen.items():
         if name in OPTIONS and name != "material":
-            value = _number(value)
+            value = value_of(value)
         elif name == "columns":
-            value = [int(w) if w.isdecimal() else w for w in map(str.strip, value.split(","))]
+            value = [int(w) if is_whole(w) else w for w in map(str.strip, value.split(","))]
         for section, field in OPTIONS.get(name, (("profile", name),)):
             try:
                 field_type(kinds[section], field).read(value)
@@ -75,13 +77,6 @@ def sections_of_options(options: Mapping[str, str | int | None]) -> Sections:
             message = f"is given beside {option_of(first)}; allowed is one of them"
             raise InputError(f"{option_of(second)}: {message}")
     return sections
-
-
-def _number(text: str) -> float | str:
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def write_first_scene(

@@ -278,8 +278,8 @@ Axis = dict[str, object]  # of map.json: group, symbol, label, logarithmic, valu
 FIGURES = 6  # significant, of the values: the same on every machine
 SPANS_DECADES = 3.0  # largest over smallest value from which an axis is logarithmic
 FEWEST, MOST = 2, 200  # values of an axis
-_AXIS = re.compile(r"\s*([\w-]+)\s*(?:=\s*([^:\s]+)\s*:\s*([^:\s]+)\s*)?")
-_POINTS = re.compile(r"\s*(\d+)\s*[x×]\s*(\d+)\s*")
+_AXIS = re.compile(r"\s*([\w-]+)\s*(?:=\s*([\w.+-]+)\s*:\s*([\w.+-]+)\s*)?", re.ASCII)
+_POINTS = re.compile(r"\s*(\d+)\s*[x×]\s*(\d+)\s*", re.ASCII)
 
 
 def axis_of(text: str, count: int, option: str) -> Axis:

@@ -5,6 +5,7 @@ with the project. Out: map.json, which says nothing of when or where it was comp
 a table."""
 
 import json
+import os
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -112,7 +113,7 @@ def request_of(
     Raises InputError for anything that is wrong with them."""
     counts = counts_of(points)
     finished = FINISHED / f"{scene}.toml"
-    path = finished if finished.is_file() else find_scene(scene)
+    path = finished if os.path.isfile(finished) else find_scene(scene)  # of any length
     asked = Scene.of(read_toml(path), Origin(name_of(path), path.parent, scene))
     posed = with_settings(asked, settings)
     if quantity not in QUANTITIES:
@@ -120,8 +121,8 @@ def request_of(
     if QUANTITIES[quantity].needs_stress and posed.stress is None:
         raise InputError(f"--quantity: {quantity} needs a [stress] section in {scene}")
     usual = usual_axes(posed)
-    across = axis_of(x or usual[0], counts[0], "--x")
-    up = axis_of(y or usual[1], counts[1], "--y")
+    across = axis_of(usual[0] if x is None else x, counts[0], "--x")
+    up = axis_of(usual[1] if y is None else y, counts[1], "--y")
     if across["group"] == up["group"]:
         raise InputError(f"--y: is {up['group']}, as --x; allowed are two groups")
     return MapRequest(posed, across, up, quantity)

@@ -25,7 +25,7 @@ from comparisons.campaigns.sweep.pictures import (
 )
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
-from comparisons.common.numbers import percent, percent_as_written, with_unit
+from comparisons.common.numbers import is_whole, percent, percent_as_written, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.figures.figure import Figure, Findings, grouped
@@ -55,7 +55,7 @@ MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of 
 CODE = (*LEVEL_CODE, *(f"comparisons/{name}" for name in ("figures", "studies", "output")))
 CODE += tuple(f"comparisons/campaigns/{name}.py" for name in ("grid", "sweep/sweep"))
 NAMED = ("study", "quantity", "source", "friction")  # of the figures whose scatter is stated
-_RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
+_RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def _swept(name: str, text: str, scene: Scene) -> tuple[Value, ...]:
     parts = [part.strip() for part in text.split(":")]
     if len(parts) == 3:
         return _between(name, *parts)
-    if name == POSITION and len(parts) == 1 and text.isdigit():
+    if name == POSITION and len(parts) == 1 and is_whole(text):
         return _placements(int(text), scene)
     values = [part.strip() for part in text.split(",")]
     if len(parts) != 1 or "" in values:
@@ -107,7 +107,7 @@ def _swept(name: str, text: str, scene: Scene) -> tuple[Value, ...]:
 def _between(name: str, first: str, last: str, count: str) -> tuple[Value, ...]:
     ends = _RANGE.fullmatch(first), _RANGE.fullmatch(last)
     units = {end[2] for end in ends if end} - {""}
-    if not all(ends) or len(units) > 1 or not count.isdigit() or not 2 <= int(count) <= MOST:
+    if not all(ends) or len(units) > 1 or not is_whole(count) or not 2 <= int(count) <= MOST:
         raise InputError(
             f"--over: is '{name}={first}:{last}:{count}'; allowed is FROM:TO:N, two numbers of one "
             f"unit and how many values, from 2 to {MOST}"

@@ -54,6 +54,18 @@ def test_a_run_is_counted_once(runs):
     assert tidy_rows([runs, runs / "a"]) == tidy_rows([runs])
 
 
+def test_a_foreign_result_is_named_and_passed_over(runs, tmp_path, capsys):
+    for name, content in (("foreign", '{"rows": []}'), ("later", '{"schema": 99}')):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "result.json").write_text(content)
+    assert main(["table", str(tmp_path), str(runs / "a"), "--json"]) == 0
+    out, err = capsys.readouterr()
+    assert json.loads(out) == tidy_rows([runs / "a"])
+    lines = [line.partition("result.json: ")[2] for line in err.splitlines()]
+    assert [line.partition(": ")[0] for line in lines] == ["schema", "schema"]
+    assert all(line.endswith("; it is passed over") for line in lines)
+
+
 def test_csv_on_standard_output_and_in_a_file(runs, tmp_path, capsys):
     assert main(["table", str(runs), "--csv"]) == 0
     printed = capsys.readouterr().out

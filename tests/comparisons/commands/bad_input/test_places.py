@@ -28,6 +28,42 @@ def test_an_empty_place_is_not_the_working_folder(folder, complaint, arguments):
     assert (folder / "result.json").read_text() == "mine"
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["run", "{}"],
+        ["run", "{}.toml"],
+        ["run", "smooth", "--out", "{}"],
+        ["map", "{}"],
+        ["sweep", "smooth", "--over", "load=1e5,2e5", "--out", "{}"],
+        ["verify", "--junit", "{}.xml"],
+        ["table", "{}"],
+        ["init", "{}.csv"],
+    ],
+)
+def test_a_name_that_no_file_can_have_is_wrong_input(folder, complaint, arguments):
+    assert "xxxx" in complaint(*(word.format("x" * 5000) for word in arguments))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["map", "smooth", "--points", "５x５"], "--points: is"),
+        (["map", "smooth", "--x", ""], "--x: is ''"),
+        (["map", "smooth", "--y", ""], "--y: is ''"),
+        (["map", "smooth", "--quantity", ""], "--quantity: there is no "),
+        (["map", "smooth", "--mark", ""], "the scene has no name"),
+        (["map", "smooth", "--x", "a_over_width=１:2"], "--x: is"),
+        (["map", "smooth", "--workers", "²"], "--workers: is '²'"),
+        (["sweep", "smooth", "--over", "load=1e5:2e5:３"], "how many values"),
+        (["run", "smooth", "--tolerance", "０.1"], "--tolerance: is"),
+        (["init", "trace.csv", "--radius", "８"], "--radius: is"),
+    ],
+)
+def test_digits_of_other_scripts_and_empty_words_are_refused(folder, complaint, arguments, said):
+    assert said in complaint(*arguments)
+
+
 def test_a_scene_does_not_replace_its_profile(folder, trace, complaint):
     (folder / "trace.toml").write_text(trace)
     assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")
