@@ -15,6 +15,7 @@ from analytic.stress.periodic import ImageStress, PeriodicRest, held_along
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
+from comparisons.models.crest import unresolved_crest
 from comparisons.models.level import (
     ExpectedCost,
     Level,
@@ -92,6 +93,7 @@ def half_plane_on(
             patches=patches_of(grid, solution),
             seconds=stages.seconds,
             unknowns=grid.count,
+            unresolved_crest=unresolved_crest(problem, problem.modulus, grid, solution),
             expected_seconds=expected_with(problem, grid.pitch, window).seconds,
         )
     if window is None:

@@ -184,6 +184,8 @@ class Level:
     patches: np.ndarray  # (k, 2) [m] contact patches
     seconds: dict[str, float]  # by stage
     unknowns: int  # of the linear systems behind the compliance
+    # bound of the largest pressure's error by crests that the grid does not resolve, relative to it
+    unresolved_crest: float = 0.0
     peak_memory: int = 0  # largest memory of the process when the level was done [bytes]
     # by the laws that a level is refused or planned by; memory [bytes], 0 without finite elements
     expected_seconds: float = 0.0

@@ -49,6 +49,7 @@ AS_UNCERTAIN = {"von_mises_max": "tau1_max"}
 AS_UNCERTAIN |= dict.fromkeys(("contact_ratio", "contact_ratio_extent"), "contact_length")
 UNITS = {"pitch": "m", "seconds": "s", "expected_seconds": "s"}  # of what a level took
 UNITS |= {"peak_memory": "byte", "expected_memory": "byte"}
+UNDER_CREST = 4.0  # pressure elements within which stresses are as finely resolved as pressures
 AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
 EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
 
@@ -107,9 +108,18 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
         convergence = grid_convergence(values, order, resolution)
         scale = abs(value) or COMPARED[name].scale(problem.hertz)
         domain, increments = (size / scale for size in repeated[name])
-        parts = iteration(run.finest.solution), convergence.uncertainty / scale, domain, increments
+        left = max(convergence.uncertainty / scale, left_by_crest(name, run.finest, friction))
+        parts = iteration(run.finest.solution), left, domain, increments
         stated[name] = numerical(*parts, convergence)
     return stated
+
+
+def left_by_crest(name: str, level: Level, friction: float) -> float:
+    """Bound of a level's error by crests that it does not resolve, relative: of the peak pressure,
+    and of a largest shear so near to the surface that it belongs to a crest."""
+    key = EXTREMES.get(name)
+    near = key and level.stress(friction).extremes[key].z <= UNDER_CREST * level.grid.pitch
+    return level.unresolved_crest if near or name == "peak_pressure" else 0.0
 
 
 def formal_order(name: str, levels: Sequence[Level], problem: Problem, friction: float) -> float:

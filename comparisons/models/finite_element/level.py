@@ -15,10 +15,12 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
 from analytic.grid import HatGrid
+from analytic.material import combined_modulus
 from analytic.operators.half_plane import ModelOperator
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.approach import settled
+from comparisons.models.crest import unresolved_crest
 from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
 from comparisons.models.finite_element.contact import (
     MutualCompliance,
@@ -34,7 +36,7 @@ from comparisons.models.finite_element.nonlinear import (
 )
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
 from comparisons.models.level import Level, flowing_contact, refuse_too_large, under_each
-from comparisons.models.nearest_operator import nearest_operator, solve_on
+from comparisons.models.nearest_operator import nearest_operator, solve_on, surface_material
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem
 from comparisons.models.window import Window
@@ -89,6 +91,7 @@ def finite_element_level(
             patches=pressed.patches,
             seconds=stages.seconds,
             unknowns=sum(body.unknowns for body in meshed.bodies.all),
+            unresolved_crest=solving.unresolved_crest(pressed.solution),
             expected_seconds=cost.seconds,
             expected_memory=cost.memory,
             mesh=meshed.bodies.rough.mesh,
@@ -152,6 +155,14 @@ class _LevelSolution:
     @property
     def is_finite(self) -> bool:
         return self.problem.scene.finite_element.deformation == "finite"
+
+    def unresolved_crest(self, solution: ContactSolution) -> float:
+        """As of `comparisons.models.crest`; none where flow decides what a crest bears."""
+        scene = self.problem.scene
+        if scene.finite_element.plastic:
+            return 0.0
+        modulus = combined_modulus(scene.roller.material, surface_material(scene))
+        return unresolved_crest(self.problem, modulus, self.grid, solution)
 
     def predicted_contact(self) -> tuple[np.ndarray, np.ndarray]:
         """Patches (k, 2) [m] and pressures (n,) [Pa] of the analytic model."""
