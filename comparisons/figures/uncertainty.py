@@ -1,7 +1,9 @@
 """The uncertainty of a figure: by cause, and how uncertainties are composed. All of it is here.
 
     iteration       by what is left of the contact conditions
-    discretisation  by the sequence of levels (`comparisons.figures.convergence`)
+    discretisation  by the sequence of levels (`comparisons.figures.convergence`), of pressures and
+                    shears at a crest at least what a finer grid makes of it
+                    (`comparisons.models.crest`): there levels have no limit that a fit could know
     domain          DOMAIN times what halving the distance D of the far boundary changes: all of
                     its effect, where that goes with D^-0.5. Stresses below the contact of a held
                     block were seen to go with D^-0.5 to D^-1
@@ -22,7 +24,8 @@ effects and model errors, and for points of maps.
 A difference of two solutions on the same pressure elements, or its norm, is a figure with a
 sequence of its own: what these elements leave out is in both. Against exact answers (zero, in 40
 figures of smooth and rough contacts that both models solved) all are covered so, on median by 4.8
-times the error; by the sum of both models' own discretisations, 18 times.
+times the error; by the sum of both models' own discretisations, 18 times. What they lack of a crest
+is not in both alike: it counts in the difference as in either model.
 
 No figure has an uncertainty of discretisation below the resolution that it is read with."""
 

@@ -28,9 +28,9 @@ ENOUGH = 0.125  # of the least distance of samples: elements that resolve the sp
 # which the crest is not pressed again, was seen to lack a quarter of it beside.
 SAFETY = 1.5
 # Relative change of the largest pressure below which a crest is resolved, and levels tell the rest:
-# hats beside a crest stay as they are, which was seen to leave 1e-4.
+# those beside a crest stay as they are, which was seen to leave 1e-4.
 RESOLVED = 1e-3
-MOST = 8  # crests that may come to have the highest pressure
+MOST = 8  # crests that may come to have the highest pressure, and times that one is refined
 
 
 def unresolved_crest(
@@ -43,12 +43,16 @@ def unresolved_crest(
     peak, hardness = float(solution.pressure.max()), problem.constraints().hardness
     if problem.surface.profile is None or peak >= hardness * (1.0 - RESOLVED):
         return 0.0
-    enough, histories = ENOUGH * problem.surface.profile.spacing, []
+    least = max(float(np.diff(problem.surface.profile.x).min()), grid.pitch / FINER**MOST)
+    enough, histories = ENOUGH * least, []
     for top in _crests(solution.pressure, np.log2(grid.pitch / enough)):
         fine, pressed, history = grid, solution, []
         while not history or fine.pitch > enough:
+            place = fine.x[top]
             fine, pressed = _refined(problem, modulus, fine, pressed, top)
-            top = int(pressed.pressure.argmax())
+            # the ends, where fine elements meet coarse ones, are no part of the crest
+            near = np.abs(fine.x - place) <= 0.5 * REACH * FINER * fine.pitch
+            top = int(np.where(near, pressed.pressure, 0.0).argmax())
             history.append(pressed.pressure[top])
         histories.append(history)
     change = float(np.abs(np.max(histories, axis=0) / peak - 1.0).max())
