@@ -47,6 +47,10 @@ Answers = Annotated[
     list[str] | None,
     Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
 ]
+Units = Annotated[
+    str | None,
+    Option(metavar="LENGTH,STRESS", help="Of the files of --answer, such as mm,MPa; else SI."),
+]
 Details = Annotated[
     bool, Option("--details", help="Every compared quantity, where the models agree, too.")
 ]
@@ -62,6 +66,7 @@ def run(
     junit: Junit = None,
     workers: Workers = None,
     answer: Answers = None,
+    units: Units = None,
     plan: Annotated[
         bool, Option("--plan", help="Only say what would be solved, and how long it takes.")
     ] = False,
@@ -80,7 +85,7 @@ def run(
     gc.freeze()  # a collection would look through all that was imported
     began = perf_counter()
     chosen = models_named(models, "--models")
-    asked = _read(scene_with(scene, settings), answer or (), tolerance)
+    asked = _read(scene_with(scene, settings), answer or (), units, tolerance)
     surface = surface_of(asked)
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
@@ -125,13 +130,19 @@ def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | 
     return None
 
 
-def _read(asked: "Scene", answers: Sequence[str], tolerance: str | None) -> "Scene":
-    """The scene with answers from outside, NAME=FILE each, and a tolerance in place of its own."""
+def _read(
+    asked: "Scene", answers: Sequence[str], units: str | None, tolerance: str | None
+) -> "Scene":
+    """The scene with answers from outside, NAME=FILE each, in units such as mm,MPa, and a tolerance
+    in place of its own."""
     from comparisons.scenes.scene import with_tolerance
     from comparisons.scenes.studies.answers import answers_named
 
+    if units is not None and not answers:
+        raise InputError("--units: is given without --answer; allowed is beside it")
     if answers:
-        asked = asked.changed("answers", answers_named(answers, asked.written.get("answers")))
+        named = answers_named(answers, asked.written.get("answers"), units)
+        asked = asked.changed("answers", named)
     return asked if tolerance is None else with_tolerance(asked, _relative(tolerance))
 
 

@@ -13,6 +13,7 @@ from comparisons.models.assumptions import laws, without_law
 from comparisons.output.next_step import next_of, next_of_flow, worst_of
 from comparisons.output.within import Within, name_of, size_of, within_of
 from comparisons.studies import contact
+from comparisons.studies.answers.show import answers_of
 from comparisons.studies.model_error.account import INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import FLOW
@@ -174,7 +175,8 @@ def _one_model(run: Run) -> str:
     peak, p0 = known.one(quantity="peak_pressure").value, run.problem.hertz.peak_pressure
     length = known.one(quantity="contact_length").value
     smooth = "the mean" if run.problem.scene.periodic else "Hertz"
+    compared = "only answers from outside were" if answers_of(run) else "nothing was"
     return (
         f"Peak pressure {with_unit(peak, 'Pa')}, {significant(peak / p0)} times {smooth}, contact "
-        f"length {with_unit(length, 'm')}; nothing was compared."
+        f"length {with_unit(length, 'm')}; {compared} compared."
     )

@@ -12,7 +12,13 @@ from comparisons.output.page.tables.comparison import comparison_rows, figure_ro
 from comparisons.output.page.tables.problem import in_mm
 from comparisons.scenes.surface import ProfileInfo
 from comparisons.studies import STUDIES
-from comparisons.studies.answers.show import answer_facts, answer_rows, answers_of, reference_of
+from comparisons.studies.answers.show import (
+    answer_facts,
+    answer_rows,
+    answer_verdict,
+    answers_of,
+    reference_of,
+)
 from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
 
@@ -38,8 +44,14 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     from rich.text import Text
 
     said = headline(run)
-    stamp = said.kind.upper(), STYLES.get(said.kind, "bold")
-    verdict = Text.assemble(stamp, f"  {said.sentence.translate(PLAIN)}")
+    verdicts = [
+        (said.kind, said.sentence),
+        *(answer_verdict(run, name) for name in answers_of(run)),
+    ]
+    verdict = [
+        Text.assemble((kind.upper(), STYLES.get(kind, "bold")), f"  {sentence.translate(PLAIN)}")
+        for kind, sentence in verdicts
+    ]
     next_step = Text.assemble(("Next:", "bold"), f"  {said.next.translate(PLAIN)}")
     title = Text(one_line(run.problem.scene.title), style="bold")
     agreement = "" if details else agreement_line(run)
@@ -52,7 +64,7 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     for answer in answers_of(run):
         tables += ["", *_answer(run, answer)]
     within = Text(said.within.sentence.translate(PLAIN), style="bold")
-    return Group(title, within, verdict, next_step, "", *tables, "", _facts(run))
+    return Group(title, within, *verdict, next_step, "", *tables, "", _facts(run))
 
 
 def agreement_line(run: Run) -> str:

@@ -1,9 +1,10 @@
-"""Units that a text file names in the lines above its numbers, such as "x_um,height_um"."""
+"""Units that a text file names in the lines above its numbers, such as "x_um,height_um"; those of
+columns of any dimension, such as "p [MPa]"."""
 
 import re
 
 from analytic.surface.readers.text import ProfileTable
-from comparisons.common.units import LENGTH, UnitError, UnknownUnitError, unit_in_si
+from comparisons.common.units import LENGTH, Dimension, UnitError, UnknownUnitError, unit_in_si
 
 # Units by the patterns that files write them in.
 NAMES = {
@@ -24,6 +25,9 @@ UNITS = [
 ]
 # What stands alone in brackets behind a column's name is its unit.
 BRACKETED = re.compile(r"\[\s*([^\s\d\[\],;]+)\s*\]|\(\s*([^\s\d(),;]+)\s*\)")
+# So does what stands behind an underscore or a slash, where it is one: "p_MPa", "x / mm", "p_max".
+BEHIND = re.compile(r"(?:_|\s/\s*)([^\W\d_][^\s_,;]*)$")
+SQUARE = re.compile(r"(?<=m)\s?(?:2|²)$")  # mm2
 Guesses = dict[str, tuple[object, str]]  # by field of [profile]: its value, and the reason for it
 
 
@@ -36,6 +40,21 @@ def units_in(line: str) -> list[str]:
         if match.start(group) not in units and (group == 1 or _measures(match[group])):
             units[match.start(group)] = match[group]
     return [units[start] for start in sorted(units)]
+
+
+def unit_of_column(name: str, dimension: Dimension) -> str | None:
+    """The unit that a column's name says its numbers are in; None where it says none. Raises
+    UnitError for one of another dimension in brackets."""
+    for pattern in (BRACKETED, BEHIND):
+        if (match := pattern.search(name)) is not None:
+            unit = SQUARE.sub("^2", next(filter(None, match.groups())))
+            try:
+                unit_in_si(unit, dimension)
+                return unit
+            except UnitError as error:
+                if pattern is BRACKETED and not isinstance(error, UnknownUnitError):
+                    raise
+    return None
 
 
 def _measures(word: str) -> bool:

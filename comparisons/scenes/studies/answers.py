@@ -10,7 +10,14 @@ from typing import Annotated
 from pydantic import AfterValidator
 
 from comparisons.common.errors import InputError
-from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, describe, unit_in_si
+from comparisons.common.units import (
+    DIMENSIONLESS,
+    LENGTH,
+    PRESSURE,
+    UnitError,
+    describe,
+    unit_in_si,
+)
 from comparisons.figures.quantity import LABELS
 from comparisons.scenes.fields import (
     FieldType,
@@ -23,11 +30,13 @@ from comparisons.scenes.fields import (
     Whole,
 )
 from comparisons.scenes.files import read_toml
+from comparisons.scenes.header_units import unit_of_column
 from comparisons.scenes.profile import Columns
 
 NAME = re.compile(r"[A-Za-z][\w-]{0,39}", re.ASCII)
 PATH = Text("the path of a file, from the scene's folder")
 UNITS = {"length": Unit(LENGTH), "stress": Unit(PRESSURE)}
+COMMON = {"length": "mm", "stress": "MPa"}  # an example of each
 
 
 @dataclass(frozen=True)
@@ -77,12 +86,25 @@ class AnswerSection(SceneSection):
     @property
     def length(self) -> float:
         """The file's unit [m]."""
-        return unit_in_si((self.units or {}).get("length", "m"), LENGTH)
+        return self.unit("length")
 
     @property
     def stress(self) -> float:
         """The file's unit [Pa]."""
-        return unit_in_si((self.units or {}).get("stress", "Pa"), PRESSURE)
+        return self.unit("stress")
+
+    def unit(self, kind: str, column: str = "") -> float:
+        """In SI, that of a length or a stress: as `units` has it, else as the column's name does,
+        else 1. Raises ValueError for a column that says it has another dimension."""
+        dimension, unit = UNITS[kind].dimension, (self.units or {}).get(kind)
+        try:
+            unit = unit or unit_of_column(column, dimension)
+        except UnitError as error:
+            allowed = f'{dimension.phrase}, or units = {{{kind} = "{COMMON[kind]}"}} if it is one'
+            raise ValueError(
+                f"its column {describe(column)} {error}; allowed is {allowed}"
+            ) from None
+        return 1.0 if unit is None else unit_in_si(unit, dimension)
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if len(self.columns) != 2:
@@ -103,8 +125,20 @@ def checked_names(answers: dict) -> dict:
 SECTION = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
 
 
-def answers_named(options: Sequence[str], known: object) -> dict:
-    """The tables [answers.NAME] of answers given as NAME=FILE.
+def units_named(text: str) -> dict[str, str]:
+    """A unit of length and one of stress, or one of them: mm,MPa. Raises InputError for others."""
+    units: dict[str, str] = {}
+    for word in map(str.strip, text.split(",")):
+        kind = next((kind for kind, unit in UNITS.items() if unit.is_one(word)), None)
+        if kind is None or kind in units:
+            allowed = "a unit of length and one of stress, such as mm,MPa"
+            raise InputError(f"--units: is {describe(text)}; allowed is {allowed}")
+        units[kind] = word
+    return units
+
+
+def answers_named(options: Sequence[str], known: object, units: str | None = None) -> dict:
+    """The tables [answers.NAME] of answers given as NAME=FILE, all in the same units.
     A FILE replaces those that the `known` tables have under its name; several of one name are
     its resolutions. A FILE.toml holds the table itself, with files from its own folder. Raises
     InputError for what is neither."""
@@ -123,4 +157,6 @@ def answers_named(options: Sequence[str], known: object) -> dict:
             files = [os.fspath(path.parent / entry) for entry in map(str, files)]
         named.setdefault(name, []).extend(files)
         tables[name] = dict(tables.get(name) or {}) | {"file": named[name]}
+        if units is not None:
+            tables[name]["units"] = units_named(units)
     return tables

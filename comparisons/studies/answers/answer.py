@@ -33,6 +33,7 @@ class Answer:
     stress: OutsideStress | None = None  # None: pressures alone
     of_mesh: bool = False  # the pressures are stresses on the surface of a mesh
     shear: np.ndarray | None = None  # (n,) [Pa] traction towards +x; None: not given
+    columns: str = ""  # names of those of a table, with the units that they name
 
     @property
     def load(self) -> float:

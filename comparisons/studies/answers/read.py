@@ -30,12 +30,12 @@ def _read(
 ) -> tuple[Answer, ...]:
     answers = []
     for file in source.file:
-        path, stress, shear = problem.scene.folder / file, None, None
+        path, stress, shear, columns = problem.scene.folder / file, None, None, ""
         is_table = path.suffix.lower() in TABLES
         try:
             sha256 = hashlib.sha256(contents(path, MAX_BYTES)).hexdigest()
             if is_table:
-                x, pressure, *rest = _read_curve(path, source)
+                (x, pressure, *rest), columns = _read_curve(path, source)
                 shear = rest[0] if rest else None
             else:
                 x, pressure, shear, stress = read_fields(path, source, problem, window)
@@ -46,13 +46,13 @@ def _read(
             said = one_line(str(error))[:LONGEST]
             raise InputError(f"answers.{name}.file: {path}: {said}") from None
         of_mesh = not is_table and source.pressure is None
-        answers.append(Answer(path.name, sha256, x, pressure, stress, of_mesh, shear))
+        answers.append(Answer(path.name, sha256, x, pressure, stress, of_mesh, shear, columns))
     return tuple(sorted(answers, key=lambda answer: -answer.spacing))
 
 
-def _read_curve(path: Path, source: AnswerSection) -> tuple[np.ndarray, ...]:
-    """x (n,) [m], ascending, pressure (n,) [Pa] and, where the source has it, traction in a
-    table."""
+def _read_curve(path: Path, source: AnswerSection) -> tuple[tuple[np.ndarray, ...], str]:
+    """x (n,) [m], ascending, pressure (n,) [Pa] and, where the source has it, traction in a table;
+    the names of these columns."""
     columns = (*source.columns, *(source.shear or ()))
     table = read_table(path, MAX_BYTES, one_column=False, columns=columns)
     lost = np.flatnonzero(np.isnan(table.numbers).any(axis=1))
@@ -65,8 +65,13 @@ def _read_curve(path: Path, source: AnswerSection) -> tuple[np.ndarray, ...]:
             "its first column goes to and fro and its second one way: are they swapped? allowed "
             f"is x before pressure, columns = {[other, one]}"
         )
-    tractions = (values * source.stress for values in (pressure, *shear))
-    return checked(x * source.length - source.x_origin, *tractions)
+    names = table.names or ("",) * table.numbers.shape[1]
+    tractions = (
+        values * source.unit("stress", name)
+        for values, name in zip((pressure, *shear), names[1:], strict=True)
+    )
+    x = x * source.unit("length", names[0]) - source.x_origin
+    return checked(x, *tractions), ", ".join(table.names)
 
 
 def _one_way(values: np.ndarray) -> bool:

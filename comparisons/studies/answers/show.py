@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import Scale, listed, percent, plain, significant, with_unit
+from comparisons.common.numbers import (
+    Scale,
+    listed,
+    percent,
+    percent_as_written,
+    plain,
+    significant,
+    with_unit,
+)
 from comparisons.drawing import style
 from comparisons.drawing.blocks import (
     Block,
@@ -21,8 +29,8 @@ from comparisons.drawing.blocks import (
 )
 from comparisons.drawing.curves import COINCIDE, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
-from comparisons.figures.figure import Figure, Figures, Series, grouped
-from comparisons.figures.quantity import COMPARED, LABELS, label
+from comparisons.figures.figure import Figure, Figures, Series, grouped, nearest_to_tolerance
+from comparisons.figures.quantity import COMPARED, LABELS, error_text, label
 from comparisons.studies import contact
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.study import CONDITIONS, HINTS, NAME, VALIDATION
@@ -56,10 +64,35 @@ def blocks(run: Run) -> list[Block]:
     items: list = [Pictures(("answers",))]
     for name in answers_of(run):
         table = partial(answer_table, answer=name)
-        items += [Heading(name), table, Names(answer_facts(run, name))]
+        kind, sentence = answer_verdict(run, name)
+        said = Note(f"*{kind.upper()}*  {sentence}")
+        items += [Heading(name), said, table, Names(answer_facts(run, name))]
         if (measured := run.findings[NAME].table(VALIDATION, name)) is not None:
             items.append(partial(_validation_table, measured=measured))
     return [Block("answers", (*items, Note(NOTE)), "Answers from outside")]
+
+
+def answer_verdict(run: Run, answer: str) -> tuple[str, str]:
+    """Whether an answer agrees with its reference in all that is judged of it, in a word, and a
+    sentence with the figure that decides."""
+    known = run.figures.of(study=NAME, source=answer)
+    judged, reference = [f for f in known if f.bounds is not None], LABELS[reference_of(run)]
+    found = {figure.verdict for figure in judged}
+    kind = next(kind for kind in ("differ", "inconclusive", "agree") if kind in found)
+    deciding = [figure for figure in judged if figure.verdict == kind]
+    figure = nearest_to_tolerance(deciding)
+    count = f"{len(deciding)} of {len(judged)} judged figures"
+    if len(deciding) == len(judged):
+        every = {1: "the one judged figure", 2: "both judged figures"}
+        count = every.get(len(judged), f"all {count.partition(' of ')[2]}")
+    said = {"differ": "differs from", "agree": "agrees with"}
+    words = f"the answer {answer} {said.get(kind, 'may agree with or differ from')} the {reference}"
+    at = f" at friction {plain(figure.friction)}" if len({f.friction for f in judged}) > 1 else ""
+    size = error_text(figure.value, figure.total).removesuffix(" %")
+    end = f"{COMPARED[figure.quantity].short}{at}, {size} ± {percent(figure.total)}"
+    first = "the farthest" if kind == "differ" else "nearest to its tolerance"
+    tolerance = percent_as_written(figure.tolerance)
+    return kind, f"T{words[1:]} in {count}; {first}: {end} (tolerance {tolerance})."
 
 
 def answer_rows(run: Run, answer: str) -> list[tuple[str, ...]]:
@@ -93,6 +126,8 @@ def answer_facts(run: Run, answer: str) -> list[tuple[str, str]]:
         ("resolution", f"{spacing} from point to point in contact"),
         ("load", f"{balance} off the scene's"),
     ]
+    if columns := answers_of(run)[answer][-1].columns:
+        facts.insert(0, ("columns", columns))
     for row in findings.table(CONDITIONS, answer).rows():
         said = (
             f"{words} {significant(row[name], 2)}"

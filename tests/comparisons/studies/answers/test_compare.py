@@ -1,17 +1,21 @@
 """Answers from outside against a model: verdicts, uncertainties, what the run leaves of them."""
 
+import io
 import json
 
 import numpy as np
 import pytest
+from rich.console import Console
 from scenes import QUICK, resolved
 
 from comparisons.output.arrays import RunArrays
 from comparisons.output.flat_csv import tidy_rows
 from comparisons.output.record import read_result
+from comparisons.output.terminal import summary
 from comparisons.runs.rerun import rerun
 from comparisons.runs.run import run
 from comparisons.studies.answers.answer import Answer
+from comparisons.studies.answers.show import answer_verdict
 from comparisons.studies.answers.study import CONDITIONS, HINTS, VALIDATION
 
 
@@ -37,6 +41,12 @@ def table(outcome, name, answer="other"):
     return [] if series is None else series.rows()
 
 
+def printed_summary(outcome):
+    console = Console(file=io.StringIO(), width=1000)
+    console.print(summary(outcome))
+    return console.file.getvalue()
+
+
 def off_its_conditions(outcome, model):
     """The largest residual of the pressures by a model's operator."""
     [row] = [row for row in table(outcome, CONDITIONS) if row["model"] == model]
@@ -50,6 +60,10 @@ def test_hertz_exact_pressure_agrees(answered, curve):
     assert off_its_conditions(outcome, "half_plane") < 1e-3
     assert own_uncertainty(outcome, "contact_length") is None
     assert outcome.exit_status == 0
+    kind, sentence = answer_verdict(outcome, "other")
+    assert kind == "agree"
+    said = "The answer other agrees with the half-plane in both judged figures; nearest to its "
+    assert sentence.startswith(said)
 
 
 def test_three_per_cent_more_differ(answered, curve):
@@ -59,6 +73,15 @@ def test_three_per_cent_more_differ(answered, curve):
     assert balance(outcome) == pytest.approx(0.03, abs=1e-3)
     assert table(outcome, CONDITIONS)[0]["penetration"] > 0.01
     assert outcome.exit_status == 1
+    kind, sentence = answer_verdict(outcome, "other")
+    assert kind == "differ"
+    words = (
+        "differs from the half-plane in 1 of 2 judged figures; the farthest: peak pressure, +3.0"
+    )
+    assert words in sentence
+    printed = printed_summary(outcome)
+    assert "NOT COMPARED" in printed and f"DIFFER  {sentence}".replace("±", "+-") in printed
+    assert "only answers from outside were compared" in printed
 
 
 def test_own_finite_elements_field_agrees(answered, tmp_path):

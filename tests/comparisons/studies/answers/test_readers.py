@@ -242,6 +242,12 @@ ROWS = [f"{x:g},{(1 - x**2) * 1e9:g}" for x in np.linspace(-1.0, 1.0, 11)]
         ("a.vtu", UNKNOWN_NODE, "on nodes that it has not|crashes on it"),
         ("a.csv", text([f"{x},0" for x in range(9)]), "no pressure but 0"),
         ("a.csv", "nothing here\n", "no row of numbers"),
+        ("a.csv", text(ROWS).replace("x,p", "x [N],p"), r'column "x \[N\]" is "N", a force; allo'),
+        (
+            "a.csv",
+            text(ROWS).replace("x,p", "x,p (mm)"),
+            'is "mm", a length; allowed is a pressure',
+        ),
         ("a.vtu", "<VTKFile", "at line 1.*; allowed is a whole result file|holds no mesh"),
         ("a.frd", "    1C\n", "ends before its last line"),
         ("a.med", "not HDF", "cannot be read|not installed"),
@@ -343,6 +349,45 @@ def test_answers_on_the_command_line(tmp_path, hertz, capsys):
     complaint = capsys.readouterr().err
     assert "--answer: is" in complaint and "no.csv: there is no such file" in complaint
     assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("head", "units"),
+    [
+        ("x,p", {"length": "mm", "stress": "MPa"}),
+        ("x [mm],p [MPa]", None),
+        ("x_mm,p_N/mm2", None),
+        ("# x / mm,p / MPa", None),
+        ("Position (mm),p_MPa", None),
+        ("x [um],p_max", {"length": "mm", "stress": "MPa"}),  # what is said beside the file counts
+        ("x,p [MPa]", {"length": "mm"}),
+    ],
+)
+def test_units_are_those_beside_the_file_or_of_its_columns(tmp_path, hertz, head, units):
+    x = 1.2 * hertz.half_width * np.linspace(-1.0, 1.0, 101)
+    rows = np.column_stack([1e3 * x, 1e-6 * hertz.pressure(x)])
+    np.savetxt(tmp_path / "a.csv", rows, delimiter=",", header=head, comments="")
+    answer = read({"file": str(tmp_path / "a.csv")} | ({"units": units} if units else {}))
+    assert answer.x == pytest.approx(x) and answer.pressure == pytest.approx(hertz.pressure(x))
+    assert answer.load == pytest.approx(hertz.load_per_length, rel=1e-3)
+
+
+def test_units_on_the_command_line(tmp_path, capsys):
+    (tmp_path / "a.csv").write_text(text(ROWS))
+    for units in ("mm,MPa", " MPa, mm"):
+        tables = answers_named([f"one={tmp_path / 'a.csv'}"], None, units)
+        assert tables["one"]["units"] == {"length": "mm", "stress": "MPa"}
+    assert answers_named(["one=a.csv"], None, "mm")["one"]["units"] == {"length": "mm"}
+    command = ["run", "smooth", "--out", str(tmp_path / "out")]
+    answer = ["--answer", f"one={tmp_path / 'a.csv'}"]
+    for units in ("mm,kg", "mm,um", "", "mm,MPaa"):
+        assert main([*command, *answer, "--units", units]) == 2
+        said = f'crosscheck: --units: is "{units}"; allowed is a unit of length and one of stress'
+        [line] = capsys.readouterr().err.splitlines()
+        assert line.startswith(said)
+    assert main([*command, "--units", "mm,MPa"]) == 2
+    assert "--units: is given without --answer" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_scene_without_answers_names_none():
