@@ -52,7 +52,7 @@ def points_of(
 
     scene_at  the scene with these values; raises InputError where there is none
     code      modules and folders of the project whose code shapes the answers
-    Raises SceneError where no point has a scene, with what is wrong at the first."""
+    Raises SceneError for a value with which there is no scene."""
     program = [versions(), program_code(*code), asked]
     points = []
     for values in itertools.product(*axes.values()):
@@ -63,12 +63,25 @@ def points_of(
         except InputError as error:
             scene, why = None, str(error)
         points.append(Point(at, asked, scene, why, key_of(program, shape, why)[:24]))
-    if all(point.scene is None for point in points):
-        raise SceneError(points[0].why)
+    refuse_values(points, {point.key: point.why for point in points})
     return tuple(points)
 
 
+def refuse_values(points: Sequence[Point], whys: Mapping[str, str | None]) -> None:
+    """Raise SceneError for a value of an axis that no point may have.
+
+    whys  by the points' keys: why they may not be, None of those that may"""
+    for axis in points[0].at:
+        by_value: dict[str, list[str | None]] = {}
+        for point in points:
+            by_value.setdefault(str(point.at[axis]), []).append(whys.get(point.key))
+        for value, wrong in by_value.items():
+            if all(wrong):
+                raise SceneError(f"{wrong[0]} (at {axis} = {value})")
+
+
 Solve = Callable[[Point], dict]  # the answer at a point that has a scene
+WhyNot = Callable[[Point], str | None]  # why a point cannot be solved, None where it may
 
 
 def failed(why: str) -> dict:
@@ -108,18 +121,28 @@ def solved_in(
     solve: Solve,
     workers: int | str | None,
     callback: ProgressCallback,
+    why_not: WhyNot = lambda point: point.why,
 ) -> list[dict]:
     """The answer at every point. Points that `out` has are not solved again, others are kept there;
     one that kills its process has failed.
 
     files    that are to be written in `out`; the points are kept under the first one's name
     workers  as `tasks_by` takes them
-    Raises InputError for what cannot be written."""
-    what, keys = files[0].partition(".")[0], dict.fromkeys(point.key for point in points)
+    why_not  what is known before any is solved
+    Raises InputError for what cannot be written, SceneError for a value that no point may have."""
+    what, keys = files[0].partition(".")[0], {point.key: point for point in points}
     cache = Cache(out / f"{what}_points", "", {})
     with tasks_by(workers, cache) as tasks:
         check_writable(out, files)
+        left, whys = [key for key in keys if cache.load(key) is None], {}
+        for number, key in enumerate(left, start=1):
+            callback(Step(f"{what}: checking {number} of {len(left)} points", 0.0))
+            whys[key] = why_not(keys[key])
+        refuse_values(points, whys)
         cache.remove_leftovers()
+        for key, why in whys.items():
+            if why is not None:
+                cache.save(key, failed(why) | {"posed": False})
         callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
         for point in points:
             tasks.add(point.key, called, answered, solve, point, seconds=1.0)
@@ -135,8 +158,6 @@ def solved_in(
 def answered(solve: Solve, point: Point) -> dict:
     """The answer at a point. What is refused, and what solvers and numbers run into, is an answer;
     what is wrong with the machine is raised."""
-    if point.scene is None:
-        return failed(point.why)
     try:
         return solve(point)
     except (ValueError, ArithmeticError, RuntimeError) as error:

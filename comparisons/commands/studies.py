@@ -130,7 +130,12 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve a scene at many places, loads or other values."""
-    from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request, sweep_table
+    from comparisons.campaigns.sweep.sweep import (
+        exit_status,
+        make_sweep,
+        sweep_request,
+        sweep_table,
+    )
     from comparisons.figures.quantity import models_named
 
     chosen = models_named(models, "--models")
@@ -139,4 +144,4 @@ def sweep(
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)
     show_either(as_json, content, lambda: sweep_table(content, directory))
-    return ExitStatus.DONE
+    return exit_status(content)

@@ -87,8 +87,7 @@ class MapRequest:
 
     @cached_property
     def points(self) -> tuple[Point, ...]:
-        """Row by row: y outside, x inside. Raises SceneError where no point can be asked for, with
-        what is wrong at the first."""
+        """Row by row: y outside, x inside. Raises SceneError for a value that has no scene."""
         x, y = self.x["group"], self.y["group"]
         axes = {y: self.y["values"], x: self.x["values"]}
         return points_of(

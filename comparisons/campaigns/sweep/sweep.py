@@ -6,6 +6,7 @@ the scatter for the terminal."""
 import re
 import shlex
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from math import isfinite
 from operator import itemgetter
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analytic.contact.problem import ContactError
 from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
 from comparisons.campaigns.sweep.pictures import (
     FRICTION,
@@ -23,24 +25,28 @@ from comparisons.campaigns.sweep.pictures import (
     drawn,
     has_zones,
 )
-from comparisons.common.errors import InputError
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import is_whole, percent, percent_as_written, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
+from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.figures.figure import Figure, Findings, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.posing import problem_of
+from comparisons.models.window import window_of
 from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
 from comparisons.output.result_json import result_of
 from comparisons.output.within import rounded_up
 from comparisons.scenes.files import value_of
-from comparisons.scenes.scene import Scene, assignments
+from comparisons.scenes.scene import Scene, assignments, dimension_of
+from comparisons.scenes.surface import surface_of
 from comparisons.studies import contact, quantity_of
 from comparisons.studies.friction import PARTIAL_SLIP
 from comparisons.studies.heat import STUDY as HEAT
 from comparisons.studies.study import MODEL_ERROR
 from comparisons.studies.subsurface import quiescent_zone
+from meshes.block import MeshError
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -78,15 +84,26 @@ def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) ->
     """The sweep that "FIELD=…" ask for.
 
     over     "position=40" placements along the trace, "FIELD=FROM:TO:N" or "FIELD=A,B,C"
-    Raises InputError for anything that is wrong with them, or where no point has a scene."""
+    Raises InputError for anything that is wrong with them, SceneError for a value that is."""
     if not over:
         raise InputError(f"--over: is missing; allowed is {ALLOWED}")
     asked = assignments("--over", over, scene, ALLOWED)
-    fields = {name: _swept(name, text, scene) for name, text in asked.items()}
+    fields = {name: _distinct(name, _swept(name, text, scene)) for name, text in asked.items()}
     if (count := int(np.prod([len(values) for values in fields.values()]))) > MOST:
         raise InputError(f"--over: asks for {count} scenes; allowed are {MOST}")
     points = points_of(fields, scene.changed, models, CODE)
     return SweepRequest(scene, models, tuple(over), fields, points)
+
+
+def _distinct(name: str, values: tuple[Value, ...]) -> tuple[Value, ...]:
+    """The values that differ; 1000 MPa is 1 GPa."""
+    dimension, known = dimension_of(name) or DIMENSIONLESS, {}
+    for value in values:
+        size = str(value)
+        with suppress(UnitError):  # a word, or wrong
+            size = to_si(value, dimension)
+        known.setdefault(size, value)
+    return tuple(known.values())
 
 
 def _swept(name: str, text: str, scene: Scene) -> tuple[Value, ...]:
@@ -145,8 +162,9 @@ def make_sweep(
     content.
 
     workers  as `tasks_by` takes them
-    Raises InputError for what cannot be written, and where no point has an answer."""
-    answers = solved_in(out, FILES, request.points, solved, workers, callback)
+    Raises InputError for what cannot be written, for a value with which no scene can be posed, and
+    where no point has an answer."""
+    answers = solved_in(out, FILES, request.points, solved, workers, callback, why_not)
     content = sweep_content(request, answers)
     whys = failures(content["points"])
     if whys.total() == len(content["points"]):
@@ -154,6 +172,29 @@ def make_sweep(
     files = {TABLE: sweep_csv(content), SWEEP: as_json(content)}
     publish(out, files | drawn(content), FILES)
     return content
+
+
+def exit_status(content: dict) -> ExitStatus:
+    """3 where a solver found nothing at a point whose scene was posed."""
+    failed = failures(point for point in content["points"] if point.get("posed", True))
+    return ExitStatus.NOT_CONVERGED if failed else ExitStatus.DONE
+
+
+def why_not(point: Point) -> str | None:
+    """Why there is no scene at a point, or it cannot be posed. A load that finite elements find is
+    not known before."""
+    from comparisons.runs.run import posed
+
+    scene = point.scene
+    if scene is None or (scene.load.kind == "approach" and "finite_element" in point.asked):
+        return point.why
+    try:
+        problem, plan = posed(scene, surface_of(scene), point.asked)
+        if plan.stress:
+            window_of(problem)
+    except (ContactError, InputError, MeshError) as error:
+        return str(error)
+    return None
 
 
 def solved(point: Point) -> dict:

@@ -7,7 +7,9 @@ from functools import partial
 import pytest
 
 from comparisons.campaigns.grid import DIED, SOLVED, Point, solved_in
+from comparisons.common.errors import SceneError
 from comparisons.common.executors import ExecutorWorker
+from comparisons.common.progress import no_progress
 from comparisons.common.tasks import Tasks, carried_out
 from comparisons.scenes.scene import Scene
 
@@ -70,4 +72,27 @@ def test_what_is_kept_whole_is_not_solved_again(solve_in, tmp_path):
     path.write_bytes(path.read_bytes()[:-9])
     answers, solved, steps = solve_in((0, 1, 1, 2, 3))
     assert sorted(solved) == [1, 3] and [answer["x"] for answer in answers] == [0, 1, 1, 2, 3]
-    assert steps == [f"map: {done} of 4 points" for done in range(5)]
+    checked = [f"map: checking {number} of 2 points" for number in (1, 2)]
+    assert steps == [*checked, *(f"map: {done} of 4 points" for done in range(5))]
+
+
+def test_combinations_that_do_not_go_are_answers_and_values_that_never_do_are_refused(
+    monkeypatch, tmp_path
+):
+    points = [Point({"x": x, "y": y}, "", SCENE, None, f"{x}{y}") for x in "ab" for y in "cd"]
+
+    tasks = "comparisons.campaigns.grid.tasks_by"
+    monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(kept=kept)))
+
+    def answers(*wrong):
+        def why_not(point):
+            return f"no {point.key}" if point.key in wrong else None
+
+        out, solve = tmp_path / "".join(wrong), lambda _: {"status": SOLVED}
+        return solved_in(out, ("map.json",), points, solve, None, no_progress, why_not)
+
+    statuses = [answer["status"] for answer in answers("ad", "bc")]
+    assert statuses == [SOLVED, "failed", "failed", SOLVED]
+    with pytest.raises(SceneError, match=r"^no ad \(at y = d\)$"):
+        answers("ad", "bd")
+    assert [path.name for path in tmp_path.iterdir()] == ["adbc"]

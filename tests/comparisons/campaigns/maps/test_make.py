@@ -139,20 +139,30 @@ def test_a_worker_loads_what_solves_and_nothing_that_shows(made):
 
 
 def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeypatch):
-    request = request_of(str(scene), "2x2", "a_over_width=0.3:3", "poissons_ratio=0.2:0.6")
-    assert [point.why is None for point in request.points] == [True, True, False, False]
-    answer = {"status": "failed", "why": "no"}
-    monkeypatch.setattr("comparisons.campaigns.maps.map.solve_point", lambda point: answer)
+    request = request_of(str(scene), "2x2", "a_over_width=0.3:3", "poissons_ratio=0.2:0.3")
+
+    def solve(point):
+        return {"status": "failed", "why": f"no {point.at['poissons_ratio']}"}
+
+    monkeypatch.setattr("comparisons.campaigns.maps.map.solve_point", solve)
     monkeypatch.setattr(
         "comparisons.campaigns.grid.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
     )
     content = make_map(request, tmp_path / "out")
     whys = [point["why"] for point in content["points"]]
-    assert whys[:2] == ["no", "no"] and "body.poissons_ratio" in whys[2]
+    assert whys == ["no 0.2", "no 0.2", "no 0.3", "no 0.3"]
     assert exit_status(content) == ExitStatus.DONE
     content["points"][0]["why"] = f"half_plane: {NOT_CONVERGED}"
     assert exit_status(content) == ExitStatus.NOT_CONVERGED
     assert "failed, 2: " in printed(map_table(content, tmp_path))
+
+
+def test_a_map_with_a_value_that_no_scene_has_solves_and_writes_nothing(scene, tmp_path, capsys):
+    asked = ["--x", "poissons_ratio=0.2:0.6", "--y", "a_over_thickness", "--points", "3x2"]
+    assert main(["map", str(scene), *asked, "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and said.endswith("(at poissons_ratio = 0.6)\n")
+    assert "body.poissons_ratio: is 0.6; allowed is" in said and list(tmp_path.iterdir()) == []
 
 
 def test_without_a_folder_it_is_named_after_the_scene(scene, monkeypatch, capsys):

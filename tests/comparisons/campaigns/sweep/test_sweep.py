@@ -2,6 +2,7 @@
 
 import csv
 import json
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -11,7 +12,8 @@ import comparisons as crosscheck
 from comparisons.campaigns.sweep.pictures import sweep_figure, zone_map_figure
 from comparisons.campaigns.sweep.sweep import MARGIN, scatter, sweep_request
 from comparisons.cli import main
-from comparisons.common.errors import InputError
+from comparisons.common.errors import InputError, SolverError
+from comparisons.common.tasks import Tasks
 from comparisons.drawing import style
 from comparisons.models.posing import problem_of
 from comparisons.notebook import scene_of
@@ -43,13 +45,12 @@ def test_placements_keep_the_contact_on_the_trace():
     assert values[0] + MARGIN * reach[0] == pytest.approx(start)
     assert values[-1] + MARGIN * reach[1] == pytest.approx(end)
     assert np.ptp(np.diff(values)) < 1e-12
-    assert all(point.why is None for point in asked.points)
 
 
 @pytest.mark.parametrize("over", ["profile.seed=1,2", "profile.seed=1:2:2"])
 def test_whole_numbers_stay_whole(over):
     asked = request([over])
-    assert [point.why for point in asked.points] == [None, None]
+    assert [point.scene.profile.seed for point in asked.points] == [1, 2]
     assert [type(seed) for seed in asked.fields["profile.seed"]] == [int, int]
 
 
@@ -103,7 +104,7 @@ def made(tmp_path_factory):
         'amplitude = "50 nm"\n[load]\nhertz_peak_pressure = "1 GPa"\n[resolution]\nlevels = 2\n'
     )
     asked = ["sweep", str(folder / "waves.toml"), "--out", str(folder / "out")]
-    asked += ["--over", "profile.amplitude=20 nm,50 nm,never", "--over", "roller.radius=8e-3,1e-2"]
+    asked += ["--over", "profile.amplitude=20 nm,50 nm,5e-8", "--over", "roller.radius=8e-3,1e-2"]
     return folder / "out", asked, main(asked)
 
 
@@ -116,7 +117,7 @@ def made(tmp_path_factory):
             "position of the roller on the trace [µm]",
             True,
         ),
-        (["profile.rms_height=1e-7,never", "load=0.5 GPa,1e9"], "profile.rms_height", False),
+        (["body.material=brass,carbon steel", "load=0.5 GPa,1e9"], "body.material", False),
     ],
 )
 def test_pictures_have_a_unit_an_axis_all_words_inside_and_a_band_for_samples(over, label, band):
@@ -125,7 +126,7 @@ def test_pictures_have_a_unit_an_axis_all_words_inside_and_a_band_for_samples(ov
         figure = sweep_figure(swept.content)
         figure.draw_without_rendering()
     assert figure.axes[-1].get_xlabel() == label
-    assert band or figure.axes[0].lines[0].get_xdata()[-1] == (1.0 if len(over) == 1 else 0.0)
+    assert band or figure.axes[0].lines[0].get_xdata()[-1] == 1.0
     words = [axis.label for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)]
     words += [text for legend in figure.legends for text in legend.texts]
     for word in words:
@@ -140,9 +141,7 @@ def test_the_command_leaves_table_picture_and_json(made, capsys):
     out, _, status = made
     assert status == 0
     content = json.loads((out / "sweep.json").read_text())
-    failed = [point["why"] for point in content["points"] if point["status"] == "failed"]
-    assert len(content["points"]) == 6 and len(failed) == 2
-    assert all("profile.amplitude" in why for why in failed)
+    assert len(content["points"]) == 4  # 5e-8 m is 50 nm
     with (out / "sweep.csv").open() as lines:
         rows = list(csv.DictReader(lines))
     assert {row["profile.amplitude"] for row in rows} == {"20 nm", "50 nm"}
@@ -155,9 +154,45 @@ def test_a_second_call_solves_nothing(made, monkeypatch, capsys):
     monkeypatch.setattr("comparisons.runs.run.run", None)
     assert main(asked) == 0
     assert (out / "sweep.json").read_bytes() == before
-    assert "6 scenes (3 of profile.amplitude x 2 of roller.radius), 2 failed" in (
+    assert "4 scenes (2 of profile.amplitude x 2 of roller.radius), 0 failed" in (
         capsys.readouterr().out
     )
+
+
+@pytest.mark.parametrize(
+    ("over", "said"),
+    [
+        ("load=1 GPa,nan", "load.hertz_peak_pressure: is nan, which is not finite"),
+        ("load=1e9,inf", "load.hertz_peak_pressure: is inf"),
+        ("body.poissons_ratio=0.2,0.5", "body.poissons_ratio: is 0.5; allowed is"),
+        ("body.material=brass,unobtainium", 'body.material: is "unobtainium"'),
+        ("load.position=10 um,60 um,119 um", "reaches the end of the trace"),
+    ],
+)
+def test_a_wrong_value_after_a_right_one_solves_and_writes_nothing(
+    made, tmp_path, capsys, monkeypatch, over, said
+):
+    monkeypatch.setattr("comparisons.campaigns.grid.called", None)
+    folder, *last = tmp_path / "out", over.rpartition(",")[2]
+    asked = ["sweep", made[1][1], "--over", over, "--out", str(folder)]
+    assert main(asked) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1 and said in err and last[0] in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_points_that_fail_are_told_with_the_status_of_solvers(made, tmp_path, capsys, monkeypatch):
+    def solved(point):
+        if point.at["roller.radius"] == 8e-3:
+            raise SolverError("no luck")
+        return {"status": "solved", "rows": ()}
+
+    tasks = "comparisons.campaigns.grid.tasks_by"
+    monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(kept=kept)))
+    monkeypatch.setattr("comparisons.campaigns.sweep.sweep.drawn", lambda _: {})
+    monkeypatch.setattr("comparisons.campaigns.sweep.sweep.solved", solved)
+    assert main([*made[1][:3], str(tmp_path / "out"), *made[1][4:]]) == 3
+    assert "2 failed\nfailed, 2: no luck" in capsys.readouterr().out
 
 
 def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
