@@ -42,9 +42,9 @@ def expected_with(problem: Problem, pitch: float, window: Window | None) -> Expe
     cost = expected_of(problem.grid(pitch).count)
     if window is None:
         return cost
-    farthest, searched = max(map(abs, problem.extent)), search_window(problem, window)
-    farthest *= 1.0 if problem.period is None else 3.0  # three periods of pressures
-    ring = 2.0 * (window.extent + farthest) * window.subdivisions(pitch) / pitch
+    pressed, searched = np.ptp(problem.extent), search_window(problem, window)
+    pressed *= 1.0 if problem.period is None else 3.0  # three periods of pressures
+    ring = (np.ptp(window.ends) + pressed) * window.subdivisions(pitch) / pitch
     points = max(0.0, ring - FREE_POINTS)
     memory = BYTES_PER_POINT * points + BYTES_PER_SEARCHED * len(searched.x) * len(searched.z)
     seconds = max(cost.seconds, SECONDS_PER_POINT * points)

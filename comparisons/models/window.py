@@ -6,8 +6,11 @@ import numpy as np
 
 from analytic.stress.field import graded_depths
 from comparisons.common.errors import SceneError
+from comparisons.models.posing import MARGIN, SMOOTH_MARGIN
 from comparisons.models.problem import Problem
+from comparisons.scenes.fields import Extent
 
+HALF_RANGE = Extent(1.5, in_half_widths=True)  # of a field, to either side
 FIRST_DEPTH = 0.25  # of the third level's pitch: the layer next to the surface
 FINEST_SPACING = 1.0 / 16.0  # of the third level's pitch; finer points would show nothing new
 MOST_COLUMNS = 2**18  # of the coarsest pitch across a window: where extremes are searched
@@ -21,7 +24,11 @@ class Window:
 
     x: np.ndarray
     z: np.ndarray
-    extent: float  # [m] extremes are searched at |x| <= extent, whatever the density of x
+    ends: tuple[float, float]  # x [m] between which extremes are searched, however dense x is
+
+    def holds(self, x: np.ndarray) -> np.ndarray:
+        """Whether places x [m] lie where extremes are searched."""
+        return (x >= self.ends[0]) & (x <= self.ends[1])
 
     def stride(self, pitch: float) -> int:
         """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
@@ -35,6 +42,22 @@ class Window:
         return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
 
 
+def field_ends(problem: Problem) -> tuple[float, float]:
+    """Ends [m] of the field along x: as far as the scene asks to either side of the roller's
+    middle. Where it does not ask, and contact may reach beyond, and where it asks for what has no
+    contact, the field lies about the middle of the contact, and is as wide."""
+    half_width, wanted = problem.hertz.half_width, problem.scene.stress.half_range
+    reach = (wanted or HALF_RANGE).metres(half_width)
+    start, stop = problem.extent
+    margin = half_width * (SMOOTH_MARGIN if problem.scene.profile is None else MARGIN)
+    first, last = start + margin, stop - margin
+    is_seen = max(-first, last) <= reach if wanted is None else -last <= reach >= first
+    middle, most = 0.0, 0.5 * (problem.width or np.inf)
+    if not is_seen:
+        middle, reach = 0.5 * (start + stop), max(reach, 0.5 * (stop - start))
+    return max(middle - reach, -most), min(middle + reach, most)
+
+
 def window_of(problem: Problem) -> Window:
     """The points of the scene's [stress], graded towards the surface.
     The spacing in x is the coarsest level's pitch times a power of two, of either sign, next to the
@@ -42,10 +65,11 @@ def window_of(problem: Problem) -> Window:
     Raises SceneError for a window that reaches beyond the body's mesh or shows nothing."""
     scene, wanted = problem.scene, problem.scene.stress
     half_width = problem.hertz.half_width
-    half_range, depth = (e.metres(half_width) for e in (wanted.half_range, wanted.depth))
+    low, high = field_ends(problem)
+    half_range, depth = 0.5 * (high - low), wanted.depth.metres(half_width)
     width, block = problem.unbounded
     for name, size, body, unbounded in (
-        ("half_range", half_range, problem.width and 0.5 * problem.width, 0.25 * width),
+        ("half_range", max(-low, high), problem.width, 0.25 * width),
         ("depth", depth, scene.body.thickness, 0.5 * block),
     ):
         if body is None and size > unbounded:
@@ -53,7 +77,6 @@ def window_of(problem: Problem) -> Window:
                 f"{scene.source}: stress.{name}: is {size:.3g} m; allowed is at most half of what "
                 f"the unbounded body is meshed to (finite_element.block), {unbounded:.3g} m"
             )
-    half_range = min(half_range, 0.5 * (problem.width or np.inf))
     depth = min(depth, scene.body.thickness or np.inf)
     columns, rows = wanted.points
     coarsest, finest = problem.pitches[0], problem.reference_pitch
@@ -71,22 +94,26 @@ def window_of(problem: Problem) -> Window:
             f"{scene.source}: stress.half_range: is {half_range:.3g} m; allowed is at most {most}, "
             "as the surface asks for: check x_unit and z_unit, or leave [stress] out"
         )
-    last = int(np.floor(half_range / spacing * (1.0 + 1e-12)))
-    x = np.arange(-last, last + 1) * spacing
     first = min(FIRST_DEPTH * finest, depth / (rows - 1))
-    step = min(coarsest, spacing)
-    extent = step * np.floor(half_range / step * (1.0 + 1e-12))
-    return Window(x, graded_depths(depth, rows, first), extent)
+    x = _steps(low, high, spacing)
+    ends = _steps(low, high, min(coarsest, spacing))[[0, -1]]
+    return Window(x, graded_depths(depth, rows, first), tuple(ends.tolist()))
+
+
+def _steps(low: float, high: float, step: float) -> np.ndarray:
+    """Whole steps [m] between two ends."""
+    first, last = np.array([low, high]) / step * (1.0 + 1e-12)
+    return np.arange(np.ceil(first), np.floor(last) + 1.0) * step
 
 
 def search_window(problem: Problem, window: Window) -> Window:
     """Points from which the search for extremes inside a window starts, whatever its density: along
     x the coarsest level's pressures, a tenth of the shortest wave; depths by a fixed ratio."""
-    spacing = min(problem.pitches[0], window.extent)
-    last = round(window.extent / spacing)
+    low, high = window.ends
+    spacing = min(problem.pitches[0], 0.5 * (high - low))
     depth = window.z[-1]
     first = min(FIRST_DEPTH * problem.pitches[0], 0.5 * depth)
     growth = np.log1p(depth / first * (SEARCH_RATIO - 1.0)) / np.log(SEARCH_RATIO)
     rows = max(3, int(np.ceil(growth)) + 1)
-    x = np.arange(-last, last + 1) * spacing
-    return Window(x, graded_depths(depth, rows, min(first, depth / rows)), window.extent)
+    x = np.arange(round(low / spacing), round(high / spacing) + 1) * spacing
+    return Window(x, graded_depths(depth, rows, min(first, depth / rows)), window.ends)

@@ -5,6 +5,8 @@ is solved like any other. Nothing here is refused; the user is warned."""
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
 from analytic.surface.outliers import spikes
@@ -23,6 +25,7 @@ SMOOTHEST, STEEPEST = 1e-4, 1.0
 LIGHTEST, HEAVIEST = 5e-5, 0.3  # half-width over radius: steel at some MPa, rubber pressed flat
 FEWEST_ELEMENTS = 8  # to a wave: peak pressures are then known to some per cent
 LONGEST_BRIDGE = 5  # samples: a line across more than that is no surface any more
+EDGE = 0.02  # of the contact that a field need not hold
 FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between samples
 
 
@@ -63,6 +66,14 @@ def warnings_about_result(run: Run) -> list[str]:
             f"the whole contact, {with_unit(length, 'm')}, is shorter than {FEWEST_SAMPLES} "
             f"samples of the profile ({with_unit(info.spacing, 'm')} apart): what is pressed is "
             "the curve between them"
+        )
+    start, stop = model.finest.patches[[0, -1], [0, 1]]
+    inside = np.array([start, stop]) + EDGE * (stop - start) * np.array([1.0, -1.0])
+    if run.window is not None and not run.window.holds(inside).all():
+        low, high = (with_unit(end, "m") for end in run.window.ends)
+        warnings.append(
+            f"stress.half_range: there is contact beyond {low} to {high}, and largest stresses are "
+            "sought within alone"
         )
     if surface.profile is not None:
         per_wave = shortest_wavelength(surface.profile) / model.finest.grid.pitch

@@ -302,11 +302,12 @@ class LoadSection(SceneSection):
 
 
 class StressSection(SceneSection):
-    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz)."""
+    """The points of the subsurface field: |x| <= half_range (None: about the contact), 0 <= z <=
+    depth; `points` (nx, nz)."""
 
     STEP = "subsurface stresses"
     depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
-    half_range: Annotated[Extent, ExtentField()] = Extent(1.5, in_half_widths=True)
+    half_range: Annotated[Extent, ExtentField()] | None = None
     points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS, MOST_STRESS_LINES)] = (600, 200)
 
 

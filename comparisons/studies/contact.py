@@ -257,6 +257,19 @@ def peak_position(level: Level) -> float:
     return float(level.grid.x[level.solution.pressure.argmax()])
 
 
+def seen(run: Run, room: float) -> tuple[float, float]:
+    """Ends [m] of what pictures show: all contact under the friction that decides and, where they
+    meet, Hertz's; beside it `room`, a share of half its length."""
+    patches, half_width = [], run.problem.hertz.half_width
+    for level in run.levels(run.deciding_friction).values():
+        patches.append(level.patches[[0, -1], [0, 1]])
+    first, last = float(np.min(patches)), float(np.max(patches))
+    if first < half_width and last > -half_width:
+        first, last = min(first, -half_width), max(last, half_width)
+    beside = 0.5 * room * (last - first)
+    return first - beside, last + beside
+
+
 def closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
     """Places and pressures with the feet of the first and last hat; of a periodic surface from one
     end of the period to the other."""

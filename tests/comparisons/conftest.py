@@ -155,7 +155,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
         window = Window(
             np.linspace(-1.5, 1.5, columns + 1) * half_width,
             np.linspace(0.0, 1.0, rows) ** 2 * half_width,
-            1.5 * half_width,
+            (-1.5 * half_width, 1.5 * half_width),
         )
     runs = {
         name: ModelRun(

@@ -151,7 +151,7 @@ def _text(
         "body": moduli,
         "profile": {"file": os.path.relpath(profile, out.parent), **fields.fields},
         "load": {**example_load, "friction": [0.0, 0.1]},
-        "stress": {"depth": 1.0, "half_range": 1.5, "points": [300, 100]},
+        "stress": {"depth": 1.0, "points": [300, 100]},
         "tolerance": dict.fromkeys(("peak_pressure", "contact_length", "tau1_max"), 0.02),
     }
     example = "an example: put in yours"

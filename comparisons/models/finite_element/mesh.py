@@ -9,6 +9,7 @@ from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.roller import roller_spec
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
+from comparisons.models.window import field_ends
 from fem.nonlinear.press_plastic import TRAVEL
 from meshes.block import BlockMesh, BlockSpec
 from meshes.real_shape import roughen
@@ -65,9 +66,10 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     window = None
     if scene.stress is not None:
         size = FIELD_SIZE * half_width * 2.0**coarser
-        aside = min(across, max(scene.stress.half_range.metres(half_width), half_width))
+        low, high = field_ends(problem)
+        aside = max(-across, min(low, -half_width)), min(across, max(high, half_width))
         down = min(depth, max(scene.stress.depth.metres(half_width), half_width))
-        window = (-aside, aside, down, size)
+        window = (*aside, down, size)
     growth, coating = min(growth, STEEPEST_GROWTH), scene.coating
     interface = None if coating is None else coating.thickness
     return BlockSpec(across, depth, intervals, edge, growth, window, interface=interface)

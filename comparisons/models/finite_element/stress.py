@@ -93,7 +93,7 @@ def stresses_of(
     """
     nodal = pressed.stresses(frictions)
     body, results = pressed.body, []
-    bounds = (-window.extent, window.extent, window.z[-1])
+    bounds = (*window.ends, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
     shown = [None] * len(frictions)
     if fields:

@@ -224,7 +224,7 @@ def _stresses(
 ) -> OutsideStress:
     """Largest values at the nodes in the window, and the fields on it."""
     stress, nu = body.stress, problem.scene.body.poissons_ratio
-    inside = (np.abs(body.x) <= window.extent) & (body.z <= window.z[-1])
+    inside = window.holds(body.x) & (body.z <= window.z[-1])
     if not inside.any():
         raise ValueError("has no node in the window of [stress]; allowed is one around x = 0")
     shears = {"tau1": stress.tau1, "txz": np.abs(stress.txz), "von_mises": stress.von_mises(nu)}

@@ -174,8 +174,8 @@ def _pressures(run: Run, answers: Mapping[str, Answer]) -> style.Picture:
     caption = f"{words}; below, what these differ from the {LABELS[reference_of(run)]} by."
     half_width = run.problem.hertz.half_width
     drawn, axes = panels(style.WIDE, PANELS)
-    ends = np.concatenate([np.array(run.problem.extent), [-1.1 * half_width, 1.1 * half_width]])
-    across, unit = (float(ends.min()), float(ends.max())), Scale(half_width, "a")
+    across = tuple(np.sort([*run.problem.extent, *contact.seen(run, 0.1)])[[0, -1]].tolist())
+    unit = Scale(half_width, "a")
     contact.draw_pressures(axes[0], run, across, unit)
     for number, (name, answer) in enumerate(answers.items()):
         look = {"color": COLOURS[number % len(COLOURS)], "linewidth": 1.0, "label": name}

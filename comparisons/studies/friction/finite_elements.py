@@ -129,6 +129,6 @@ def _with_mesh_stress(
 
     body, stressed = operator.rough.body, _stressed(problem, operator, slipped)
     last, x = stressed(-1), surface_places(problem, slipped, window)
-    bounds = -window.extent, window.extent, window.z[-1]
+    bounds = *window.ends, window.z[-1]
     tau1 = maximum(body, last[0], lambda stress: stress.tau1, bounds)
     return with_surface(problem, replace(slipped, tau1=tau1, x=x), surface)

@@ -232,7 +232,7 @@ def surface_places(problem: Problem, slipped: SlippedLevel, window: Window) -> n
     beside = slipped.grid.pitch * BESIDE_AN_END
     near = (edges[:, None] + beside).ravel()
     x = np.unique(np.concatenate([window.x, slipped.grid.x, near]))
-    return x[np.abs(x) <= window.extent]
+    return x[window.holds(x)]
 
 
 def ends_stress(problem: Problem, grid: HatGrid, state: SlipState) -> Beside:

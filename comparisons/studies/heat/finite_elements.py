@@ -160,7 +160,7 @@ def finite_element_stress(
         estimate=lambda: elastic.estimate() + thermal.values,
         together=None,
     )
-    bounds = -window.extent, window.extent, window.z[-1]
+    bounds = *window.ends, window.z[-1]
     tau1 = maximum(body, both, lambda stress: stress.tau1, bounds)
     x = surface_places(level, window, field.ends)
     along = evaluate_all(body, (both, elastic), x, np.zeros_like(x))

@@ -190,7 +190,7 @@ def surface_places(level: Level, window: Window, ends: EndStress) -> np.ndarray:
     """x (n,) [m] of grid, window and ends of contact, where sx of the surface is largest."""
     edges = level.patches.ravel(), *(patch.ends for patch in ends.patches)
     x = np.unique(np.concatenate([window.x, level.grid.x, *edges]))
-    return x[np.abs(x) <= window.extent]
+    return x[window.holds(x)]
 
 
 def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedStress:

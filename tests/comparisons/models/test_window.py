@@ -1,12 +1,15 @@
 """The points of the fields: what is asked for, and what must not depend on it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scenes import STEEL, half_plane_at, resolved
 
 from comparisons.common.errors import SceneError
 from comparisons.models.posing import problem_of
-from comparisons.models.window import search_window, window_of
+from comparisons.models.window import field_ends, search_window, window_of
+from comparisons.scenes.fields import Extent
 from comparisons.scenes.files import SCENES, read_toml
 from comparisons.scenes.scene import Origin, Scene
 
@@ -79,3 +82,24 @@ def test_windows_that_show_nothing_or_leave_the_body_are_refused(stress, words):
 def test_a_shallow_window_of_many_rows():
     window = window_of(problem(depth="1 nm", points=[50, 300]))
     assert len(window.z) == 300 and window.z[-1] == pytest.approx(1e-9)
+
+
+@pytest.mark.parametrize(
+    ("asked", "extent", "ends"),
+    [
+        (None, (-1.6, 1.6), (-1.5, 1.5)),
+        (None, (4.8, 5.2), (3.5, 6.5)),
+        (None, (-3.0, 2.0), (-3.0, 2.0)),
+        (0.5, (-1.6, 1.6), (-0.5, 0.5)),
+        (0.5, (0.3, 1.6), (-0.5, 0.5)),
+        (0.5, (4.8, 5.2), (4.5, 5.5)),
+        (0.5, (4.0, 6.0), (4.0, 6.0)),
+    ],
+)
+def test_a_field_stands_about_contact_that_it_would_not_show(asked, extent, ends):
+    """All in half-widths; an extent has a margin of 0.15 beside the contact."""
+    half_range = None if asked is None else Extent(asked, in_half_widths=True)
+    posed = problem()
+    a, scene = posed.hertz.half_width, posed.scene.unchecked({"stress.half_range": half_range})
+    moved = replace(posed, scene=scene, extent=(extent[0] * a, extent[1] * a))
+    assert np.array(field_ends(moved)) / a == pytest.approx(np.array(ends))

@@ -1,12 +1,14 @@
 """Scenes that can hardly be meant: units left out or mistaken are doubted, and still solved."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import posed
 
 from comparisons.cli import main
-from comparisons.output.plausibility import warnings_about
+from comparisons.output.plausibility import warnings_about, warnings_about_result
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import surface_of
@@ -115,3 +117,10 @@ def test_a_doubt_comes_before_anything_is_solved(folder, capsys):
     doubt, error = err.splitlines()
     assert out == "" and "smooth bodies would have" in doubt
     assert "reaches the end of the trace" in error and "smooth bodies" not in error
+
+
+def test_a_field_that_does_not_hold_the_contact_is_doubted(smooth_outcome):
+    window = replace(smooth_outcome.window, ends=(-0.9e-6, 0.9e-6))
+    assert warnings_about_result(smooth_outcome) == []
+    [words] = warnings_about_result(posed(smooth_outcome, window=window))
+    assert words.startswith("stress.half_range: there is contact beyond −900.0 nm to 900.0 nm")

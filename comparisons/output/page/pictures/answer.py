@@ -11,7 +11,7 @@ from comparisons.drawing.field import ColourScale, FieldPanel, colour_bar, draw_
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, error_text, label
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
-from comparisons.studies.contact import draw_pressures
+from comparisons.studies.contact import draw_pressures, seen
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ LEFT, RIGHT = 0.78, 0.14  # inches
 PRESSURES, DIFFERENCES, SURFACES = (0.08, 2.1), (0.3, 0.5), (0.14, 0.9)
 SHEAR, BAR = (0.3, 1.8), (0.44, 0.1)
 FOOT = 0.26  # inches
-REACH = 1.15  # half-widths to either side
+ROOM = 0.15  # beside the contact, of half of it
 
 ROW, TOP, BOTTOM = 0.56, 0.34, 0.5  # inches: of a bar and its words, and the space around all bars
 THICK, ABOVE = 0.34, 0.23  # of a row: a bar, and from its middle up to its words
@@ -57,7 +57,8 @@ def overview(run: Run, width: float) -> "Drawn":
     drawn = style.figure(width, foot + sum(map(sum, rows)))
     panels = style.stacked(drawn, rows, LEFT, RIGHT)
     bar = panels.pop() if window is not None else None
-    what = run, (-REACH * hertz.half_width, REACH * hertz.half_width), Scale(hertz.half_width, "a")
+    what = run, seen(run, ROOM), Scale(hertz.half_width, "a")
+    low, high = (end / hertz.half_width for end in what[1])
     draw_pressures(panels[0], *what)
     look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
     look |= style.BEHIND_LEGEND
@@ -74,10 +75,10 @@ def overview(run: Run, width: float) -> "Drawn":
         panels[1].set_title(_models(run, friction))
     draw_surfaces(panels[1 + compares], *what)
     if window is not None:
-        _shear(panels[-1], bar, run)
+        _shear(panels[-1], bar, run, (low, high))
         panels[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
     for panel in panels:
-        panel.set_xlim(-REACH, REACH)
+        panel.set_xlim(low, high)
         panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel("x/a")
@@ -89,13 +90,14 @@ def _models(run: Run, friction: float) -> str:
     return " − ".join(LABELS[name] for name in run.pair(friction))
 
 
-def _shear(axes: "Axes", bar: "Axes", run: Run) -> None:
-    """The last model's principal shear."""
+def _shear(axes: "Axes", bar: "Axes", run: Run, across: tuple[float, float]) -> None:
+    """The last model's principal shear; its largest is marked where it lies between two x/a."""
     hertz, window, friction = run.problem.hertz, run.window, run.deciding_friction
     [*_, last] = run.levels(friction).values()
     stress = last.stress(friction)
     field, place = stress.field.tau1 / hertz.peak_pressure, stress.extremes["tau1"]
     mark = place.x / hertz.half_width, place.z / hertz.half_width
+    mark = mark if across[0] <= mark[0] <= across[1] else None
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     scale = ColourScale.over("τ₁/p₀", [field])
     shown = draw_field(axes, x, z, FieldPanel(_largest(run), field, mark), scale)

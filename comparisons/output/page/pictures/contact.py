@@ -17,7 +17,7 @@ from comparisons.drawing.field import SMALLEST_POWER
 from comparisons.figures.quantity import LABELS
 from comparisons.models.level import deformed_height
 from comparisons.models.problem import mean_height
-from comparisons.studies.contact import closed, draw_pressures, peak_position
+from comparisons.studies.contact import closed, draw_pressures, peak_position, seen
 from comparisons.studies.study import COMPARISON, Run
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 TOP, BETWEEN = 0.24, 0.16  # inches above the panels
+ROOM = 0.05  # beside the contact, of half of it
 FARTHEST_CAP = 2.0  # peak pressures: a hardness beyond would only flatten the curves
 CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
@@ -41,8 +42,8 @@ def pressure_picture(run: Run) -> style.Picture:
     [*_, last] = levels.values()
     difference = " − ".join(LABELS[name] for name in run.pair(run.deciding_friction))
     middle = f", their difference ({difference})," if len(run.runs) > 1 else ""
-    beyond = 1.05 * hertz.half_width
-    across = min(last.grid.x[0], -beyond), max(last.grid.x[-1], beyond)
+    low, high = seen(run, ROOM)
+    across = min(last.grid.x[0], low), max(last.grid.x[-1], high)
     short = np.ptp(last.grid.x) < (1.0 - UNSEEN) * (across[1] - across[0])
     peaks = ", ".join(
         f"{LABELS[name]} "

@@ -11,7 +11,7 @@ import numpy as np
 from comparisons.common.numbers import integer, scale_of, with_unit
 from comparisons.drawing.curves import panels
 from comparisons.drawing.style import THIRD, Picture, picture
-from comparisons.studies.contact import peak_position
+from comparisons.studies.contact import peak_position, seen
 from comparisons.studies.study import Run
 from meshes.block import real_points, unique_edges
 
@@ -24,7 +24,7 @@ COLOUR = 0.12, 0.31, 0.47
 LEFT, RIGHT = 0.68, 0.22  # inches beside a mesh
 LEAST, MOST = 0.8, 1.9  # inches: its height
 NARROWEST = 1.1  # inches: its width, for the numbers of its axis
-CONTACT = 1.3  # half-widths to either side
+ROOM = 0.3  # beside the contact, of half of it
 PEAK_EDGES = 24  # edges at the surface to either side of the highest peak
 
 
@@ -37,12 +37,16 @@ def mesh_pictures(run: Run) -> list[Picture]:
     points, corners = real_points(mesh), mesh.triangles[:, :3]
     pairs, _ = unique_edges(corners)
     half, depth, edge = mesh.spec.half_width, mesh.spec.depth, mesh.spec.surface_size
-    reach, fine = min(CONTACT * run.problem.hertz.half_width, half), PEAK_EDGES * edge
+    (low, high), fine = seen(run, ROOM), PEAK_EDGES * edge
     peak = peak_position(level)
     count = f"{integer(len(corners))} quadratic triangles, {integer(level.unknowns)} unknowns"
     views = {
         "whole block": (-half, half, depth),
-        "body under the contact": (-reach, reach, min(reach, depth)),
+        "body under the contact": (
+            max(low, -half),
+            min(high, half),
+            min(0.5 * (high - low), depth),
+        ),
         "body under the highest pressure": (peak - fine, peak + fine, min(fine, depth)),
     }
     known = f"{count}; as a file: finite_element/mesh.msh. Dark: too fine to draw."

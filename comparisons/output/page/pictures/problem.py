@@ -131,7 +131,7 @@ def _close_up(axes: "Axes", problem: Problem) -> float:
     reach = np.clip(reach / half_width, *CLOSE_UP) * half_width
     if scene.periodic:
         reach = 1.5 * problem.period
-    low, high = -reach, reach
+    low, high = min(-reach, problem.extent[0]), max(reach, problem.extent[1])
     if profile is not None and not scene.periodic:
         low, high = max(low, profile.x[0]), min(high, profile.x[-1])
     if scene.body.width is not None:
