@@ -90,11 +90,13 @@ def test_a_printed_report_has_pages_of_a4(browser, wavy_file):
 
 def test_contact_beside_the_middle_is_printed_too(browser, tmp_path, monkeypatch):
     """A ridge that lifts the roller off where it is deepest."""
-    x = 2e-6 * np.arange(801)
-    height = 18e-6 * np.exp(-0.5 * ((x - 0.4e-3) / 20e-6) ** 2)
-    np.savetxt(tmp_path / "ridge.csv", np.column_stack([x, height]))
-    tables = SMOOTH | {"profile": {"file": "ridge.csv", "form": "none"}, "stress": {}}
-    outcome = run(resolved(tables, folder=tmp_path), tmp_path / "out", ("half_plane",))
+    x = 2.0 * np.arange(801)
+    ridge = 18.0 * np.exp(-0.5 * ((x - 400.0) / 20.0) ** 2)
+    np.savetxt(tmp_path / "ridge.csv", np.column_stack([x, ridge]))
+    rough = {"file": "ridge.csv", "form": "none", "x_unit": "um", "z_unit": "um"}
+    tables = SMOOTH | {"profile": rough, "stress": {}, "load": {"per_length": 2e5}}
+    scene = resolved(tables, folder=tmp_path)
+    outcome = run(scene, tmp_path / "out", ("half_plane",))
     assert outcome.runs["half_plane"].finest.patches.max() < -2.0 * outcome.problem.hertz.half_width
     assert print_report(tmp_path / "out").read_bytes().startswith(b"%PDF-")
 
