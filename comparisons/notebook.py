@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.console import Console, RenderableType
 
-    from comparisons.campaigns.cost.cost import Cost
 AnyScene = Scene | Mapping | str | os.PathLike
 """A scene, its tables, its name or its path."""
 
@@ -245,26 +244,6 @@ class FigureTable(Printed):
 
 
 @dataclass(frozen=True, repr=False)
-class CostStudy(Printed):
-    """Error against time of every method on one scene."""
-
-    study: "Cost"
-
-    def plot(self) -> "list[Axes]":
-        """The diagram, a panel a quantity."""
-        from comparisons.campaigns.cost.cost import cost_figure
-        from comparisons.drawing.style import collected_figures
-
-        with collected_figures():
-            return cost_figure(self.study).axes
-
-    def _table(self) -> "RenderableType":
-        from comparisons.campaigns.cost.cost import cost_table
-
-        return cost_table(self.study)
-
-
-@dataclass(frozen=True, repr=False)
 class Map(Printed):
     """Where the half-plane holds; `content` is that of map.json, in `folder` if it was kept."""
 
@@ -383,13 +362,17 @@ def cost(
     *,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
-) -> CostStudy:
-    """Error against run time of every method that applies: what `crosscheck cost` does. It takes
-    minutes. `out` keeps what is solved, and goes on from there."""
-    from comparisons.campaigns.cost.cost import cost as solved
+) -> FinishedRun:
+    """Error against run time of every method that applies: what `crosscheck cost` does, a run by
+    all of them. It takes minutes. `out` keeps its files."""
+    from comparisons.runs.run import Known
+    from comparisons.runs.run import run as run_scene
 
-    with _folder(out, "cost") as place:
-        return CostStudy(solved(scene_of(scene), place, progress))
+    place = _path(out, "out")
+    if place is not None:
+        check_writable(place)
+    known = Known(all_methods=True)
+    return FinishedRun.of(run_scene(scene_of(scene), place, MODELS, progress, known=known))
 
 
 def map(

@@ -1,5 +1,6 @@
 """Studies of a scene, each with files of its own: `crosscheck cost`, `map` and `sweep`."""
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
@@ -21,6 +22,7 @@ from comparisons.commands.arguments import (
 )
 from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus, tell
+from comparisons.figures.quantity import MODELS
 
 Axis = Annotated[
     str | None,
@@ -39,20 +41,25 @@ def cost(
     scene: SceneName,
     settings: Settings = None,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
-    as_json: Annotated[bool, json_option("cost.json")] = False,
+    as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
-    """Show error against time of every method. Names the cheapest for each tolerance."""
-    from comparisons.campaigns.cost.cost import COST, PICTURE, content_of, cost_table
-    from comparisons.campaigns.cost.cost import cost as solved_cost
+    """Show error against time of every method: a run that solves the scene by all of them. Names
+    the cheapest for each tolerance."""
+    from comparisons.common.files import check_writable
+    from comparisons.output.result_json import content_of, result_of
+    from comparisons.output.terminal import cost_summary
+    from comparisons.runs.run import Known, run
 
     asked = scene_with(scene, settings)
     directory = out or RESULTS / f"{asked.name}-cost"
+    check_writable(directory)
+    models = MODELS if find_spec("dolfinx") else MODELS[:1]
     with progress() as callback:
-        solved = solved_cost(asked, directory, callback)
-    show_either(as_json, content_of(solved), lambda: cost_table(solved))
+        solved = run(asked, directory, models, callback, known=Known(all_methods=True))
+    show_either(as_json, content_of(result_of(solved)), lambda: cost_summary(solved))
     if not as_json:
-        print(f"cost: {directory / COST}, {directory / PICTURE}")
-    return ExitStatus.DONE
+        print(f"written: {directory / 'report.html'}, result.json and the fields beside it")
+    return ExitStatus.DONE if solved.converged else ExitStatus.NOT_CONVERGED
 
 
 @job

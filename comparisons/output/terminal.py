@@ -19,6 +19,7 @@ from comparisons.studies.answers.show import (
     answers_of,
     reference_of,
 )
+from comparisons.studies.ladder import cost
 from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
 
@@ -65,6 +66,20 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
         tables += ["", *_answer(run, answer)]
     within = Text(said.within.sentence.translate(PLAIN), style="bold")
     return Group(title, within, *verdict, next_step, "", *tables, "", _facts(run))
+
+
+def cost_summary(run: Run) -> "RenderableType":
+    """Every solved level with its errors and what it took, and the cheapest for each tolerance."""
+    from rich.console import Group
+    from rich.text import Text
+
+    found = run.findings[cost.NAME]
+    shown = cost.table(found)
+    table = plain_table(shown.head[0], numbers=(head.replace(" ", "\n") for head in shown.head[1:]))
+    for row in shown.rows:
+        table.add_row(*map(_cell, row))
+    said = [Text(f"{line.name}: {line.text}".translate(PLAIN)) for line in found.statements]
+    return Group(Text(one_line(run.problem.scene.title), style="bold"), "", table, "", *said)
 
 
 def agreement_line(run: Run) -> str:

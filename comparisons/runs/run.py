@@ -45,10 +45,7 @@ from meshes.block import MeshError
 # Modules that say what was solved. Those that draw it come afterwards: an answer waits for no page.
 ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
 # What shapes levels, and the answers of studies that are kept beside them.
-CODE = (
-    *LEVEL_CODE,
-    *(f"comparisons/studies/{name}" for name in ("model_error", "scatter", "statistics")),
-)
+CODE = (*LEVEL_CODE, "comparisons/studies")
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
@@ -63,6 +60,7 @@ class Known:
     surface: SceneSurface | None = None  # as measured; None: read as the scene says
     answers: Answers | None = None  # from outside; None: read from the scene's files
     levels: Levels | None = None  # None: as many as figures take and the budget allows
+    all_methods: bool = False  # solve it by every method and resolution, for what they cost
 
 
 def run(
@@ -104,6 +102,7 @@ def solve_scene(
             tasks.prepare()
             problem, plan = posed(scene, surface, models, known.levels, callback)
             scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
+            scene_now = replace(scene_now, all_methods=known.all_methods)
             return _solve(scene_now, out, callback, tasks)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error

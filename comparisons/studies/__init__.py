@@ -18,6 +18,7 @@ from comparisons.studies import (
     statistics,
 )
 from comparisons.studies.friction import PARTIAL_SLIP, coupling
+from comparisons.studies.ladder import cost
 from comparisons.studies.ladder.layered import STUDY as LAYERED
 from comparisons.studies.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies.subsurface import quiescent_zone, yielding
@@ -27,7 +28,7 @@ STUDIES = (
     *(contact.STUDY, comparison.STUDY, LAYERED, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
-    *(PARTIAL_SLIP, published.STUDY, ladder.STUDY),
+    *(PARTIAL_SLIP, published.STUDY, ladder.STUDY, cost.STUDY),
 )
 
 

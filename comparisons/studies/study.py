@@ -47,6 +47,7 @@ class Solved:
     # from outside, read before, each on its resolutions; None: the scene's files are read
     answers: "Mapping[str, tuple[Answer, ...]] | None" = None
     opens: "Opens | None" = None  # workers for samples; None: those of the run's tasks
+    all_methods: bool = False  # solve it by every method and resolution, for what they cost
 
 
 def unsolved(problem: Problem, plan: Plan) -> Solved:

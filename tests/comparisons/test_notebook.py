@@ -110,7 +110,7 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
         (lambda: crosscheck.compare(["out"]), 'is given "out"; allowed are runs'),
         (lambda: crosscheck.read("nowhere"), "nowhere: holds no result.json"),
         (lambda: crosscheck.map("smooth", "8"), "--points"),
-        (lambda: crosscheck.cost("periodic"), "profile.periodic: is true"),
+        (lambda: crosscheck.cost("smoth"), "the nearest scene is smooth"),
         (
             lambda: crosscheck.run("smooth", 5),
             "models: is 5; allowed are half-plane, finite-element",

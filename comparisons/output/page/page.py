@@ -45,7 +45,6 @@ PICTURES: dict[str, Callable[[Run], object]] = {
     "surface": contact.surface_picture,
     "overview": answer.overview_picture,
     "judged": answer.judged_picture,
-    "cost": refinement.cost_picture,
 } | {name: draw for study in STUDIES for name, draw in study.pictures.items()}
 # Sections that have their place, by id; those of other studies follow the stresses. Those from the
 # problem on are for who checks the answer: folded away on a screen, and printed.
@@ -193,8 +192,7 @@ def _after(run: Run) -> Iterator[Block]:
     levels = Heading("All figures"), verification.convergence_tables, note
     yield Block("convergence", (_refinement, *levels), "Convergence")
     yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
-    cost = Box("columns", (Pictures(("cost",)), verification.cost_table))
-    yield Block("cost", (cost,), "Cost")
+    yield Block("cost", (verification.cost_table,), "Cost")
     yield Block("checks", (verification.check_table, Note(NOTES["checks"])), "Checks")
     skipped = tuple((item.step, item.because) for item in run.plan.skipped)
     yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")

@@ -40,6 +40,7 @@ class Plots:
     surfaces = _method("surface", "Both bodies' surfaces before and under load.")
     sections = _method("sections", "tau1 over depth: 0 under the peak, 1 under the contact's edge.")
     mesh = _method("mesh", "Mesh: 0 all, 1 under the contact, 2 under the highest pressure.", 1)
+    cost = _method("cost", "The error of every solved level against its run time.")
     model_error = _method("model_error", "The half-plane's errors by source, and their tolerances.")
 
     def field(self, component: str = "tau1", friction: float | None = None) -> "list[Axes]":

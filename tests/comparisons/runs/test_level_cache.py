@@ -8,7 +8,6 @@ import pytest
 from scenes import SMOOTH, problem
 
 from comparisons.campaigns.cases import Case, answers_of, carry_out
-from comparisons.campaigns.cost import cost as cost_of_methods
 from comparisons.campaigns.maps import map as map_of_groups
 from comparisons.common import provenance
 from comparisons.common.progress import no_progress
@@ -52,7 +51,6 @@ def project(tmp_path, monkeypatch):
     """A project with one function in every place that shapes a cached result, and in two more."""
     places = {
         *CODE,
-        *cost_of_methods.CODE,
         *map_of_groups.CODE,
         "comparisons/output",
         "comparisons/cli.py",
@@ -70,15 +68,12 @@ def project(tmp_path, monkeypatch):
 LAW = '"""A law."""\n\ndef half(x):\n    """Of x."""\n    return x / 2\n'
 
 
-def keys() -> tuple[str, str, str]:
-    """Of levels, of a scene by all methods, and of a map."""
+def keys() -> tuple[str, str]:
+    """Of levels, and of a map."""
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
     levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key()
-    cost, points = (
-        provenance.program_code(*kind.CODE) for kind in (cost_of_methods, map_of_groups)
-    )
-    return levels, cost, points
+    return levels, provenance.program_code(*map_of_groups.CODE)
 
 
 @pytest.mark.parametrize(
@@ -86,11 +81,9 @@ def keys() -> tuple[str, str, str]:
     [
         ("comparisons/output/law.py", ""),
         ("comparisons/cli.py", ""),
-        ("comparisons/models/law.py", "levels cost map"),
-        ("analytic/law.py", "levels cost map"),
-        ("comparisons/studies/model_error/law.py", "levels map"),
-        ("comparisons/studies/law.py", "map"),
-        ("comparisons/campaigns/cost/methods.py", "cost"),
+        ("comparisons/models/law.py", "levels map"),
+        ("analytic/law.py", "levels map"),
+        ("comparisons/studies/law.py", "levels map"),
         ("comparisons/campaigns/maps/point.py", "map"),
     ],
 )
@@ -98,9 +91,9 @@ def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, pla
     before = keys()
     (project / place).write_text(LAW.replace("2", "3"))
     lost = [one != other for one, other in zip(before, keys(), strict=True)]
-    assert list(compress(("levels", "cost", "map"), lost)) == loses.split()
+    assert list(compress(("levels", "map"), lost)) == loses.split()
 
 
 def test_every_place_that_shapes_a_result_is_there():
-    for place in {*CODE, *cost_of_methods.CODE, *map_of_groups.CODE}:
+    for place in {*CODE, *map_of_groups.CODE}:
         assert (provenance.PROJECT / place).exists(), place

@@ -1,12 +1,12 @@
-"""How the solution was refined and what it took: errors of the judged figures over the size of the
-elements, each beside its formal order, and seconds by stage of every model."""
+"""How the solution was refined: errors of the judged figures over the size of the elements, each
+beside its formal order."""
 
 import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import plain, with_unit
+from comparisons.common.numbers import plain
 from comparisons.drawing import style
 from comparisons.drawing.curves import columns
 from comparisons.figures.figure import grouped
@@ -26,8 +26,6 @@ LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
 LOOKS = style.LINES | {DIFFERENCE: {**style.PALE, "color": style.DIFFERENCE["color"]}}
 NAMES = LABELS | {DIFFERENCE: "difference of both models"}
 SLOPES = {1.0: (0, (1, 1.3)), 2.0: (0, (6, 2))}  # lines by order
-STAGE = 0.2  # inches: of a stage's bar
-SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
 
 
 def convergence_picture(run: Run) -> style.Picture | None:
@@ -108,41 +106,3 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     axes.minorticks_off()
     axes.set_xlim(0.8 * ticks[0], 1.25 * ticks[-1])
     axes.set_title(panel[0].name.replace(", friction", ",\nfriction"))
-
-
-def cost_picture(run: Run) -> style.Picture:
-    """One bar a stage and model, all levels together, on a scale on which milliseconds and minutes
-    are both seen; on top the sums, filled."""
-    seconds = {
-        name: {"in all": sum(m.seconds.values())} | m.seconds for name, m in run.runs.items()
-    }
-    rows = [(name, stage, time) for name, times in seconds.items() for stage, time in times.items()]
-    drawn = style.figure(style.COLUMN, STAGE * len(rows) + 0.7)
-    [axes] = style.stacked(drawn, [(0.12, STAGE * len(rows) + 0.08)], 1.62, 0.67)
-    place = -np.arange(len(rows), dtype=float)
-    shown = np.maximum([time for _, _, time in rows], SHORTEST)
-    first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)
-    last = 10.0 ** np.ceil(np.log10(shown.max()))
-    colours = [style.LINES[name]["color"] for name, _, _ in rows]
-    filled = [
-        colour if stage == "in all" else "white"
-        for (_, stage, _), colour in zip(rows, colours, strict=True)
-    ]
-    look = {"color": filled, "edgecolor": colours, "linewidth": 0.9}
-    bars = axes.barh(place, shown - first, left=first, height=0.72, **look)
-    for y, width, (_, _, time) in zip(place, shown, rows, strict=True):
-        style.beside_bar(axes, width, y, with_unit(time, "s", 3))
-    hatched = [bar for bar, row in zip(bars, rows, strict=True) if row[0] == "finite_element"]
-    style.hatch(axes, hatched, style.LINES["finite_element"]["color"])
-    axes.set_xscale("log")
-    axes.set_xlim(first, last)
-    ticks = 10.0 ** np.arange(np.log10(first).round(), np.log10(last).round() + 1.0)
-    axes.set_xticks(ticks, [with_unit(tick, "s", 1) for tick in ticks])
-    axes.minorticks_off()
-    labels = [stage if stage != "in all" else f"{LABELS[name]}, in all" for name, stage, _ in rows]
-    style.horizontal_bars(axes, place, labels)
-    axes.set_xlabel("time, logarithmic")
-    sums = (f"{LABELS[name]} {with_unit(t['in all'], 's', 3)}" for name, t in seconds.items())
-    said = f"In all: {'; '.join(sums)}."
-    caption = f"Run time by stage, all levels together; the scale is logarithmic. {said}"
-    return style.picture(drawn, f"Run time by stage. {said}", caption, data=False)

@@ -16,12 +16,13 @@ from comparisons.output.page.pictures.contact import (
 )
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.pictures.refinement import convergence_picture, cost_picture
+from comparisons.output.page.pictures.refinement import convergence_picture
 from comparisons.output.page.pictures.stresses import (
     field_pictures,
     near_surface_pictures,
     section_pictures,
 )
+from comparisons.studies.ladder import cost
 from comparisons.studies.model_error.show import model_error_picture
 from comparisons.studies.study import Run
 
@@ -38,7 +39,7 @@ DRAWN = (
     near_surface_pictures,
     section_pictures,
     mesh_pictures,
-    cost_picture,
+    cost.picture,
 )
 
 

@@ -16,8 +16,6 @@ def line(axes, label: str) -> np.ndarray:
 
 def test_every_axis_says_what_it_shows_and_in_which_unit(wavy: dict[str, list]):
     for name, figures in wavy.items():
-        if name == "cost_picture":
-            continue  # the unit stands at every tick
         for figure in figures:
             plots = [axes for axes in figure.axes if axes.get_ylim() != (0.0, 1.0)]  # no colour bar
             left = min(axes.get_position().x0 for axes in plots)
