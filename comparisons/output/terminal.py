@@ -78,7 +78,7 @@ def cost_summary(run: Run) -> "RenderableType":
     table = plain_table(shown.head[0], numbers=(head.replace(" ", "\n") for head in shown.head[1:]))
     for row in shown.rows:
         table.add_row(*map(_cell, row))
-    said = [Text(f"{line.name}: {line.text}".translate(PLAIN)) for line in found.statements]
+    said = [Text(line.translate(PLAIN)) for line in cost.notes(found)]
     return Group(Text(one_line(run.problem.scene.title), style="bold"), "", table, "", *said)
 
 

@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 # What a method says that cannot solve a scene.
 EXPECTED = InputError, SolverError, ContactError, FemError, MeshError
-NAME, ROWS = "cost", "levels"
+NAME, ROWS, CHEAPEST = "cost", "levels", "cheapest"  # study, and its series
 SHOWN = ("peak_pressure", "contact_length", "tau1_max")
 LEAST = 1e-7  # smaller errors are drawn there
 HEIGHT = 3.4  # inches, of the picture
@@ -188,11 +188,12 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     columns = {n: Column(tuple(r[n] for r in rows), units.get(n, "")) for n in (*COLUMNS, *known)}
     said += [Statement("reference", _reference_words(known))] if known else []
     tolerances = {n: t for n, t in solved.problem.scene.tolerances.items() if n in known}
-    for aim in [{n: t} for n, t in tolerances.items()] + [tolerances] * (len(tolerances) > 1):
-        found = cheapest(rows, aim, known)
-        said.append(Statement(f"cheapest for {_aim_words(aim)}", _cheapest_words(found)))
+    aims = [{n: t} for n, t in tolerances.items()] + [tolerances] * (len(tolerances) > 1)
+    best = {_aim_words(aim): _cheapest_words(cheapest(rows, aim, known)) for aim in aims}
+    chosen = {"aim": Column(tuple(best)), "setting": Column(tuple(best.values()))}
+    series = Series(ROWS, columns, is_account=True), Series(CHEAPEST, chosen, is_account=True)
     data = {name: reference.floor for name, reference in known.items()}
-    return Findings((), (Series(ROWS, columns, is_account=True),), tuple(said), data)
+    return Findings((), series, tuple(said), data)
 
 
 def _references(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Reference]:
@@ -294,9 +295,16 @@ def table(findings: Findings) -> TextTable:
     return TextTable("", head, tuple(rows))
 
 
+def notes(findings: Findings) -> list[str]:
+    """What errors are measured by, what is left out, and the cheapest for each tolerance."""
+    said = [f"{one.name}: {one.text}" for one in findings.statements]
+    chosen = findings.table(CHEAPEST).rows()
+    return said + [f"cheapest for {row['aim']}: {row['setting']}" for row in chosen]
+
+
 def blocks(run: Run) -> list[Block]:
     findings = run.findings[NAME]
-    said = " ".join(f"{s.name[0].upper()}{s.name[1:]}: {s.text}." for s in findings.statements)
+    said = " ".join(f"{line[0].upper()}{line[1:]}." for line in notes(findings))
     return [Block("cost", (Pictures((NAME,)), table(findings), Note(f"{NOTE} {said}")))]
 
 
@@ -311,14 +319,14 @@ def picture(run: Run) -> style.Picture | None:
     panels = drawn.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
     for axes, name in zip(panels, names, strict=True):
         _draw(axes, run, name)
-    panels[0].set_ylabel("relative error")
+    panels[0].set_ylabel("error / reference")
     drawn.subplots_adjust(left=0.65 / drawn.get_figwidth(), right=0.985, bottom=0.15, top=0.76)
     entries: dict[str, object] = {}
     for axes in panels:
         handles, labels = axes.get_legend_handles_labels()
         entries |= dict(zip(labels, handles, strict=True))
     drawn.legend(entries.values(), entries.keys(), loc="upper left", ncols=2 * len(names) - 1)
-    said = "; ".join(f"{s.name}: {s.text}" for s in findings.statements)
+    said = "; ".join(notes(findings))
     return style.picture(drawn, f"Error against time of every solved level. {said}.", NOTE)
 
 

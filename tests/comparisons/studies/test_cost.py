@@ -140,8 +140,8 @@ def test_the_command_is_a_run_that_prints_a_table_of_80_columns(tmp_path, capsys
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= 80
     assert sum(line.startswith("half-plane ") for line in lines) >= 5
-    [said] = [line for line in lines if line.startswith("cheapest for peak pressure to 2 %:")]
-    assert "half-plane at" in said
+    said = " ".join(lines).partition("cheapest for peak pressure to 2 %: ")[2]
+    assert "half-plane at" in said.partition("cheapest for")[0]
     assert (tmp_path / "results/small-cost/report.html").exists()
 
 
