@@ -319,6 +319,10 @@ def picture(run: Run) -> style.Picture | None:
     panels = drawn.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
     for axes, name in zip(panels, names, strict=True):
         _draw(axes, run, name)
+    rows, floors = findings.table(ROWS).rows(), findings.data.values()
+    shown = [row[name] for row in rows for name in names if row[name] is not None]
+    shown = [size for size in (*shown, *floors) if LEAST < size < math.inf] or [LEAST]
+    panels[0].set_ylim(0.3 * min(shown), 3.0 * max(shown))
     panels[0].set_ylabel("error / reference")
     drawn.subplots_adjust(left=0.65 / drawn.get_figwidth(), right=0.985, bottom=0.15, top=0.76)
     entries: dict[str, object] = {}
