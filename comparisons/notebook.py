@@ -290,7 +290,7 @@ class Sweep(Printed):
             return sweep_figure(self.content).axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.sweep.sweep import sweep_table
+        from comparisons.campaigns.sweep.show import sweep_table
 
         return sweep_table(self.content, self.folder)
 

@@ -5,7 +5,7 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from time import monotonic
 
@@ -93,6 +93,14 @@ def show_either(as_json: bool, content: object, table: Callable[[], object]) -> 
         show_json(content)
     else:
         show(table())
+
+
+def say_warnings(warnings: Iterable[str]) -> None:
+    """Print plausibility warnings to standard error, a line each."""
+    for warning in warnings:
+        from comparisons.output.terminal import PLAIN
+
+        tell(f"plausibility warning: {warning.translate(PLAIN)}")
 
 
 def show_json(content: object) -> None:

@@ -22,7 +22,7 @@ from comparisons.commands.arguments import (
     out_option,
     scene_with,
 )
-from comparisons.commands.output import progress, show_either
+from comparisons.commands.output import progress, say_warnings, show_either
 from comparisons.common.errors import ExitStatus, InputError, drop, tell
 from comparisons.figures.quantity import HYPHENATED, models_named
 
@@ -93,11 +93,11 @@ def run(
         return _say_plan(asked, surface, chosen)
     directory = out or RESULTS / asked.name
     _check_places(directory, junit, chosen)
-    _say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
+    say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
     with progress() as callback, _workers(workers) as opens:
         solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
     gone = _say_answer(solved, details, as_json)  # before the report is drawn
-    _say_warnings(warnings_about_result(solved))
+    say_warnings(warnings_about_result(solved))
     with progress() as callback:
         drawn = finish(solved, callback)
         if pdf and drawn:
@@ -189,15 +189,6 @@ def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) ->
         check_place(junit)
     if len(models) == 1 and holds_comparison(directory):
         tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
-
-
-def _say_warnings(warnings: list[str]) -> None:
-    if not warnings:
-        return
-    from comparisons.output.terminal import PLAIN
-
-    for warning in warnings:
-        tell(f"plausibility warning: {warning.translate(PLAIN)}")
 
 
 def _print(directory: Path) -> None:

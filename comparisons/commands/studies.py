@@ -20,7 +20,7 @@ from comparisons.commands.arguments import (
     out_option,
     scene_with,
 )
-from comparisons.commands.output import progress, show_either
+from comparisons.commands.output import progress, say_warnings, show_either
 from comparisons.common.errors import ExitStatus, tell
 from comparisons.figures.quantity import MODELS
 
@@ -137,12 +137,8 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve a scene at many places, loads or other values."""
-    from comparisons.campaigns.sweep.sweep import (
-        exit_status,
-        make_sweep,
-        sweep_request,
-        sweep_table,
-    )
+    from comparisons.campaigns.sweep.show import sweep_table, warnings_of
+    from comparisons.campaigns.sweep.sweep import exit_status, make_sweep, sweep_request
     from comparisons.figures.quantity import models_named
 
     chosen = models_named(models, "--models")
@@ -150,5 +146,6 @@ def sweep(
     directory = out or RESULTS / f"sweep-{request.scene.name}"
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)
+    say_warnings(warnings_of(content))
     show_either(as_json, content, lambda: sweep_table(content, directory))
     return exit_status(content)

@@ -1,7 +1,6 @@
 """A sweep: the values that a user asks for, every point solved, the figures, and how they scatter.
 
-In: a scene, and "FIELD=…" as `crosscheck sweep` takes them. Out: sweep.json, a table, pictures; and
-the scatter for the terminal."""
+In: a scene, and "FIELD=…" as `crosscheck sweep` takes them. Out: sweep.json, a table, pictures."""
 
 import re
 import shlex
@@ -23,11 +22,10 @@ from comparisons.campaigns.sweep.pictures import (
     POSITION,
     ZONES,
     drawn,
-    has_zones,
 )
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import csv_text, publish
-from comparisons.common.numbers import is_whole, percent, percent_as_written, with_unit
+from comparisons.common.numbers import is_whole
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
@@ -36,12 +34,12 @@ from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
 from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
+from comparisons.output.plausibility import warnings_about, warnings_about_result
 from comparisons.output.result_json import result_of
-from comparisons.output.within import rounded_up
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Scene, assignments, dimension_of
 from comparisons.scenes.surface import surface_of
-from comparisons.studies import contact, quantity_of
+from comparisons.studies import contact
 from comparisons.studies.friction import PARTIAL_SLIP
 from comparisons.studies.heat import STUDY as HEAT
 from comparisons.studies.study import MODEL_ERROR
@@ -49,11 +47,12 @@ from comparisons.studies.subsurface import quiescent_zone
 from meshes.block import MeshError
 
 if TYPE_CHECKING:
-    from rich.console import Group
+    pass
 
 SWEEP, TABLE = "sweep.json", "sweep.csv"
 FILES = (SWEEP, TABLE, PICTURE, ZONES)
 SCHEMA = 2
+UNCONVERGED = "not converged"  # verdict of a run
 MOST = 10_000  # points
 ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N or position=N"
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
@@ -175,9 +174,10 @@ def make_sweep(
 
 
 def exit_status(content: dict) -> ExitStatus:
-    """3 where a solver found nothing at a point whose scene was posed."""
-    failed = failures(point for point in content["points"] if point.get("posed", True))
-    return ExitStatus.NOT_CONVERGED if failed else ExitStatus.DONE
+    """3 where a solver found nothing, or did not converge, at a point whose scene was posed."""
+    posed = [point for point in content["points"] if point.get("posed", True)]
+    unsolved = failures(posed) or any(p.get("verdict") == UNCONVERGED for p in posed)
+    return ExitStatus.NOT_CONVERGED if unsolved else ExitStatus.DONE
 
 
 def why_not(point: Point) -> str | None:
@@ -198,13 +198,16 @@ def why_not(point: Point) -> str | None:
 
 
 def solved(point: Point) -> dict:
-    """The answer at a point: the rows of its figures, and its quiescent zones."""
-    from comparisons.runs.run import run
+    """The answer at a point: its verdict, the rows of its figures, plausibility warnings, and its
+    quiescent zones."""
+    from comparisons.runs.run import Known, run
 
-    outcome = run(point.scene, None, point.asked)
+    surface = surface_of(point.scene)
+    outcome = run(point.scene, None, point.asked, known=Known(surface))
     result = result_of(outcome)
-    rows = tuple(rows_of(result, point.scene.name))
-    answer = {"status": SOLVED, "within": result.within, "rows": rows}
+    warnings = *warnings_about(point.scene, surface), *warnings_about_result(outcome)
+    answer = {"status": SOLVED, "verdict": result.verdict, "within": result.within}
+    answer |= {"warnings": warnings, "rows": tuple(rows_of(result, point.scene.name))}
     if zones := _zones(outcome.findings.get(quiescent_zone.NAME)):
         answer[quiescent_zone.NAME] = zones
     return answer
@@ -231,7 +234,7 @@ def _stated(figure: Figure | None) -> dict[str, float | None]:
 def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
     """sweep.json: points in their order, and the scatter of every figure over all of them."""
     points = [
-        {"values": list(point.at.values()), **answer, "rows": list(answer.get("rows", ()))}
+        {"values": list(point.at.values()), "rows": (), **answer}
         for point, answer in zip(request.points, answers, strict=True)
     ]
     fields = request.fields.items()
@@ -291,54 +294,3 @@ def sweep_csv(content: dict) -> str:
         for row in point["rows"]
     )
     return csv_text([[*fields, *COLUMNS], *rows])
-
-
-def sweep_table(content: dict, out: Path | None) -> "Group":
-    from rich.console import Group
-    from rich.text import Text
-
-    from comparisons.output.terminal import PLAIN, plain_table
-
-    is_sample = all(axis["field"] == POSITION for axis in content["over"])
-    spread = ("mean", "std") if is_sample else ()  # of values that are chosen they mean nothing
-    table = plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"))
-    for row in content["scatter"]:
-        *names, mean, deviation, low, high = (cell.translate(PLAIN) for cell in _cells(row))
-        table.add_row(*names, *((mean, deviation) if is_sample else ()), low, high)
-    points = content["points"]
-    withins = [point["within"] for point in points if point.get("within") is not None]
-    if withins:
-        ends = (percent_as_written(rounded_up(size)) for size in (min(withins), max(withins)))
-        table.add_row("right within", "half plane", "", *("" for _ in spread), *ends)
-    whys = failures(points)
-    files = TABLE, PICTURE, *([ZONES] if has_zones(content) else []), SWEEP
-    over = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in content["over"])
-    return Group(
-        table,
-        Text(f"{len(points)} scenes ({over}), {whys.total()} failed"),
-        *(Text(f"failed, {count}: {why}") for why, count in whys.items()),
-        *([] if out is None else [Text(f"sweep: {', '.join(str(out / name) for name in files)}")]),
-    )
-
-
-def _cells(row: dict) -> tuple[str, ...]:
-    """The scatter of an error in its per cent, of a figure in per cent of the mean."""
-    quantity = quantity_of(row["study"], row["quantity"])
-    deviation, mean = row["standard_deviation"], row["mean"]
-    relative = row["study"] == MODEL_ERROR
-    spread = ""
-    if deviation is not None:
-        spread = percent(deviation if relative or mean == 0.0 else deviation / abs(mean))
-    mean, *ends = (
-        percent(value, signed=True) if relative else with_unit(value, quantity.unit)
-        for value in (mean, row["smallest"], row["largest"])
-    )
-    friction = "" if row["friction"] is None else f"{row['friction']:g}"
-    return (
-        quantity.short or quantity.label,
-        row["study" if relative else "source"].replace("_", " "),
-        friction,
-        mean,
-        spread,
-        *ends,
-    )

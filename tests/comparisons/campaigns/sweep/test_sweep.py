@@ -1,15 +1,18 @@
 """One scene at many values of its fields: from Python, by the command, scattered, refused."""
 
 import csv
+import io
 import json
 from contextlib import nullcontext
 
 import numpy as np
 import pytest
+from rich.console import Console
 from scenes import STEEL
 
 import comparisons as crosscheck
 from comparisons.campaigns.sweep.pictures import sweep_figure, zone_map_figure
+from comparisons.campaigns.sweep.show import sweep_table, warnings_of
 from comparisons.campaigns.sweep.sweep import MARGIN, scatter, sweep_request
 from comparisons.cli import main
 from comparisons.common.errors import InputError, SolverError
@@ -93,6 +96,53 @@ def test_pressure_follows_the_root_of_the_load():
     assert np.diff(np.log(peaks)) == pytest.approx(
         0.5 * np.diff(np.log([0.5, 1, 1.5, 2])), abs=1e-4
     )
+
+
+def printed(content) -> list[list[str]]:
+    """Lines of the table of a sweep, in words."""
+    text = io.StringIO()
+    Console(file=text, width=120).print(sweep_table(content, None))
+    return [line.split() for line in text.getvalue().splitlines()]
+
+
+def test_a_trace_in_another_unit_is_seen_in_the_table_and_told(tmp_path, monkeypatch, capsys):
+    """Its peak pressure is none; what every point has is told once, what some have with their
+    values."""
+    x = np.arange(1200.0)
+    for name, amplitude in (("a", 0.05), ("b", 0.06), ("c", 20.0)):
+        np.savetxt(tmp_path / f"{name}.csv", np.c_[x, amplitude * np.cos(2.0 * np.pi * x / 40.0)])
+    tables = WAVES | {"profile": {"file": "a.csv", "x_unit": "um", "z_unit": "um"}}
+    monkeypatch.chdir(tmp_path)
+    swept = crosscheck.sweep(tables, "profile.file=a.csv,b.csv,c.csv", workers=1)
+    counts = [len(point["warnings"]) for point in swept.content["points"]]
+    assert counts[:2] == [0, 0] and counts[2] > 0
+    header, _, *rows = printed(swept.content)[:5]
+    assert header[:4] == ["profile.file", "warnings", "peak", "pressure"]
+    assert [row[0] for row in rows] == ["a.csv", "b.csv", "c.csv"] and rows[2][1] == str(counts[2])
+    told = list(warnings_of(swept.content))
+    assert all(text.startswith("at profile.file c.csv: ") for text in told)
+    assert "the rms slope is" in told[0] and len(told) == counts[2]
+    for point, own in zip(swept.content["points"], (["x", "y"], ["x"], ["x", "y"]), strict=True):
+        point["warnings"] = own
+    assert list(warnings_of(swept.content)) == ["x", "at profile.file a.csv and 1 more: y"]
+
+
+def test_points_show_verdict_and_judged_errors_where_models_are_compared():
+    row = {"study": "model_error", "against": "whole", "source": "half_plane", "unit": ""}
+    row |= {"quantity": "tau1_max", "verdict": "fails", "uncertainty": 2e-3}
+    at = [(0.0, -0.013), (0.3, -0.041), (0.5, 0.02)]
+    rows = tuple(row | {"friction": friction, "value": value} for friction, value in at)
+    solved = {"values": [1e9], "status": "solved", "verdict": "fails", "within": 0.0431}
+    points = [
+        solved | {"rows": rows},
+        {"values": [2e9], "status": "failed", "why": "no", "rows": ()},
+    ]
+    over = [{"field": "load.hertz_peak_pressure", "values": [1e9, 2e9]}]
+    content = {"over": over, "points": points, "scatter": []}
+    first, second, *_ = printed(content)[3:]
+    assert first == ["1", "fails", "4.4", "%", "-4.1", "+-", "0.20"] and second == ["2", "failed"]
+    points *= 60
+    assert ["20", "points", "more", "are", "in", "the", "files"] in printed(content)
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,170 @@
+"""What a sweep prints: a table by point, the scatter of every figure, and warnings.
+
+In: the content of sweep.json. Out: tables for the terminal, and lines."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.campaigns.grid import FAILED, failures
+from comparisons.campaigns.sweep.pictures import (
+    DRAWN,
+    PICTURE,
+    POSITION,
+    ZONES,
+    Axis,
+    has_zones,
+)
+from comparisons.campaigns.sweep.sweep import SWEEP, TABLE
+from comparisons.common.numbers import percent, percent_as_written, with_unit
+from comparisons.figures.quantity import QUANTITIES, error_text
+from comparisons.output.flat_csv import Row
+from comparisons.output.terminal import PLAIN, plain_table, plain_text
+from comparisons.output.within import rounded_up
+from comparisons.studies import contact, quantity_of
+from comparisons.studies.study import MODEL_ERROR
+
+if TYPE_CHECKING:
+    from rich.console import Group
+    from rich.table import Table
+
+MOST_SHOWN = 100  # points of the table; all are in the files
+NOT_COMPARED = "not compared"  # verdict of a run of one model
+
+Cell = Callable[[dict], str]  # of a column, by point
+
+
+def sweep_table(content: dict, out: Path | None) -> "Group":
+    """The points, the scatter over all of them, and how many failed, by why."""
+    from rich.console import Group
+
+    points, whys = content["points"], failures(content["points"])
+    over = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in content["over"])
+    files = TABLE, PICTURE, *([ZONES] if has_zones(content) else []), SWEEP
+    written = [] if out is None else [f"sweep: {', '.join(str(out / name) for name in files)}"]
+    left = len(points) - MOST_SHOWN
+    return Group(
+        _points(content),
+        *([f"{left} points more are in the files"] if left > 0 else []),
+        "",
+        _scatter(content),
+        plain_text(f"{len(points)} scenes ({over}), {whys.total()} failed"),
+        *(plain_text(f"failed, {count}: {why}") for why, count in whys.items()),
+        *map(plain_text, written),
+    )
+
+
+def warnings_of(content: dict) -> Iterator[str]:
+    """Every plausibility warning once, with the values of the first point that has it and how many
+    more have it; without where all have."""
+    points = content["points"]
+    by_text: dict[str, list[str]] = {}
+    axes = [Axis.of(**swept) for swept in content["over"]]
+    for point in points:
+        at = ", ".join(a.said(v) for a, v in zip(axes, point["values"], strict=True))
+        for text in point.get("warnings", ()):
+            by_text.setdefault(text, []).append(at)
+    for text, (at, *others) in by_text.items():
+        more = f" and {len(others)} more" if others else ""
+        yield text if len(others) + 1 == len(points) > 1 else f"at {at}{more}: {text}"
+
+
+def _points(content: dict) -> "Table":
+    """A row a point: its values, and every column that has something to say of any point."""
+    from rich.text import Text
+
+    shown = content["points"][:MOST_SHOWN]
+    axes = [Axis.of(**swept) for swept in content["over"]]
+    titles = [f"{axis.field}\n[{axis.unit}]" if axis.unit else axis.field for axis in axes]
+    columns = POINT_COLUMNS | (_errors(shown) or FIGURES)
+    cells = {title: [cell(point) for point in shown] for title, cell in columns.items()}
+    cells = {title: column for title, column in cells.items() if any(column)}
+    table = plain_table(numbers=(Text(title.translate(PLAIN)) for title in (*titles, *cells)))
+    for point, *row in zip(shown, *cells.values(), strict=True):
+        at = (axis.text(value) for axis, value in zip(axes, point["values"], strict=True))
+        table.add_row(*map(plain_text, (*at, *row)))
+    return table
+
+
+def _verdict(point: dict) -> str:
+    verdict = point.get("verdict", FAILED)
+    return "" if verdict == NOT_COMPARED else verdict
+
+
+def _within(point: dict) -> str:
+    size = point.get("within")
+    return "" if size is None else percent_as_written(rounded_up(size))
+
+
+def _figure(quantity: str, point: dict) -> str:
+    """The largest value over friction, by the first model."""
+    rows = [row for row in point["rows"] if row["study"] == contact.NAME and not row["against"]]
+    wanted = {"quantity": quantity, "source": rows[0]["source"]}.items() if rows else {}
+    values = [row["value"] for row in rows if wanted <= row.items()]
+    return with_unit(max(values), QUANTITIES[quantity].unit) if values else ""
+
+
+def _warned(point: dict) -> str:
+    return str(len(point.get("warnings", ())) or "")
+
+
+# Columns by title, beside the swept values: what each says of a point.
+POINT_COLUMNS: dict[str, Cell] = {"verdict": _verdict, "right\nwithin": _within}
+POINT_COLUMNS |= {"warnings": _warned}
+FIGURES: dict[str, Cell] = {QUANTITIES[n].short: partial(_figure, n) for n in DRAWN}
+
+
+def _errors(points: list[dict]) -> dict[str, Cell]:
+    """Columns of the half-plane's judged errors."""
+    names = {row["quantity"] for point in points for row in _judged(point)}
+    ordered = (name for name in QUANTITIES if name in names)
+    return {f"{QUANTITIES[n].short}\nerror, %": partial(_error, n) for n in ordered}
+
+
+def _judged(point: dict) -> list[Row]:
+    return [row for row in point["rows"] if row["study"] == MODEL_ERROR and row["verdict"]]
+
+
+def _error(quantity: str, point: dict) -> str:
+    """The largest over friction, and its uncertainty."""
+    errors = (row for row in _judged(point) if row["quantity"] == quantity)
+    largest = max(errors, key=lambda row: abs(row["value"]), default=None)
+    if largest is None:
+        return ""
+    unsure = largest["uncertainty"]
+    return f"{error_text(largest['value'], unsure)} ± {percent(unsure)}".replace(" %", "")
+
+
+def _scatter(content: dict) -> "Table":
+    """Smallest and largest of every figure; over placements mean and standard deviation, too."""
+    is_sample = all(axis["field"] == POSITION for axis in content["over"])
+    spread = ("mean", "std") if is_sample else ()  # of values that are chosen they mean nothing
+    table = plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"))
+    for row in content["scatter"]:
+        *names, mean, deviation, low, high = (cell.translate(PLAIN) for cell in _cells(row))
+        table.add_row(*names, *((mean, deviation) if is_sample else ()), low, high)
+    return table
+
+
+def _cells(row: dict) -> tuple[str, ...]:
+    """The scatter of an error in its per cent, of a figure in per cent of the mean."""
+    quantity = quantity_of(row["study"], row["quantity"])
+    deviation, mean = row["standard_deviation"], row["mean"]
+    relative = row["study"] == MODEL_ERROR
+    spread = ""
+    if deviation is not None:
+        spread = percent(deviation if relative or mean == 0.0 else deviation / abs(mean))
+    mean, *ends = (
+        percent(value, signed=True) if relative else with_unit(value, quantity.unit)
+        for value in (mean, row["smallest"], row["largest"])
+    )
+    friction = "" if row["friction"] is None else f"{row['friction']:g}"
+    return (
+        quantity.short or quantity.label,
+        row["study" if relative else "source"].replace("_", " "),
+        friction,
+        mean,
+        spread,
+        *ends,
+    )
