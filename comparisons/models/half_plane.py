@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from analytic.contact.end_stress import EndStress
+from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
@@ -25,6 +26,7 @@ from comparisons.models.level import (
 from comparisons.models.problem import Problem, ends_of, half_plane_of, patches_of, pressed_on
 from comparisons.models.window import Window, search_window
 
+SLOPE_STEP = 1e-3  # of a pitch, on either side
 # Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.
 SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
 # Of a window far wider than the contact: each point of the ring on which pressures are convolved,
@@ -148,6 +150,34 @@ def field_on(level: Level, points: Window, ends: EndStress | PeriodicRest) -> Fr
     )
     beside = ends.parts(field.x, field.z[:, None])
     return replace(field, stress=field.stress.plus(beside, ends.along))
+
+
+def ends_of_contact(problem: Problem, grid: HatGrid, solution: ContactSolution) -> np.ndarray:
+    """x (2k,) [m] of the ends of every patch; by the curve of a patch that has one."""
+    patches = patches_of(grid, solution)
+    curves = {patch.first: patch.ends for patch in ends_of(problem, grid, solution).patches}
+    first = np.searchsorted(grid.x, patches[:, 0])
+    return np.array([curves.get(k, p) for k, p in zip(first, patches, strict=True)]).ravel()
+
+
+def left_out_at_ends(
+    problem: Problem, grid: HatGrid, solution: ContactSolution, x: np.ndarray
+) -> np.ndarray:
+    """What hats and the curves of `ends_of` leave out of sx (2, n) [Pa] under p and under q = p at
+    those x [m] that are ends of contact, a cusp; zero at others, and where the hardness holds a
+    pressure. No pressure is left there, and both bodies touch up to there, 2 / (pi E*) int p(s) /
+    (x - s) ds = g0'(x); sx under q is -2 / pi times that integral. Hertz's contact has 2 p0."""
+    left, pressure = np.zeros((2, len(x))), solution.pressure
+    if np.any(pressure >= problem.constraints().hardness):
+        return left
+    edges = np.isin(x, ends_of_contact(problem, grid, solution))
+    at, step = x[edges], SLOPE_STEP * grid.pitch
+    slope = (problem.gap(at + step) - problem.gap(at - step)) / (2.0 * step)
+    top = at, np.zeros_like(at)
+    by_hats = friction_stress_at(grid.x, pressure, *top).parts
+    by_hats = by_hats + ends_of(problem, grid, solution).parts(*top)
+    left[:, edges] = np.array([np.zeros_like(at), -problem.modulus * slope]) - by_hats[[0, 3]]
+    return left
 
 
 def stresses_at(

@@ -16,7 +16,7 @@ from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import MutualCompliance, mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
-from comparisons.models.nearest_operator import nearest_operator
+from comparisons.models.nearest_operator import is_layered, nearest_operator
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -26,6 +26,7 @@ from comparisons.studies.friction.half_planes import (
     ends_stress,
     slipped_level,
     surface_places,
+    with_cusps,
     with_surface,
 )
 from fem.stress.maximum import maximum
@@ -125,7 +126,10 @@ def _with_mesh_stress(
 
     def surface(number: int) -> StressState:
         whole, load = last if number == -1 else stressed(number)
-        return evaluate(body, whole, x, load.surface(x))
+        loaded = evaluate(body, whole, x, load.surface(x))
+        if is_layered(problem.scene):
+            return loaded
+        return with_cusps(problem, slipped.grid, slipped.states[number], x, loaded)
 
     body, stressed = operator.rough.body, _stressed(problem, operator, slipped)
     last, x = stressed(-1), surface_places(problem, slipped, window)

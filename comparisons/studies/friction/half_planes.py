@@ -25,6 +25,7 @@ from analytic.stress.field import StressField, friction_field
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import Extremum, StressState
+from comparisons.models.half_plane import left_out_at_ends
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
@@ -152,7 +153,8 @@ def half_plane_slip(
     def surface(number: int) -> StressState:
         at, top = slipped.states[number], (x, np.zeros_like(x))
         pressed = friction_stress_at(grid.x, at.normal.pressure, *top).normal
-        return pressed.plus(1.0, _traction_stress(problem, grid, at, number)(*top))
+        loaded = pressed.plus(1.0, _traction_stress(problem, grid, at, number)(*top))
+        return with_cusps(problem, grid, at, x, loaded)
 
     return with_surface(problem, replace(slipped, tau1=tau1, x=x), surface)
 
@@ -231,20 +233,33 @@ def surface_places(problem: Problem, slipped: SlippedLevel, window: Window) -> n
     edges = np.concatenate([patches.ravel(), *(patch.ends for patch in ends)])
     beside = slipped.grid.pitch * BESIDE_AN_END
     near = (edges[:, None] + beside).ravel()
-    x = np.unique(np.concatenate([window.x, slipped.grid.x, near]))
-    return x[window.holds(x)]
+    return np.unique(np.concatenate([window.x, slipped.grid.x, near]))
+
+
+def with_cusps(
+    problem: Problem, grid: HatGrid, state: SlipState, x: np.ndarray, surface: StressState
+) -> StressState:
+    """Stresses of the surface at x (k,) [m] with what they lack at ends of contact, which slip."""
+    pressed, dragged = left_out_at_ends(problem, grid, state.normal, x)
+    return replace(surface, sx=surface.sx + pressed + traction_share(state, grid)(x) * dragged)
+
+
+def traction_share(state: SlipState, grid: HatGrid) -> Callable[[np.ndarray], np.ndarray]:
+    """q / p at x (k,) [m], that of the nearest node in contact."""
+    touching = state.normal.pressure > 0.0
+    nodes = grid.x[touching]
+    share = state.traction[touching] / state.normal.pressure[touching]
+    middles = 0.5 * (nodes[1:] + nodes[:-1])
+    return lambda x: share[np.searchsorted(middles, x)]
 
 
 def ends_stress(problem: Problem, grid: HatGrid, state: SlipState) -> Beside:
     """What hats leave out next to the ends of contact, where q / p is that of the nearest node."""
-    ends, touching = ends_of(problem, grid, state.normal), state.normal.pressure > 0.0
-    nodes = grid.x[touching]
-    share = state.traction[touching] / state.normal.pressure[touching]
-    middles = 0.5 * (nodes[1:] + nodes[:-1])
+    ends, share = ends_of(problem, grid, state.normal), traction_share(state, grid)
 
     def stress(x: np.ndarray, z: np.ndarray) -> StressState:
         parts = FrictionStress.of(ends.parts(x, z))
-        return parts.normal.plus(share[np.searchsorted(middles, x)], parts.traction)
+        return parts.normal.plus(share(x), parts.traction)
 
     return stress
 

@@ -14,7 +14,9 @@ import numpy as np
 from analytic.heat.moving_source import line_source
 from analytic.numerics import runs_of
 from comparisons.models.finite_element.bodies import rough_support
+from comparisons.models.half_plane import left_out_at_ends
 from comparisons.models.level import Level
+from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.heat.half_space import (
@@ -162,7 +164,11 @@ def finite_element_stress(
     )
     bounds = *window.ends, window.z[-1]
     tau1 = maximum(body, both, lambda stress: stress.tau1, bounds)
-    x = surface_places(level, window, field.ends)
+    x = surface_places(problem, level, window)
+    x = x[np.abs(x) <= field.mesh.spec.half_width]
     along = evaluate_all(body, (both, elastic), x, np.zeros_like(x))
     cold = level.stress(friction).extremes["tau1"]
-    return HeatedStress((tau1, cold), x, np.array([stress.sx for stress in along]))
+    sx = np.array([stress.sx for stress in along])
+    if not is_layered(problem.scene):
+        sx += (1.0, friction) @ left_out_at_ends(problem, level.grid, level.solution, x)
+    return HeatedStress((tau1, cold), x, sx)

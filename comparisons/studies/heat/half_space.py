@@ -10,14 +10,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
+from scipy.interpolate import CubicSpline, RectBivariateSpline
 
-from analytic.contact.end_stress import EndStress
 from analytic.stress.field import StressField
 from analytic.stress.maxima import stress_maxima
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
-from comparisons.models.half_plane import field_on, stresses_at
+from comparisons.models.half_plane import (
+    ends_of_contact,
+    field_on,
+    left_out_at_ends,
+    stresses_at,
+)
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
@@ -34,9 +38,12 @@ SLOWEST, FASTEST = 1e-3, 1e4
 LEAST_STRESSED = 0.05
 BODIES = ("body", "roller")
 HEAT_QUANTITIES = ("flash_temperature", "mean_temperature", "fraction_into_body")
+HEATED, WITHOUT = ("tau1_heated", "tau1_depth_heated", "sx_heated"), "_without_heat"
 # Of the roller's radius: the largest distance from the contact where it has its bulk temperature;
 # what is left of the disc farther off is a narrow lens.
 FARTHEST = 1.2
+# How far off the surface's largest sx is looked for, over the farthest contact; places on a side
+SEEN, PLACES = 20.0, 60
 
 
 @dataclass(frozen=True)
@@ -162,35 +169,33 @@ class HeatedStress:
     """A level's largest tau1 in the window and its sx along the surface, with heat and without."""
 
     tau1: tuple[Extremum, Extremum]
-    x: np.ndarray  # (n,) [m] ascending
+    x: np.ndarray  # (n,) [m] ascending, to far beyond the contact
     sx: np.ndarray  # (2, n) [Pa] of the surface there, tensile where positive
 
     @property
     def figures(self) -> dict[str, float]:
-        """With heat [Pa], [m]."""
-        return self._figures(0)
-
-    @property
-    def elastic(self) -> dict[str, float]:
-        """The same without heat."""
-        return self._figures(1)
+        """With heat and without [Pa], [m]. Tension is 0 where the surface is compressed."""
+        return {
+            f"{name}{case}": value
+            for case, tau1, sx in zip(("", WITHOUT), self.tau1, self.sx, strict=True)
+            for name, value in zip(
+                HEATED, (tau1.value, tau1.z, max(0.0, float(sx.max()))), strict=True
+            )
+        }
 
     @property
     def places(self) -> dict[str, tuple[float, ...]]:
         """Of the largest with heat [m]."""
         tau1, sx = self.tau1[0], self.sx[0]
-        return {"tau1_heated": (tau1.x, tau1.z), "sx_heated": (self.x[sx.argmax()],)}
-
-    def _figures(self, row: int) -> dict[str, float]:
-        tau1, sx = self.tau1[row], self.sx[row]
-        return {"tau1_heated": tau1.value, "tau1_depth_heated": tau1.z, "sx_heated": sx.max()}
+        tensile = {"sx_heated": (float(self.x[sx.argmax()]),)} if sx.max() > 0.0 else {}
+        return {"tau1_heated": (tau1.x, tau1.z)} | tensile
 
 
-def surface_places(level: Level, window: Window, ends: EndStress) -> np.ndarray:
-    """x (n,) [m] of grid, window and ends of contact, where sx of the surface is largest."""
-    edges = level.patches.ravel(), *(patch.ends for patch in ends.patches)
-    x = np.unique(np.concatenate([window.x, level.grid.x, *edges]))
-    return x[window.holds(x)]
+def surface_places(problem: Problem, level: Level, window: Window) -> np.ndarray:
+    """x (n,) [m] of grid, window and ends of contact, and far beyond: where sx may be largest."""
+    edges = ends_of_contact(problem, level.grid, level.solution)
+    far = np.abs(edges).max() * np.geomspace(1.0, SEEN, PLACES)
+    return np.unique(np.concatenate([window.x, level.grid.x, edges, -far, far]))
 
 
 def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedStress:
@@ -208,10 +213,11 @@ def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedS
         problem.scene.body.poissons_ratio,
         beside=lambda x, z: close(x, z).plus(1.0, thermal(x, z)),
     )
-    x = surface_places(level, window, ends)
-    top = x, np.zeros_like(x)
-    elastic = stresses_at(problem, level, (friction,), *top)[friction].sx
-    sx = np.array([elastic + thermal(*top).sx, elastic])
+    x = surface_places(problem, level, window)
+    elastic = stresses_at(problem, level, (friction,), x, np.zeros_like(x))[friction].sx
+    elastic += (1.0, friction) @ left_out_at_ends(problem, level.grid, level.solution, x)
+    nodes, stress = _thermal_line(problem, level, (x[0], x[-1]), np.zeros(1))
+    sx = np.array([elastic + CubicSpline(nodes, stress.sx[0])(x), elastic])
     return HeatedStress((maxima.tau1, level.stress(friction).extremes["tau1"]), x, sx)
 
 
@@ -219,16 +225,23 @@ def _thermal(
     problem: Problem, level: Level, window: Window
 ) -> Callable[[np.ndarray, np.ndarray], StressState]:
     """Thermal stresses of x and z [m] in a window, by splines between the nodes of the fluxes."""
+    x, stress = _thermal_line(problem, level, (window.x[0], window.x[-1]), window.z)
+    order = min(3, len(window.z) - 1)
+    parts = [RectBivariateSpline(window.z, x, part, kx=order) for part in vars(stress).values()]
+    return lambda x, z: StressState(*(part.ev(z, x) for part in parts))
+
+
+def _thermal_line(
+    problem: Problem, level: Level, span: tuple[float, float], depths: np.ndarray
+) -> tuple[np.ndarray, StressState]:
+    """x (n,) [m] over contact and span, as dense as the fluxes, and thermal stresses (m, n) [Pa]
+    at depths (m,) [m]."""
     from analytic.heat.thermal_stress import thermal_stress
 
     contact, pitch = half_space_heat(problem, level), level.grid.pitch
-    ends = contact.x[0] - window.x[0], window.x[-1] - contact.x[-1]
+    ends = contact.x[0] - span[0], span[1] - contact.x[-1]
     before, after = (max(0, int(np.ceil(beyond / pitch)) + 4) for beyond in ends)
     flux = np.pad(contact.into_body, (before, after))
     x = contact.x[0] + pitch * np.arange(-before, len(contact.x) + after)
     surface, scene = half_spaces(problem, len(x), pitch)[0], problem.scene
-    body, expansion = scene.body.material, scene.heat.body_expansion
-    stress = thermal_stress(surface, flux, window.z, body, expansion)
-    order = min(3, len(window.z) - 1)
-    parts = [RectBivariateSpline(window.z, x, part, kx=order) for part in vars(stress).values()]
-    return lambda x, z: StressState(*(part.ev(z, x) for part in parts))
+    return x, thermal_stress(surface, flux, depths, scene.body.material, scene.heat.body_expansion)

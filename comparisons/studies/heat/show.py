@@ -29,14 +29,12 @@ from comparisons.drawing.curves import (
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.studies.heat.half_space import reach_of
+from comparisons.studies.heat.half_space import HEATED, WITHOUT, reach_of
 from comparisons.studies.heat.study import (
     COMPARED,
-    HEATED,
     NAME,
     OTHER_PRESSURES,
     QUANTITIES,
-    WITHOUT,
 )
 from comparisons.studies.study import Run
 

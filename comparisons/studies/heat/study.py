@@ -7,19 +7,22 @@ finds under the finite elements' pressures. One rule judges it, as everything el
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import product
 
 import numpy as np
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
-from comparisons.figures.quantity import Quantity
-from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration
+from comparisons.figures.quantity import MODELS, Quantity
+from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration, peak_resolution
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.heat.half_space import (
     HEAT_QUANTITIES,
+    HEATED,
+    WITHOUT,
     HeatedContact,
     HeatedStress,
     check_heat,
@@ -38,15 +41,13 @@ QUANTITIES = {
     "fraction_into_body": Quantity("heat that enters the body"),
     "tau1_heated": Quantity("largest τ₁ with heat", "Pa"),
     "tau1_depth_heated": Quantity("depth of that τ₁", "m"),
-    "sx_heated": Quantity("largest σx of the surface with heat", "Pa"),
+    "sx_heated": Quantity("largest tensile σx of the surface with heat", "Pa"),
     "tau1_heated_without_heat": Quantity("the same without", "Pa"),
     "tau1_depth_heated_without_heat": Quantity("the same without", "m"),
     "sx_heated_without_heat": Quantity("the same without", "Pa"),
     "peclet_number": Quantity("Peclet number V a / 2κ"),
 }
 COMPARED = tuple(QUANTITIES)[:6]  # by both models
-WITHOUT = "_without_heat"
-HEATED = ("tau1_heated", "tau1_depth_heated", "sx_heated")  # with thermal stresses
 OTHER_PRESSURES = "other pressures"  # the part of a difference that these make
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
@@ -156,8 +157,8 @@ def _histories(
     histories = {name: [solve[name](level) for level in run.levels] for name, run in runs.items()}
     if "finite_element" not in runs:
         return histories, {}
-    whole = histories["finite_element"][0].figures
-    moved = smaller(runs["finite_element"].levels[0]).figures
+    run, whole = runs["finite_element"], histories["finite_element"][0].figures
+    moved = smaller(run.far_boundary_check or run.levels[0]).figures
     return histories, {name: far_boundary(moved[name], whole[name]) for name in whole}
 
 
@@ -176,42 +177,45 @@ def _figures(
 
     parts  of each feature that the finite elements alone have, what the figure is without it, over
            what it is with it, less 1"""
-    values = {model: history[-1].figures[name] for model, history in histories.items()}
-    cold = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
-    size = max(abs(known[list(values)[-1]]) for known in (values, cold) if known)
+    values = {model: history[-1].figures for model, history in histories.items()}
+    names = [n for n in (f"{name}{WITHOUT}", name) if n in values[list(values)[-1]]]
+    size = max(abs(values[list(values)[-1]][n]) for n in names)
     size = problem.hertz.half_width if name == "tau1_depth_heated" else size
     common = {"study": NAME, "at": {"friction": problem.largest_friction}, "scale": size}
     uncertainties, alone = {}, len(values) == 1
-    for model, history in histories.items():
-        left = grid_convergence([known.figures[name] for known in history], FORMAL_ORDER)
-        left = left.uncertainty + (domain[name] if model == "finite_element" else 0.0)
-        uncertainties[model] = left / size + iteration(runs[model].finest.solution)
-        stated = Uncertainty({"numerical": uncertainties[model]})
+    for (model, history), quantity in product(histories.items(), names):
+        solution, place = runs[model].finest.solution, history[-1].places.get(quantity)
+        # at the surface stress is as certain as the pressure there
+        read = peak_resolution(solution.pressure) if place and place[1:] == (0.0,) else 0.0
+        levels = [known.figures[quantity] for known in history]
+        left = grid_convergence(levels, FORMAL_ORDER, read * levels[-1]).uncertainty
+        left += domain[quantity] if model == "finite_element" else 0.0
+        # what heat takes back is as uncertain as before
+        least = uncertainties.get((f"{name}{WITHOUT}", model), 0.0) if name == "sx_heated" else 0.0
+        uncertainties[quantity, model] = max(least, left / size + iteration(solution))
         yield Figure(
-            quantity=name,
+            quantity=quantity,
             source=model,
-            value=values[model],
-            uncertainty=stated,
+            value=levels[-1],
+            uncertainty=Uncertainty({"numerical": uncertainties[quantity, model]}),
             parts=tuple(parts) if alone and model == "finite_element" else (),
-            place=history[-1].places.get(name),
+            place=place,
             **common,
         )
-        if cold:
-            without = {"quantity": f"{name}{WITHOUT}", "value": cold[model]}
-            yield Figure(source=model, uncertainty=stated, **without, **common)
     if alone:
         return
-    if not cold:
+    one, other = (values[model][name] for model in MODELS)
+    if len(names) == 1:
         under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
-        share = (values["half_plane"] - under_theirs) / size
+        share = (one - under_theirs) / size
         parts = [*parts, Part(OTHER_PRESSURES, share)]
     tolerance = problem.scene.heat.tolerance
     yield Figure(
         quantity=name,
         source="half_plane",
-        value=(values["half_plane"] - values["finite_element"]) / size,
+        value=(one - other) / size,
         against="finite_element",
-        uncertainty=Uncertainty(uncertainties),
+        uncertainty=Uncertainty({model: uncertainties[name, model] for model in MODELS}),
         bounds=(-tolerance, tolerance),
         parts=tuple(parts),
         **common,

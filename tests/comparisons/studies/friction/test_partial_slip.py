@@ -11,6 +11,7 @@ from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
 from comparisons.models.plan import make_plan
+from comparisons.models.window import window_of
 from comparisons.output.flat_csv import rows_of
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
@@ -70,6 +71,21 @@ def test_a_cycle_is_covered_by_what_is_stated(cycled):
             # three factors of which each is uncertain at an end of contact
             ceiling = 0.04 if quantity in ("ruiz", "smith_watson_topper") else 0.02
             assert abs(figure.value / value - 1.0) <= figure.numerical < ceiling
+
+
+def test_the_largest_tension_of_rough_contact_is_at_an_end_of_it():
+    """By hats of this pitch alone it is a sixth less, by those of an eighth of it 935 MPa."""
+    waves = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.2e-6}
+    load = {"hertz_peak_pressure": 1e9, "friction": 0.3}
+    posed = problem(
+        SMOOTH | {"roller": {"radius": 7.5706e-3, **STEEL}, "profile": waves, "load": load}
+    )
+    level = half_plane_at(posed, posed.pitches[-1])
+    figures = half_plane_slip(posed, level, window_of(posed), 1).figures((0.5, -0.5, 0.5))
+    tension = 931.1e6
+    assert figures["edge_tension"] == pytest.approx(tension, rel=2e-3)
+    reversed_tension = 0.5 * tension**2 / posed.modulus
+    assert figures["smith_watson_topper"] == pytest.approx(reversed_tension, rel=0.01)
 
 
 def test_models_agree_within_their_uncertainty(cycled):

@@ -147,8 +147,11 @@ def test_thermal_stresses_by_both_models(stressed):
     assert value(stressed, "tau1_depth_heated_without_heat") == shear.z
     # 2 mu p0 at the trailing edge (Johnson 1985, section 7.1), which heat takes back
     cold, other = (value(stressed, "sx_heated_without_heat", model) for model in MODELS)
-    assert cold == pytest.approx(0.2e9, rel=2e-3) and other == pytest.approx(0.2e9, rel=1e-2)
-    assert max(value(stressed, "sx_heated", model) for model in MODELS) < 0.0
+    assert cold == pytest.approx(0.2e9, rel=2e-4) and other == pytest.approx(0.2e9, rel=1e-2)
+    for model in MODELS:
+        surface = stressed.data("heat").stresses[model]
+        assert value(stressed, "sx_heated", model) == 0.0 > surface.sx[0].max()
+        assert surface.sx[0].argmax() in (0, len(surface.x) - 1)  # it ends far off
 
 
 def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
@@ -162,7 +165,7 @@ def test_thermal_stresses_in_every_output(stressed):
     result = read_result(stressed.directory / "result.json")
     stresses = result.figures.of(study="heat", source="half_plane", against=None)
     warm, cold = (stresses.one(quantity=f"sx_heated{name}") for name in ("", "_without_heat"))
-    assert warm.value < 0.0 < cold.value
+    assert warm.value == 0.0 < cold.value and warm.place is None
     stress = stressed.data("heat").stresses["finite_element"]
     place = stress.x[stress.sx[1].argmax()]
     assert place == pytest.approx(-stressed.problem.hertz.half_width, rel=2e-3)
