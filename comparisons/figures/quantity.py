@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 MODELS = ("half_plane", "finite_element")
 HYPHENATED = {"half_plane": "half-plane", "finite_element": "finite-element"}  # the … model
 WHOLE = "whole"  # model: the finite elements with every effect that matters
+USUAL = 0.02  # relative tolerance of a scene that gives none
 LABELS = {"half_plane": "half-plane", "finite_element": "finite elements", WHOLE: "whole model"}
 
 

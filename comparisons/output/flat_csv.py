@@ -2,11 +2,11 @@
 
 In: the result.json of runs. Out: records, CSV, or a table for people. Columns:
   run, scene, title      folder, name, title
-  within                 the least tolerance at which every judged figure of the run holds
   study, quantity, source, against, friction   name the figure within its run
   value                  in `unit`, SI; relative where it is `against` a reference
   uncertainty, not_modelled   relative
   low, high              the bounds of what is judged, and its verdict
+  within                 of the run: the least tolerance at which every judged figure holds
 
 What is unknown is empty in a CSV."""
 
@@ -33,9 +33,8 @@ if TYPE_CHECKING:
 FILE = "result.json"
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 COLUMNS = (
-    *("run", "scene", "title", "within"),
-    *("study", "quantity", "unit", "source", "against", "friction"),
-    *("value", "uncertainty", "not_modelled", "low", "high", "verdict"),
+    *("run", "scene", "title", "study", "quantity", "unit", "source", "against", "friction"),
+    *("value", "uncertainty", "not_modelled", "low", "high", "verdict", "within"),
 )
 
 Row = dict[str, str | float | None]

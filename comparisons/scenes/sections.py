@@ -21,7 +21,7 @@ from comparisons.common.units import (
     describe,
     to_si,
 )
-from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES, USUAL
 from comparisons.scenes.fields import (
     Extent,
     ExtentField,
@@ -312,9 +312,9 @@ class StressSection(SceneSection):
 
 
 class ToleranceSection(SceneSection):
-    peak_pressure: Fraction = 0.02
-    contact_length: Fraction = 0.02
-    tau1_max: Fraction = 0.02
+    peak_pressure: Fraction = USUAL
+    contact_length: Fraction = USUAL
+    tau1_max: Fraction = USUAL
     tau1_max_depth: Fraction | None = None
     txz_max_abs: Fraction | None = None
 

@@ -22,7 +22,7 @@ SMALL = {
     "stress": {"points": [12, 6]},
     "resolution": {"pitch": 30e-6, "levels": 2},
     "finite_element": {"block": 10, "growth": 0.5},
-    "budget": {"effects": False},
+    "budget": {"effects": False, "time": 0.9},
 }
 SCENES = {
     "smooth, sliding": {

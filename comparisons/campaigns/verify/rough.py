@@ -21,8 +21,7 @@ from analytic.surface.readers.files import MeasuredProfile
 from comparisons.campaigns.cases import Case
 from comparisons.campaigns.verify.operators import OperatorContact, operator_cases
 from comparisons.campaigns.verify.scenes import (
-    LOOSE,
-    LOOSE_STRESS,
+    LINEAR,
     ExactScene,
     elastic_table,
     fine_half_plane,
@@ -100,8 +99,7 @@ def rough_scene(name: str, contact: ManufacturedContact, elements: float) -> Exa
             "points": [60, 20],
         },
         "resolution": {"pitch": 4.0 * _half_patch(contact) / elements},
-        "tolerance": LOOSE | LOOSE_STRESS,
-        "budget": {"effects": False},
+        "budget": LINEAR,
     }
     layer = contact.layer
     if layer is not None and layer.rigid:

@@ -141,8 +141,9 @@ def _with_finite_flow(
     verdict and the time allows it by the laws of cost; else with the reason why not."""
     problem, least = variants.problem, range(1, LEAST_LEVELS + 1)
     asked, finite = problem.scene.budget.effects, selection.flowing_finitely()
-    figures = (figure_of(e, selection, problem.scene.tolerances) for e in refined.errors)
-    open_figures = (f for f in figures if f.bounds and f.verdict == "inconclusive")
+    figures = [figure_of(e, selection, problem.scene.tolerances) for e in refined.errors]
+    both = (one for f in figures if f.bounds for one in (f, f.at_usual))
+    open_figures = (figure for figure in both if figure.verdict == "inconclusive")
     if not asked or (asked != "all" and all(figure.is_unresolved for figure in open_figures)):
         why = f"cannot change a verdict ({ASKED})" if asked else "not asked for (budget.effects)"
         return selection.without(frozenset({"finite_strain"}), f"{SMALL_STRAINS}: {why}")

@@ -1,8 +1,11 @@
-"""Which effects a run computes: those that may move a judged figure by a share of its tolerance."""
+"""Which effects a run computes: those that may move a judged figure by a share of its tolerance.
+
+A tolerance that is looser than the usual one selects as the usual one does (`computed_for`)."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from comparisons.figures.figure import computed_for
 from comparisons.models.problem import Problem
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
@@ -123,7 +126,10 @@ def select_effects(
 
 def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
     """Whether an effect moves no judged figure by a share of its tolerance that matters."""
-    return all(sizes.get(q, 0.0) <= SHARE_OF_TOLERANCE * t for q, t in tolerances.items())
+    return all(
+        sizes.get(quantity, 0.0) <= SHARE_OF_TOLERANCE * computed_for(tolerance)
+        for quantity, tolerance in tolerances.items()
+    )
 
 
 def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:

@@ -18,10 +18,10 @@ SCENE = """
 roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
 body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
 load = {per_length = "1 N/um"}
-tolerance = {peak_pressure = 0.5, contact_length = 0.5}
 resolution = {pitch = "30 um", levels = 2}
 finite_element = {block = 20}
-budget = {effects = false}
+tolerance = {peak_pressure = 0.5, contact_length = 0.5}
+budget = {effects = false, time = 0.9}
 """
 # The command with one function replaced by what stands for it.
 COMMAND = """

@@ -14,7 +14,7 @@ roller = {radius = "8 mm", rigid = true}
 body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
 profile = {kind = "sinusoid", wavelength = "150 um", amplitude = "0.3 um"}
 load = {hertz_peak_pressure = "2 GPa", friction = 0.2}
-tolerance = {peak_pressure = 0.05, contact_length = 0.05}
+budget = {time = 1.0}
 resolution = {pitch = "10 um", levels = 2}
 stress = {points = [40, 20]}
 finite_element = {block = 40}

@@ -8,6 +8,7 @@ from scenes import STEEL, changed, resolved, run_of
 from comparisons.common.errors import ExitStatus
 from comparisons.models.forecast import time_with_flow
 from comparisons.models.posing import problem_of
+from comparisons.models.problem import Levels
 from comparisons.output.headline import headline
 from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.selection import FLOW
@@ -87,10 +88,11 @@ def test_finite_strain_is_chosen_where_it_decides(beside, finite):
         assert error.part("interaction").value == pytest.approx(0.0, abs=1e-12)
 
 
-def test_flow_at_finite_strain_is_the_scene_with_both_switches(finite):
-    switches = {"plastic": True, "deformation": "finite"}
-    time = finite.problem.scene.budget.time
-    both = run_of(SCENE, finite_element=switches, budget={"time": time})
+def test_flow_at_finite_strain_is_the_scene_with_both_switches():
+    switches, few = {"plastic": True, "deformation": "finite"}, Levels(2, effects=2)
+    finite = run_of(SCENE, budget={"effects": "all"}, levels=few)
+    both = run_of(SCENE, finite_element=switches, levels=few)
+    assert finite.data("model_error").selection.added == {FLOW, "finite_strain"}
     for error in finite.model_errors:
         known = both.model_errors.one(quantity=error.quantity)
         assert error.scale == pytest.approx(known.scale, rel=1e-9)

@@ -8,6 +8,7 @@ from scenes import NEO_HOOKEAN, judging
 from comparisons.studies.model_error.selection import FLOW, SHARE_OF_TOLERANCE, select_effects
 
 RIGID = {"roller": {"rigid": True}}
+DEEP = "tau1_max_depth"
 
 
 def chosen(problem, peak=None, couplings=()):
@@ -31,9 +32,10 @@ def test_an_effect_is_computed_from_a_tenth_of_a_tolerance_on(problem_with):
 
 def test_only_what_is_judged_asks_for_effects(problem_with):
     assert chosen(judged(problem_with(**RIGID))).added == frozenset()
-    contact = chosen(judged(problem_with(**RIGID), peak_pressure=0.5)).added
-    depth = chosen(judged(problem_with(**RIGID), tau1_max_depth=0.05)).added
+    light = problem_with(**RIGID, load={"hertz_peak_pressure": 2e8})
+    contact, depth = (chosen(judged(light, **{q: 0.02})).added for q in ("peak_pressure", DEEP))
     assert contact < depth
+    assert chosen(judged(light, **{DEEP: 0.5})).added == depth  # no fewer where less is asked
 
 
 def test_what_does_not_apply_is_not_spoken_of(problem_with):
