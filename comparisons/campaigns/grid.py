@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from comparisons.common.cache import Cache
-from comparisons.common.errors import InputError, SceneError, one_line
+from comparisons.common.errors import ExitStatus, InputError, SceneError, one_line
 from comparisons.common.executors import cluster
 from comparisons.common.files import check_writable
 from comparisons.common.numbers import is_whole
@@ -25,6 +25,7 @@ from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import scene_key, surface_of
 
 SOLVED, FAILED = "solved", "failed"
+UNCONVERGED = "not converged"  # verdict of a run
 DIED = "the process that solved it died"
 
 Value = float | str
@@ -84,14 +85,23 @@ Solve = Callable[[Point], dict]  # the answer at a point that has a scene
 WhyNot = Callable[[Point], str | None]  # why a point cannot be solved, None where it may
 
 
-def failed(why: str) -> dict:
-    """The answer where there is none."""
-    return {"status": FAILED, "why": one_line(why)}
+def failed(why: object, is_wrong: bool = False) -> dict:
+    """The answer where there is none; `is_wrong`: there is no such scene, or it cannot be posed."""
+    return {"status": FAILED, "why": one_line(str(why) or type(why).__name__), "wrong": is_wrong}
 
 
 def failures(points: Iterable[dict]) -> Counter[str]:
     """How many of a campaign's points failed, by why."""
     return Counter(point["why"] for point in points if point["status"] == FAILED)
+
+
+def exit_status(points: Iterable[dict]) -> ExitStatus:
+    """3 where a solver did not converge, or found nothing, at a point."""
+    unsolved = any(
+        point.get("verdict") == UNCONVERGED or (point["status"] == FAILED and not point["wrong"])
+        for point in points
+    )
+    return ExitStatus.NOT_CONVERGED if unsolved else ExitStatus.DONE
 
 
 @contextmanager
@@ -142,7 +152,7 @@ def solved_in(
         cache.remove_leftovers()
         for key, why in whys.items():
             if why is not None:
-                cache.save(key, failed(why) | {"posed": False})
+                cache.save(key, failed(why, is_wrong=True))
         callback(Step(f"{what}: 0 of {len(keys)} points", 0.0))
         for point in points:
             tasks.add(point.key, called, answered, solve, point, seconds=1.0)
@@ -161,4 +171,4 @@ def answered(solve: Solve, point: Point) -> dict:
     try:
         return solve(point)
     except (ValueError, ArithmeticError, RuntimeError) as error:
-        return failed(str(error) or type(error).__name__)
+        return failed(error, isinstance(error, InputError))

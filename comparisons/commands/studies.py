@@ -88,9 +88,9 @@ def map_of(
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""
+    from comparisons.campaigns.grid import exit_status
     from comparisons.campaigns.maps.map import (
         SIZE,
-        exit_status,
         finished_map,
         finished_names,
         make_map,
@@ -117,7 +117,7 @@ def map_of(
     if marked and (why := unlike(content, marked)):
         tell(f"--mark: {marked.scene.name} {why}; the map's errors are those of its own scene")
     show_either(as_json, content, lambda: map_table(content, directory))
-    return exit_status(content)
+    return exit_status(content["points"])
 
 
 @job
@@ -137,8 +137,9 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve a scene at many places, loads or other values."""
+    from comparisons.campaigns.grid import exit_status
     from comparisons.campaigns.sweep.show import sweep_table, warnings_of
-    from comparisons.campaigns.sweep.sweep import exit_status, make_sweep, sweep_request
+    from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request
     from comparisons.figures.quantity import models_named
 
     chosen = models_named(models, "--models")
@@ -148,4 +149,4 @@ def sweep(
         content = make_sweep(request, directory, workers, callback)
     say_warnings(warnings_of(content))
     show_either(as_json, content, lambda: sweep_table(content, directory))
-    return exit_status(content)
+    return exit_status(content["points"])

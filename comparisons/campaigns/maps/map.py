@@ -30,8 +30,8 @@ from comparisons.campaigns.maps.groups import (
     usual_axes,
 )
 from comparisons.campaigns.maps.mark import mark_of
-from comparisons.campaigns.maps.point import NOT_CONVERGED, TOLERANCES, solve_point
-from comparisons.common.errors import ExitStatus, InputError
+from comparisons.campaigns.maps.point import TOLERANCES, solve_point
+from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, publish
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -169,12 +169,6 @@ def _files(content: dict, mark: "Mark | None") -> dict[str, str]:
     from comparisons.campaigns.maps.picture import map_figure
 
     return {MAP: as_json(content), **svgs({PICTURE: lambda: map_figure(content, mark)})}
-
-
-def exit_status(content: dict) -> ExitStatus:
-    """3 where a solver did not converge at a point."""
-    failed = any(NOT_CONVERGED in why for why in failures(content["points"]))
-    return ExitStatus.NOT_CONVERGED if failed else ExitStatus.DONE
 
 
 def map_content(request: MapRequest, answers: list[dict]) -> dict:

@@ -23,7 +23,6 @@ from comparisons.studies.comparison import differences_of
 from comparisons.studies.contact import values_of
 from meshes.block import MeshError
 
-NOT_CONVERGED = "the contact did not converge"
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows
 SHARE = 1.0 / 3.0  # of an error, or of the first tolerance, that may be numerical
 # Levels of a rough surface beyond the scene's own: on three, two points of 64 were found to have
@@ -47,7 +46,7 @@ def solve_point(point: Point) -> dict:
     for runs in _refined(problem, plan, window):
         for run in runs.values():
             if not run.finest.converged:
-                return failed(f"{run.name}: {NOT_CONVERGED}")
+                return failed(f"{run.name}: the contact did not converge")
         errors = differences_of(*runs.values(), problem, friction)
         if not is_open(errors[point.asked]):
             break

@@ -23,7 +23,7 @@ from comparisons.campaigns.sweep.pictures import (
     ZONES,
     drawn,
 )
-from comparisons.common.errors import ExitStatus, InputError
+from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import is_whole
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -52,7 +52,6 @@ if TYPE_CHECKING:
 SWEEP, TABLE = "sweep.json", "sweep.csv"
 FILES = (SWEEP, TABLE, PICTURE, ZONES)
 SCHEMA = 2
-UNCONVERGED = "not converged"  # verdict of a run
 MOST = 10_000  # points
 ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N or position=N"
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
@@ -171,13 +170,6 @@ def make_sweep(
     files = {TABLE: sweep_csv(content), SWEEP: as_json(content)}
     publish(out, files | drawn(content), FILES)
     return content
-
-
-def exit_status(content: dict) -> ExitStatus:
-    """3 where a solver found nothing, or did not converge, at a point whose scene was posed."""
-    posed = [point for point in content["points"] if point.get("posed", True)]
-    unsolved = failures(posed) or any(p.get("verdict") == UNCONVERGED for p in posed)
-    return ExitStatus.NOT_CONVERGED if unsolved else ExitStatus.DONE
 
 
 def why_not(point: Point) -> str | None:

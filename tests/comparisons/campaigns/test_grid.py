@@ -6,7 +6,7 @@ from functools import partial
 
 import pytest
 
-from comparisons.campaigns.grid import DIED, SOLVED, Point, solved_in
+from comparisons.campaigns.grid import DIED, SOLVED, Point, failed, solved_in
 from comparisons.common.errors import SceneError
 from comparisons.common.executors import ExecutorWorker
 from comparisons.common.progress import no_progress
@@ -61,7 +61,7 @@ def solve_in(monkeypatch, tmp_path):
 def test_a_point_that_takes_its_process_along_fails_and_no_other_does(solve_in):
     answers, solved, _ = solve_in(range(8), partial(ExecutorWorker, Fragile(2, 7)))
     for x in (2, 7):
-        assert answers[x] == {"status": "failed", "why": DIED}
+        assert answers[x] == failed(DIED)
     assert [answer["x"] for answer in answers if answer["status"] == SOLVED] == [0, 1, 3, 4, 5, 6]
     assert sorted(solved) == [0, 1, 3, 4, 5, 6]
 

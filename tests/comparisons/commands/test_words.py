@@ -85,7 +85,7 @@ def test_the_table_of_runs_is_for_people_and_csv_on_request(folder, capsys, undr
     out = capsys.readouterr().out
     assert "half-plane" in out and "GPa" in out and max(map(len, out.splitlines())) < 120
     assert main(["table", "results", "--csv"]) == 0
-    assert capsys.readouterr().out.startswith("run,scene,title,study,quantity,unit,source")
+    assert capsys.readouterr().out.startswith("run,scene,title,within,study,quantity,unit")
 
 
 def test_a_mark_of_another_kind_than_the_map_is_refused(folder, capsys, monkeypatch):

@@ -11,15 +11,14 @@ from unittest.mock import patch
 import pytest
 from rich.console import Console
 
+from comparisons.campaigns.grid import exit_status, failed
 from comparisons.campaigns.maps.map import (
     MAP,
     PICTURE,
-    exit_status,
     make_map,
     map_table,
     request_of,
 )
-from comparisons.campaigns.maps.point import NOT_CONVERGED
 from comparisons.cli import main
 from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import ExitStatus, InputError
@@ -142,7 +141,7 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     request = request_of(str(scene), "2x2", "a_over_width=0.3:3", "poissons_ratio=0.2:0.3")
 
     def solve(point):
-        return {"status": "failed", "why": f"no {point.at['poissons_ratio']}"}
+        return failed(f"no {point.at['poissons_ratio']}", is_wrong=True)
 
     monkeypatch.setattr("comparisons.campaigns.maps.map.solve_point", solve)
     monkeypatch.setattr(
@@ -151,9 +150,9 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     content = make_map(request, tmp_path / "out")
     whys = [point["why"] for point in content["points"]]
     assert whys == ["no 0.2", "no 0.2", "no 0.3", "no 0.3"]
-    assert exit_status(content) == ExitStatus.DONE
-    content["points"][0]["why"] = f"half_plane: {NOT_CONVERGED}"
-    assert exit_status(content) == ExitStatus.NOT_CONVERGED
+    assert exit_status(content["points"]) == ExitStatus.DONE
+    content["points"][0]["wrong"] = False
+    assert exit_status(content["points"]) == ExitStatus.NOT_CONVERGED
     assert "failed, 2: " in printed(map_table(content, tmp_path))
 
 
