@@ -21,6 +21,7 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     scene, settings = problem.scene, problem.scene.finite_element
     listed = ["elastic"] if scene.body.hardness is None and not settings.plastic else []
     listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(problem)]
+    listed += ["between samples the surface is a cubic spline"] if scene.profile is not None else []
     listed += [] if scene.periodic else [_roller(settings, scene.roller)]
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
@@ -68,10 +69,10 @@ def _deformation(scene: Scene) -> str:
     settings = scene.finite_element
     linear, small = "linear elasticity", "small deformation"
     if settings.plastic and settings.deformation == "finite":
-        flow = f"finite deformation, von Mises' yield by true strain{hardening_text(scene.body)}"
+        flow = f"finite deformation, von Mises' yield by true strain {yielding_text(scene.body)}"
         return f"plane strain; {_split(f'{linear}, {small}', flow)}"
     if settings.plastic:
-        flow = f"von Mises' yield{hardening_text(scene.body)}"
+        flow = f"von Mises' yield {yielding_text(scene.body)}"
         return f"{small}, plane strain; {_split(linear, flow)}"
     if settings.deformation == "finite":
         finite = f"{laws(scene)} elasticity, finite deformation"
@@ -79,17 +80,19 @@ def _deformation(scene: Scene) -> str:
     return f"{linear}, {small}, plane strain"
 
 
-def hardening_text(body: BodySection) -> str:
-    """How a body hardens, for the end of a phrase."""
+def yielding_text(body: BodySection) -> str:
+    """How a body flows, in one phrase."""
     words = {
         "voce": "by Voce's law",
         "ludwik": "by Ludwik's law",
         "table": "by a table",
-        "kinematic": "kinematic",
+        "kinematic": "kinematically",
     }
     laws = [words[name] for name in words if name in (body.hardening or {})]
-    laws = ["linear"] * bool(body.hardening_modulus) + laws
-    return f", {' and '.join(laws)} hardening" if laws else ""
+    modulus = body.hardening_modulus
+    laws = [f"by {as_written(modulus, 'Pa')}"] * bool(modulus) + laws
+    harder = f"hardening {' and '.join(laws)}" if laws else "perfectly plastic"
+    return f"at {as_written(body.yield_stress, 'Pa')}, {harder}"
 
 
 def _gap(settings: FiniteElementSection) -> str:

@@ -4,17 +4,19 @@ In: a problem, its plan, and how far each model is known. Out: figures that need
 which it is a part; what was skipped and assumed, in words; the levels that were planned."""
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of, figures_of
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.assumptions import assumptions_of
 from comparisons.models.forecast import forecast
 from comparisons.models.problem import Problem
 from comparisons.studies import contact
-from comparisons.studies.study import Solved, Study
+from comparisons.studies.model_error.catalogue import with_effects
+from comparisons.studies.study import MODEL_ERROR, Solved, Study
 
-NAME = "problem"
+NAME, ASSUMED = "problem", "assumed"  # the study; its statements of what models assume
 HERTZ, SCENE, PRESSED, STANDARD = "hertz", "scene", "as pressed", "standard"  # sources
 QUANTITIES = {
     "half_width": Quantity("half-width of the smooth contact", "m"),
@@ -61,7 +63,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     levels = [asdict(level) for level in forecast(problem, solved.plan).levels]
     columns = columns_of(levels, {"pitch": "m", "seconds": "s", "memory": "byte"})
     planned = Series("planned levels", columns, is_account=True)
-    return Findings(tuple(figures), (planned,), tuple(_statements(solved)))
+    return Findings(tuple(figures), (planned,), tuple(_statements(solved, before)))
 
 
 def _largest(figures: tuple[Figure, ...] | list[Figure]) -> Uncertainty:
@@ -95,15 +97,27 @@ def _surface(problem: Problem) -> list[Figure]:
     return figures
 
 
-def _statements(solved: Solved) -> list[Statement]:
+def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statement]:
     """What was assumed and skipped, why refinement stopped, why there are no standard figures."""
     plan, info = solved.plan, solved.problem.surface.info
-    said = [Statement("assumed", text) for text in plan.assumptions]
+    said = [Statement(ASSUMED, text) for text in _assumed(solved, before.get(MODEL_ERROR))]
     said += [Statement("skipped", step.because, step.step) for step in plan.skipped]
     said.append(Statement("refinement", solved.refinement))
     if info is not None and info.standard_why is not None:
         said.append(Statement("no standard parameters", info.standard_why, STANDARD))
     return said
+
+
+def _assumed(solved: Solved, errors: Findings | None) -> tuple[str, ...]:
+    """What the models assume, the whole model among them where it has more effects."""
+    own, problem = solved.plan.assumptions, solved.problem
+    if errors is None or not (errors.data.wholes and errors.data.selection.added):
+        return own
+    whole = replace(problem, scene=with_effects(problem.scene, errors.data.selection.whole))
+    said = [text.replace("finite elements:", "whole model:") for text in assumptions_of(whole)]
+    others = [text for text in own if "finite elements:" in text]
+    others = others or ["the finite elements beside the whole model: as the half-plane"]
+    return (*said, *others)
 
 
 STUDY = Study(NAME, QUANTITIES, solve)

@@ -213,6 +213,7 @@ def no_pictures() -> Callable[[Run], dict]:
 
     def pictures(outcome: Run, beside: object = ()) -> dict[str, object]:
         several = "answers", "fields", "near", "sections", "mesh", "statistics", "heat_below"
+        several += ("plastic_strain",)
         return dict.fromkeys(PICTURES, blank) | {name: [] for name in several}
 
     return pictures

@@ -28,8 +28,9 @@ from comparisons.output.page.pictures import answer, contact, problem, refinemen
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.tables import verification
 from comparisons.output.page.tables.comparison import comparison_table, figure_table, first_model
-from comparisons.output.page.tables.problem import problem_sheet
+from comparisons.output.page.tables.problem import facts, problem_sheet
 from comparisons.studies import STUDIES
+from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
 
 # Each gives one picture, a list, or None where it does not apply; about the longest first.
@@ -37,6 +38,7 @@ PICTURES: dict[str, Callable[[Run], object]] = {
     "fields": stresses.field_pictures,
     "near": stresses.near_surface_pictures,
     "mesh": mesh_pictures,
+    "plastic_strain": stresses.plastic_strain_pictures,
     "pressure": contact.pressure_picture,
     "sections": stresses.section_pictures,
     "convergence": refinement.convergence_picture,
@@ -135,7 +137,12 @@ def sections(run: Run) -> list[Block]:
 
 def _answer(run: Run) -> Block:
     """Beside the verdict: what is judged, the run in one picture, and on paper what is signed."""
-    return Block("answer", (Pictures(("judged",)), Pictures(("overview",)), _signed))
+    beside = Box("beside", (Pictures(("judged",)), _facts))
+    return Block("answer", (beside, Pictures(("overview",)), _signed))
+
+
+def _facts(run: Run) -> Names:
+    return Names(facts(run))
 
 
 def _signed(run: Run) -> Box:
@@ -143,7 +150,9 @@ def _signed(run: Run) -> Box:
 
 
 def _before(run: Run) -> Iterator[Block]:
-    picture = Pictures(("problem",)), Heading("Assumptions"), Bullets(run.plan.assumptions)
+    said = run.findings[asked.NAME].statements
+    assumed = tuple(words.text for words in said if words.name == asked.ASSUMED)
+    picture = Pictures(("problem",)), Heading("Assumptions"), Bullets(assumed)
     columns = Box("columns", (Box("sheet", picture), Box("sheet", (_problem,))))
     yield Block("problem", (columns,), "Problem")
     if run.plan.compares:
@@ -182,6 +191,7 @@ def _stresses(run: Run) -> Iterator[Block]:
     on_screens = Box("on-screens", tuple(of_friction(k, "fields", "near") for k in others))
     items = Note(note), of_friction(deciding, "fields"), down, on_screens
     yield Block("stresses", items, "Subsurface stresses")
+    yield Block("yield", (Pictures(("plastic_strain",), abreast=True),), "Yield")
 
 
 def _after(run: Run) -> Iterator[Block]:

@@ -6,6 +6,7 @@ import pytest
 from scenes import STEEL, changed, finite_elements, problem, resolved, run_of
 
 from comparisons.common.errors import ExitStatus, SolverError
+from comparisons.common.numbers import decimal, significant
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import length_resolution
@@ -15,6 +16,7 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import refuse_cut_off
 from comparisons.models.level import flowing_contact
 from comparisons.models.plan import make_plan
+from comparisons.output.page.pictures.stresses import plastic_strain_pictures
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import uncertainties, values_of
@@ -60,6 +62,16 @@ def test_equivalent_stress_stays_at_what_the_metal_bears(outcome, mesh):
     assert (mesh.point_data["von_mises"] / bears).max() < 1.15
     wanted = {"quantity": "von_mises_max", "source": "finite_element"}
     assert outcome.figures.one(study="contact", **wanted).value < 1.15 * bears.max()
+
+
+def test_the_page_shows_where_it_flows(outcome, mesh):
+    [picture] = plastic_strain_pictures(outcome)
+    strain, a = mesh.point_data["equivalent_plastic_strain"], outcome.problem.hertz.half_width
+    x, z, _ = mesh.points[strain.argmax()] / a
+    assert (
+        f"finite elements: largest {significant(100.0 * strain.max(), 3)} %" in picture.alternative
+    )
+    assert f"at x = {decimal(x)} a, z = {significant(z, 2)} a" in picture.alternative
 
 
 def test_what_is_left_is_small_and_not_nothing(mesh):

@@ -67,7 +67,7 @@ def overview(run: Run, width: float) -> "Drawn":
         room, look["loc"] = 1.35, "upper right"
     else:  # the names below the load in words
         room = 1.3 + 0.12 * -(-names // 2)
-        look |= {"loc": "upper left", "bbox_to_anchor": (0.0, 0.9)}
+        look |= {"loc": "upper left", "bbox_to_anchor": (0.008, 0.9)}
     panels[0].set_ylim(0.0, room * panels[0].dataLim.y1)
     panels[0].legend(ncols=2, **look)
     if compares:
@@ -170,8 +170,12 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
     if np.isfinite(certain):
         style.whisker(axes, at, y, (certain, certain))
     sliding = f", μ = {plain(error.friction)}" if several else ""
-    above = {"va": "bottom"}
     name = label(error.quantity).replace("principal shear stress ", "")  # room for the error
-    axes.text(axes.get_xlim()[0], y + ABOVE, name + sliding, **above)
-    text = {"ha": "right", "color": WORDS[error.verdict], "weight": "bold", **above}
-    axes.text(limit, y + ABOVE, _said(error), **text)
+    named = axes.text(axes.get_xlim()[0], y + ABOVE, name + sliding, va="bottom")
+    # next to it: what a narrow screen shows first
+    beside = {"xycoords": named, "xytext": (8, 0), "textcoords": "offset points"}
+    look = {"color": WORDS[error.verdict], "weight": "bold", "va": "bottom"}
+    size = error_text(error.value, error.numerical).removesuffix(" %")
+    words = f"{size} ± {percent(error.numerical)}, {error.verdict} at "
+    words += percent_as_written(error.tolerance)
+    axes.annotate(words, (1.0, 0.0), **beside, **look)

@@ -146,10 +146,10 @@ def _cap_and_legend(axes: "Axes", run: Run) -> None:
     names = len(axes.get_legend_handles_labels()[1])
     if axes.figure.get_figwidth() < 0.75 * style.WIDE:
         rows = -(-names // 2)
-        side, corner, room = "upper left", (0.0, 0.91), 1.22 + 0.12 * rows
+        side, corner, room = "upper left", (0.008, 0.91), 1.22 + 0.12 * rows
         columns = -(-names // rows)
     else:
-        side, corner, room, columns = "upper right", (1.0, 1.02), 1.17, names
+        side, corner, room, columns = "upper right", (0.996, 0.97), 1.19, names
     axes.set_ylim(0.0, room * axes.dataLim.y1)
     gaps = {"borderaxespad": 0.1, "columnspacing": 1.0, "handlelength": 2.0, "handletextpad": 0.5}
     gaps |= style.BEHIND_LEGEND

@@ -14,6 +14,7 @@ from comparisons.drawing import style
 from comparisons.drawing.curves import COINCIDE, Curve, columns, distinct, joint_label, names_above
 from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
+from comparisons.models.level import STRAIN
 from comparisons.models.smooth import closed_form
 from comparisons.studies.contact import peak_position
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 NEAR = 0.1  # half-widths: depth of what is enlarged next to the surface
 STRETCHED = 1.25  # inches: height of fields next to the surface
 FEWEST_ROWS = 4
+SLIGHT, BELOW = 0.01, 1.5  # of the largest plastic strain; depths to which it is drawn, of its own
+# Triangles of three points in one of six.
+QUARTERS = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
 TITLE, TALL, FOOT = 0.3, 1.65, 0.46  # inches, of sections
 LEFT, RIGHT, BETWEEN = 0.616, 0.392, 0.28  # inches
 
@@ -162,6 +166,41 @@ def _difference_said(
         f" {said}; the largest difference at a point of the grid, {significant(largest, 2)} p₀, "
         f"stands at x = {decimal(x[column])} a, z = {significant(z[row], 2)} a."
     )
+
+
+def plastic_strain_pictures(run: Run) -> list[style.Picture]:
+    """The equivalent plastic strain by the last model, where it flows; one a friction coefficient.
+    None without fields."""
+    frictions = run.problem.scene.load.friction if run.window is not None else ()
+    return list(filter(None, (_strain_picture(run, friction) for friction in frictions)))
+
+
+def _strain_picture(run: Run, friction: float) -> style.Picture | None:
+    from matplotlib.tri import LinearTriInterpolator, Triangulation
+
+    half_width, window = run.problem.hertz.half_width, run.window
+    name, level = list(run.levels(friction).items())[-1]
+    if not level.plastic_strain:
+        return None
+    on_mesh = level.field_on_mesh
+    strain, corners = 100.0 * on_mesh.others[STRAIN], on_mesh.triangles
+    if corners.shape[1] > 3:
+        corners = corners[:, QUARTERS].reshape(-1, 3)
+    at = LinearTriInterpolator(Triangulation(*on_mesh.points.T, corners), strain)
+    values = np.ma.filled(at(*np.meshgrid(window.x, window.z)), np.nan)
+    x, z = window.x / half_width, window.z / half_width
+    flows = np.nanmax(values, axis=1, initial=0.0) > SLIGHT * strain.max()
+    rows = max(FEWEST_ROWS, np.count_nonzero(z <= BELOW * z[flows].max(initial=0.0)))
+    place, depth = on_mesh.points[strain.argmax()] / half_width
+    inside = x[0] <= place <= x[-1] and depth <= z[rows - 1]
+    title = f"{LABELS[name]}: largest {significant(strain.max(), 3)} % at x = {decimal(place)} a, "
+    title += f"z = {significant(depth, 2)} a"
+    panel = FieldPanel(title, values[:rows], (place, depth) if inside else None)
+    scale = ColourScale.over("ε̄ₚ [%]", [values[:rows]], "YlOrRd")
+    drawn = draw_fields(x, z[:rows], [panel], scale)
+    words = f"Equivalent plastic strain under the load, friction {plain(friction)}"
+    caption = f"{words}, as far down as the body flows; + marks the largest value."
+    return style.picture(drawn, f"{words}. {title}.", caption, data=False)
 
 
 def section_pictures(run: Run) -> list[style.Picture]:

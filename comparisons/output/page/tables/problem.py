@@ -3,10 +3,11 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import as_written, decimal, listed, plain, significant, with_unit
-from comparisons.models.assumptions import hardening_text, support_text
+from comparisons.drawing.curves import hertz_text
+from comparisons.models.assumptions import support_text, yielding_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.sections import BodySection, CoatingSection, ElasticSection
+from comparisons.scenes.sections import CoatingSection, ElasticSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
@@ -17,6 +18,7 @@ LOADS = {  # by kind: in words, and the unit
     "mean_pressure": ("mean pressure", "Pa"),
     "approach": ("approach", "m"),
 }
+COATING, HARDNESS, YIELD = "coating", "hardness of the body", "body yields"  # names of rows
 Rows = list[tuple[str, str]]
 
 
@@ -32,6 +34,21 @@ def problem_sheet(run: Run) -> list[tuple[str, Rows]]:
         "Dimensionless groups": _groups(run),
     }
     return [(heading, rows) for heading, rows in sheet.items() if rows]
+
+
+def facts(run: Run) -> Rows:
+    """What was pressed on what, in a few rows."""
+    problem, scene, info = run.problem, run.problem.scene, run.problem.surface.info
+    roller = "rigid" if scene.roller.rigid else solid_text(scene.roller)
+    radius = "" if scene.periodic else f"R = {as_written(scene.roller.radius, 'm')}, "
+    rows = [(scene.smooth_body, radius + roller), ("body", solid_text(scene.body))]
+    rows += [row for row in _materials(problem) if row[0] in (COATING, HARDNESS, YIELD)]
+    rough = info and f"{info.source}: Ra {with_unit(info.roughness.ra, 'm')} as pressed"
+    if info and info.standard is not None:
+        cutoff = in_mm(info.standard.cutoff)
+        rough += f", {with_unit(info.standard.ra, 'm')} at the cut-off {cutoff}"
+    rows += [("surface", rough or "smooth"), ("load", hertz_text(problem))]
+    return [*rows, ("friction", listed(scene.load.friction))]
 
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
@@ -141,14 +158,14 @@ def _materials(problem: Problem) -> Rows:
         (scene.smooth_body, "rigid" if scene.roller.rigid else solid_text(scene.roller)),
         *([("roller as a disc", support_text(scene.roller))] if has_disc else []),
         ("body", solid_text(scene.body)),
-        *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
+        *([] if scene.coating is None else [(COATING, coating_text(scene.coating))]),
         ("combined modulus E*", with_unit(problem.modulus, "Pa")),
         ("Dundurs' β", significant(problem.dundurs_beta, 3)),
     ]
     if scene.body.hardness is not None:
-        rows.append(("hardness of the body", as_written(scene.body.hardness, "Pa")))
+        rows.append((HARDNESS, as_written(scene.body.hardness, "Pa")))
     if scene.body.yield_stress is not None:
-        rows.append(("body yields", yielding_text(scene.body)))
+        rows.append((YIELD, yielding_text(scene.body)))
     return rows
 
 
@@ -168,13 +185,6 @@ def elastic_text(material: Material) -> str:
 def coating_text(coating: CoatingSection) -> str:
     """A coating in one phrase."""
     return f"{as_written(coating.thickness, 'm')} thick, {solid_text(coating)}"
-
-
-def yielding_text(body: BodySection) -> str:
-    """How a body flows, in one phrase."""
-    modulus = body.hardening_modulus
-    harder = f", hardening by {as_written(modulus, 'Pa')}" if modulus else hardening_text(body)
-    return f"at {as_written(body.yield_stress, 'Pa')}{harder}"
 
 
 def _load(problem: Problem) -> Rows:

@@ -35,7 +35,7 @@ CUT = """
 SIGNED = """
 (() => {
   const box = (element) => element.getBoundingClientRect();
-  const ends = [...document.querySelectorAll(".answer > figure")].map((f) => box(f).bottom);
+  const ends = [...document.querySelectorAll(".answer > :not(.signed)")].map((e) => box(e).bottom);
   const [signed, front] = [".signed", ".front"].map((name) => box(document.querySelector(name)));
   return [signed.top - Math.max(...ends), front.height];
 })()

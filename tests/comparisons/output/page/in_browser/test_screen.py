@@ -23,6 +23,16 @@ OUTSIDE = """
 """
 
 
+# The white below the bars and facts, over the height of the picture beside them.
+WHITE = """
+(() => {
+  const [left, right] = [...document.querySelectorAll(".answer > *")].map((e) =>
+    e.getBoundingClientRect());
+  return (right.bottom - left.bottom) / right.height;
+})()
+"""
+
+
 @pytest.mark.parametrize("width", [1280, 768, 390])
 def test_the_page_is_whole_and_fits(tab, wavy_file, width):
     page = tab(wavy_file, width)
@@ -31,6 +41,7 @@ def test_the_page_is_whole_and_fits(tab, wavy_file, width):
     assert inside == width
     assert across <= width
     assert page.value(OUTSIDE) == []
+    assert width < 1280 or 0.0 <= page.value(WHITE) < 0.25
     pictures = page.value(
         "Promise.all([...document.images].map((i) => i.decode().then(() => i.naturalWidth)))"
     )

@@ -9,6 +9,7 @@ from comparisons.output.page.pictures.answer import judged_picture
 from comparisons.output.page.pictures.problem import problem_picture
 from comparisons.scenes.sections import CoatingSection
 
+SEEN = 358.0 / 440.0  # of a narrow picture on 390 pixels, before anything is moved
 HARD = CoatingSection(thickness=20e-6, youngs_modulus=400e9, poissons_ratio=0.22)
 
 
@@ -72,6 +73,16 @@ def test_no_words_are_cut_or_stand_on_each_other(wavy):
                 shared = Bbox.intersection(boxes[one], boxes[other])
                 apart = shared is None or shared.width < 0.5 or shared.height < 1.5
                 assert apart, (name, one, other)
+
+
+def test_names_of_lines_stand_inside_the_frame_and_words_of_bars_on_a_telephone(wavy):
+    for name in ("overview_picture", "pressure_picture", "close_up_picture"):
+        axes = wavy[name][0].axes[0]
+        frame, names = axes.bbox, axes.get_legend().get_window_extent()
+        assert frame.x0 < names.x0 and names.x1 < frame.x1 and names.y1 < frame.y1
+    [judged] = wavy["judged_picture"]
+    for text in judged.axes[0].texts:
+        assert text.get_window_extent().x1 < SEEN * judged.bbox.width
 
 
 def test_the_name_of_a_bar_and_its_error_stand_apart(wavy_outcome, drawn_by, with_scene):
