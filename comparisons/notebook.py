@@ -6,7 +6,7 @@ scripts; figures are those of the command line, in SI units."""
 import io
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -188,7 +188,7 @@ class FinishedRun(RecordedRun):
     def __repr__(self) -> str:
         """In ten lines: title, the verdict, the first figures and what to do next. A notebook
         shows the tables of the command line."""
-        from comparisons.output.headline import headline
+        from comparisons.output.headline import headline, verdicts
         from comparisons.output.page.tables.comparison import figure_rows
         from comparisons.output.terminal import SHORT
         from comparisons.studies.model_error.show import model_error_rows
@@ -207,7 +207,7 @@ class FinishedRun(RecordedRun):
             ]
         left = len(rows) - SHOWN
         more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
-        first = said.within.sentence, f"{said.kind.upper()}  {said.sentence}"
+        first = said.within.sentence, *("  ".join(verdict) for verdict in verdicts(run, said))
         lines = run.problem.scene.title, *first, *rows[:SHOWN], *more, f"Next:  {said.next}"
         return "\n".join(part for line in lines for part in wrap(line, COLUMNS))
 
@@ -253,10 +253,8 @@ class Map(Printed):
     def plot(self) -> "list[Axes]":
         """The map."""
         from comparisons.campaigns.maps.picture import map_figure
-        from comparisons.drawing.style import collected_figures
 
-        with collected_figures():
-            return map_figure(self.content).axes
+        return _drawn(map_figure, self.content)
 
     def _table(self) -> "RenderableType":
         from comparisons.campaigns.maps.map import map_table
@@ -284,10 +282,8 @@ class Sweep(Printed):
     def plot(self) -> "list[Axes]":
         """Each figure over the first swept field."""
         from comparisons.campaigns.sweep.pictures import sweep_figure
-        from comparisons.drawing.style import collected_figures
 
-        with collected_figures():
-            return sweep_figure(self.content).axes
+        return _drawn(sweep_figure, self.content)
 
     def _table(self) -> "RenderableType":
         from comparisons.campaigns.sweep.show import sweep_table
@@ -457,6 +453,13 @@ is a length above 0: a number in m or "8.2 mm"
         allowed = "allowed is a name, a path, tables or a Scene"
         raise InputError(f"scene: is {describe(scene)}; {allowed}")
     return scene
+
+
+def _drawn(draw: Callable, content: object) -> "list[Axes]":
+    from comparisons.drawing.style import collected_figures
+
+    with collected_figures():
+        return draw(content).axes
 
 
 def _place(at: Mapping[str, float]) -> str:

@@ -13,7 +13,7 @@ from comparisons.models.assumptions import laws, without_law
 from comparisons.output.next_step import next_of, next_of_flow, worst_of
 from comparisons.output.within import Within, name_of, size_of, within_of
 from comparisons.studies import contact
-from comparisons.studies.answers.show import answers_of
+from comparisons.studies.answers.show import answer_verdict, answers_of
 from comparisons.studies.model_error.account import INTERACTION
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.selection import FLOW
@@ -73,6 +73,12 @@ def headline(run: Run) -> Headline:
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
     said = f"{said[0].upper()}{said[1:]}{law}.{_inputs(run)}"
     return Headline(within, kind, said, *next_of(run, kind))
+
+
+def verdicts(run: Run, said: Headline) -> list[tuple[str, str]]:
+    """That on the half-plane, and one on each answer from outside: a word or two and a sentence."""
+    answers = [answer_verdict(run, name) for name in answers_of(run)]
+    return [(kind.upper(), sentence) for kind, sentence in ((said.kind, said.sentence), *answers)]
 
 
 def _sentence_of(run: Run, kind: Kind, within: Within) -> str:

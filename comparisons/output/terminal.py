@@ -7,18 +7,12 @@ from comparisons.common.errors import one_line
 from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import COMPARED, LABELS, error_text
 from comparisons.models.smooth import scale_words
-from comparisons.output.headline import headline
+from comparisons.output.headline import headline, verdicts
 from comparisons.output.page.tables.comparison import comparison_rows, figure_rows, first_model
 from comparisons.output.page.tables.problem import in_mm
 from comparisons.scenes.surface import ProfileInfo
 from comparisons.studies import STUDIES
-from comparisons.studies.answers.show import (
-    answer_facts,
-    answer_rows,
-    answer_verdict,
-    answers_of,
-    reference_of,
-)
+from comparisons.studies.answers.show import answer_facts, answer_rows, answers_of, reference_of
 from comparisons.studies.ladder import cost
 from comparisons.studies.model_error.show import model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
@@ -45,13 +39,9 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     from rich.text import Text
 
     said = headline(run)
-    verdicts = [
-        (said.kind, said.sentence),
-        *(answer_verdict(run, name) for name in answers_of(run)),
-    ]
     verdict = [
-        Text.assemble((kind.upper(), STYLES.get(kind, "bold")), f"  {sentence.translate(PLAIN)}")
-        for kind, sentence in verdicts
+        Text.assemble((kind, STYLES.get(kind.lower(), "bold")), f"  {sentence.translate(PLAIN)}")
+        for kind, sentence in verdicts(run, said)
     ]
     next_step = Text.assemble(("Next:", "bold"), f"  {said.next.translate(PLAIN)}")
     title = Text(one_line(run.problem.scene.title), style="bold")

@@ -168,6 +168,8 @@ def test_several_runs_in_one_table(finished, smooth_outcome):
     assert len(both.rows) == sum(len(run.figures) for run in runs)
     text = repr(both)
     assert "Wavy body" in text and "Smooth roller" in text
+    assert crosscheck.compare(list(runs)).rows == both.rows
+    assert crosscheck.compare([finished]).rows == crosscheck.compare(finished).rows
 
 
 @pytest.fixture
@@ -302,19 +304,9 @@ def test_a_model_has_one_name_written_in_two_ways(finished, name):
 def test_a_figure_that_a_run_has_not_raises_with_the_nearest(finished, wanted, words):
     with pytest.raises(InputError, match=words):
         finished.figure(*wanted)
-
-
-def test_a_figure_at_another_friction_raises_with_those_that_are_known(finished):
     known = "allowed is friction = 0, friction = 0.1"
     with pytest.raises(InputError, match=rf"is not known at friction = 0\.3; {known}"):
         finished.figure("peak_pressure", "half-plane", friction=0.3)
-
-
-def test_runs_are_compared_one_by_one_or_as_lists(finished):
-    alone = crosscheck.compare(finished).rows
-    assert crosscheck.compare([finished]).rows == alone
-    assert crosscheck.compare([finished], finished).rows == 2 * alone
-    assert repr(crosscheck.compare([finished])).startswith(repr(crosscheck.compare(finished))[:20])
 
 
 def test_a_scene_prints_itself_in_few_lines():

@@ -83,16 +83,6 @@ class AnswerSection(SceneSection):
     friction: Annotated[float, Number(DIMENSIONLESS, at_least=0.0)] | None = None
     scatter: Fraction | None = None  # relative, of measured data
 
-    @property
-    def length(self) -> float:
-        """The file's unit [m]."""
-        return self.unit("length")
-
-    @property
-    def stress(self) -> float:
-        """The file's unit [Pa]."""
-        return self.unit("stress")
-
     def unit(self, kind: str, column: str = "") -> float:
         """In SI, that of a length or a stress: as `units` has it, else as the column's name does,
         else 1. Raises ValueError for a column that says it has another dimension."""
@@ -127,13 +117,11 @@ SECTION = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
 
 def units_named(text: str) -> dict[str, str]:
     """A unit of length and one of stress, or one of them: mm,MPa. Raises InputError for others."""
-    units: dict[str, str] = {}
-    for word in map(str.strip, text.split(",")):
-        kind = next((kind for kind, unit in UNITS.items() if unit.is_one(word)), None)
-        if kind is None or kind in units:
-            allowed = "a unit of length and one of stress, such as mm,MPa"
-            raise InputError(f"--units: is {describe(text)}; allowed is {allowed}")
-        units[kind] = word
+    words = [word.strip() for word in text.split(",")]
+    units = {kind: word for word in words for kind, unit in UNITS.items() if unit.is_one(word)}
+    if len(units) != len(words):
+        allowed = "a unit of length and one of stress, such as mm,MPa"
+        raise InputError(f"--units: is {describe(text)}; allowed is {allowed}")
     return units
 
 

@@ -98,7 +98,7 @@ def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[n
 
 def plane_mesh(faces: Faces, source: AnswerSection, friction: float) -> PlaneMesh:
     """The rough body of a mesh: what hangs together and lies below the surface."""
-    points = np.asarray(faces.points, dtype=float) * source.length
+    points = np.asarray(faces.points, dtype=float) * source.unit("length")
     vertical, sign = _up(points, source)
     level, tolerance = points[:, 3 - vertical], SAME * float(np.ptp(points))
     planes = len(np.unique(np.round(level / tolerance)))
@@ -113,16 +113,17 @@ def plane_mesh(faces: Faces, source: AnswerSection, friction: float) -> PlaneMes
     triangles = _below(x, z, triangles)
     used, triangles = np.unique(triangles, return_inverse=True)
     arrays = {name: np.asarray(values)[used] for name, values in faces.arrays.items()}
-    stress = [source.stress * part for part in _stress_of(arrays, vertical, sign, friction)]
+    unit = source.unit("stress")
+    stress = [unit * part for part in _stress_of(arrays, vertical, sign, friction)]
     if not np.all(np.abs(stress) <= LARGEST):
         most = f"allowed is one up to {LARGEST:g} Pa at every node"
         raise ValueError(f"holds a stress that is no number, or too large; {most}")
     pressure = shear = None
     if source.pressure is not None:
-        pressure = source.stress * _component(arrays, source.pressure)
+        pressure = unit * _component(arrays, source.pressure)
     if source.shear is not None:
         name = str(source.shear[0])
-        sense = -source.stress if name.startswith("-") else source.stress
+        sense = -unit if name.startswith("-") else unit
         shear = sense * _component(arrays, name.removeprefix("-"))
     shape = x[used], z[used], triangles.reshape(-1, 3)
     return PlaneMesh(*shape, StressState(*stress), pressure, shear)

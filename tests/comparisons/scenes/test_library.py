@@ -16,6 +16,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.output.headline import kind_of
+from comparisons.output.within import within_of
 from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.show import not_modelled_line
@@ -164,6 +165,17 @@ def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
     by_level = {row.quantity: row.value for row in outcome.figures.of(study="comparison")}
     assert by_level["peak_pressure"] == pytest.approx(peak, rel=0.1)
     assert by_level["contact_length"] == pytest.approx(length, rel=0.1)
+
+
+def test_the_run_in_flank_of_case_hardened_steel_holds():
+    """At 1.2 GPa, whichever published steel's third-order constants it has, and nothing flows."""
+    outcome = run_of(quick("gear-flank", effects=True))
+    assert kind_of(outcome) == "holds"
+    assert 0.02 < within_of(outcome).size < 0.04 < outcome.problem.scene.tolerances["peak_pressure"]
+    assert all(error.part("law_of_elasticity") is not None for error in outcome.model_errors)
+    yield_stress = outcome.problem.scene.body.yield_stress
+    shears = outcome.figures.of(study="contact", quantity="tau1_max")
+    assert 0.5 * yield_stress > max(figure.value for figure in shears) > 0.3 * yield_stress
 
 
 @pytest.mark.parametrize(

@@ -340,7 +340,7 @@ def test_answers_on_the_command_line(tmp_path, hertz, capsys):
     answers = Scene.read("smooth").changed("answers", tables).answers
     one, two = answers["one"], answers["two"]
     assert one.file == two.file == (str(tmp_path / "a.csv"),)
-    assert (one.length, two.length) == (1.0, 1e-3)
+    assert (one.unit("length"), two.unit("length")) == (1.0, 1e-3)
     both = answers_named([f"one={tmp_path / name}" for name in ("a.csv", "b.csv")], tables)
     assert len(both["one"]["file"]) == 2 and both["two"] == tables["two"]
     out = tmp_path / "out"
