@@ -192,8 +192,7 @@ def _draw_zones(axes: "Axes", entries: dict[tuple, dict], columns: list, rows: l
         at = columns.index(column), rows.index(row)
         square = np.add(SQUARE, np.reshape(at, (2, 1)))
         axes.fill(*square, facecolor=COLOURS[entry["status"]], edgecolor="white")
-        level = f"{entry['level']['value']:.2f}"
-        axes.text(*at, level, ha="center", va="center")
+        axes.text(*at, f"{entry['level']:.2f}", ha="center", va="center")
     axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
     axes.set_xticks(range(len(columns)), columns)
     axes.set_yticks(range(len(rows)), rows)

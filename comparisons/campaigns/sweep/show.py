@@ -137,34 +137,23 @@ def _error(quantity: str, point: dict) -> str:
 
 
 def _scatter(content: dict) -> "Table":
-    """Smallest and largest of every figure; over placements mean and standard deviation, too."""
+    """Smallest and largest of every figure; over placements mean and standard deviation, too, which
+    mean nothing of values that are chosen. Of an error all in its per cent, of a figure the
+    deviation in per cent of the mean."""
     is_sample = all(axis["field"] == POSITION for axis in content["over"])
-    spread = ("mean", "std") if is_sample else ()  # of values that are chosen they mean nothing
+    spread = ("mean", "std") if is_sample else ()
     table = plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"))
     for row in content["scatter"]:
-        *names, mean, deviation, low, high = (cell.translate(PLAIN) for cell in _cells(row))
-        table.add_row(*names, *((mean, deviation) if is_sample else ()), low, high)
+        quantity, relative = quantity_of(row["study"], row["quantity"]), row["study"] == MODEL_ERROR
+        mean, *ends = (
+            percent(row[name], signed=True) if relative else with_unit(row[name], quantity.unit)
+            for name in ("mean", "smallest", "largest")
+        )
+        whole = 1.0 if relative or row["mean"] == 0.0 else abs(row["mean"])
+        deviation = row["standard_deviation"]
+        sample = (mean, "" if deviation is None else percent(deviation / whole))
+        source = row["study" if relative else "source"].replace("_", " ")
+        friction = "" if row["friction"] is None else f"{row['friction']:g}"
+        names = quantity.short or quantity.label, source, friction
+        table.add_row(*map(plain_text, (*names, *(sample if is_sample else ()), *ends)))
     return table
-
-
-def _cells(row: dict) -> tuple[str, ...]:
-    """The scatter of an error in its per cent, of a figure in per cent of the mean."""
-    quantity = quantity_of(row["study"], row["quantity"])
-    deviation, mean = row["standard_deviation"], row["mean"]
-    relative = row["study"] == MODEL_ERROR
-    spread = ""
-    if deviation is not None:
-        spread = percent(deviation if relative or mean == 0.0 else deviation / abs(mean))
-    mean, *ends = (
-        percent(value, signed=True) if relative else with_unit(value, quantity.unit)
-        for value in (mean, row["smallest"], row["largest"])
-    )
-    friction = "" if row["friction"] is None else f"{row['friction']:g}"
-    return (
-        quantity.short or quantity.label,
-        row["study" if relative else "source"].replace("_", " "),
-        friction,
-        mean,
-        spread,
-        *ends,
-    )

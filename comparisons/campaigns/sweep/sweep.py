@@ -7,7 +7,6 @@ import shlex
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from math import isfinite
 from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,7 +28,7 @@ from comparisons.common.numbers import is_whole
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
-from comparisons.figures.figure import Figure, Findings, grouped
+from comparisons.figures.figure import Findings, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
@@ -206,21 +205,14 @@ def solved(point: Point) -> dict:
 
 
 def _zones(findings: Findings | None) -> dict[str, list[dict]]:
-    """By model, then by friction coefficient."""
+    """By model, then by friction coefficient; their figures are among the rows."""
     by_model: dict[str, list[dict]] = {}
     for zone in quiescent_zone.zones_of(findings):
-        figures = {n: _stated(zone.figures.get(n)) for n in quiescent_zone.QUANTITIES}
-        counts = {"bridged": zone.bridged, "asperities": zone.asperities}
-        entry = {"friction": zone.friction, "status": zone.state, **figures, **counts}
+        entry = {"friction": zone.friction, "status": zone.state}
+        entry |= {"level": zone.figures["level"].value}
+        entry |= {"bridged": zone.bridged, "asperities": zone.asperities}
         by_model.setdefault(zone.model, []).append(entry)
     return by_model
-
-
-def _stated(figure: Figure | None) -> dict[str, float | None]:
-    if figure is None:
-        return {"value": None, "uncertainty": None}
-    size = figure.numerical * figure.scale
-    return {"value": figure.value, "uncertainty": size if isfinite(size) else None}
 
 
 def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:

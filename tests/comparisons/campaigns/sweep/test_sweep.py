@@ -268,7 +268,7 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
     with style.drawing():
         axes = zone_map_figure(content).axes
     shown = [[text.get_text() for text in panel.texts] for panel in axes]
-    assert shown == [[f"{e[k]['level']['value']:.2f}" for e in zones] for k in (0, 1)]
+    assert shown == [[f"{e[k]['level']:.2f}" for e in zones] for k in (0, 1)]
     assert [panel.get_title(loc="left") for panel in axes] == [
         "friction 0, half-plane",
         "friction 0.3, half-plane",
