@@ -4,19 +4,23 @@ In: a run and its verdict. Out: what would decide or improve it."""
 
 import math
 
-from comparisons.common.numbers import plain, with_unit
+import numpy as np
+
+from comparisons.common.numbers import percent, plain, with_unit
 from comparisons.figures.figure import Figure, nearest_to_tolerance
-from comparisons.figures.quantity import QUANTITIES, label
+from comparisons.figures.quantity import QUANTITIES, WHOLE, label
 from comparisons.models.forecast import time_with_flow
 from comparisons.scenes.materials import kinds_like, measured_solids
 from comparisons.scenes.sections import ElasticSection
 from comparisons.studies.model_error.account import INPUTS
+from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.model_error.show import ROUNDING, figure_of_whole
-from comparisons.studies.study import MODEL_ERROR, Run
+from comparisons.studies.study import LADDER, MODEL_ERROR, Run
 from comparisons.studies.subsurface import yielding
 
+SHEARS = ("tau1_max", "txz_max_abs")
 AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided
 
 
@@ -109,16 +113,48 @@ def next_of_flow(run: Run) -> tuple[str, tuple[str, ...]]:
 
 
 def _figures_of_whole(run: Run) -> str:
-    """The figures to use instead, at the largest friction."""
-    friction = max(run.problem.scene.load.friction)
-    shown = [
-        f"{label(error.quantity)} "
-        f"{with_unit(figure_of_whole(run, error), QUANTITIES[error.quantity].unit)}"
-        for error in run.model_errors
-        if error.friction == friction
-    ]
+    """The figures to use instead, at the largest friction, each with its uncertainty; before them
+    those that are not known to their tolerance, or that the body cannot bear, and why."""
+    friction, known = max(run.problem.scene.load.friction), run.figures.of(study=LADDER)
+    offered, withheld = [], {}
+    for error in run.model_errors.of(friction=friction):
+        of_whole = known.one(source=WHOLE, quantity=error.quantity, friction=friction) or error
+        unsure, value = of_whole.total, figure_of_whole(run, error)
+        borne = _borne(run, friction) if error.quantity in SHEARS else math.inf
+        size = with_unit(value, QUANTITIES[error.quantity].unit)
+        figure = f"{label(error.quantity)} {size} ± {percent(unsure)}"
+        if value > borne:
+            why = f"more than the body bears, {with_unit(borne, 'Pa')}"
+            withheld.setdefault(why, []).append(figure)
+        elif not unsure <= error.tolerance:
+            largest = max(of_whole.unknown, key=of_whole.unknown.get, default="")
+            why = "finer levels take more budget.time"
+            if of_whole.not_modelled > of_whole.numerical:
+                why = f"{EFFECTS[largest].label} is not modelled"
+            withheld.setdefault(f"not known to the tolerance ({why})", []).append(figure)
+        else:
+            offered.append(figure)
     where = f" (friction {plain(friction)})" if len(run.problem.scene.load.friction) > 1 else ""
-    return f"take the whole model's {', '.join(shown)}{where}" if shown else "take the whole model"
+    said = f"take the whole model's {', '.join(offered)}" if offered else "take no figure"
+    words = (f"{', '.join(figures)}: {why}" for why, figures in withheld.items())
+    return "; ".join([*words, f"{said}{where}"])
+
+
+def _borne(run: Run, friction: float) -> float:
+    """The largest shear [Pa] that a body bears which flows in the whole model: by von Mises, with
+    what it has hardened by; infinite where the flow stress is not known."""
+    body = run.problem.scene.body
+    if body.yield_stress is None or FLOW not in run.data(MODEL_ERROR).selection.whole:
+        return math.inf
+    flow = body.flow_stress()
+    wanted = {"study": yielding.NAME, "quantity": yielding.PLASTIC_STRAIN, "source": WHOLE}
+    strain = run.figures.one(**wanted, friction=friction)
+    if strain is None:
+        hardens = flow.slope(np.zeros(1))[0] or flow.kinematic
+        return math.inf if hardens else flow.yield_stress / 3.0**0.5
+    most = strain.value * (1.0 + strain.numerical)
+    # Prager's back stress in tension is H' times the plastic strain
+    return float(flow.stress(most) + flow.kinematic * most) / 3.0**0.5
 
 
 def _rounded_up(size: float) -> float | None:

@@ -56,6 +56,11 @@ def verdict_of(errors: Iterable[Figure]) -> str:
     return next(v for v in ("fails", "inconclusive", "holds") if v in verdicts)
 
 
+def may_suffice(errors: Iterable[Figure]) -> bool:
+    """Whether no error of a rung fails, or is less certain than its tolerance."""
+    return all(e.verdict != "fails" and e.total <= e.tolerance for e in errors)
+
+
 @dataclass(frozen=True)
 class Rung:
     """One model and its errors in what the scene judges."""

@@ -7,7 +7,7 @@ from comparisons.common.numbers import percent, with_unit
 from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
-from comparisons.studies.ladder.rungs import verdict_of
+from comparisons.studies.ladder.rungs import may_suffice, verdict_of
 from comparisons.studies.study import LADDER, Run
 
 RUNGS = "rungs"  # series: what each rung took
@@ -37,17 +37,17 @@ def blocks(run: Run) -> list[Block]:
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """The cheapest model that holds, or that was not refuted."""
+    """The cheapest model that holds, or that may by an error known to its tolerance."""
     rungs, findings = _rungs(run), run.findings[LADDER]
     if not rungs:
         return []
     by_name = {row["rung"]: _text(row, words, errors) for row, words, errors in rungs}
     if (name := findings.said(SUFFICES)) is not None:
         return [("cheapest that holds", by_name[name])]
-    left = [row["rung"] for row, _, errors in rungs if verdict_of(errors) != "fails"]
+    left = [row["rung"] for row, _, errors in rungs if may_suffice(errors)]
     why = f", {said}" if (said := findings.said(NONE)) else ""
-    beside = f"; cheapest that was not refuted: {by_name[left[0]]}" if left else ""
-    return [("cheapest that holds", f"none{why}{beside}")]
+    beside = f"cheapest that may: {by_name[left[0]]}" if left else "none is known to suffice"
+    return [("cheapest that holds", f"none{why}; {beside}")]
 
 
 def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:

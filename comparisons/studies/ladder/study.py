@@ -18,7 +18,13 @@ from comparisons.studies import comparison
 from comparisons.studies.friction import coupling
 from comparisons.studies.ladder import show
 from comparisons.studies.ladder.operators import carried_deformed
-from comparisons.studies.ladder.rungs import HALF_PLANE, Ladder, Rung, announce_operators
+from comparisons.studies.ladder.rungs import (
+    HALF_PLANE,
+    Ladder,
+    Rung,
+    announce_operators,
+    may_suffice,
+)
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.error_budget import selected_effects
 from comparisons.studies.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
@@ -72,7 +78,8 @@ def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Sta
     elif rungs[-1].verdict == "inconclusive":
         said.append(Statement(show.NONE, "the whole model is not known to the tolerance"))
     dearer = rungs[rungs.index(half_plane) + 1 :]
-    possible = [rung.name for rung in (*holding, *dearer) if rung.verdict != "fails"]
+    possible = [rung.name for rung in (*holding, *dearer) if may_suffice(rung.figures)]
+    possible += [rungs[-1].name] * (rungs[-1].verdict != "fails")  # if none is known to that
     if half_plane.verdict != "holds" and not flows and possible:
         said.append(Statement(show.ESCALATE_TO, possible[0]))
         if (assumption := _worth_dropping(errors)) is not None:

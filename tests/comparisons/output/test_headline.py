@@ -8,10 +8,11 @@ from scenes import judged as figure_of
 from scenes import judging, posed, refound, unconverged
 
 from comparisons.common.numbers import with_unit
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.output.headline import headline
 from comparisons.studies.model_error.laws import LawSpread, open_laws
 from comparisons.studies.model_error.model_error import Estimate, ModelError
-from comparisons.studies.model_error.selection import EffectSelection
+from comparisons.studies.model_error.selection import FLOW, EffectSelection
 from comparisons.studies.study import Run
 
 TOLERANCE = 0.02
@@ -75,13 +76,43 @@ def test_next_names_the_figures_to_use_or_the_tolerance_that_holds(smooth_outcom
     known = {"study": "contact", "source": "half_plane", "quantity": "contact_length"}
     length = smooth_outcome.figures.one(**known, friction=0.0).value
     error = replace(error_of("contact_length", -0.7, 1e-3), scale=length / 0.3)
-    fails = headline(judged(smooth_outcome, error))
+    fails = headline(refound(judged(smooth_outcome, error), "ladder", figures=()))
     shown = with_unit(length / 0.3, "m")
-    assert fails.next.startswith(f"take the whole model's contact length {shown}")
+    assert fails.next.startswith(f"take the whole model's contact length {shown} ± ")
     at_it = headline(judged(smooth_outcome, error_of("contact_length", 0.0199, 3.5e-4)))
     assert at_it.kind == "inconclusive" and at_it.paste == ("--tolerance 0.021",)
     unsure = headline(judged(smooth_outcome, error_of("contact_length", 0.01, 0.015)))
     assert unsure.kind == "inconclusive" and unsure.paste == ("[budget]\ntime = 600",)
+
+
+def test_next_offers_no_figure_that_is_not_known_or_that_the_body_cannot_bear(smooth_outcome: Run):
+    shear = smooth_outcome.figures.one(study="contact", source="half_plane", quantity="tau1_max")
+    errors = [
+        replace(error_of(name, -0.1, 1e-3), scale=shear.value / 0.9)
+        for name in ("peak_pressure", "tau1_max")
+    ]
+    known = tuple(
+        replace(error, study="ladder", source="whole", value=0.0, uncertainty=Uncertainty(parts))
+        for error, parts in zip(
+            judged(smooth_outcome, *errors).model_errors,
+            ({"numerical": 0.28}, {"numerical": 0.01}),
+            strict=True,
+        )
+    )
+    run = refound(judged(smooth_outcome, *errors), "ladder", figures=known)
+    unsure, _, offered = headline(run).next.partition("; ")
+    assert unsure.endswith(
+        "± 28 %: not known to the tolerance (finer levels take more budget.time)"
+    )
+    assert offered.startswith("take the whole model's largest principal shear stress τ₁ ")
+    weak = run.problem.scene.unchecked({"body.yield_stress": 1e9, "finite_element.plastic": True})
+    flowing = replace(run.data("model_error"), selection=replace(NONE, contained={FLOW}))
+    run = posed(run, problem=replace(run.problem, scene=weak))
+    run = refound(run, "model_error", data=flowing)
+    said = headline(run).next
+    assert (
+        "±" in said and ": more than the body bears, 577.4 MPa; take no figure in" in said
+    )  # Y/√3
 
 
 def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: Run):
