@@ -68,17 +68,6 @@ def test_x3p(tmp_path):
 
 @needs_reader
 @pytest.mark.usefixtures("one_reader")
-def test_text_of_a_map_with_its_size_and_unit(tmp_path):
-    rows = "\n".join("\t".join(map(repr, row)) for row in (1e9 * HEIGHTS).tolist())
-    (tmp_path / "map.asc").write_text(f"# Width: 14 um\n# Height: 10 um\n# Value units: nm\n{rows}")
-    field = read_instrument_file(tmp_path / "map.asc")
-    np.testing.assert_allclose(field.heights, HEIGHTS, rtol=1e-12)
-    np.testing.assert_allclose(field.pitch, (2e-6, 2e-6), rtol=1e-12)
-    assert field.unit == pytest.approx(1e-9)
-
-
-@needs_reader
-@pytest.mark.usefixtures("one_reader")
 def test_the_sizes_of_an_mi_file_are_in_metres(tmp_path):
     """The library names the unit of its heights for both: 20 um would be 20 pm long."""
     head = {"fileType": "Image", "xPixels": 8, "yPixels": 8, "xLength": 2e-5, "yLength": 4e-5}
@@ -90,15 +79,6 @@ def test_the_sizes_of_an_mi_file_are_in_metres(tmp_path):
     assert field.format == f"mi, by SurfaceTopography {metadata.version('SurfaceTopography')}"
     assert field.pitch == pytest.approx((2.5e-6, 5e-6), rel=1e-12)
     assert np.ptp(field.heights) == pytest.approx(63 / 32768 * 2e-6, rel=1e-12)
-
-
-@needs_reader
-@pytest.mark.usefixtures("one_reader")
-def test_files_without_size_and_unit_say_so(tmp_path):
-    np.savetxt(tmp_path / "map.asc", HEIGHTS)
-    field = read_instrument_file(tmp_path / "map.asc")
-    assert (field.pitch, field.unit) == (None, None)
-    np.testing.assert_allclose(field.heights, HEIGHTS, rtol=1e-12)
 
 
 @needs_reader
