@@ -26,7 +26,6 @@ class ExitStatus(IntEnum):
     OUT_OF_MEMORY = 71  # EX_OSERR
     CANNOT_WRITE = 74  # EX_IOERR
     INTERRUPTED = 130  # 128 + SIGINT
-    KILLED = 137  # 128 + SIGKILL, of the process that worked
     BROKEN_PIPE = 141  # 128 + SIGPIPE
 
 

@@ -15,8 +15,9 @@ from threading import Lock
 from types import ModuleType
 
 from comparisons import ROOT
-from comparisons.common.interrupt import KILLED, end_with_parent
 
+KILLED = "killed, as the system does where memory ends"
+PR_SET_PDEATHSIG = 1  # of Linux's prctl
 # Of processes that this one starts: one thread, and no code from the working folder.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "PYTHONSAFEPATH": "1"}
 _starting = Lock()  # of processes, since each changes this one's environment for a moment
@@ -157,3 +158,9 @@ def environment(wanted: dict[str, str]) -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+def end_with_parent() -> None:
+    """Let the system kill this process when its parent is killed; only Linux can."""
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)

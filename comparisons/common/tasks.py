@@ -17,8 +17,8 @@ from typing import TypeVar
 
 from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import SolverError, note_place
-from comparisons.common.interrupt import KILLED
 from comparisons.common.processes import (
+    KILLED,
     ProcessWorker,
     cores,
     interrupts_later,
@@ -230,7 +230,7 @@ class Tasks:
         needed = [task.seconds for task in self._waiting.values() if task.urgency < PERHAPS]
         # what lies beyond the longest can be done beside it
         beside = sum(needed) - max(needed, default=0.0) + (PREPARATION if self.there else 0.0)
-        self._has_begun = self.worth is None or beside >= self.worth
+        self._has_begun = self.worth is None or bool(self.there) or beside >= self.worth
 
     def _open(self, wanted: float) -> None:
         """Let there be so many workers, as far as there may be."""
@@ -341,17 +341,20 @@ def tasks_here(
     there: Sequence[Preparation] = (),
 ) -> Tasks:
     """Tasks on all cores within `memory` [bytes], and within the machine's. Processes begin where
-    the tasks are worth them."""
+    the tasks are worth them, and where they prepare for compiled libraries: Ctrl-C is heard only
+    between calls of these."""
     memory = min(memory, SHARE_OF_MEMORY * machine_memory())
-    opens, worth = None if _places() < 2 else _process, WORTH_A_FORK if _forks() else WORTH_A_START
-    return Tasks(opens, _places(), kept, callback, worth, memory, here=here, there=there)
+    opens, places = (None, 1) if _is_worker() else (_process, cores())
+    worth = WORTH_A_FORK if _forks() else WORTH_A_START
+    return Tasks(opens, places, kept, callback, worth, memory, here=here, there=there)
 
 
 def tasks_of_copies(shared: object, here: Sequence[Preparation] = ()) -> Tasks:
     """Tasks on copies of this process, one a core, that have `shared` in memory; in this process
     where there can be none. They use no MPI, which survives no fork."""
-    opens = partial(ProcessWorker, forked=True) if _places() > 1 and is_forkable() else None
-    return Tasks(opens, _places(), shared=shared, here=here)
+    alone = cores() < 2 or _is_worker() or not is_forkable()
+    opens = None if alone else partial(ProcessWorker, forked=True)
+    return Tasks(opens, cores(), shared=shared, here=here)
 
 
 def called(here: Here, work: Callable[..., object], *args: object) -> object:
@@ -364,9 +367,9 @@ def carried_out(work: Work, *args: object) -> tuple[bool, object]:
     return _answered(work, Here(), *args)
 
 
-def _places() -> int:
-    """How many processes may work for this one, which may work for another itself."""
-    return 1 if multiprocessing.parent_process() is not None else cores()
+def _is_worker() -> bool:
+    """Whether this process works for another one itself."""
+    return multiprocessing.parent_process() is not None
 
 
 def _forks() -> bool:

@@ -23,7 +23,15 @@ from comparisons.common.provenance import (
     revision,
     versions,
 )
-from comparisons.common.tasks import Opens, Preparation, ProcessEnded, Tasks, tasks_here
+from comparisons.common.tasks import (
+    AT_ONCE,
+    Here,
+    Opens,
+    Preparation,
+    ProcessEnded,
+    Tasks,
+    tasks_here,
+)
 from comparisons.figures.figure import Findings
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
@@ -100,7 +108,7 @@ def solve_scene(
     try:
         with _tasks_of(scene, models) as tasks:
             tasks.prepare()
-            problem, plan = posed(scene, surface, models, known.levels, callback)
+            problem, plan = posed(scene, surface, models, known.levels, callback, tasks)
             scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
             scene_now = replace(scene_now, all_methods=known.all_methods)
             return _solve(scene_now, out, callback, tasks)
@@ -126,14 +134,16 @@ def posed(
     models: tuple[str, ...],
     levels: Levels | None = None,
     callback: ProgressCallback = no_progress,
+    tasks: Tasks | None = None,
 ) -> tuple[Problem, Plan]:
-    """The problem of a scene on its surface as measured, and the plan of the run that solves it."""
+    """The problem of a scene on its surface as measured, and the plan of the run that solves it.
+    `tasks` solve the finite elements that this takes; None: this process."""
     stages = Stages(callback)
     if scene.running_in is not None:
         with stages.stage("running-in", "running the surface in"):
             surface = run_in_surface(scene, surface)
     with stages.stage("set-up", "finding the reach of the contact"):
-        problem = _problem(scene, surface, models, levels, callback)
+        problem = _problem(scene, surface, models, levels, tasks or Tasks())
     return problem, make_plan(problem, models)
 
 
@@ -164,7 +174,7 @@ def _problem(
     surface: SceneSurface,
     models: tuple[str, ...],
     levels: Levels | None,
-    callback: ProgressCallback,
+    tasks: Tasks,
 ) -> Problem:
     if scene.load.kind != "approach":
         return problem_of(scene, surface, levels=levels)
@@ -173,9 +183,14 @@ def _problem(
             f"{scene.source}: load.approach: takes finite elements to find its load; "
             "allowed with the half-plane alone is per_length or hertz_peak_pressure"
         )
+    tasks.add("approach", _approached, scene, surface, levels, urgency=AT_ONCE)
+    return tasks.result("approach")
+
+
+def _approached(here: Here, scene: Scene, surface: SceneSurface, levels: Levels | None) -> Problem:
     from comparisons.models.finite_element.level import problem_of_approach
 
-    return problem_of_approach(scene, callback, surface, levels)
+    return problem_of_approach(scene, here.callback, surface, levels)
 
 
 def solve(scene: Solved, out: Path | None, callback: ProgressCallback = no_progress) -> Run:
