@@ -27,7 +27,7 @@ from comparisons.output.arrays import RunArrays
 from comparisons.output.flat_csv import Row, judged_rows, result_summary, rows_of, rows_tables
 from comparisons.output.page.plots import Plots
 from comparisons.output.result_json import Result, content_of, result_of
-from comparisons.scenes.scene import Scene, with_tolerance
+from comparisons.scenes.scene import Scene, with_law, with_tolerance
 from comparisons.studies import meaning, study
 
 if TYPE_CHECKING:
@@ -296,6 +296,7 @@ def run(
     models: str | Sequence[str] = MODELS,
     *,
     tolerance: float | None = None,
+    law: str | None = None,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> FinishedRun:
@@ -303,6 +304,7 @@ def run(
 
     models     half-plane, finite-element, or both
     tolerance  relative, of all that is judged, in place of the scene's own
+    law        of elasticity, of every elastic body, in place of their own
     out        folder for the files of the run; None writes none
     progress   gets each stage as it begins
     Raises SceneError for a wrong scene, SolverError where no solution is found.
@@ -331,6 +333,8 @@ def run(
     asked = scene_of(scene)
     if tolerance is not None:
         asked = with_tolerance(asked, tolerance)
+    if law is not None:
+        asked = with_law(asked, law)
     return FinishedRun.of(run_scene(asked, place, chosen, progress))
 
 

@@ -40,6 +40,10 @@ Tolerance = Annotated[
     str | None,
     Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
 ]
+Law = Annotated[
+    str | None,
+    Option(help="Of elasticity, of every elastic body; linear: nothing deforms finitely."),
+]
 Workers = Annotated[
     str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
 ]
@@ -63,6 +67,7 @@ def run(
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Models = BOTH,
     tolerance: Tolerance = None,
+    law: Law = None,
     junit: Junit = None,
     workers: Workers = None,
     answer: Answers = None,
@@ -85,7 +90,7 @@ def run(
     gc.freeze()  # a collection would look through all that was imported
     began = perf_counter()
     chosen = models_named(models, "--models")
-    asked = _read(scene_with(scene, settings), answer or (), units, tolerance)
+    asked = _read(scene_with(scene, settings), answer or (), units, tolerance, law)
     surface = surface_of(asked)
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
@@ -131,11 +136,15 @@ def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | 
 
 
 def _read(
-    asked: "Scene", answers: Sequence[str], units: str | None, tolerance: str | None
+    asked: "Scene",
+    answers: Sequence[str],
+    units: str | None,
+    tolerance: str | None,
+    law: str | None,
 ) -> "Scene":
     """The scene with answers from outside, NAME=FILE each, in units such as mm,MPa, and a tolerance
-    in place of its own."""
-    from comparisons.scenes.scene import with_tolerance
+    and a law of elasticity in place of its own."""
+    from comparisons.scenes.scene import with_law, with_tolerance
     from comparisons.scenes.studies.answers import answers_named
 
     if units is not None and not answers:
@@ -143,6 +152,8 @@ def _read(
     if answers:
         named = answers_named(answers, asked.written.get("answers"), units)
         asked = asked.changed("answers", named)
+    if law is not None:
+        asked = with_law(asked, law)
     return asked if tolerance is None else with_tolerance(asked, _relative(tolerance))
 
 

@@ -8,6 +8,7 @@ from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import BodySection, RollerSection
 
+WITHIN_LINEAR = "within linear elasticity"
 LAW_NAMES = {
     "neo-hookean": "neo-Hookean",
     "hencky": "Hencky's",
@@ -39,24 +40,30 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
 def without_law(scene: Scene) -> list[str]:
     """The `body`, the elastic `roller` and the `coating` of which the scene says no law of
     elasticity."""
-    bodies = {"body": scene.body, "coating": scene.coating}
-    if not scene.roller.rigid:
-        bodies["roller"] = scene.roller
-    return [name for name, body in bodies.items() if body is not None and body.law is None]
+    return [name for name, section in scene.elastic_sections.items() if section.law is None]
 
 
 def laws(scene: Scene) -> str:
     """The laws of elasticity of all bodies at finite strain, in words."""
     laws = {}
-    for section in (scene.body, scene.coating, scene.roller):
-        if section is not None and section.material is not None:
-            law = section.material.law
-            measured = section.solid and law.murnaghan is not None
-            laws[f"{section.solid}'s measured" if measured else LAW_NAMES[law.name]] = None
+    for section in scene.elastic_sections.values():
+        law = section.material.law
+        measured = section.solid and law.murnaghan is not None
+        laws[f"{section.solid}'s measured" if measured else LAW_NAMES[law.name]] = None
     return " and ".join(laws)
 
 
+def question(scene: Scene) -> str:
+    """Within what the verdict of a scene is meant, for the end of a clause; nothing where it is
+    meant for the bodies as they are."""
+    if scene.linear:
+        return WITHIN_LINEAR + (" and flow" if scene.finite_element.plastic else "")
+    return "of elastic bodies (plastic = false)" if scene.asks_elastic else ""
+
+
 def _law(scene: Scene) -> str:
+    if scene.linear:
+        return f"law of elasticity: linear, every figure is {WITHIN_LINEAR}"
     missing = " and ".join(without_law(scene))
     return f"law of elasticity: {laws(scene)}" + (f" (not given: {missing})" if missing else "")
 

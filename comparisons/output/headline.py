@@ -9,7 +9,7 @@ from typing import Literal
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.figures.figure import Figure, nearest_to_tolerance
 from comparisons.figures.quantity import HYPHENATED
-from comparisons.models.assumptions import laws, without_law
+from comparisons.models.assumptions import laws, question, without_law
 from comparisons.output.next_step import next_of, next_of_flow, worst_of
 from comparisons.output.within import Within, name_of, size_of, within_of
 from comparisons.studies import contact
@@ -71,7 +71,10 @@ def headline(run: Run) -> Headline:
         return Headline(within, kind, FLOWS, *next_of_flow(run))
     said = _sentence_of(run, kind, within)
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
-    said = f"{said[0].upper()}{said[1:]}{law}.{_inputs(run)}"
+    asked = question(run.problem.scene)
+    idle = kind == "holds" and FLOW in run.data(MODEL_ERROR).selection.found
+    clauses = f"{law}{asked and f', {asked}'}{f'; {yielding.IDLE}' if idle else ''}"
+    said = f"{said[0].upper()}{said[1:]}{clauses}.{_inputs(run)}"
     return Headline(within, kind, said, *next_of(run, kind))
 
 
@@ -90,7 +93,10 @@ def _sentence_of(run: Run, kind: Kind, within: Within) -> str:
         return _inconclusive(run, within)
     if kind == "holds":
         nearest = _other(run, within, nearest_to_tolerance(errors), "; nearest to its tolerance: ")
-        return f"{_counted(errors, errors, 'within')}{nearest}"
+        idle = FLOW in run.data(MODEL_ERROR).selection.found
+        return (
+            f"{_counted(errors, errors, 'within')}{nearest}{f'; {yielding.IDLE}' if idle else ''}"
+        )
     outside = [error for error in errors if error.verdict == "fails"]
     worst = nearest_to_tolerance(outside)
     taken = flow_taken([e for e in errors if e.friction == worst.friction])
@@ -119,7 +125,7 @@ def _other(run: Run, within: Within, error: Figure, words: str) -> str:
         return ""
     tolerances = {figure.tolerance for figure in run.model_errors}
     its = f" (tolerance {percent_as_written(error.tolerance)})" if len(tolerances) > 1 else ""
-    return f"{words}{name_of(run, error)}, {size_of(error)}{its}"
+    return f"{words}{name_of(run, error)}, {size_of(run, error)}{its}"
 
 
 def _law_leaned_on(run: Run) -> str:
@@ -149,6 +155,8 @@ def _inputs(run: Run) -> str:
 
 def _inconclusive(run: Run, within: Within) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
+    if run.findings[yielding.NAME].said(yielding.AT_SUCH_STRESSES) and not within.figure:
+        return "nothing said of an elastic body will hold"
     worst = worst_of(run)
     error = _other(run, within, worst, "the error of ") or "this error"
     largest, tolerance = max(worst.unknown, key=worst.unknown.get, default=""), _tolerance([worst])

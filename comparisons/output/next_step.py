@@ -21,6 +21,7 @@ from comparisons.studies.study import LADDER, MODEL_ERROR, Run
 from comparisons.studies.subsurface import yielding
 
 SHEARS = ("tau1_max", "txz_max_abs")
+LINEAR = "--law linear"
 AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided
 
 
@@ -67,10 +68,8 @@ def next_of(run: Run, kind: str) -> tuple[str, tuple[str, ...]]:
     if largest == "finite_strain" and (time := run.data(MODEL_ERROR).selection.time):
         time = _rounded_up(time)
         return f"budget.time = {time:g} computes it.", (f"[budget]\ntime = {time:g}",)
-    if largest == "plastic_flow":
-        paste = "[finite_element]\nplastic = true"
-        missing = "" if run.problem.scene.body.yield_stress else ", with body.yield_stress,"
-        return f"finite_element.plastic = true{missing} computes it.", (paste,)
+    if largest == FLOW:
+        return next_of_flow(run)
     return f"{tolerance} holds.", (tolerance,)
 
 
@@ -83,12 +82,21 @@ def _next_of_law(run: Run, worst: Figure, tolerance: str) -> tuple[str, tuple[st
     if unnamed:
         paste = tuple(f'[{name}]\nmaterial = "{_like(part)}"' for name, part in unnamed.items())
         fields = " and ".join(f'{n}.material = "{_like(s)}"' for n, s in unnamed.items())
-        return f"{fields}, or what it is (crosscheck materials), for its moduli.", paste
+        either = f"{fields}, or what it is (crosscheck materials), for its moduli"
+        return f"{either}; {tolerance} holds{_or_linear(run)}.", paste
     unmeasured = dict.fromkeys(part.solid for part in sections.values())
     if not unmeasured:
         return f"{tolerance} holds.", (tolerance,)
     known = f"no third-order constants of {' or '.join(unmeasured)} are published"
-    return f"{tolerance} holds; {known}.", (tolerance,)
+    linear = (LINEAR,) if _or_linear(run) else ()
+    return f"{tolerance} holds{_or_linear(run)}; {known}.", (tolerance, *linear)
+
+
+def _or_linear(run: Run) -> str:
+    """For the end of a clause: the question of a textbook, where the scene can ask it."""
+    if run.problem.scene.finite_element.deformation == "finite":
+        return ""
+    return f", or {LINEAR}: within linear elasticity"
 
 
 def _like(section: ElasticSection) -> str:
@@ -98,11 +106,12 @@ def _like(section: ElasticSection) -> str:
 
 
 def next_of_flow(run: Run) -> tuple[str, tuple[str, ...]]:
-    """Where a body flows beyond doubt, and no model of the run does."""
+    """Where a body flows, or may, and no model of the run does."""
     problem = run.problem
     why = run.data(MODEL_ERROR).selection.impossible.get(FLOW, "")
     if problem.scene.body.yield_stress is None:
-        return 'body.yield_stress = "…" computes the flow.', ()
+        linear = (LINEAR,) if _or_linear(run) else ()
+        return f'body.yield_stress = "…" computes the flow{_or_linear(run)}.', linear
     if "budget.effects" in why:
         return "budget.effects = true computes the flow.", ("[budget]\neffects = true",)
     if "budget.time" in why:

@@ -193,7 +193,7 @@ def _read_figure(entry: Mapping) -> Figure:
         at=dict(entry["at"]),
         against=entry.get("against"),
         uncertainty=_read_uncertainty(entry),
-        unknown=dict(entry.get("not_modelled", {})),
+        unknown={n: _number(size) for n, size in entry.get("not_modelled", {}).items()},
         bounds=bounds and (bounds[0], bounds[1]),
         parts=tuple(Part(name, **content) for name, content in parts),
         spread=spread and SampleSpread(**spread | {"interval": tuple(spread["interval"])}),

@@ -15,9 +15,11 @@ from math import hypot, isfinite
 from comparisons.common.numbers import percent, percent_as_written, plain, with_unit
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text
+from comparisons.models.assumptions import question
 from comparisons.studies.friction import coupling
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.show import law_range
+from comparisons.studies.model_error.selection import FLOW
+from comparisons.studies.model_error.show import law_range, leaves_flow_out
 from comparisons.studies.study import Run
 from comparisons.studies.subsurface import yielding
 
@@ -32,27 +34,31 @@ class Within:
     size: float | None  # relative; None: not known
     figure: Figure | None  # that makes it, or that is not known
     said: str  # that figure with its error, or why it is not known, as a clause
+    asked: str = ""  # within what it is meant, where that is not everything
 
     @property
     def sentence(self) -> str:
+        here = "here" + (self.asked and f", {self.asked},")
         if self.size is None:
-            return f"How wrong the half-plane may be here is not known: {self.said}."
+            return f"How wrong the half-plane may be {here} is not known: {self.said}."
         size = percent_as_written(rounded_up(self.size))
         how = f"right within {size}" if self.size < 1.0 else f"off by up to {size}"
-        return f"The half-plane is {how} here (largest: {self.said})."
+        return f"The half-plane is {how} {here.rstrip(',')} (largest: {self.said})."
 
 
 def within_of(run: Run) -> Within:
+    asked = question(run.problem.scene)
     if why := next(filter(None, (reason(run) for reason in REASONS)), ""):
-        return Within(None, None, why)
+        return Within(None, None, why, asked)
     largest = max(run.model_errors, key=lambda error: (not isfinite(error.reach), error.reach))
     if isfinite(largest.reach):
-        return Within(largest.reach, largest, f"{name_of(run, largest)}, {size_of(largest)}")
+        said = f"{name_of(run, largest)}, {size_of(run, largest)}"
+        return Within(largest.reach, largest, said, asked)
     open_effects = (EFFECTS[n].label for n, size in largest.unknown.items() if not isfinite(size))
     what = f"the {name_of(run, largest)}, whose uncertainty has no bound"
     if effect := next(open_effects, ""):
         what = f"the effect of {effect} on the {name_of(run, largest)}"
-    return Within(None, largest, what)
+    return Within(None, largest, what, asked)
 
 
 def rounded_up(size: float) -> float:
@@ -69,8 +75,11 @@ def name_of(run: Run, error: Figure) -> str:
     return f"{QUANTITIES[error.quantity].short}{at}"
 
 
-def size_of(error: Figure) -> str:
-    """An error with its uncertainty, its range by the law of elasticity, and what else may add."""
+def size_of(run: Run, error: Figure) -> str:
+    """An error with its uncertainty, its range by the law of elasticity, and what else may add; of
+    one that leaves flow out, what that may change alone."""
+    if leaves_flow_out(run, error):
+        return f"{percent(error.unknown[FLOW])} by {EFFECTS[FLOW].label}, which is not modelled"
     size = law_range(error) or error_text(error.value, error.numerical)
     size = f"{size.removesuffix(' %')} ± {percent(error.numerical)}"
     others = hypot(*(of for name, of in error.unknown.items() if not error.part(name)))
@@ -102,7 +111,9 @@ def _one_model(run: Run) -> str:
 
 
 def _flows(run: Run) -> str:
-    return run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT) or ""
+    said = run.findings[yielding.NAME].said
+    at_such = None if run.problem.scene.asks_elastic else said(yielding.AT_SUCH_STRESSES)
+    return said(yielding.BEYOND_DOUBT) or at_such or ""
 
 
 def _nothing_judged(run: Run) -> str:

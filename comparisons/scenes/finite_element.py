@@ -23,7 +23,9 @@ class FiniteElementSection(SceneSection):
     # linear: the roughness is in the gap, at the place before loading | finite: it is the boundary;
     # current shape and normals, hyperelastic
     deformation: Annotated[str, OneOf(("linear", "finite"))] = "linear"
-    plastic: Annotated[bool, Truth()] = False  # the body yields where its yield stress is reached
+    # the body yields where its yield stress is reached; false: elastic bodies are the question;
+    # None: flow is computed where it may matter
+    plastic: Annotated[bool, Truth()] | None = None
     element: Annotated[str, OneOf(("P1", "P2", "P3"))] | None = None  # degree of displacements
     # width and depth, in Hertz half-widths, of the stand-in for an unbounded body, which ends at a
     # fixed boundary; element size gained per distance from the contact
@@ -37,7 +39,7 @@ class FiniteElementSection(SceneSection):
 
     @property
     def nonlinear(self) -> bool:
-        return self.deformation == "finite" or self.plastic
+        return self.deformation == "finite" or bool(self.plastic)
 
     @property
     def degree(self) -> int:
@@ -71,6 +73,11 @@ class FiniteElementSection(SceneSection):
         apart = max(scene.load.friction) > 0.0 and self.coupled is False
         if self.roller_body == "disc" and scene.roller.rigid:
             yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
+        if self.deformation == "finite" and scene.linear:
+            yield (
+                "deformation",
+                'is "finite" with law = "linear"; allowed is another law, or "linear"',
+            )
         if self.plastic and scene.body.yield_stress is None:
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
         if self.deformation == "finite" and apart:

@@ -35,10 +35,12 @@ from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.running_in import RunningInSection
 from comparisons.scenes.sections import (
+    LINEAR,
     OF_STRESS,
     BodySection,
     BudgetSection,
     CoatingSection,
+    ElasticSection,
     LoadSection,
     ResolutionSection,
     RollerSection,
@@ -188,6 +190,23 @@ class SceneBase(SceneSection):
         return self.profile is not None and bool(self.profile.periodic)
 
     @property
+    def elastic_sections(self) -> dict[str, ElasticSection]:
+        """The `body`, the `coating` and the elastic `roller`, those that there are."""
+        bodies = {name: getattr(self, name) for name in ("body", "coating", "roller")}
+        return {n: part for n, part in bodies.items() if part is not None and part.material}
+
+    @property
+    def linear(self) -> bool:
+        """Whether linear elasticity is the question: no strain is finite."""
+        return self.body.law == LINEAR
+
+    @property
+    def asks_elastic(self) -> bool:
+        """Whether the question is of elastic bodies, wherever these may flow."""
+        plastic = self.finite_element.plastic
+        return plastic is False or (self.linear and plastic is None)
+
+    @property
     def smooth_body(self) -> str:
         """What presses, in words."""
         return "flat body" if self.periodic else "roller"
@@ -212,6 +231,12 @@ class SceneBase(SceneSection):
         for _, section in self.sections():
             yield from section.misfits(self)
         body, load, coating = self.body, self.load, self.coating
+        laws = {name: section.law for name, section in self.elastic_sections.items()}
+        for name, law in laws.items():
+            if LINEAR in laws.values() and law != LINEAR:
+                known = "is missing" if law is None else f'is "{law}"'
+                every = 'allowed is "linear" of all elastic bodies (run --law linear), or of none'
+                yield f"{name}.law", f"{known} beside a linear one; {every}"
         if coating and body.thickness is not None and coating.thickness >= body.thickness:
             thick = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"
             yield "coating.thickness", f"{thick}; allowed is less, the body's thickness contains it"
@@ -301,6 +326,15 @@ def with_tolerance(scene: Scene, tolerance: float) -> Scene:
         shown = f"{tolerance:g}" if is_number else describe(tolerance)
         raise InputError(f"tolerance: is {shown}; allowed is a number above 0 and below 1")
     return scene.changed("tolerance", dict.fromkeys(scene.tables["tolerance"], tolerance))
+
+
+def with_law(scene: Scene, law: str) -> Scene:
+    """The scene with one law of elasticity of all its elastic bodies.
+    Raises SceneError for a law that needs constants, or is none."""
+    constants = {name: part.murnaghan for name, part in scene.elastic_sections.items()}
+    fields = {f"{name}.law": law for name in constants}
+    written = (n for n in constants if "murnaghan" in scene.written[n])
+    return scene.changed(fields | dict.fromkeys(f"{n}.murnaghan" for n in written))
 
 
 def _scene_error(scene: type[SceneBase], error: ValidationError, where: str) -> SceneError:

@@ -45,6 +45,7 @@ MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
 
 WIDEST_HUB = 0.95  # of the roller's radius
+LINEAR = "linear"  # law of elasticity: small strains are the question, of every body
 
 Pressure = Annotated[float, Number(PRESSURE, above=0.0)]
 Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=0.0, at_most=1.5))]
@@ -110,9 +111,9 @@ def _in_si(value: object, dimension: Dimension) -> float | None:
 
 
 class ElasticSection(SolidSection):
-    """A body and its law of elasticity at finite strains, neo-Hookean by default."""
+    """A body and its law of elasticity at finite strains, neo-Hookean by default, or LINEAR."""
 
-    law: Annotated[str, OneOf(LAWS)] | None = None
+    law: Annotated[str, OneOf((LINEAR, *LAWS))] | None = None
     murnaghan: Annotated[dict[str, float], Named(("l", "m", "n"), Number(PRESSURE))] | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
@@ -132,7 +133,7 @@ class ElasticSection(SolidSection):
     def material(self) -> Material | None:
         """None of a rigid body."""
         law, measured = Law(), self.measured_law
-        if self.law is not None:
+        if self.law not in (None, LINEAR):
             constants = self.murnaghan and tuple(self.murnaghan.values())
             law = Law(self.law, constants, measured and measured.standard_errors)
         return Material(self.youngs_modulus, self.poissons_ratio, law)

@@ -126,6 +126,8 @@ def effect_account(name: str, selection: EffectSelection) -> tuple[str, str]:
         return "computed", "its estimate exceeds a tenth of a tolerance"
     if name in selection.impossible:
         return "not computed", selection.impossible[name]
+    if name in selection.found:
+        return "negligible", "it was computed, and moves no figure by a tenth of its tolerance"
     if name in selection.negligible:
         return "negligible", "its estimate is below a tenth of every tolerance"
     if name == COUPLED and name in selection.estimates:  # with friction, it cannot be without

@@ -62,7 +62,6 @@ PLAIN = {
     "finite_element.roller_shape": "parabola",
     "finite_element.roller_body": "half-plane",
     "finite_element.deformation": "linear",
-    "finite_element.plastic": False,
 }
 # What an unbounded body is held beyond where the scene's is finite, so that it has less of the
 # effect: of tau1, which goes with 1/D, a twentieth; of pressures under a disc, with 1/D^2, as much.
@@ -84,8 +83,9 @@ def is_taken_apart(scene: Scene) -> bool:
 def plain(scene: Scene) -> Scene:
     """The scene as the half-plane assumes it."""
     bare = dict.fromkeys(("body.thickness", "body.width", "body.base", "coating"))
-    coupled = {"finite_element.coupled": scene.load.coupled}
-    return scene.unchecked(PLAIN | bare | coupled)
+    flow = False if scene.finite_element.plastic is False else None
+    own = {"finite_element.coupled": scene.load.coupled, "finite_element.plastic": flow}
+    return scene.unchecked(PLAIN | bare | own)
 
 
 def with_effects(scene: Scene, names: Iterable[str]) -> Scene:

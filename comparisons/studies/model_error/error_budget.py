@@ -10,7 +10,7 @@ What cannot change a verdict is left out, unless budget.effects is "all":
 The model error and its uncertainty are stated for every figure in any case."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -31,7 +31,7 @@ from comparisons.studies.model_error.contributions import (
     SplitVariants,
     split_variants,
 )
-from comparisons.studies.model_error.estimates import finite_flow
+from comparisons.studies.model_error.estimates import Sizes, finite_flow, law_of_elasticity
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import law_variants
 from comparisons.studies.model_error.model_error import ModelError
@@ -47,10 +47,13 @@ from comparisons.studies.model_error.refinement import (
 from comparisons.studies.model_error.sampling import announce_sampling, sampling_changes
 from comparisons.studies.model_error.selection import (
     FLOW,
-    NOT_CERTAIN,
+    ITS_OWN_LAW,
+    NOTHING_KNOWN,
     SMALL_STRAINS,
     EffectSelection,
+    is_negligible,
     select_effects,
+    why_not,
 )
 from comparisons.studies.model_error.solutions import LEAST_LEVELS, SolvedVariants
 from comparisons.studies.study import Solved
@@ -80,10 +83,16 @@ def error_budget(
     while True:
         splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.load.friction}
         variants.keep(split.whole for split in splits.values())
+        solvers = half_plane, rows, splits, variants, selection
         try:
-            frugal = selection if is_frugal else None
-            refinement = EffectRefinement(half_plane, rows, splits, variants, selection)
-            refined = refinement.result(frugal)
+            if FLOW in selection.added:
+                first = EffectRefinement(*solvers, LEAST_LEVELS).result(None)
+                wholes = [variants.finest(split.whole) for split in splits.values()]
+                if (flow := _idle_flow(problem, first, wholes)) is not None:
+                    selection = selected_effects(solved, couplings, {FLOW: flow})
+                    continue
+            refinement = EffectRefinement(*solvers)
+            refined = refinement.result(selection if is_frugal else None)
             if refinement.without_laws:
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
             wholes = {mu: variants.finest(split.whole).under(mu) for mu, split in splits.items()}
@@ -118,17 +127,37 @@ def error_budget(
     )
 
 
+def _idle_flow(problem: Problem, refined: RefinedEffects, wholes: Iterable[Level]) -> Sizes | None:
+    """What flow changes, by itself and with the other effects, where that moves no judged figure by
+    a share of its tolerance that matters: the whole is then one that does not flow. Nothing where
+    the `wholes` have no plastic strain; else None."""
+    if all(level.plastic_strain == 0.0 for level in wholes):
+        return {}
+    sizes: dict[str, float] = {}
+    for error in refined.errors:
+        flow = error.effects.get(FLOW)
+        if flow is None:
+            return None
+        joint = abs(error.interaction) if len(error.effects) > 1 else 0.0
+        size = abs(flow.value) + flow.uncertainty + joint
+        sizes[error.quantity] = max(size, sizes.get(error.quantity, 0.0))
+    return sizes if is_negligible(sizes, problem.scene.tolerances) else None
+
+
 def _with_plastic_strain(
     problem: Problem, selection: EffectSelection, wholes: Mapping[float, Level]
 ) -> EffectSelection:
-    """With the estimate of finite deformation by the pressures and plastic strains of wholes that
-    flow at small ones, where their fields show these."""
+    """With the estimates of finite deformation and of the law of elasticity by the pressures of
+    wholes that flow, and by their plastic strains where their fields show these."""
     strains = [s for level in wholes.values() if (s := level.plastic_strain) is not None]
+    pressures = [level.solution.pressure for level in wholes.values()]
+    peak, mean = max(map(np.max, pressures)), max(map(mean_pressure, pressures))
+    tolerances = problem.scene.tolerances
+    if selection.impossible.get(LAW) == ITS_OWN_LAW:
+        selection = selection.resized(LAW, law_of_elasticity(problem, peak, mean), tolerances)
     if selection.impossible.get("finite_strain") != SMALL_STRAINS or not strains:
         return selection
-    peak = max(float(level.solution.pressure.max()) for level in wholes.values())
-    sizes = finite_flow(problem, peak, max(strains))
-    return selection.resized("finite_strain", sizes, problem.scene.tolerances)
+    return selection.resized("finite_strain", finite_flow(problem, peak, max(strains)), tolerances)
 
 
 def _with_finite_flow(
@@ -224,30 +253,41 @@ def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> Solved
     return SolvedVariants(solved.problem, solved.window, of_scene, tasks, patches)
 
 
-def selected_effects(solved: Solved, couplings: tuple[Coupling, ...]) -> EffectSelection:
+def selected_effects(
+    solved: Solved, couplings: tuple[Coupling, ...], known: Mapping[str, Sizes] = NOTHING_KNOWN
+) -> EffectSelection:
+    """As the half-plane selects them, and what is `known` of effects that were computed."""
     contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)
     pressure = max(contacts, key=np.max)
-    mean = float(pressure @ pressure / pressure.sum())
-    flow, no_flow = flow_assessment(solved.problem, solved.runs), NOT_CERTAIN
-    if flow.is_certain and solved.plan.effects:
-        no_flow = _no_time_for_flow(solved)
-    selection = select_effects(solved.problem, float(pressure.max()), couplings, mean, no_flow)
+    flow, peak = flow_assessment(solved.problem, solved.runs), float(pressure.max())
+    selection = select_effects(
+        *(solved.problem, peak, couplings, mean_pressure(pressure)),
+        shear=flow.least_shear,
+        known=known,
+        no_time=_no_time_for_flow(solved),
+    )
     asked = solved.problem.scene.budget.effects
     if not solved.plan.effects:
         computed = {LAW} if selection.laws else set()  # beside the added
         left_out = selection.added | computed | set(selection.impossible) - (set(UNKNOWN) - {LAW})
         return selection.without(left_out, "not asked for (budget.effects)")
-    if asked != "all" and flow.beyond_doubt and FLOW not in selection.added:
+    flows = flow.beyond_doubt and FLOW not in selection.added | selection.found
+    if asked != "all" and (flows or selection.flow_is_unbounded):
         why = f"the body flows, an elastic one cannot hold ({ASKED})"
         return selection.without(selection.added, why)
     return selection
 
 
+def mean_pressure(pressure: np.ndarray) -> float:
+    """[Pa] that the load stands under on average, by equal elements."""
+    return float(pressure @ pressure / pressure.sum())
+
+
 def _no_time_for_flow(solved: Solved) -> str | None:
-    """Why flow is not computed beside the scene's own finite elements: by the laws of cost, the
-    levels that it takes and theirs exceed the budget; None: they do not."""
+    """Why flow that can be computed is not, beside the scene's own finite elements: by the laws of
+    cost, the levels that it takes and theirs exceed the budget; None: they do not."""
     problem, patches = solved.problem, solved.runs["half_plane"].levels[0].patches
-    if time_with_flow(problem, solved.plan, patches) <= problem.time:
+    if why_not(FLOW, problem) or time_with_flow(problem, solved.plan, patches) <= problem.time:
         return None
     return f"it takes {with_unit(flow_seconds(problem, patches), 's', 2)} more (budget.time)"
 

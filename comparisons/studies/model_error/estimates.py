@@ -15,10 +15,13 @@ Normal-tangential coupling is measured on the half-plane where that is possible
 import math
 
 from analytic.material import dundurs_constants
+from comparisons.common.numbers import with_unit
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.problem import Problem
+from comparisons.scenes.materials import kinds_of, typical_range
+from comparisons.scenes.sections import BodySection
 from comparisons.studies.friction.coupling import Coupling
-from comparisons.studies.model_error.laws import open_laws
+from comparisons.studies.model_error.laws import OF_THE_PEAK, open_laws
 
 Sizes = dict[str, float]
 
@@ -31,12 +34,14 @@ def estimates(
     peak: float,
     mean: float,
     couplings: tuple[Coupling, ...] = (),
+    shear: float = 0.0,
 ) -> dict[str, Sizes]:
-    """By effect and quantity, without those of no size.
+    """By effect and quantity, without those of no size; one is infinite where nothing bounds it.
 
     peak       largest pressure [Pa] of the half-plane
     mean       of its contact [Pa]: the pressure that the load stands under on average
-    couplings  of the half-plane, one a friction coefficient"""
+    couplings  of the half-plane, one a friction coefficient
+    shear      its largest tau1 [Pa], at least; at least that below a smooth contact of this peak"""
     estimate = {
         "finite_size": _finite_size(problem),
         "coating": _coating(problem),
@@ -45,8 +50,8 @@ def estimates(
         "roller_support": _roller_support(problem),
         "normal_tangential_coupling": _coupling(problem, couplings),
         "finite_strain": _finite_deformation(problem, peak),
-        "law_of_elasticity": _law_of_elasticity(problem, peak, mean),
-        "plastic_flow": _plastic_flow(problem, peak),
+        "law_of_elasticity": law_of_elasticity(problem, peak, mean),
+        "plastic_flow": _plastic_flow(problem, peak, max(shear, OF_THE_PEAK * peak)),
     }
     sized = {
         effect: {name: size for name, size in sizes.items() if size > 0.0}
@@ -109,6 +114,8 @@ STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 def _finite_deformation(problem: Problem, peak: float) -> Sizes:
     """Finite strain, the gap on the deformed surface, the trace as boundary."""
     body, info = problem.scene.body.material, problem.surface.info
+    if problem.scene.linear:
+        return {}
     pressure = peak / body.youngs_modulus
     strained = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
     strain = (1.0 - 2.0 * body.poissons_ratio) * (1.0 + body.poissons_ratio) / body.youngs_modulus
@@ -194,12 +201,10 @@ def finite_flow(problem: Problem, peak: float, strain: float) -> Sizes:
 OF_ASPERITIES, LAW_OF_DEPTH = 1.75, 1.3
 
 
-def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
+def law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
     """Of the bodies whose law is not known, each by its share of what closes the gap; of a coating
     by its depth."""
     scene = problem.scene
-    if scene.finite_element.plastic:
-        return {}
     strained = 0.0
     for law in open_laws(scene):
         stiffness = law.material.plane_strain_modulus * law.material.youngs_modulus
@@ -276,19 +281,44 @@ FIRST_FLOW, CAP = 0.6, 0.1
 # makes the surface flow first. Their largest value moves to another depth.
 UNCAPPED, UNCAPPED_STRESS, FIRST_AT_SURFACE = 1.0, 1.5, 0.1
 TABOR = 3.0  # hardness over yield stress (D. Tabor, The Hardness of Metals, 1951)
+BOTH_CRITERIA = 2.0 / 3.0**0.5  # shear of first flow by von Mises over that by Tresca
+# [Pa] Rubber, which bears shears of the size of G, is softer.
+STIFF = 1e9
 
 
-def _plastic_flow(problem: Problem, peak: float) -> Sizes:
-    scene = problem.scene
-    yield_stress = scene.body.yield_stress
-    hardness = scene.body.hardness or (yield_stress and TABOR * yield_stress)
-    if scene.finite_element.plastic or not hardness:
-        return {}  # the scene's own finite elements flow, or nothing does
-    beyond = peak / hardness - FIRST_FLOW
+def _plastic_flow(problem: Problem, peak: float, shear: float) -> Sizes:
+    scene, body = problem.scene, problem.scene.body
+    if scene.finite_element.plastic or scene.asks_elastic:
+        return {}  # the scene's own finite elements flow, or it asks for none that do
+    if not (body.hardness or body.yield_stress):
+        typical = typical_shears(body)
+        return _equal(math.inf) if typical and shear > BOTH_CRITERIA * typical[1] else {}
+    if body.yield_stress:
+        beyond = max(peak, shear / OF_THE_PEAK) / (TABOR * body.yield_stress) - FIRST_FLOW
+    else:
+        beyond = peak / body.hardness - FIRST_FLOW
     if beyond <= 0.0:
         return {}
-    if scene.body.hardness:
-        return _equal(CAP * min(1.0, beyond / (1.0 - FIRST_FLOW)) + max(0.0, peak / hardness - 1.0))
+    if body.hardness:
+        excess = max(0.0, peak / body.hardness - 1.0)
+        return _equal(CAP * min(1.0, beyond / (1.0 - FIRST_FLOW)) + excess)
     stress = UNCAPPED_STRESS * beyond + FIRST_AT_SURFACE
     stresses = dict.fromkeys(STRESSES, stress) | {"tau1_max_depth": max(1.0, stress)}
     return _equal(UNCAPPED * beyond) | stresses
+
+
+def typical_shears(body: BodySection) -> tuple[float, float] | None:
+    """From which to which shear [Pa] bodies of its solid typically flow, Y/2 by Tresca; of its
+    class where only that is known, None where nothing is, or of a rubber."""
+    if body.youngs_modulus <= STIFF:
+        return None
+    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
+    known = typical_range("yield_stress", body.solid, kinds)
+    return known and (0.5 * known[0], 0.5 * known[1])
+
+
+def flow_of(body: BodySection, low: float, high: float) -> str:
+    """At which shears [Pa] its solid typically flows, as a clause."""
+    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
+    span = " to ".join(dict.fromkeys(with_unit(end, "Pa", 2) for end in (low, high)))
+    return f"{body.solid or ' or '.join(kinds)} typically flows at a shear of {span}"

@@ -69,7 +69,9 @@ class EffectRefinement:
         splits: dict[float, SplitVariants],
         solved: SolvedVariants,
         selection: EffectSelection,
+        most: int = MOST_LEVELS,
     ) -> None:
+        """`most` levels at most."""
         laws = selection.laws
         self.laws = {mu: law_variants(split.whole, laws) for mu, split in splits.items()}
         self.open_laws, self.without_laws = laws, ""  # why they have no solution
@@ -81,7 +83,7 @@ class EffectRefinement:
         self.nearer: dict[float, dict[str, QuantitiesOfInterest]] = {mu: {} for mu in splits}
         self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
         self.runs = {"half_plane": half_plane, "finite_element": solved.of_scene}
-        self.most = min(most_effect_levels(solved.problem), len(solved.of_scene.levels))
+        self.most = min(most, most_effect_levels(solved.problem), len(solved.of_scene.levels))
         self.every = dict.fromkeys(variant for split in splits.values() for variant in split.all)
         self.wholes = dict.fromkeys(
             variant for split in splits.values() for variant in split.wholes

@@ -4,19 +4,22 @@ A tolerance that is looser than the usual one selects as the usual one does (`co
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import isinf
+from types import MappingProxyType
 
 from comparisons.figures.figure import computed_for
 from comparisons.models.problem import Problem
+from comparisons.scenes.sections import BodySection
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
-from comparisons.studies.model_error.estimates import Sizes, estimates
+from comparisons.studies.model_error.estimates import Sizes, estimates, flow_of, typical_shears
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.laws import OpenLaw, open_laws
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 FLOW = "plastic_flow"
 SMALL_STRAINS = "flow is taken at small strains"
-NOT_CERTAIN = "it is not beyond doubt (finite_element.plastic = true computes it)"
+ITS_OWN_LAW = "a body that flows has Hencky's law of elasticity"
 ON_ONE_PERIOD = ("finite_size", "coating")  # effects that a periodic surface may have
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
 NONLINEAR = ("finite_strain", FLOW)
@@ -30,6 +33,9 @@ ORDER = (
 )
 
 
+NOTHING_KNOWN: Mapping[str, Sizes] = MappingProxyType({})
+
+
 @dataclass(frozen=True)
 class EffectSelection:
     """What becomes of every effect."""
@@ -40,6 +46,7 @@ class EffectSelection:
     impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
     estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
     laws: tuple[OpenLaw, ...] = ()  # of elasticity, with which the whole is solved once more
+    found: frozenset[str] = frozenset()  # of the negligible, those that were computed
     # [s] budget.time in which finite strain of what flows can be computed, where it is too short
     time: float | None = None
 
@@ -47,6 +54,11 @@ class EffectSelection:
     def whole(self) -> frozenset[str]:
         """Effects of the whole model, which the verdict is about."""
         return self.contained | self.added
+
+    @property
+    def flow_is_unbounded(self) -> bool:
+        """Whether the body flows at such stresses, and nothing says how far."""
+        return any(map(isinf, self.estimates.get(FLOW, {}).values()))
 
     def without(self, names: frozenset[str], why: str) -> "EffectSelection":
         """The same without some of the added effects, for a reason; other laws of elasticity take
@@ -88,31 +100,34 @@ def select_effects(
     peak: float,
     couplings: tuple[Coupling, ...],
     mean: float | None = None,
-    no_flow: str | None = NOT_CERTAIN,
+    shear: float = 0.0,
+    known: Mapping[str, Sizes] = NOTHING_KNOWN,
+    no_time: str | None = None,
 ) -> EffectSelection:
-    """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure, `mean` the mean of
-    its contact, by default the same; `no_flow` says why flow is not computed where it could be,
-    None: it is."""
+    """Decide by the estimates.
+
+    peak     the half-plane's largest pressure [Pa]
+    mean     of its contact [Pa], by default the same
+    shear    its largest tau1 [Pa], at least
+    known    by effect, what it was found to change, in place of its estimate
+    no_time  why flow is not computed where it could be"""
     own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
-    estimated = estimates(problem, peak, peak if mean is None else mean, couplings)
+    estimated = estimates(problem, peak, peak if mean is None else mean, couplings, shear)
     sized = {name: sizes for name, sizes in estimated.items() if EFFECTS[name].applies(problem)}
+    sized |= known
     added, negligible, impossible = set(), {}, {}
     mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
+    hindered = {FLOW: no_time} if no_time else {}
     flows = FLOW in own_effects
-    if no_flow is None and not flows:
-        flows = why_not(FLOW, problem) is None
-        sized.setdefault(FLOW, {})
-        mattering.add(FLOW)
-    if flows:
-        sized.pop(LAW, None)
-    if LAW in mattering:  # it shows in finite deformation alone
+    flows = flows or (FLOW in mattering and not (why_not(FLOW, problem) or no_time))
+    if LAW in mattering and not flows:  # it shows in finite deformation alone
         mattering.add("finite_strain")
     can_be_solved = LAW in mattering and why_not(LAW, problem, flows) is None
     laws = open_laws(problem.scene) if can_be_solved else ()
     for name, sizes in sized.items():
         if name in own_effects or (name == LAW and laws and "finite_strain" in own_effects):
             continue
-        why = why_not(name, problem, flows) or (no_flow if name == FLOW else None)
+        why = why_not(name, problem, flows) or hindered.get(name)
         if name not in mattering:
             negligible[name] = sizes
         elif why is not None:
@@ -121,7 +136,10 @@ def select_effects(
             added.add(name)
     if any(problem.scene.load.friction) and (added | own_effects) & set(NONLINEAR):
         negligible.pop(COUPLED, None)  # these bodies have it
-    return EffectSelection(own_effects, frozenset(added), negligible, impossible, sized, laws)
+    return EffectSelection(
+        *(own_effects, frozenset(added), negligible, impossible, sized, laws),
+        found=frozenset(known) & negligible.keys(),
+    )
 
 
 def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
@@ -141,11 +159,17 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
         return "no support is given: a sector of the disc is held at 0.4 of its radius"
     if name not in (*NONLINEAR, LAW):
         return None
-    reasons = {SMALL_STRAINS: flows}
+    reasons = {ITS_OWN_LAW if name == LAW else SMALL_STRAINS: flows}
     if name == FLOW:
         reasons = {
-            "the body has no yield stress": scene.body.yield_stress is None,
+            _no_yield_stress(scene.body): scene.body.yield_stress is None,
             "it takes no prescribed approach": scene.load.kind == "approach",
             'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
         }
     return next((why for why, hindered in reasons.items() if hindered), None)
+
+
+def _no_yield_stress(body: BodySection) -> str:
+    """With what its solid typically bears, where nothing stands for its flow."""
+    typical, said = typical_shears(body), "the body has no yield stress"
+    return said if body.hardness or not typical else f"{said}, {flow_of(body, *typical)}"

@@ -12,7 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import listed, percent, percent_as_written, scale_of, with_unit
+from comparisons.common.numbers import (
+    UNKNOWN,
+    listed,
+    percent,
+    percent_as_written,
+    scale_of,
+    with_unit,
+)
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import columns
@@ -117,8 +124,8 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
         errors = run.figures.of(study=MODEL_ERROR, quantity=name)
         if judged and not any(error.bounds for error in errors):
             continue
-        for same in grouped(errors, lambda row: (_shown(row), _values(run, row), row.place)):
-            error, uncertainty, contributions = _shown(same[0])
+        for same in grouped(errors, lambda row: (_shown(run, row), _values(run, row), row.place)):
+            error, uncertainty, contributions = _shown(run, same[0])
             half_plane, whole = _values(run, same[0])
             bound = same[0].tolerance
             rows.append(
@@ -131,14 +138,16 @@ def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
                     uncertainty=uncertainty,
                     tolerance="" if bound is None else percent_as_written(bound),
                     contributions=contributions,
-                    note=_not_known(same[0]),
+                    note=_not_known(run, same[0]),
                     moved=_moved(same[0]),
                 )
             )
     return rows
 
 
-def _shown(error: Figure) -> tuple[str, str, tuple[str, ...]]:
+def _shown(run: Run, error: Figure) -> tuple[str, str, tuple[str, ...]]:
+    if leaves_flow_out(run, error):
+        return UNKNOWN, UNKNOWN, ()
     size = law_range(error) or error_text(error.value, error.numerical)
     return size, percent(error.numerical), contributions_in_words(error)
 
@@ -152,15 +161,25 @@ def figure_of_whole(run: Run, error: Figure) -> float:
 
 
 def _values(run: Run, error: Figure) -> tuple[str, str]:
-    """The figures of the half-plane and of the whole model."""
+    """The figures of the half-plane and of the whole model, where it has the flow that matters."""
     whole = figure_of_whole(run, error)
     pair = whole + error.scale * error.value, whole
     scale = scale_of(pair, QUANTITIES[error.quantity].unit)
-    return scale.text(pair[0]), scale.text(pair[1])
+    return scale.text(pair[0]), UNKNOWN if leaves_flow_out(run, error) else scale.text(pair[1])
 
 
-def _not_known(error: Figure) -> str:
+def leaves_flow_out(run: Run, error: Figure) -> bool:
+    """Whether flow that no model has may exceed the tolerance: an error of elastic bodies says
+    nothing then. A hardness stands for flow."""
+    stands_for_it = run.problem.scene.body.hardness is not None
+    may_flow = error.bounds is not None and error.unknown.get(FLOW, 0.0) > error.tolerance
+    return may_flow and not stands_for_it
+
+
+def _not_known(run: Run, error: Figure) -> str:
     """That effects which no model has may exceed the tolerance; else nothing."""
+    if leaves_flow_out(run, error):
+        return f"{EFFECTS[FLOW].label} not modelled"
     others = math.hypot(*(size for name, size in error.unknown.items() if not error.part(name)))
     if error.bounds is None or others <= error.tolerance:
         return ""
@@ -227,7 +246,7 @@ def not_modelled_line(run: Run) -> str:
     for same in grouped(selection.impossible, selection.impossible.get):
         sizes = [percent(_largest(run, selection.estimates[name])) for name in same]
         named = ", ".join(
-            f"{EFFECTS[name].label} (at most {size})"
+            EFFECTS[name].label + (f" (at most {size})" if size != UNKNOWN else "")
             for name, size in zip(same, sizes, strict=True)
         )
         parts.append(f"{named}: {selection.impossible[same[0]]}")

@@ -24,10 +24,12 @@ from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.error_budget import (
     announce_effects,
     error_budget,
+    mean_pressure,
     selected_effects,
 )
 from comparisons.studies.model_error.estimates import estimates
 from comparisons.studies.study import Solved, Study
+from comparisons.studies.subsurface.yielding import flow_assessment, flows_at_such
 
 SAID_EARLY = ("peak_pressure", "contact_length", "tau1_max")
 
@@ -49,7 +51,8 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
     moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
     selection = selected_effects(solved, moved)
     account = {name: effect_account(name, selection) for name in EFFECTS}
-    lines = []
+    flows = flows_at_such(solved.problem.scene, flow_assessment(solved.problem, solved.runs))
+    lines = [f"flow: {flows}"] if flows else []
     for status in ("computed", "not computed"):
         names = [name for name, (what, _) in account.items() if what == status]
         why = {name: f" ({account[name][1]})" if status != "computed" else "" for name in names}
@@ -87,10 +90,9 @@ def early_lines(
         for name, value in figures.items()
     ]
     # half-planes do not flow, though the scene's finite elements may
-    elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": False}))
+    elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": None}))
     pressure = level.under(friction).solution.pressure
-    mean = float(pressure @ pressure / pressure.sum())
-    every = estimates(elastic, float(pressure.max()), mean, couplings).items()
+    every = estimates(elastic, float(pressure.max()), mean_pressure(pressure), couplings).items()
     sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
     left = [_bound(name, [of.get(name, 0.0) for of in sizes.values()]) for name in figures]
     most = max(sizes, key=lambda effect: max(sizes[effect].get(name, 0.0) for name in figures))

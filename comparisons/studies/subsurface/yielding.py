@@ -24,17 +24,23 @@ from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
-from comparisons.scenes.materials import kinds_of, typical_range
+from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import AT_HARDNESS, uncertainties
 from comparisons.studies.model_error.account import ErrorBudget
-from comparisons.studies.model_error.estimates import TABOR
+from comparisons.studies.model_error.estimates import (
+    BOTH_CRITERIA,
+    STIFF,
+    TABOR,
+    flow_of,
+    typical_shears,
+)
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
 STRESSES_FROM = {FIELD: "the field", PEAK: "the peak pressure"}
-BEYOND_DOUBT = "beyond doubt"  # name of what is said of flow
+BEYOND_DOUBT, AT_SUCH_STRESSES = "beyond doubt", "at such stresses"  # names of what is said of flow
 PLASTIC_STRAIN, STRAIN_BY_SLOPE = "plastic_strain", "plastic_strain_by_slope"
 QUANTITIES = {
     "yield_stress": Quantity("yield stress", "Pa"),
@@ -65,15 +71,14 @@ bodies that flow do, and none of these has both peak pressure and contact length
 OF_A_TRACE = """Plasticity index: (E*/H) times √(σκ) of the trace's summits (Greenwood and
 Williamson 1966), or times its rms slope (Mikic 1974); well below 1 most of the contact is
 elastic."""
+IDLE = "flow was computed and moves no judged figure by a tenth of its tolerance"
+FLOW_IN_WORDS = {"elastic": "elastic", "plastic": "the finite elements flow", "idle": IDLE}
 LEAST_CAP = 2.4  # over Y, of those that fit what finite elements that flow do
 DOES_NOT_APPLY = "the elastic half-plane does not apply"
 # Without [stress]: the largest shear is that of Hertz's contact of the same peak pressure. That of
 # the scenes that come along is 0.72 to 1.11 of it (friction 0 to 0.6; run in, up to 1.6).
 FROM_PEAK = 0.4
 LEVEL = 1e-6  # of the trace's height: summits that spread less are all as high
-# [Pa] Rubber, which bears shears of the size of G, is softer; what is stiffer flows or breaks at
-# the latest at the ideal strength of a crystal, G/(2 pi) (J. Frenkel 1926, Z. Phys. 37, 572-609).
-STIFF = 1e9
 
 
 @dataclass(frozen=True)
@@ -101,11 +106,13 @@ class FlowAssessment:
     """All friction coefficients of a scene."""
 
     # elastic | cap (on the pressure) | plastic (the finite elements flow, the scene's or the whole)
-    flow: Literal["elastic", "cap", "plastic"]
+    # | idle (flow was computed, and moves no figure that is judged)
+    flow: Literal["elastic", "cap", "plastic", "idle"]
     # Y [Pa]: the scene's, or a third of its hardness; None where neither is given
     yield_stress: float | None
     hardness: float | None  # H [Pa]: the scene's, or three times its yield stress
-    # G/(2 pi) [Pa], above which no crystal is elastic; infinite for a soft body
+    # G/(2 pi) [Pa], above which no crystal is elastic (J. Frenkel 1926, Z. Phys. 37, 572-609);
+    # infinite for a body below STIFF
     ideal_strength: float
     # (E*/H) sqrt(s/R): s standard deviation of the trace's summits, 1/R their mean curvature
     # (Greenwood and Williamson 1966, Proc. R. Soc. A 295, 300-319)
@@ -114,6 +121,7 @@ class FlowAssessment:
     # trace or H, and the first where all summits are as high
     slope_index: float | None
     checks: tuple[FlowCheck, ...]  # one a friction coefficient
+    asked: bool = True  # whether the question is of bodies that flow where they would
 
     @property
     def worst(self) -> FlowCheck:
@@ -131,7 +139,7 @@ class FlowAssessment:
     def is_certain(self) -> bool:
         """Whether the body flows at its yield stress by both criteria, less the uncertainty."""
         # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
-        return self.yield_stress is not None and self._least > self.yield_in_shear
+        return self.yield_stress is not None and self.least_shear > self.yield_in_shear
 
     @property
     def yield_in_shear(self) -> float:
@@ -139,7 +147,7 @@ class FlowAssessment:
         return self.yield_stress / 3.0**0.5
 
     @property
-    def _least(self) -> float:
+    def least_shear(self) -> float:
         """The largest tau1 [Pa] less its uncertainty."""
         return self.worst.tau1 * (1.0 - self.worst.uncertainty)
 
@@ -160,19 +168,20 @@ class FlowAssessment:
     @property
     def exceeded(self) -> float | None:
         """The limit [Pa] that the largest tau1 of an elastic body exceeds for certain, if any."""
-        if self.flow != "elastic":
+        if self.flow != "elastic" or not self.asked:
             return None
         if self.is_certain:
             return self.yield_in_shear
-        return self.ideal_strength if self._least > self.ideal_strength else None
+        return self.ideal_strength if self.least_shear > self.ideal_strength else None
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Figures by friction coefficient, of the scene, and what flows in words. What an elastic body
     exceeds for certain is judged where the models are compared."""
     flow = flow_assessment(solved.problem, solved.runs)
-    if MODEL_ERROR in before and FLOW in before[MODEL_ERROR].data.selection.whole:
-        flow = replace(flow, flow="plastic")
+    selection = before[MODEL_ERROR].data.selection if MODEL_ERROR in before else None
+    if selection is not None and FLOW in selection.whole | selection.found:
+        flow = replace(flow, flow="idle" if FLOW in selection.found else "plastic")
     source = "half_plane" if "half_plane" in solved.runs else "finite_element"
     of_scene = {
         "yield_stress": flow.yield_stress,
@@ -202,8 +211,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         said.append(Statement("read", PEAK if check.von_mises is None else FIELD, source, at))
     if flow.flow == "plastic" and MODEL_ERROR in before:
         figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data)
-    if flow.beyond_doubt:
-        said.append(Statement(BEYOND_DOUBT, flow.beyond_doubt, source))
+    for name, text in {
+        BEYOND_DOUBT: flow.beyond_doubt,
+        AT_SUCH_STRESSES: flows_at_such(solved.problem.scene, flow),
+    }.items():
+        said += [Statement(name, text, source)] if text else []
     return Findings(tuple(figures), statements=tuple(said), data=flow)
 
 
@@ -245,6 +257,7 @@ def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAsses
         summit_index=summit,
         slope_index=slope,
         checks=tuple(_check(problem, run, mu, hardness) for mu in scene.load.friction),
+        asked=not scene.asks_elastic,
     )
 
 
@@ -276,35 +289,42 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
 
 
 def may_flow(run: Run, at_any: bool = False) -> str:
-    """That a body whose yield stress is not given may flow, as a clause; empty where it cannot, or
-    where that is known.
+    """That a body whose yield stress is not given may flow, as a clause; empty where it cannot,
+    where that is known or not asked.
 
     at_any  whether it would at any typical yield stress"""
     flow, body = run.data(NAME), run.problem.scene.body
-    if flow.ratio is not None or body.youngs_modulus <= STIFF:
+    if flow.ratio is not None or body.youngs_modulus <= STIFF or not flow.asked:
         return ""
-    shear = with_unit(flow.worst.tau1, "Pa", 2)
-    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
-    typical = typical_range("yield_stress", body.solid, kinds)
-    if typical is None and at_any:
-        return ""
+    shear, typical = with_unit(flow.worst.tau1, "Pa", 2), typical_shears(body)
     if typical is None:
-        return (
-            f"the figures are those of an elastic body; with a shear yield below {shear} it flows"
-        )
-    if flow.worst.tau1 < 0.5 * typical[1 if at_any else 0]:
+        below = f"the figures are those of an elastic body; with a shear yield below {shear} it"
+        return "" if at_any else f"{below} flows"
+    if flow.worst.tau1 < typical[1 if at_any else 0]:
         return ""
-    low, high = (with_unit(0.5 * end, "Pa", 2) for end in typical)
-    span = low if low == high else f"{low} to {high}"
-    what = body.solid or " or ".join(kinds)
-    return f"{what} typically flows at a shear of {span}, and the largest here is {shear}"
+    return f"{flow_of(body, *typical)}, and the largest here is {shear}"
+
+
+def flows_at_such(scene: Scene, flow: FlowAssessment) -> str:
+    """That a body flows under the shears of the half-plane where no model of the scene can show it:
+    for want of a yield stress, by what its solid typically bears; or because elastic bodies are the
+    question. A clause, or nothing."""
+    shear, typical = with_unit(flow.worst.tau1, "Pa", 2), typical_shears(scene.body)
+    if flow.ratio is None and typical and flow.least_shear > BOTH_CRITERIA * typical[1]:
+        return f"it flows at such stresses: {flow_of(scene.body, *typical)}, the largest is {shear}"
+    if scene.asks_elastic and flow.is_certain:
+        least = with_unit(flow.yield_in_shear, "Pa", 2)
+        return (
+            f"it flows at such stresses: beyond a shear of Y/√3 = {least}, the largest is {shear}"
+        )
+    return ""
 
 
 def flow_sentence(run: Run) -> str:
     """The one thing to know of flow beside the verdict, without its full stop."""
     flow = run.data(NAME)
-    if flow.beyond_doubt:
-        return flow.beyond_doubt
+    if said := flow.beyond_doubt or flows_at_such(run.problem.scene, flow):
+        return said
     worst = flow.worst
     where = f" at friction {plain(worst.friction)}" if len(flow.checks) > 1 else ""
     where += ", by the peak pressure (no [stress])" * (worst.von_mises is None)
@@ -317,7 +337,7 @@ def flow_sentence(run: Run) -> str:
     largest += f"flow{where} (Y = {stress}{third})"
     if flow.flow == "cap":
         return f"flow is the cap alone, at {percent(worst.at_hardness)} of the contact; {largest}"
-    return f"{'the finite elements flow' if flow.flow == 'plastic' else 'elastic'}; {largest}"
+    return f"{FLOW_IN_WORDS[flow.flow]}; {largest}"
 
 
 def flow_table(run: Run) -> TextTable:
@@ -363,17 +383,19 @@ def blocks(run: Run) -> list[Block]:
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """Shakedown and, of a rough body, its plasticity, at the largest shear; nothing without a
-    yield stress."""
+    """That it flows where no model shows it; with a yield stress shakedown and, of a rough body,
+    its plasticity, at the largest shear."""
     flow = run.data(NAME)
+    flows = flows_at_such(run.problem.scene, flow)
+    said = [("flow", flows)] if flows else []
     if flow.ratio is None:
-        return []
+        return said
     pressure = significant(flow.worst.peak / flow.yield_in_shear, 3)
     limit = f"elastic shakedown up to {flow.worst.shakedown:.3g} k, k = Y/√3"
     text = f"peak pressure {pressure} k, {limit}"
     indices = {"summits": flow.summit_index, "slope": flow.slope_index}
     known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
-    return [("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
+    return [*said, ("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
 
 
 STUDY = Study(NAME, QUANTITIES, solve, blocks=blocks, lines=lines)

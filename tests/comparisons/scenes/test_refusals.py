@@ -34,6 +34,7 @@ SOLIDS = [
         "coating.poissons_ratio: is missing",
     ),
     (SMOOTH, {"body.law": "henky"}, 'body.law: is "henky" (did you mean "hencky"'),
+    (SMOOTH, {"body.law": "linear"}, "roller.law: is missing beside a linear one; allowed is"),
     (SMOOTH, {"body.law": "murnaghan"}, "body.murnaghan: is missing; allowed is a table"),
     (SMOOTH, {"roller.murnaghan": CONSTANTS}, "roller.murnaghan: is given for another law"),
     *(

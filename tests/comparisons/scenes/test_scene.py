@@ -65,6 +65,7 @@ FULL = {
         "element": "P3",
         "block": 200,
         "growth": 0.1,
+        "plastic": False,
     },
     "resolution": {"pitch": "1 um", "levels": 4},
     "budget": {"time": "10 min", "memory": "2 GiB"},
@@ -89,7 +90,7 @@ def test_a_bare_scene_has_the_defaults():
     assert scene.tolerances == {"peak_pressure": 0.02, "contact_length": 0.02, "tau1_max": 0.02}
     settings = scene.finite_element
     assert (settings.roller_body, settings.roller_shape) == ("half-plane", "parabola")
-    assert (settings.deformation, settings.plastic, settings.coupled) == ("linear", False, False)
+    assert (settings.deformation, settings.plastic, settings.coupled) == ("linear", None, False)
     assert (settings.element, settings.block, settings.growth) == ("P2", 400.0, 0.2)
     assert (scene.body.yield_stress, scene.coating) == (None, None)
     assert scene.resolution == ResolutionSection(levels=3)

@@ -15,7 +15,7 @@ from comparisons.studies.model_error.selection import FLOW
 
 SCENE = {
     "roller": {"radius": 8e-3, "rigid": True},
-    "body": {**STEEL, "yield_stress": 1e9},
+    "body": {**STEEL, "law": "hencky", "yield_stress": 1e9},
     "load": {"hertz_peak_pressure": 3e9},
     "resolution": {"elements": 4, "levels": 2},
     "budget": {"time": 3.0},
