@@ -19,6 +19,7 @@ from analytic.contact.partial_slip import (
 from analytic.contact.patches import contact_patches
 from analytic.grid import HatGrid
 from analytic.material import Material
+from analytic.numerics import runs_of
 from analytic.stress.elements import FrictionStress
 from analytic.stress.fatigue import ruiz, smith_watson_topper
 from analytic.stress.field import StressField, friction_field
@@ -47,7 +48,7 @@ class SlippedLevel:
     displacements: np.ndarray  # (m,) [m] of the roller, against the ends of the coarsest grid
     is_stepped: bool  # whether the loads come by increments
     material: Material  # of the body's surface
-    slips: np.ndarray  # (m, n) [m] of the roller over the body since the first touch
+    slips: np.ndarray  # (m, n) [m] of the roller over the body while they touched
     # [m] of the body's surface under the roller at the end; None: it has no base
     lowering: float | None = None
     tau1: Extremum | None = None  # largest, at the end; with [stress]
@@ -94,6 +95,11 @@ class SlippedLevel:
         span = np.abs(self.slips[-1])
         if before is not None:
             span = 0.5 * np.ptp(self.slips[before:], axis=0)
+        first, after = runs_of(self.states[-1].normal.pressure > 0.0)
+        inner = np.minimum(first + 1, after - 1), np.maximum(after - 2, first)
+        sides = (first - 1, first, inner[0]), (after, after - 1, inner[1])
+        for outside, end, beside in sides if self.is_stepped else ():  # straight on to an end
+            span[outside] = np.maximum(2.0 * span[end] - span[beside], 0.0)
         return np.interp(x, self.grid.x, span)
 
     def fatigue(self, path: tuple[float, ...]) -> dict[str, float]:
@@ -196,15 +202,20 @@ def slipped_level(
 ) -> SlippedLevel:
     state, work, coarsest = None, 0.0, problem.grid(problem.pitches[0]).x[[0, -1]]
     states, energies, moved, slips = [], [], [], []
-    slipped = np.zeros(grid.count)
+    # alike bodies touch where they did: beside an end of contact they move as at it
+    slipped, touched = np.zeros(grid.count), True
     for steps in steps_of(problem, pair.raised is not None, increments):
         # what slips on the whole way, under one normal load: where it begins is read from it as
         # from a gap, whatever the steps
         on_the_way, pressed = np.zeros(grid.count), None
         for loads in steps:
-            state = stepped(pair, state, loads)
+            before, state = state, stepped(pair, state, loads)
             work += state.work
-            slipped = slipped + state.slip
+            if pair.raised is not None:
+                touched = state.normal.pressure > 0.0
+                if before is not None:
+                    touched &= before.normal.pressure > 0.0
+            slipped = slipped + np.where(touched, state.slip, 0.0)
             on_the_way = state.slip + (on_the_way if loads.normal == pressed else 0.0)
             pressed = loads.normal
         states.append(replace(state, slip=on_the_way))

@@ -88,6 +88,30 @@ def test_the_largest_tension_of_rough_contact_is_at_an_end_of_it():
     assert figures["smith_watson_topper"] == pytest.approx(reversed_tension, rel=0.01)
 
 
+def test_surfaces_that_are_apart_do_not_slip():
+    """Steel on a softer body, which touches elsewhere at the other end of a cycle: by relative
+    movement alone the largest amplitude would be 0.66 um, where they touch it is 0.55."""
+    steel, soft = (
+        {"youngs_modulus": modulus, "poissons_ratio": nu}
+        for modulus, nu in ((215e9, 0.28), (46e9, 0.22))
+    )
+    posed = problem(
+        {"roller": {"radius": 21e-3, **steel}, "body": soft}
+        | {"load": {"per_length": 2.6e5, "friction": 0.35}}
+        | {"partial_slip": {"loads": [0.6, -0.6, 0.6]}}
+    )
+    level = half_plane_at(posed, posed.pitches[1])
+    slipped = half_plane_slip(posed, level, None, 16)
+    pressures = np.array([state.normal.pressure for state in slipped.states])
+    apart = (pressures.min(axis=0) == 0.0) & (pressures.max(axis=0) > 0.0)
+    assert apart.sum() >= 2
+    path = posed.scene.partial_slip.path
+    assert slipped.figures(path)["slip_amplitude"] == pytest.approx(0.549e-6, rel=0.01)
+    span = slipped.amplitude(path, slipped.grid.x)
+    always = pressures.min(axis=0) > 0.0
+    assert span[apart & (pressures[-1] > 0.0)].max() < span[always].max()
+
+
 def test_models_agree_within_their_uncertainty(cycled):
     """Both bodies are half-planes in either model."""
     differences = cycled.figures.of(study="partial_slip", against="finite_element")
