@@ -71,16 +71,9 @@ _COLLECTED: "ContextVar[list[Figure] | None]" = ContextVar("collected_figures", 
 
 
 def load_matplotlib() -> None:
-    """Import what draws. Without the docstrings that matplotlib writes for its classes meanwhile,
-    where it is not loaded yet: they take a quarter of the time, and nobody reads them here."""
-    from matplotlib import artist
-
-    written, artist.kwdoc = artist.kwdoc, lambda of: ""
-    try:
-        for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
-            import_module(name)
-    finally:
-        artist.kwdoc = written
+    """Import what draws."""
+    for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
+        import_module(name)
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import attempted
+from comparisons.drawing.style import load_matplotlib
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
@@ -21,15 +22,14 @@ from comparisons.studies import STUDIES
 from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
-# Modules that draw, loaded while copies write the fields.
-DRAWS = ("matplotlib.figure", "comparisons.output.page.page")
+PAGE = "comparisons.output.page.page"  # loaded while copies write the fields
 
 
 def write_files(outcome: Run, callback: ProgressCallback) -> bool:
     """Write the run's folder: everything but the report, whole and at once; then the report, which
     is drawn when nothing that goes wrong can cost a result. Whether it could be."""
     callback(Step("writing results", 0.0))
-    beside = [partial(import_module, name) for name in DRAWS]
+    beside = partial(import_module, PAGE), load_matplotlib
     with published(outcome.directory) as folder, tasks_of_copies(outcome, beside) as tasks:
         levels = levels_by_folder(outcome)
         first, *others = sorted(levels, key=lambda name: levels[name].mesh is None)  # longest first
@@ -57,7 +57,7 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
 
 
 def _page(outcome: Run) -> str:
-    return import_module(DRAWS[-1]).render(outcome)
+    return import_module(PAGE).render(outcome)
 
 
 def _write_others(here: Here, folder: Path, names: Sequence[str]) -> None:

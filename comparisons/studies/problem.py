@@ -100,7 +100,7 @@ def _surface(problem: Problem) -> list[Figure]:
 def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statement]:
     """What was assumed and skipped, why refinement stopped, why there are no standard figures."""
     plan, info = solved.plan, solved.problem.surface.info
-    said = [Statement(ASSUMED, text) for text in _assumed(solved, before.get(MODEL_ERROR))]
+    said = [Statement(ASSUMED, text) for text in assumed(solved, before.get(MODEL_ERROR))]
     said += [Statement("skipped", step.because, step.step) for step in plan.skipped]
     said.append(Statement("refinement", solved.refinement))
     if info is not None and info.standard_why is not None:
@@ -108,7 +108,7 @@ def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statemen
     return said
 
 
-def _assumed(solved: Solved, errors: Findings | None) -> tuple[str, ...]:
+def assumed(solved: Solved, errors: Findings | None) -> tuple[str, ...]:
     """What the models assume, the whole model among them where it has more effects."""
     own, problem = solved.plan.assumptions, solved.problem
     if errors is None or not (errors.data.wholes and errors.data.selection.added):

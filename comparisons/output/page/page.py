@@ -102,10 +102,15 @@ def _listed(made: object, part: slice | None = None) -> list:
     return [] if made is None else [made]
 
 
-def draw(run: Run) -> dict[str, object]:
-    """What each of PICTURES gives, drawn side by side; none of studies that the run has not."""
+def drawn_of(run: Run) -> list[str]:
+    """Names of PICTURES without those of studies that the run has not."""
     missing = {n for study in STUDIES if study.name not in run.findings for n in study.pictures}
-    names = [name for name in PICTURES if name not in missing]
+    return [name for name in PICTURES if name not in missing]
+
+
+def draw(run: Run) -> dict[str, object]:
+    """What each of PICTURES gives, drawn side by side."""
+    names = drawn_of(run)
     load_matplotlib()  # with its settings, once for all copies
     with drawing(), tasks_of_copies(run) as tasks:
         for name in names:

@@ -1,14 +1,20 @@
 """Bodies and the [finite_element] switches: what follows from others, and what is said."""
 
 import copy
+from types import SimpleNamespace
 
 import pytest
 from scenes import STEEL, resolved
 
 from analytic.material import Law
 from analytic.material.hardening import Hardening
+from comparisons.figures.figure import Findings
+from comparisons.figures.quantity import MODELS
 from comparisons.models.assumptions import assumptions_of
+from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
+from comparisons.studies.problem import assumed
+from comparisons.studies.study import Solved
 
 ELASTIC = {
     "roller": {"radius": 8e-3, **STEEL},
@@ -118,6 +124,27 @@ def test_assumptions_say_what_is_dropped(as_written, said):
     spoken = "\n".join(assumptions_of(problem_of(scene_of(tables, as_written))))
     assert said in spoken
     assert ("finite elements:" in spoken) == bool(as_written)
+
+
+@pytest.mark.parametrize(
+    ("added", "said", "unsaid"),
+    [
+        ([], "\nelastic", "whole model"),
+        (["plastic_flow"], "; whole model: von Mises' yield at 1 GPa, hardening by", "\nelastic"),
+        (["finite_strain"], "; whole model: neo-Hookean elasticity, finite deformation", "yield"),
+    ],
+)
+def test_assumptions_are_those_of_the_run_that_was_made(added, said, unsaid):
+    metal = {"yield_stress": 1e9, "hardening_modulus": 2e9}
+    problem = problem_of(scene_of(ELASTIC, body=metal, profile=WAVE))
+    budget = SimpleNamespace(
+        wholes={0.2: None}, selection=SimpleNamespace(added=added, whole=added)
+    )
+    solved = Solved(problem, make_plan(problem, MODELS), None, {})
+    spoken = "\n".join(["", *assumed(solved, Findings(data=budget))])
+    assert said in spoken and unsaid not in spoken
+    assert "between samples the surface is a cubic spline" in spoken
+    assert spoken.endswith("whole model: as the half-plane") == bool(added)
 
 
 @pytest.mark.parametrize(("thickness", "exact"), [(None, True), (1e-3, False)])

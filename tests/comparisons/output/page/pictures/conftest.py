@@ -8,39 +8,8 @@ from matplotlib import pyplot
 from scenes import posed
 
 from comparisons.drawing.style import collected_figures
-from comparisons.output.page.pictures.answer import judged_picture, overview_picture
-from comparisons.output.page.pictures.contact import (
-    close_up_picture,
-    pressure_picture,
-    surface_picture,
-)
-from comparisons.output.page.pictures.mesh import mesh_pictures
-from comparisons.output.page.pictures.problem import problem_picture
-from comparisons.output.page.pictures.refinement import convergence_picture
-from comparisons.output.page.pictures.stresses import (
-    field_pictures,
-    near_surface_pictures,
-    section_pictures,
-)
-from comparisons.studies.ladder import cost
-from comparisons.studies.model_error.show import model_error_picture
+from comparisons.output.page.page import PICTURES, drawn_of
 from comparisons.studies.study import Run
-
-DRAWN = (
-    overview_picture,
-    judged_picture,
-    model_error_picture,
-    convergence_picture,
-    problem_picture,
-    pressure_picture,
-    close_up_picture,
-    surface_picture,
-    field_pictures,
-    near_surface_pictures,
-    section_pictures,
-    mesh_pictures,
-    cost.picture,
-)
 
 
 def drawn(draw: Callable, outcome: Run) -> tuple[list, object]:
@@ -62,7 +31,8 @@ def drawn_by() -> Callable:
 @pytest.fixture(scope="session")
 def wavy(wavy_outcome: Run) -> dict[str, list]:
     """Every figure of the rough run's report, by the function that drew it."""
-    return {draw.__name__: drawn(draw, wavy_outcome)[0] for draw in DRAWN}
+    draws = [PICTURES[name] for name in drawn_of(wavy_outcome)]
+    return {draw.__name__: drawn(draw, wavy_outcome)[0] for draw in draws}
 
 
 @pytest.fixture(scope="session")
