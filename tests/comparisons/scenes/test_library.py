@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from scenes import MEASURED, half_plane_at, judging, run_of
+from scenes import MEASURED, PROJECT, half_plane_at, judging, run_of
 
 from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
+from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import Stages
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import MODELS
@@ -16,7 +17,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.output.headline import kind_of
-from comparisons.output.within import within_of
+from comparisons.output.within import rounded_up, within_of
 from comparisons.scenes.scene import Scene
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.show import not_modelled_line
@@ -171,7 +172,11 @@ def test_the_run_in_flank_of_case_hardened_steel_holds():
     """At 1.2 GPa, whichever published steel's third-order constants it has, and nothing flows."""
     outcome = run_of(quick("gear-flank", effects=True))
     assert kind_of(outcome) == "holds"
-    assert 0.02 < within_of(outcome).size < 0.04 < outcome.problem.scene.tolerances["peak_pressure"]
+    size = within_of(outcome).size
+    assert 0.02 < size < 0.04 < outcome.problem.scene.tolerances["peak_pressure"]
+    said = f"within {percent_as_written(rounded_up(size))}"
+    for page in ("README.md", "comparisons/docs/user_guide.md"):
+        assert said in (PROJECT / page).read_text(encoding="utf-8")
     assert all(error.part("law_of_elasticity") is not None for error in outcome.model_errors)
     yield_stress = outcome.problem.scene.body.yield_stress
     shears = outcome.figures.of(study="contact", quantity="tau1_max")
