@@ -93,30 +93,19 @@ def _sentence_of(run: Run, kind: Kind, within: Within) -> str:
         return _inconclusive(run, within)
     if kind == "holds":
         nearest = _other(run, within, nearest_to_tolerance(errors), "; nearest to its tolerance: ")
-        idle = FLOW in run.data(MODEL_ERROR).selection.found
-        return (
-            f"{_counted(errors, errors, 'within')}{nearest}{f'; {yielding.IDLE}' if idle else ''}"
-        )
+        return f"every judged error is within {_tolerance(errors)}{nearest}"
     outside = [error for error in errors if error.verdict == "fails"]
     worst = nearest_to_tolerance(outside)
     taken = flow_taken([e for e in errors if e.friction == worst.friction])
     farthest = _other(run, within, worst, "; the farthest: " if outside[1:] else ": ")
-    said = f"{_counted(outside, errors, 'outside')}{farthest}"
+    count = f"{len(outside)} of {len(errors)} judged errors {'are' if outside[1:] else 'is'}"
+    said = f"{count} outside {_tolerance(errors)}{farthest}"
     return f"{taken}; {said}" if taken else f"{said}{_dominant(worst)}"
-
-
-def _counted(some: Sequence[Figure], errors: Sequence[Figure], where: str) -> str:
-    """How many of the judged errors lie within, or outside, their tolerances."""
-    count, tolerance = f"{len(some)} of {len(errors)}", _tolerance(errors)
-    if len(some) == len(errors):
-        count = {1: "the one", 2: "both"}.get(len(some), f"all {len(some)}")
-    errors_are = "error is" if len(errors) == 1 else f"errors {'is' if len(some) == 1 else 'are'}"
-    return f"{count} judged {errors_are} {where} {tolerance}"
 
 
 def _tolerance(errors: Sequence[Figure]) -> str:
     written = {percent_as_written(error.tolerance) for error in errors}
-    return f"the tolerance of {written.pop()}" if len(written) == 1 else "their tolerances"
+    return f"the tolerance of {written.pop()}" if len(written) == 1 else "its tolerance"
 
 
 def _other(run: Run, within: Within, error: Figure, words: str) -> str:
