@@ -177,14 +177,6 @@ class Unit(FieldType):
             raise self.wrong(str(error)) from error
         return entry.strip()
 
-    def is_one(self, entry: str) -> bool:
-        """Whether it is the name of such a unit."""
-        try:
-            self.read(entry)
-        except ValueError:
-            return False
-        return True
-
     def allowed(self) -> str:
         return f'a unit of {self.dimension.phrase.removeprefix("a ")} as a string, such as "um"'
 

@@ -3,7 +3,9 @@
 import os
 import re
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Annotated
 
@@ -117,8 +119,10 @@ SECTION = Annotated[dict[str, AnswerSection], AfterValidator(checked_names)]
 
 def units_named(text: str) -> dict[str, str]:
     """A unit of length and one of stress, or one of them: mm,MPa. Raises InputError for others."""
-    words = [word.strip() for word in text.split(",")]
-    units = {kind: word for word in words for kind, unit in UNITS.items() if unit.is_one(word)}
+    units, words = {}, text.split(",")
+    for kind, unit in product(UNITS, words):
+        with suppress(ValueError):
+            units[kind] = UNITS[kind].read(unit)
     if len(units) != len(words):
         allowed = "a unit of length and one of stress, such as mm,MPa"
         raise InputError(f"--units: is {describe(text)}; allowed is {allowed}")
