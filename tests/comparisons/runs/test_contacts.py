@@ -7,8 +7,9 @@ import re
 import pytest
 from scenes import DATA, PROJECT, run_of
 
-from comparisons.output.headline import headline
-from comparisons.scenes.scene import Scene
+from comparisons.output.headline import headline, kind_of
+from comparisons.output.within import within_of
+from comparisons.scenes.scene import Scene, with_tolerance
 
 CONTACTS = sorted((DATA / "contacts").glob("*.toml"))
 PAGE = PROJECT / "comparisons/docs/figures.md"
@@ -38,3 +39,25 @@ def test_verdicts_are_those_of_the_table(name):
     said = headline(run_of(Scene.read(DATA / f"contacts/{name}.toml")))
     assert said.kind.upper() == tabled()[name]
     assert said.next
+
+
+@pytest.mark.parametrize(
+    ("source", "usual"),
+    [
+        ("smooth", "fails"),
+        (str(DATA / "contacts/thin-strip.toml"), "fails"),
+        (str(DATA / "contacts/peek-seal.toml"), "inconclusive"),  # by the law of elasticity
+    ],
+    ids=lambda text: text.rpartition("/")[2],
+)
+def test_a_run_at_what_the_half_plane_is_right_within_holds_and_none_below(source, usual):
+    scene = Scene.read(source)
+    run = run_of(scene)
+    size = within_of(run).size
+    assert kind_of(run) == usual and size > 0.02
+    at = run_of(with_tolerance(scene, size))
+    least = within_of(at).size
+    assert kind_of(at) == "holds" and least <= (1.0 + 1e-12) * size
+    # effects that cannot change the usual verdict, but this one, are computed then
+    assert (least < (1.0 - 1e-12) * size) == ("thin-strip" in source)
+    assert kind_of(run_of(with_tolerance(scene, 0.99 * least))) != "holds"
