@@ -104,7 +104,7 @@ def folder(tmp_path_factory) -> Path:
     """The README's own scene, and a small profile where it looks for one."""
     folder = tmp_path_factory.mktemp("readme")
     (folder / "mine.toml").write_text(fenced("toml"))
-    x = np.linspace(-1200.0, 1200.0, 121)
+    x = np.linspace(-1200.0, 1200.0, 481)
     height = 0.1 * np.cos(x / 32.0) + 0.05 * np.sin(x / 53.0)
     table = np.column_stack([x, height])
     trace = folder / tomllib.loads(fenced("toml"))["profile"]["file"]

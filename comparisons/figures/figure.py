@@ -23,6 +23,8 @@ Verdict = Literal["agree", "differ", "inconclusive", "holds", "fails"]
 AGREE = {True: "agree", False: "differ", None: "inconclusive"}  # with another's figure
 HOLD = {True: "holds", False: "fails", None: "inconclusive"}
 FAILED = ("differ", "fails")
+# An estimate that all models have alike: nothing holds within it, and it excuses no failure.
+SHARED = "trace_sampling"
 SMALL = 1.0 / 3.0  # of what is not modelled: a numerical uncertainty that hardly matters
 
 
@@ -159,6 +161,9 @@ class Figure:
         if self.bounds is None:
             return None
         words = HOLD if self.against in (None, WHOLE) else AGREE
+        own = math.hypot(*(size for name, size in self.unknown.items() if name != SHARED))
+        if is_within(self.relative, self.numerical + own, *self.bounds) is False:
+            return words[False]
         return words[is_within(self.relative, self.total, *self.bounds)]
 
     def part(self, name: str) -> Part | None:

@@ -4,6 +4,7 @@ In: the figures of a run. Out: what terminal, page, JUnit and result.json say al
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import Literal
 
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
@@ -149,6 +150,8 @@ def _inconclusive(run: Run, within: Within) -> str:
     worst = worst_of(run)
     error = _other(run, within, worst, "the error of ") or "this error"
     largest, tolerance = max(worst.unknown, key=worst.unknown.get, default=""), _tolerance([worst])
+    if worst.not_modelled == inf:
+        return "an error of unknown size lies within no tolerance"
     if not largest or worst.is_unresolved:
         return f"the uncertainty of {error} reaches across {tolerance}"
     if worst.part(largest) is not None:  # its range

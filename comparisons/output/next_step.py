@@ -15,6 +15,7 @@ from comparisons.scenes.sections import ElasticSection
 from comparisons.studies.model_error.account import INPUTS
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
+from comparisons.studies.model_error.sampling import EFFECT as SAMPLING
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.model_error.show import ROUNDING, figure_of_whole
 from comparisons.studies.study import LADDER, MODEL_ERROR, Run
@@ -70,6 +71,9 @@ def next_of(run: Run, kind: str) -> tuple[str, tuple[str, ...]]:
         return f"budget.time = {time:g} computes it.", (f"[budget]\ntime = {time:g}",)
     if largest == FLOW:
         return next_of_flow(run)
+    if largest == SAMPLING:
+        finer = "a trace with more samples on the contact"
+        return (f"{finer}; {tolerance} holds.", (tolerance,)) if tolerance else (f"{finer}.", ())
     return f"{tolerance} holds.", (tolerance,)
 
 

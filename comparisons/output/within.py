@@ -18,9 +18,10 @@ from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_t
 from comparisons.models.assumptions import question
 from comparisons.studies.friction import coupling
 from comparisons.studies.model_error.catalogue import EFFECTS
+from comparisons.studies.model_error.sampling import EFFECT as SAMPLING
 from comparisons.studies.model_error.selection import FLOW
 from comparisons.studies.model_error.show import law_range, leaves_flow_out
-from comparisons.studies.study import Run
+from comparisons.studies.study import MODEL_ERROR, Run
 from comparisons.studies.subsurface import yielding
 
 DIGITS = 2  # of a tolerance that a user would write
@@ -54,10 +55,12 @@ def within_of(run: Run) -> Within:
     if isfinite(largest.reach):
         said = f"{name_of(run, largest)}, {size_of(run, largest)}"
         return Within(largest.reach, largest, said, asked)
-    open_effects = (EFFECTS[n].label for n, size in largest.unknown.items() if not isfinite(size))
+    open_effects = (name for name, size in largest.unknown.items() if not isfinite(size))
     what = f"the {name_of(run, largest)}, whose uncertainty has no bound"
     if effect := next(open_effects, ""):
-        what = f"the effect of {effect} on the {name_of(run, largest)}"
+        why = run.data(MODEL_ERROR).selection.impossible.get(effect, "")
+        what = f"the effect of {EFFECTS[effect].label} on the {name_of(run, largest)}"
+        what += f" ({why})" if why else ""
     return Within(None, largest, what, asked)
 
 
@@ -83,7 +86,11 @@ def size_of(run: Run, error: Figure) -> str:
     size = law_range(error) or error_text(error.value, error.numerical)
     size = f"{size.removesuffix(' %')} ± {percent(error.numerical)}"
     others = hypot(*(of for name, of in error.unknown.items() if not error.part(name)))
-    return f"{size}, {percent(others)} not modelled" if others > SMALL * error.reach else size
+    if others <= SMALL * error.reach:
+        return size
+    sampled = error.unknown.get(SAMPLING, 0.0) > 0.5 * others
+    by = f", mostly {EFFECTS[SAMPLING].label}" if sampled else ""
+    return f"{size}, {percent(others)} not modelled{by}"
 
 
 def _not_converged(run: Run) -> str:

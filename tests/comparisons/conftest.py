@@ -168,7 +168,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     resolved_all = "every judged quantity is resolved"
     solved = Solved(problem, plan, window, runs, resolved_all)
     rows = {mu: dict.fromkeys(QUANTITIES, SAMPLING) for mu in scene.load.friction}
-    with patch("comparisons.studies.model_error.error_budget.sampling_changes", lambda *_: rows):
+    with patch("comparisons.studies.model_error.sampling.sampling_changes", lambda *_: rows):
         findings = studied(STUDIES, solved, {}, Tasks())
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()

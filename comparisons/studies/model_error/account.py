@@ -18,8 +18,7 @@ from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.selection import EffectSelection
 
 NAME = "model_error"
-# Parts beside the effects; the last is what half the samples of the trace change.
-INTERACTION, JUMP, SAMPLING = "interaction", "jump", "trace_sampling"
+INTERACTION, JUMP = "interaction", "jump"  # parts beside the effects
 INPUTS = "inputs"  # of the uncertainty: what the errors of measured constants change
 TRUST = "law of elasticity"  # name of what is said of the strains that it bears
 
@@ -28,10 +27,8 @@ def figure_of(
     error: ModelError,
     selection: EffectSelection,
     tolerance: Mapping[str, float],
-    sampling: Mapping[float, Mapping[str, float]] | None = None,
 ) -> Figure:
-    """A model error, relative to the whole model; `sampling` is what half the samples of the trace
-    change, by friction coefficient and quantity."""
+    """A model error, relative to the whole model."""
     parts = [Part(n, e.value, e.uncertainty, e.moves_maximum) for n, e in error.effects.items()]
     parts += [Part(INTERACTION, error.interaction), Part(JUMP, error.jump)]
     unknown, sure = selection.not_modelled(error.quantity), {"numerical": error.uncertainty}
@@ -40,7 +37,6 @@ def figure_of(
         unknown[LAW] = error.law.half
     if error.law.scatter:
         sure[INPUTS] = error.law.scatter
-    sampled = (sampling or {}).get(error.friction, {}).get(error.quantity)
     bound = tolerance.get(error.quantity)
     return Figure(
         study=NAME,
@@ -53,7 +49,7 @@ def figure_of(
         uncertainty=Uncertainty(sure),
         unknown=unknown,
         bounds=None if bound is None else (-bound, bound),
-        parts=(*parts, *([] if sampled is None else [Part(SAMPLING, sampled)])),
+        parts=tuple(parts),
         place=error.moved,
     )
 
@@ -66,8 +62,6 @@ class ErrorBudget:
     levels: int  # that the whole was taken to; 0 where it has no solution
     unsplit: str | None  # why the difference of the models could not be split, else None
     model_errors: tuple[ModelError, ...]  # of each quantity at each friction coefficient
-    # by friction and quantity: what half the samples of the trace change
-    sampling: dict[float, dict[str, float]]
     seconds: float  # that the effects took
     # by friction, the finite elements with every effect that matters, on the finest level of the
     # effects, with their fields
@@ -85,10 +79,7 @@ class ErrorBudget:
 
     def figures(self, tolerance: Mapping[str, float]) -> list[Figure]:
         """Every model error, judged where it has a tolerance."""
-        return [
-            figure_of(error, self.selection, tolerance, self.sampling)
-            for error in self.model_errors
-        ]
+        return [figure_of(error, self.selection, tolerance) for error in self.model_errors]
 
 
 def findings_of(budget: ErrorBudget, problem: Problem) -> Findings:

@@ -44,7 +44,8 @@ from comparisons.studies.model_error.refinement import (
     most_effect_levels,
     spent_seconds,
 )
-from comparisons.studies.model_error.sampling import announce_sampling, sampling_changes
+from comparisons.studies.model_error.sampling import EFFECT as SAMPLING
+from comparisons.studies.model_error.sampling import announce_sampling, sampling_estimate
 from comparisons.studies.model_error.selection import (
     FLOW,
     ITS_OWN_LAW,
@@ -110,15 +111,14 @@ def error_budget(
                 wholes = {mu: finest.under(mu) for mu in splits}
                 break
             selection = selection.without(dropped, str(error))
-    sampling = {}
     if problem.scene.profile is not None:
-        sampling = sampling_changes(problem, solved.window, half_plane.levels, tasks)
+        known = sampling_estimate(problem, solved.window, half_plane.levels, tasks)
+        selection = selection.estimated(SAMPLING, *known, problem.scene.tolerances)
     return ErrorBudget(
         selection=selection,
         levels=refined.levels,
         unsplit=refined.unsplit,
         model_errors=tuple(refined.errors),
-        sampling=sampling,
         seconds=math.fsum(seconds for seconds, _ in variants.took.values()),
         wholes=wholes,
         left_out=refined.left_out,

@@ -1,21 +1,45 @@
-"""How much of each figure is owed to the sampling of the trace.
+"""How much of each figure is owed to the sampling of the trace: an effect that no model has.
 
-It is solved again from every other sample, the even or the odd ones: the larger change counts. The
-half-plane is enough, for both models press one curve."""
+The trace is solved again from every other sample, the even or the odd ones, and the larger change
+estimates what samples between them would change. The half-plane is enough, for both models press
+one curve. A measured trace with few samples on the contact says nothing of the roughness there, and
+how little they change no more: then the effect has no bound."""
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import inf
 
+from comparisons.common.numbers import significant, with_unit
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
+from comparisons.figures.figure import SHARED
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.comparison import relative_differences
+from comparisons.studies.model_error.estimates import Sizes
 from comparisons.studies.model_error.quantities_of_interest import quantities_of
 
+EFFECT = SHARED
+FEWEST = 20  # samples of a measured trace on the contact
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
+
+
+def sampling_estimate(
+    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
+) -> tuple[Sizes, str]:
+    """By quantity, what the sampling may change, and what is said of the surface between samples.
+
+    levels  as of `sampling_changes`"""
+    changes, info = sampling_changes(problem, window, levels, tasks), problem.surface.info
+    sizes = {n: max(of[n] for of in changes.values()) for n in next(iter(changes.values()))}
+    samples, spacing = levels[-1].contact_length / info.spacing, with_unit(info.spacing, "m", 3)
+    if info.path is not None and samples < FEWEST:
+        count = f"{significant(samples, 2)} samples, {spacing} apart"
+        few = f"the contact has {count}, and shows its roughness from {FEWEST} on"
+        return dict.fromkeys(sizes, inf), few
+    return sizes, f"by what every other sample changes; they are {spacing} apart"
 
 
 def sampling_changes(

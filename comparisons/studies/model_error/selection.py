@@ -74,6 +74,13 @@ class EffectSelection:
         impossible = {name: why for name, why in self.impossible.items() if name != "finite_strain"}
         return replace(self, added=self.added | {"finite_strain"}, impossible=impossible)
 
+    def estimated(
+        self, name: str, sizes: Sizes, why: str, tolerances: Mapping[str, float]
+    ) -> "EffectSelection":
+        """The same with an effect that no model has, for a reason."""
+        impossible = dict(sorted((self.impossible | {name: why}).items()))
+        return replace(self, impossible=impossible).resized(name, sizes, tolerances)
+
     def resized(
         self, name: str, sizes: Sizes, tolerances: Mapping[str, float]
     ) -> "EffectSelection":

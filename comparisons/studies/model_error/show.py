@@ -26,7 +26,7 @@ from comparisons.drawing.curves import columns
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.studies import contact
-from comparisons.studies.model_error.account import INTERACTION, JUMP, SAMPLING, TRUST
+from comparisons.studies.model_error.account import INTERACTION, JUMP, TRUST
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.laws import EFFECT as LAW
 from comparisons.studies.model_error.selection import FLOW
@@ -183,7 +183,7 @@ def _not_known(run: Run, error: Figure) -> str:
     others = math.hypot(*(size for name, size in error.unknown.items() if not error.part(name)))
     if error.bounds is None or others <= error.tolerance:
         return ""
-    return f"{percent(others)} not modelled"
+    return f"{percent(others)} not modelled" if math.isfinite(others) else "not known"
 
 
 def law_range(error: Figure) -> str:
@@ -226,9 +226,8 @@ def contributions_of(error: Figure) -> dict[str, float]:
     figure makes the half-plane's too low."""
     sizes = {}
     for part in error.parts:
-        if part.name != SAMPLING:
-            name = EFFECTS[part.name].label if part.name in EFFECTS else WORDS[part.name]
-            sizes[name] = part.value if part.name == JUMP else -part.value
+        name = EFFECTS[part.name].label if part.name in EFFECTS else WORDS[part.name]
+        sizes[name] = part.value if part.name == JUMP else -part.value
     return sizes
 
 

@@ -97,3 +97,11 @@ def test_effects_that_are_not_shown_add_as_squares():
     assert judged(not_modelled=both).total == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
     assert validity([judged(value=0.001, not_modelled=both)]) == "holds"
     assert validity([judged(value=0.0015, not_modelled=both)]) == "inconclusive"
+
+
+def test_what_the_trace_does_not_show_keeps_from_holding_and_excuses_no_failure():
+    unknown = {"trace_sampling": 0.03}
+    assert judged(value=0.001, not_modelled=unknown).verdict == "inconclusive"
+    assert judged(value=0.03, not_modelled=unknown).verdict == "fails"
+    assert judged(value=0.03, not_modelled={"coating": 0.03}).verdict == "inconclusive"
+    assert judged(value=0.03, not_modelled={"trace_sampling": math.inf}).verdict == "fails"

@@ -39,7 +39,7 @@ from comparisons.figures.quantity import (
 from comparisons.figures.uncertainty import COVERAGE
 from comparisons.models.level import ModelRun
 from comparisons.studies import comparison, contact
-from comparisons.studies.model_error.account import SAMPLING
+from comparisons.studies.model_error.sampling import EFFECT as SAMPLING
 from comparisons.studies.study import Run
 
 ALL_LEVELS = "all levels together: time"
@@ -135,11 +135,11 @@ def validation_table(run: Run) -> TextTable | None:
     """Each judged model error as ASME V&V 20 names its parts; None where none is judged."""
     rows = []
     for error in run.model_errors:
-        name, friction, inputs = error.quantity, error.friction, error.part(SAMPLING)
+        name, friction, inputs = error.quantity, error.friction, error.unknown.get(SAMPLING)
         several = len(run.problem.scene.load.friction) > 1  # a whole model's depends on it
         named = label(name) + (f", friction {plain(friction)}" if several else "")
         size, unsure = error_text(error.value, error.numerical), percent(error.numerical)
-        by_inputs = "no trace" if inputs is None else percent(inputs.value)
+        by_inputs = "no trace" if inputs is None else percent(inputs)
         rows.append((named, size, unsure, by_inputs, NO_DATA))
     head = ("", "E", "u_num", "u_input", "u_D")
     return TextTable("In the terms of ASME V&V 20", head, tuple(rows)) if rows else None

@@ -35,7 +35,7 @@ SWITCHED = {
 
 def test_every_effect_is_tried():
     assert {*SWITCHED, *UNKNOWN} == set(EFFECTS)  # which are no switches
-    assert UNKNOWN == ("law_of_elasticity", "roller_support")
+    assert UNKNOWN == ("law_of_elasticity", "roller_support", "trace_sampling")
 
 
 @pytest.mark.parametrize("name", SWITCHED)

@@ -1,12 +1,18 @@
 """What a figure owes to the sampling of the trace: stated, and held against finer samples."""
 
+import json
+
 import numpy as np
 import pytest
-from scenes import half_plane_at
+from scenes import KNOWN_STEEL, half_plane_at, run_of
 
 from comparisons.common.tasks import Tasks
+from comparisons.models.problem import Levels
+from comparisons.output.headline import headline
+from comparisons.output.result_json import content_of, read_content, result_of
 from comparisons.studies.contact import values_of
 from comparisons.studies.model_error.sampling import sampling_changes
+from comparisons.studies.model_error.show import not_modelled_line
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
 
@@ -59,3 +65,46 @@ def test_of_a_well_sampled_wave_it_is_nothing(pressed):
         many["peak_pressure"] < 0.05 * few["peak_pressure"]
     )  # of fourth order, till edges are seen
     assert set(many) == {"peak_pressure", "contact_length"}
+
+
+@pytest.fixture
+def flank(tmp_path):
+    """`flank(n, apart)`: the run of a gear flank's trace of n samples so far apart [m]."""
+
+    def solved(samples: int, apart: float):
+        x, rough = apart * np.arange(samples), np.random.default_rng(3).standard_normal(samples)
+        z = 150e-9 * np.sin(2.0 * np.pi * x / 830e-6) + 30e-9 * rough
+        np.savetxt(tmp_path / "flank.csv", np.column_stack([x, z]), delimiter=",")
+        tables = {
+            "title": "Flank",
+            "roller": {"radius": 12e-3, **KNOWN_STEEL},
+            "body": dict(KNOWN_STEEL),
+            "profile": {"file": str(tmp_path / "flank.csv"), "x_unit": "m", "z_unit": "m"},
+            "load": {"per_length": 450e3},
+            "tolerance": {"peak_pressure": 0.03, "contact_length": 0.03},
+        }
+        return run_of(tables, levels=Levels(2, 2))
+
+    return solved
+
+
+def test_a_trace_of_few_samples_on_the_contact_holds_within_nothing(flank):
+    run = flank(60, 51e-6)
+    said = headline(run)
+    assert said.within.size is None and said.kind == "inconclusive"
+    assert "the contact has 9.9 samples, 51.0 µm apart" in said.within.sentence
+    assert "tolerance" not in said.next
+    [peak, _] = run.model_errors
+    assert abs(peak.value) + peak.numerical < 2e-3  # half-planes are no worse on few samples
+    read = read_content(json.loads(json.dumps(content_of(result_of(run))))).figures
+    assert read.one(study="model_error", quantity="peak_pressure").unknown == peak.unknown
+
+
+def test_what_every_other_sample_changes_counts_like_any_effect(flank):
+    run = flank(140, 22e-6)
+    peak, sentence = headline(run).within.figure, headline(run).within.sentence
+    assert peak.quantity == "peak_pressure" and "mostly sampling of the trace" in sentence
+    assert peak.unknown["trace_sampling"] > 0.1
+    assert peak.reach == pytest.approx(abs(peak.value) + peak.total)
+    assert peak.verdict == "inconclusive"
+    assert "sampling of the trace (at most" in not_modelled_line(run)

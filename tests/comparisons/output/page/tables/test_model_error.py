@@ -46,7 +46,7 @@ def split(wavy_outcome: Run) -> Run:
         ModelError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
         ModelError("contact_length", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
     )
-    budget = ErrorBudget(SELECTION, 2, None, errors, {0.0: {"peak_pressure": 0.003}}, 1.5)
+    budget = ErrorBudget(SELECTION, 2, None, errors, 1.5)
     rows = tuple(
         row
         for row in wavy_outcome.figures.of(study="comparison")
