@@ -149,7 +149,6 @@ def solved_in(
             callback(Step(f"{what}: checking {number} of {len(left)} points", 0.0))
             whys[key] = why_not(keys[key])
         refuse_values(points, whys)
-        cache.remove_leftovers()
         for key, why in whys.items():
             if why is not None:
                 cache.save(key, failed(why, is_wrong=True))

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.common.files import remove_leftovers, whole_file
+from comparisons.common.files import whole_file
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Cache:
 
     def load(self, name: str) -> object | None:
         """The result saved under a name; None without a whole one of the same key."""
-        if self.folder is None or not self.path(name).is_file():  # to open a pipe would wait
+        if self.folder is None:
             return None
         try:
             with np.load(self.path(name), allow_pickle=False) as file:
@@ -60,10 +60,6 @@ class Cache:
             shutil.rmtree(self.folder, ignore_errors=True)
             with suppress(OSError):
                 self.folder.parent.rmdir()
-
-    def remove_leftovers(self) -> None:
-        """Remove what a process left that was killed while it saved."""
-        remove_leftovers(self.folder)
 
     def path(self, name: str) -> Path:
         return self.folder / f"{name}.npz"

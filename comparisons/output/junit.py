@@ -7,7 +7,7 @@ from typing import Literal
 from xml.etree import ElementTree
 
 from comparisons.common.errors import InputError
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import check_writable, write_whole
 from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.figures.figure import Figure, Verdict
 from comparisons.output.headline import headline
@@ -46,8 +46,8 @@ def check_place(junit: Path | None) -> None:
 def write_junit(junit: Path | None, content: str) -> None:
     """Leave the content in the file, whole or not at all; None is no file."""
     if junit is not None:
-        with published(junit.parent, ()) as folder:
-            (folder / junit.name).write_text(content, encoding="utf-8")
+        junit.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(junit, content)
 
 
 def junit_xml(suite: str, testcases: Iterable[JunitCase], seconds: float) -> str:

@@ -5,19 +5,19 @@ import os
 import subprocess
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from time import time
 
 import pytest
 
 from comparisons.common.errors import InputError
 from comparisons.common.files import (
+    DAY,
     check_writable,
     claim,
     claimed,
     published,
     unfinished,
-    whole_file,
 )
 
 NOBODY = 65534
@@ -77,7 +77,6 @@ def test_a_failure_changes_nothing(tmp_path, error):
         ("taken", "taken", "not a folder"),
         ("taken", "taken/deeper", "not a folder"),
         ("half_plane", ".", "half_plane is not a folder; allowed is a folder"),
-        (".unfinished", ".", "unfinished is not a folder; allowed is a folder"),
         ("result.json/mine", ".", r"result\.json is a folder"),
     ],
 )
@@ -121,25 +120,6 @@ def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
     assert sorted(p.name for p in out.iterdir()) == ["half_plane", "result.json"]
 
 
-def test_runs_at_once_into_one_folder(tmp_path):
-    """One keeps removing the folder that the other needs; each file is whole in the end."""
-    out = tmp_path / "out"
-
-    def publish(name):
-        for _ in range(40):
-            with published(out) as scratch:
-                fill_as_run(scratch, [name, "result.json"], name)
-        return True
-
-    names = ["half_plane/contact.csv", "finite_element/contact.csv"]
-    with ThreadPoolExecutor(2) as pool:
-        assert list(pool.map(publish, names)) == [True, True]
-    assert (out / "result.json").read_text() in names
-    folders = {"half_plane", "finite_element"}
-    assert {p.name for p in out.iterdir()} <= {"result.json", "record.json", *folders}
-    assert [p.name for p in tmp_path.iterdir()] == ["out"]
-
-
 @pytest.mark.parametrize("name", ["report.pdf", "run_in_profile.csv", "finite_element/stress.vtu"])
 def test_somebody_elses_file_is_neither_replaced_nor_removed(tmp_path, name):
     fill_as_run(tmp_path, ["result.json"], "old")
@@ -180,14 +160,15 @@ with whole_file(out.parent / "page.html") as part, published(out) as scratch:
 
 
 @pytest.mark.parametrize("exists", [False, True])
-def test_the_next_run_removes_what_a_killed_one_left(tmp_path, exists):
+def test_what_a_killed_run_left_is_hidden_and_goes_after_a_day(tmp_path, exists):
     out = tmp_path / "out"
     if exists:
         out.mkdir()
     subprocess.run([sys.executable, "-c", KILLED, out], check=False, cwd=Path(__file__).parents[3])
-    assert len([*tmp_path.rglob(".*part*")]) == 2
-    with whole_file(tmp_path / "page.html") as part, published(out) as scratch:
-        part.write_text("whole")
-        fill_as_run(scratch, ["result.json"])
-    assert not [*tmp_path.rglob(".*part*")]
-    assert (tmp_path / "page.html").read_text() == "whole"
+    assert not (out / "result.json").exists() and not (tmp_path / "page.html").exists()
+    [scratch] = tmp_path.rglob("*.part-*")
+    for age in (0.0, 2.0 * DAY):
+        os.utime(scratch, 2 * (time() - age,))
+        with published(out) as folder:
+            fill_as_run(folder, ["result.json"])
+        assert scratch.exists() == (age < DAY)
