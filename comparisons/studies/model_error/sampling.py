@@ -32,8 +32,7 @@ def sampling_estimate(
     """By quantity, what the sampling may change, and what is said of the surface between samples.
 
     levels  as of `sampling_changes`"""
-    changes, info = sampling_changes(problem, window, levels, tasks), problem.surface.info
-    sizes = {n: max(of[n] for of in changes.values()) for n in next(iter(changes.values()))}
+    sizes, info = sampling_changes(problem, window, levels, tasks), problem.surface.info
     samples, spacing = levels[-1].contact_length / info.spacing, with_unit(info.spacing, "m", 3)
     if info.path is not None and samples < FEWEST:
         count = f"{significant(samples, 2)} samples, {spacing} apart"
@@ -44,20 +43,19 @@ def sampling_estimate(
 
 def sampling_changes(
     problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
-) -> dict[float, dict[str, float]]:
-    """By friction coefficient and quantity, the relative change from half the samples.
+) -> Sizes:
+    """By quantity, the largest relative change from half the samples.
 
     levels  of the half-plane, coarse to fine; the third, or the last before it, is compared"""
-    level, changes = levels[:SAMPLED][-1], {}
+    level, sizes = levels[:SAMPLED][-1], {}
     for first, key in enumerate(announce_sampling(problem, window, levels, tasks)):
         thinned, other = _thinned(problem, first), tasks.result(key)
         for friction in problem.scene.load.friction:
-            sizes = changes.setdefault(friction, {})
             whole = quantities_of(level, problem, friction).largest()
             half = quantities_of(other, thinned, friction).largest()
             for name, size in relative_differences(half, whole, problem).items():
                 sizes[name] = max(sizes.get(name, 0.0), abs(size))
-    return changes
+    return sizes
 
 
 def announce_sampling(

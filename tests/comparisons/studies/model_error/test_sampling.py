@@ -44,7 +44,7 @@ def pressed(problem_with, tmp_path):
 def stated(pressed, samples: int) -> tuple[dict, dict]:
     problem, levels = pressed(samples)
     changes = sampling_changes(problem, None, levels, Tasks())
-    return values_of(levels[-1], problem, 0.0), changes[0.0]
+    return values_of(levels[-1], problem, 0.0), changes
 
 
 @pytest.mark.parametrize("samples", [6, 9, 16])
