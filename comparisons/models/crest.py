@@ -23,7 +23,7 @@ from analytic.operators.half_plane import HalfPlane
 from comparisons.models.problem import Problem
 
 REACH, FINER = 32, 4  # elements to each side of a crest's highest pressure; theirs to a coarser one
-ENOUGH = 0.125  # of the least distance of samples: elements that resolve the spline
+ENOUGH = 0.125  # of the least distance of samples: elements that resolve the spline between them
 # Times the change: the last elements leave up to a tenth of it, and the mesh of finite elements, on
 # which the crest is not pressed again, was seen to lack a quarter of it beside.
 SAFETY = 1.5
