@@ -88,6 +88,11 @@ class FinitePlasticBody(PlasticBody):
         strain, _, conjugate, unflowed = self._at(displacement)
         return self._balanced(self._slopes_of(unflowed), strain, conjugate)
 
+    def bearable(self, equivalent: np.ndarray, mean: np.ndarray) -> np.ndarray:
+        """As of `PlasticBody`, of Cauchy's stress: that of Kirchhoff over J, K ln J = J mean."""
+        kirchhoff = super().bearable(equivalent, mean)
+        return kirchhoff * np.exp(-mean / self.metal.elastic.bulk_modulus)
+
     def stress(
         self, displacement: np.ndarray, state: PlasticState
     ) -> tuple[np.ndarray, np.ndarray]:

@@ -182,6 +182,12 @@ class PlasticBody:
         """sx, sz, txz (3m, 3) and sy (3m,) [Pa] under a displacement (n, 2) [m] in a state."""
         return stress_of(self._shear, self._ratio, self.strain(displacement), state)
 
+    def bearable(self, equivalent: np.ndarray, mean: np.ndarray) -> np.ndarray:
+        """Largest equivalent stress (k,) [Pa] at equivalent plastic strains (k,) and means of the
+        three normal stresses (k,) [Pa]; as if a moved yield surface had moved straight."""
+        hardening = self.metal.hardening
+        return hardening.stress(equivalent) + hardening.kinematic * equivalent
+
     def force_of(self, stress: np.ndarray) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] in balance with sx, sz, txz (3m, 3) [Pa]."""
         element = np.flatnonzero(stress.any(axis=1).reshape(-1, 3).any(axis=1))

@@ -424,6 +424,8 @@ class PlasticFields:
     stress: StressState  # (n,) [Pa] in the plane
     sy: np.ndarray  # (n,) [Pa] across the plane, nu (sx + sz) only without plastic strain
     equivalent_strain: np.ndarray  # equivalent plastic strain (n,)
+    # (n,) [Pa] the largest equivalent stress that the metal bears there, infinite in a coating
+    most: np.ndarray
 
     @cached_property
     def von_mises(self) -> np.ndarray:
@@ -434,7 +436,8 @@ class PlasticFields:
 def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     """Stresses and plastic strain of a body under a contact of its history. Area-weighted means of
     the linear fields through the three points of each element around a node. Patches of
-    higher degree (`fem.stress.recovery`) would overshoot at the plastic zone's kinks."""
+    higher degree (`fem.stress.recovery`) would overshoot at the plastic zone's kinks. Means that
+    do are returned along the radius, to what the metal bears at the plastic strain there."""
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
     nodes = stress_nodes(body.body)
@@ -443,4 +446,8 @@ def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     values = EXTRAPOLATION @ sampled.reshape(len(elements), 3, -1) * areas[..., None]
     total = nodal_sums(elements, areas, count)
     sx, sz, txz, sy, strain = nodal_sums(elements, values, count).T / total
-    return PlasticFields(StressState(sx, sz, txz), sy, np.maximum(strain, 0.0))
+    strain, mean = np.maximum(strain, 0.0), (sx + sz + sy) / 3.0
+    most = np.where(nodes.of_triangles(body.body.coated), np.inf, body.bearable(strain, mean))
+    share = np.minimum(1.0, most / np.maximum(von_mises(StressState(sx, sz, txz), sy), 1e-300))
+    sx, sz, sy = (mean + share * (part - mean) for part in (sx, sz, sy))
+    return PlasticFields(StressState(sx, sz, share * txz), sy, strain, most)

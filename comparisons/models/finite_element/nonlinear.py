@@ -229,6 +229,7 @@ def pressed_plastically(
         fields.sy,
         others,
         moved=loaded.displacement,
+        bearable=fields.most / 3**0.5,
     )
 
 
@@ -261,7 +262,8 @@ def pressed_plastically_finitely(
     if pressed.state.equivalent.any():
         averaged = averaged_pressure(loaded.solution.pressure)
         loaded = replace(loaded, solution=replace(loaded.solution, pressure=averaged))
-    loaded = replace(loaded, across=fields.sy, others=_of_flow(body, pressed, released))
+    known = {"across": fields.sy, "bearable": fields.most / 3**0.5}
+    loaded = replace(loaded, **known, others=_of_flow(body, pressed, released))
     return _on_undeformed_grid(problem, grid, finite.place, loaded)
 
 

@@ -18,6 +18,7 @@ from comparisons.models.level import (
 from comparisons.models.problem import Problem, ends_of, patches_of
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
+from fem.body.triangle import shapes
 from fem.stress.maximum import Samples, highest_node, maxima, maximum
 from fem.stress.stress import NodalStress, evaluate_all, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
@@ -36,6 +37,8 @@ class LoadedBody:
     # stress across the plane (n,) [Pa] at the mesh's points; None: nu (sx + sz)
     across: np.ndarray | None = None
     others: dict[str, np.ndarray] = field(default_factory=dict)  # further fields there, by name
+    # (n,) [Pa] largest principal shear that a metal bears there; None: any
+    bearable: np.ndarray | None = None
     # (count,) [m] where what now stands at the grid's nodes stood without load; None: there
     material: np.ndarray | None = None
     # what stresses at all points of the mesh are recovered from, by displacements and friction
@@ -78,6 +81,18 @@ def pressed_linearly(
     return LoadedBody(rough.body, solution, displacement, stresses, patches, on_mesh=on_mesh)
 
 
+def _borne(pressed: LoadedBody, nodal: NodalStress, largest: np.ndarray) -> np.ndarray:
+    """Largest shears with their places (3, k) [Pa], [m], no larger than what a metal bears there:
+    between nodes on the yield surface a recovered field may be beyond it."""
+    if pressed.bearable is None:
+        return largest
+    known = np.flatnonzero(~np.isnan(largest[1]))
+    element, at = pressed.body.locator(largest[1:, known].T)
+    around = pressed.bearable[nodal.nodes.triangles[element]]
+    largest[0, known] = np.minimum(largest[0, known], (shapes(at) * around).sum(axis=1))
+    return largest
+
+
 def stresses_of(
     pressed: LoadedBody,
     frictions: tuple[float, ...],
@@ -102,7 +117,8 @@ def stresses_of(
         samples = Samples(body, stresses)
         searched = bounds, asperities, samples
         highest_places = {
-            name: maxima(body, stresses, of, *searched) for name, of in shears.items()
+            name: _borne(pressed, stresses, maxima(body, stresses, of, *searched))
+            for name, of in shears.items()
         }
         extremes = {name: highest(most) for name, most in highest_places.items()}
         if pressed.across is not None:

@@ -241,6 +241,8 @@ def test_stress_nowhere_exceeds_the_yield_stress(small_block):
     k = contact.state.equivalent
     np.testing.assert_allclose(q[k > 0.0], 1.0 + 20.0 * k[k > 0.0], rtol=1e-9)
     assert q.max() > 1.01
+    fields = plastic_fields(body, contact)  # where they are recovered, too
+    assert np.all(fields.von_mises <= (1.0 + 20.0 * fields.equivalent_strain) * (1.0 + 1e-12))
 
 
 def test_sliding_mirrored(small_block):
@@ -264,7 +266,7 @@ def test_units_do_not_matter(small_block):
 def test_fields_of_a_linear_stress_are_exact(structured_block):
     mesh = structured_block(np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 1.0, 4), seed=1)
     body = elastic_body(mesh, STEEL, Support())
-    plastic = PlasticBody(body, ElasticPlastic(STEEL, Hardening(1.0)))
+    plastic = PlasticBody(body, ElasticPlastic(STEEL, Hardening(1e3)))
     x, z = body.nodes.T
     displacement = np.stack([x * z + x**2, z**2 - x * z], axis=-1)
     contact = PlasticContact(1.0, np.zeros(1), 0.0, displacement, plastic.state, 1)
