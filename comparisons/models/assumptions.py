@@ -58,7 +58,7 @@ def question(scene: Scene) -> str:
     meant for the bodies as they are."""
     if scene.linear:
         return WITHIN_LINEAR + (" and flow" if scene.finite_element.plastic else "")
-    return "of elastic bodies (plastic = false)" if scene.asks_elastic else ""
+    return "of elastic bodies" if scene.asks_elastic else ""
 
 
 def _law(scene: Scene) -> str:
