@@ -3,6 +3,7 @@
 In: an error budget. Out: a figure a quantity and friction coefficient, judged where it has a
 tolerance, with its parts; the effects' account."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -92,8 +93,8 @@ def findings_of(budget: ErrorBudget, problem: Problem) -> Findings:
         "because": Column(tuple(why for _, why in account.values())),
     }
     for quantity in QUANTITIES:
-        sizes = (budget.selection.estimates.get(name, {}).get(quantity) for name in EFFECTS)
-        columns[quantity] = Column(tuple(sizes))
+        sizes = [budget.selection.estimates.get(name, {}).get(quantity) for name in EFFECTS]
+        columns[quantity] = Column(tuple(None if size == math.inf else size for size in sizes))
     cost = {"levels": Column((budget.levels,)), "seconds": Column((budget.seconds,), "s")}
     series = (
         Series("effects", columns, is_account=True),
