@@ -90,7 +90,8 @@ def early_lines(
         for name, value in figures.items()
     ]
     # half-planes do not flow, though the scene's finite elements may
-    elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": None}))
+    flow = False if scene.finite_element.plastic is False else None
+    elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": flow}))
     pressure = level.under(friction).solution.pressure
     every = estimates(elastic, float(pressure.max()), mean_pressure(pressure), couplings).items()
     sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
