@@ -147,7 +147,8 @@ def _check_places(arguments: list[str]) -> None:
 def _carry_out(arguments: list[str]) -> int:
     try:
         _check_places(arguments)
-        job = app(arguments or ["--help"], prog_name="crosscheck", standalone_mode=False)
+        how = {"prog_name": "crosscheck", "standalone_mode": False, "obj": arguments}
+        job = app(arguments or ["--help"], **how)
         status = job() if callable(job) else job or ExitStatus.DONE
         sys.stdout.flush()
         return int(status)

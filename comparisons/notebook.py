@@ -59,7 +59,7 @@ class Printed(ABC):
         from rich.console import Console
 
         console = Console(file=io.StringIO(), width=COLUMNS, record=True, force_jupyter=False)
-        console.print(self._table())
+        console.print(self._table(), crop=False)
         return console
 
 
@@ -209,7 +209,8 @@ class FinishedRun(RecordedRun):
         more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
         first = said.within.sentence, *("  ".join(verdict) for verdict in verdicts(run, said))
         lines = run.problem.scene.title, *first, *rows[:SHOWN], *more, f"Next:  {said.next}"
-        return "\n".join(part for line in lines for part in wrap(line, COLUMNS))
+        wrapped = [part for line in lines for part in wrap(line, COLUMNS)]
+        return "\n".join([*wrapped, *said.paste])
 
     @property
     def plot(self) -> Plots:

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -46,11 +47,31 @@ def changed(tables: dict, **sections: dict) -> dict:
     return tables | {name: tables.get(name, {}) | fields for name, fields in sections.items()}
 
 
+def as_toml(tables: dict) -> str:
+    """The file of such tables, their title first."""
+    lines = [f"title = {json.dumps(tables['title'])}"]
+    for name, table in tables.items():
+        if isinstance(table, dict):
+            lines += [f"[{name}]", *(f"{field} = {json.dumps(v)}" for field, v in table.items())]
+    return "\n".join(lines)
+
+
 def resolved(tables: dict, name: str = "made", folder: Path = Path(".")) -> "Scene":
     """The scene that a file of these tables describes."""
     from comparisons.scenes.scene import Origin, Scene
 
     return Scene.of(tables, Origin(name, folder, f"{name}.toml"))
+
+
+def asked_in_python(line: str, scene: "Scene") -> "Scene":
+    """The scene that a line such as `crosscheck.run(scene, tolerance=0.05)` runs."""
+    from comparisons.scenes.scene import with_law, with_tolerance
+
+    def run(changed: "Scene", tolerance: float | None = None, law: str | None = None) -> "Scene":
+        changed = changed if law is None else with_law(changed, law)
+        return changed if tolerance is None else with_tolerance(changed, tolerance)
+
+    return eval(line, {"scene": scene, "crosscheck": SimpleNamespace(run=run)})
 
 
 def judging(scene: "Scene", tolerance: dict[str, float]) -> "Scene":

@@ -1,5 +1,6 @@
 """What several commands take, what they return, and what the shell may complete."""
 
+import os
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial, wraps
 from pathlib import Path
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
 
 RESULTS = Path("results")
+LAUNCHED_AS = "CROSSCHECK_LAUNCHED_AS"  # what was typed in place of `crosscheck`, by its launcher
 Job = Callable[[], int]  # the work of a command; returns the exit status
 
 
@@ -36,11 +38,15 @@ def out_option(content: str, default: str) -> OptionInfo:
     return Option(help=f"Folder for the {content}.", show_default=f"results/{default}")
 
 
-def scene_with(scene: str, settings: Sequence[str] | None) -> "Scene":
-    """The scene of a name or path, with the values of `--set` beside what its file says."""
+def scene_with(
+    scene: str, settings: Sequence[str] | None, arguments: Sequence[str] = ()
+) -> "Scene":
+    """The scene of a name or path, with the values of `--set` beside what its file says, and with
+    the arguments of the command that asks for it, as they were typed."""
     from comparisons.scenes.scene import Scene, with_settings
 
-    return with_settings(Scene.read(scene), settings or ())
+    command = [os.environ.get(LAUNCHED_AS, "crosscheck"), *arguments] if arguments else ()
+    return with_settings(Scene.read(scene), settings or (), command)
 
 
 def complete_scenes(incomplete: str) -> list[str]:

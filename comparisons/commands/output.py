@@ -73,17 +73,18 @@ def _lines() -> ProgressCallback:
 
 
 def show(renderable: object) -> None:
-    """Print a table, as wide as the terminal, or as COLUMNS; into a file without padding."""
+    """Print a table, as wide as the terminal, or as COLUMNS; into a file without padding. What is
+    to be pasted keeps its line, however long."""
     from rich.console import Console
 
     if sys.stdout.isatty():
-        Console().print(renderable)
+        Console().print(renderable, crop=False)
         return
     asked = os.environ.get("COLUMNS", "")
     width = int(asked) if is_whole(asked) and int(asked) else UNSEEN_WIDTH
     unseen = Console(width=width, force_terminal=False)
     with unseen.capture() as printed:
-        unseen.print(renderable)
+        unseen.print(renderable, crop=False)
     print("\n".join(line.rstrip() for line in printed.get().splitlines()))
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
-from typer import Option
+from typer import Context, Option
 
 from comparisons.commands.arguments import (
     RESULTS,
@@ -62,6 +62,7 @@ Details = Annotated[
 
 @job
 def run(
+    context: Context,
     scene: SceneName,
     settings: Settings = None,
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
@@ -90,7 +91,7 @@ def run(
     gc.freeze()  # a collection would look through all that was imported
     began = perf_counter()
     chosen = models_named(models, "--models")
-    asked = _read(scene_with(scene, settings), answer or (), units, tolerance, law)
+    asked = _read(scene_with(scene, settings, context.obj), answer or (), units, tolerance, law)
     surface = surface_of(asked)
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")

@@ -1,5 +1,6 @@
 """What the levels of a run will take, by the laws of cost, before anything is meshed or solved."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,7 +9,7 @@ from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
 from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import expected_with
-from comparisons.models.level import ExpectedCost, flowing_contact
+from comparisons.models.level import ExpectedCost, ModelRun, flowing_contact
 from comparisons.models.plan import LONGER, Plan, make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, window_of
@@ -103,6 +104,20 @@ def expected_level(
 
         cost = expected(problem, plan, Refinement(pitch), patches)
     return replace(cost, seconds=contacts * cost.seconds)
+
+
+def with_one_more(
+    problem: Problem, plan: Plan, window: Window | None, runs: Mapping[str, ModelRun]
+) -> tuple[float, float]:
+    """Seconds of all levels that the models have and of one more of each, and memory [bytes] of the
+    largest of these."""
+    time = sum(level.expected_seconds for run in runs.values() for level in run.levels)
+    memory = 0.0
+    for name, run in runs.items():
+        pitch, patches = 0.5 * run.finest.grid.pitch, run.finest.patches
+        finer = expected_level(name, problem, plan, pitch, patches, window)
+        time, memory = time + finer.seconds, max(memory, finer.memory)
+    return time, memory
 
 
 def flow_seconds(problem: Problem, patches: np.ndarray, deformation: str = "linear") -> float:

@@ -152,8 +152,8 @@ def result_summary(result: Result) -> "Group":
     within = Text(result.within_words.translate(PLAIN), style="bold")
     stamp = result.verdict.upper(), STYLES.get(result.verdict, "bold")
     verdict = Text.assemble(stamp, f"  {result.why.translate(PLAIN)}")
-    pasted = (f"  {text.translate(PLAIN)}" for text in result.next)
-    next_steps = (Text.assemble(("Next:", "bold"), text) for text in pasted)
+    how = {"no_wrap": True, "overflow": "ignore"}  # a command to paste
+    next_steps = (Text.assemble(("Next:", "bold"), f"  {text}", **how) for text in result.next)
     return Group(title, within, verdict, *next_steps, "", rows_tables(rows, name=""))
 
 

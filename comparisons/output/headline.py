@@ -9,9 +9,8 @@ from typing import Literal
 
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.figures.figure import Figure, nearest_to_tolerance
-from comparisons.figures.quantity import HYPHENATED
 from comparisons.models.assumptions import laws, question, without_law
-from comparisons.output.next_step import next_of, next_of_flow, worst_of
+from comparisons.output.next_step import next_of, pasted, worst_of
 from comparisons.output.within import Within, name_of, size_of, within_of
 from comparisons.studies import contact
 from comparisons.studies.answers.show import answer_verdict, answers_of
@@ -36,7 +35,7 @@ class Headline:
     kind: Kind
     sentence: str
     next: str  # a sentence
-    paste: tuple[str, ...] = ()  # the same as text for the scene or the command
+    paste: tuple[str, ...] = ()  # the same as commands to paste
 
 
 def kind_of(run: Run) -> Kind:
@@ -61,22 +60,25 @@ def validity(errors: Sequence[Figure]) -> Kind:
 def headline(run: Run) -> Headline:
     """The verdict does not repeat what is said of the least tolerance."""
     within, kind = within_of(run), kind_of(run)
+    said, offers = _sentence(run, kind, within), next_of(run, kind)
+    words = "; or ".join(offer.says for offer in offers)
+    paste = tuple(text for offer in offers for text in pasted(run, offer))
+    return Headline(within, kind, said, f"{words}.", paste)
+
+
+def _sentence(run: Run, kind: Kind, within: Within) -> str:
     if kind == "not converged":
-        said = "What was computed is shown, but no conclusion rests on it."
-        remedy = "a lighter load, or finer pressures (resolution.pitch)."
-        return Headline(within, kind, said, remedy)
+        return "What was computed is shown, but no conclusion rests on it."
     if kind == "not compared":
-        both = f"--models {','.join(HYPHENATED.values())}"
-        return Headline(within, kind, _one_model(run), f"{both} compares both models.", (both,))
+        return _one_model(run)
     if run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
-        return Headline(within, kind, FLOWS, *next_of_flow(run))
+        return FLOWS
     said = _sentence_of(run, kind, within)
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
     asked = question(run.problem.scene)
     idle = kind == "holds" and FLOW in run.data(MODEL_ERROR).selection.found
     clauses = f"{law}{asked and f', {asked}'}{f'; {yielding.IDLE}' if idle else ''}"
-    said = f"{said[0].upper()}{said[1:]}{clauses}.{_inputs(run)}"
-    return Headline(within, kind, said, *next_of(run, kind))
+    return f"{said[0].upper()}{said[1:]}{clauses}.{_inputs(run)}"
 
 
 def verdicts(run: Run, said: Headline) -> list[tuple[str, str]]:

@@ -44,6 +44,7 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
         for kind, sentence in verdicts(run, said)
     ]
     next_step = Text.assemble(("Next:", "bold"), f"  {said.next.translate(PLAIN)}")
+    commands = (Text(text, no_wrap=True, overflow="ignore") for text in said.paste)
     title = Text(one_line(run.problem.scene.title), style="bold")
     agreement = "" if details else agreement_line(run)
     if not run.plan.compares:
@@ -55,7 +56,7 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     for answer in answers_of(run):
         tables += ["", *_answer(run, answer)]
     within = Text(said.within.sentence.translate(PLAIN), style="bold")
-    return Group(title, within, *verdict, next_step, "", *tables, "", _facts(run))
+    return Group(title, within, *verdict, next_step, *commands, "", *tables, "", _facts(run))
 
 
 def cost_summary(run: Run) -> "RenderableType":

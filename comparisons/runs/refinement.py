@@ -12,7 +12,7 @@ import numpy as np
 from comparisons.common.progress import Stages, machine_memory
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
 from comparisons.figures.figure import computed_for
-from comparisons.models.forecast import expected_level
+from comparisons.models.forecast import expected_level, with_one_more
 from comparisons.models.level import (
     ExpectedCost,
     Level,
@@ -256,13 +256,7 @@ class _Levels:
         None. Time is that of the laws by which levels are planned: by a clock, a busy machine would
         stop at other figures."""
         budget = self.problem.scene.budget
-        time = sum(level.expected_seconds for run in runs.values() for level in run.levels)
-        memory = 0.0
-        for name, run in runs.items():
-            pitch, patches = 0.5 * run.finest.grid.pitch, run.finest.patches
-            how = self.plan, pitch, patches, self.scene.window
-            finer = expected_level(name, self.problem, *how)
-            time, memory = time + finer.seconds, max(memory, finer.memory)
+        time, memory = with_one_more(self.problem, self.plan, self.scene.window, runs)
         if time > self.problem.time:
             return f"a finer level would exceed {budget.time:g} s (budget.time)"
         if memory > budget.memory:

@@ -64,6 +64,7 @@ class Origin:
     folder: Path = Path(".")  # that paths in it count from
     source: str = "scene"  # what messages call it
     settings: tuple[str, ...] = ()  # FIELD=VALUE, that were set beside the file
+    command: tuple[str, ...] = ()  # words of the command that asks for it; none from Python
 
 
 class SceneBase(SceneSection):
@@ -167,6 +168,10 @@ class SceneBase(SceneSection):
     @property
     def source(self) -> str:
         return self._origin.source
+
+    @property
+    def command(self) -> tuple[str, ...]:
+        return self._origin.command
 
     @property
     def named(self) -> str:
@@ -308,13 +313,20 @@ def assignments(option: str, texts: Sequence[str], scene: Scene, allowed: str) -
     return given
 
 
-def with_settings(scene: Scene, settings: Sequence[str]) -> Scene:
-    """The scene with other values of fields, each FIELD=VALUE, checked as a file is.
-    Raises InputError for what is no such thing, SceneError where the scene is none then."""
+def settings_of(scene: Scene, settings: Sequence[str]) -> dict[str, object]:
+    """Values by field of settings FIELD=VALUE. Raises InputError for anything else."""
     fields = assignments("--set", settings, scene, "FIELD=VALUE")
-    changed = scene.changed({name: value_of(text) for name, text in fields.items()})
-    origin = scene._origin
-    changed._origin = replace(origin, settings=(*origin.settings, *settings))
+    return {name: value_of(text) for name, text in fields.items()}
+
+
+def with_settings(scene: Scene, settings: Sequence[str], command: Sequence[str] = ()) -> Scene:
+    """The scene with other values of fields, each FIELD=VALUE, checked as a file is.
+
+    command  words of the command that asks for it
+    Raises InputError for what is no such thing, SceneError where the scene is none then."""
+    changed, origin = scene.changed(settings_of(scene, settings)), scene._origin
+    settings = (*origin.settings, *settings)
+    changed._origin = replace(origin, settings=settings, command=tuple(command))
     return changed
 
 

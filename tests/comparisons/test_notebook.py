@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import PROJECT, STEEL
+from scenes import PROJECT, STEEL, as_toml
 
 import comparisons as crosscheck
 from comparisons.campaigns.maps.map import finished_map
@@ -44,14 +44,6 @@ SCENES = {
 }
 
 
-def toml(tables: dict) -> str:
-    lines = [f"title = {json.dumps(tables['title'])}"]
-    for name, table in tables.items():
-        if isinstance(table, dict):
-            lines += [f"[{name}]", *(f"{field} = {json.dumps(v)}" for field, v in table.items())]
-    return "\n".join(lines)
-
-
 def without_cost(figures: dict) -> dict:
     """The figures without what the clock and the memory told."""
     record = {name: part for name, part in figures["record"].items() if name != "made"}
@@ -69,7 +61,7 @@ def test_the_same_scene_from_python_and_from_the_command_line(
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
-    Path("scene.toml").write_text(toml(tables))
+    Path("scene.toml").write_text(as_toml(tables))
     status = main(["run", "scene.toml", "--out", "out", "--json"])
     printed = without_cost(json.loads(capsys.readouterr().out))
     finished = crosscheck.run(tables)
@@ -94,7 +86,7 @@ def test_a_run_prints_in_ten_lines_and_shows_its_tables(tables):
 
 def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    Path("scene.toml").write_text(toml(SCENES["smooth, sliding"]))
+    Path("scene.toml").write_text(as_toml(SCENES["smooth, sliding"]))
     by_path, by_tables = scene_of("scene.toml"), scene_of(SCENES["smooth, sliding"])
     assert by_path.tables == by_tables.tables == scene_of(by_path).tables
     assert surface_of(scene_of("ground-unrun")).info.samples == 2237

@@ -4,8 +4,8 @@ import math
 from dataclasses import replace
 
 import pytest
+from scenes import asked_in_python, judging, posed, refound, unconverged
 from scenes import judged as figure_of
-from scenes import judging, posed, refound, unconverged
 
 from comparisons.common.numbers import with_unit
 from comparisons.figures.uncertainty import Uncertainty
@@ -58,10 +58,12 @@ def test_a_range_by_the_law_is_said_with_its_ends_and_what_would_narrow_it(smoot
     assert "−2.5 to +0.50 ± 0.01" in said.within.sentence
     assert "the law of elasticity this error reaches across the tolerance of 2 %" in said.sentence
     assert said.next.startswith('body.material = "carbon steel" and roller.material = "carbon')
-    assert said.paste == (
-        '[body]\nmaterial = "carbon steel"',
-        '[roller]\nmaterial = "carbon steel"',
-    )
+    named, linear = (asked_in_python(text, smooth_outcome.problem.scene) for text in said.paste)
+    assert linear.body.law == linear.roller.law == "linear"
+    assert named.body.solid == named.roller.solid == "carbon steel"
+    assert all(
+        law.is_scatter for law in open_laws(named)
+    )  # with the moduli that it was measured at
 
 
 def test_next_names_the_figures_to_use_or_the_tolerance_that_holds(smooth_outcome: Run):
@@ -72,9 +74,12 @@ def test_next_names_the_figures_to_use_or_the_tolerance_that_holds(smooth_outcom
     shown = with_unit(length / 0.3, "m")
     assert fails.next.startswith(f"take the whole model's contact length {shown} ± ")
     at_it = headline(judged(smooth_outcome, error_of("contact_length", 0.0199, 3.5e-4)))
-    assert at_it.kind == "inconclusive" and at_it.paste == ("--tolerance 0.021",)
+    assert at_it.kind == "inconclusive" and at_it.paste == (
+        "crosscheck.run(scene, tolerance=0.021)",
+    )
     unsure = headline(judged(smooth_outcome, error_of("contact_length", 0.01, 0.015)))
-    assert unsure.kind == "inconclusive" and unsure.paste == ("[budget]\ntime = 600",)
+    assert unsure.kind == "inconclusive"
+    assert unsure.paste == ("crosscheck.run(scene.changed({'budget.time': 600}))",)
 
 
 def test_next_offers_no_figure_that_is_not_known_or_that_the_body_cannot_bear(smooth_outcome: Run):
@@ -122,7 +127,8 @@ def test_inconclusive_by_what_is_not_modelled(smooth_outcome: Run):
         assert said.kind == "inconclusive"
         assert "Plastic flow, which is not modelled (the body has no yield" in said.sentence
         assert "may change this error by 10 % (estimate), across the tol" in said.sentence
-        assert said.next.startswith('body.yield_stress = "…" computes the flow')
+        assert said.next.startswith("the flow is computed with body.yield_stress")
+        assert said.paste == ("crosscheck.run(scene, law='linear')",)  # the value is not known
 
 
 @pytest.mark.parametrize(

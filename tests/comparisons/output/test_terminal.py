@@ -116,7 +116,7 @@ def test_one_model_is_shown_without_a_comparison(finish: Callable[..., Run], smo
     assert "NOT COMPARED" in text
     assert "verdict" not in text
     assert ("peak pressure", "0") in rows(text)
-    assert "finite elements" not in text and "Next:  --models half-plane,finite-element" in text
+    assert "finite elements" not in text and "\ncrosscheck.run(scene)\n" in text
 
 
 def test_titles_are_not_taken_for_markup(smooth_outcome: Run):

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, half_plane_at, resolved, run_of
+from scenes import STEEL, asked_in_python, changed, half_plane_at, resolved, run_of
 
 from analytic.grid import roller_gap
 from comparisons.common.errors import SceneError
@@ -90,13 +90,13 @@ def test_a_solid_that_typically_flows_is_not_judged_without_its_yield_stress():
     assert said.kind == "inconclusive" and within.size is None
     assert "it flows at such stresses: alloy steel typically flows at" in within.sentence
     assert said.sentence == "Nothing said of an elastic body will hold."
-    assert said.next.startswith('body.yield_stress = "…" computes the flow')
+    assert said.next.startswith("the flow is computed with body.yield_stress; 1080 MPa is typical")
     for row in model_error_rows(run, judged=True):
         assert (row.whole, row.error, row.note) == ("–", "–", "plastic flow not modelled")
     assert run.data("model_error").selection.added == frozenset()
-    [paste] = said.paste
-    law = paste.removeprefix("--law ")
-    linear = run_of(with_law(run.problem.scene, law))
+    named, linear = (asked_in_python(line, run.problem.scene) for line in said.paste)
+    assert named.body.yield_stress == pytest.approx(1.08e9) and linear.linear
+    linear = run_of(linear)
     assert within_of(linear).size < 0.01 and headline(linear).kind == "holds"
     assert "it flows at such stresses" in dict(lines(linear))["flow"]
 

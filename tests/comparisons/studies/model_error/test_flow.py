@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from scenes import STEEL, changed, resolved, run_of
+from scenes import STEEL, asked_in_python, changed, resolved, run_of
 
 from comparisons.common.errors import ExitStatus
 from comparisons.models.forecast import time_with_flow
@@ -39,7 +39,8 @@ def short():
 @pytest.fixture
 def finite(short):
     """In the time that the other asks for."""
-    time = float(headline(short).paste[0].rpartition("=")[2])
+    [line] = headline(short).paste
+    time = asked_in_python(line, short.problem.scene).budget.time
     return run_of(SCENE, tolerance=OPEN, budget={"time": time})
 
 
@@ -114,7 +115,7 @@ def test_without_time_it_says_how_long_flow_takes(beside):
     said = headline(short)
     assert said.kind == "fails" and "does not apply" in said.within.sentence
     patches = short.runs["half_plane"].levels[0].patches
-    time = float(said.paste[0].rpartition("=")[2])
+    time = asked_in_python(said.paste[0], problem.scene).budget.time
     assert 1.0 <= time / time_with_flow(problem, plan, patches) < 2.0
 
 
