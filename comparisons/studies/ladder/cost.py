@@ -22,7 +22,7 @@ from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
+from comparisons.drawing.blocks import Block, Box, Note, Pictures, TextTable
 from comparisons.figures.figure import (
     Column,
     Figures,
@@ -305,7 +305,8 @@ def notes(findings: Findings) -> list[str]:
 def blocks(run: Run) -> list[Block]:
     findings = run.findings[NAME]
     said = " ".join(f"{line[0].upper()}{line[1:]}." for line in notes(findings))
-    return [Block("cost", (Pictures((NAME,)), table(findings), Note(f"{NOTE} {said}")))]
+    shown = Box("on-screens", (Pictures((NAME,)),))  # too wide to be read on paper
+    return [Block("cost", (shown, table(findings), Note(f"{NOTE} {said}")))]
 
 
 def picture(run: Run) -> style.Picture | None:
