@@ -9,6 +9,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
+from operator import itemgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from textwrap import wrap
@@ -18,17 +20,23 @@ import numpy as np
 
 from comparisons.common.errors import InputError, nearest
 from comparisons.common.files import check_writable, write_whole
-from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.units import describe
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, models_named
 from comparisons.output.arrays import RunArrays
-from comparisons.output.flat_csv import Row, judged_rows, result_summary, rows_of, rows_tables
+from comparisons.output.flat_csv import (
+    Row,
+    judged_rows,
+    result_summary,
+    right_within,
+    rows_of,
+    rows_tables,
+)
 from comparisons.output.page.plots import Plots
 from comparisons.output.result_json import Result, content_of, result_of
 from comparisons.scenes.scene import Scene, with_law, with_tolerance
-from comparisons.studies import meaning, study
+from comparisons.studies import study
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,20 +85,7 @@ class RunFigures(Printed, Figures):
         return DataFrame(self.rows)
 
     def _table(self) -> "RenderableType":
-        from comparisons.output.terminal import PLAIN, plain_table
-
-        table = plain_table("study", "quantity", "source", numbers=("at", "value", "uncertainty"))
-        table.add_column("verdict")
-        for figure in self:
-            if figure.against is None:
-                value = with_unit(figure.value, meaning(figure).unit)
-            else:
-                value = percent(figure.value, signed=True)
-            at = ", ".join(f"{name} {number:g}" for name, number in figure.at.items())
-            stated = "" if figure.uncertainty is None else percent(figure.numerical)
-            cells = (figure.study, figure.quantity, figure.source, at, value, stated)
-            table.add_row(*(cell.translate(PLAIN) for cell in cells), figure.verdict or "")
-        return table
+        return rows_tables(self.rows, itemgetter("study"))
 
 
 @dataclass(frozen=True, repr=False)
@@ -196,14 +191,16 @@ class FinishedRun(RecordedRun):
         run, said = self.outcome, headline(self.outcome)
         if run.plan.compares:
             rows = [
-                f"{SHORT[row.quantity]:14}  {row.friction:6}  half-plane {row.half_plane}, whole "
-                f"{row.whole}: error {row.error} ± {row.uncertainty}"
+                f"{SHORT[row.quantity]:14}  {row.friction:6}  half-plane {half_plane}, whole "
+                f"{whole}: error {error} ± {unsure}"
                 for row in model_error_rows(run, judged=True)
+                for half_plane, whole, error, unsure, *_ in [row.cells]
             ]
         else:
             rows = [
-                f"{SHORT[name]:14}  {friction:6}  {value:>9}  {of_hertz:>11} ± {unsure}"
-                for name, friction, value, of_hertz, unsure in figure_rows(run)
+                f"{SHORT[row.quantity]:14}  {row.friction:6}  {value:>9}  {of_hertz:>11} ± {unsure}"
+                for row in figure_rows(run)
+                for value, of_hertz, unsure in [row.cells]
             ]
         left = len(rows) - SHOWN
         more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
@@ -241,7 +238,7 @@ class FigureTable(Printed):
     rows: tuple[Row, ...]
 
     def _table(self) -> "RenderableType":
-        return rows_tables(judged_rows(self.rows), name="title")
+        return rows_tables(judged_rows(self.rows), partial(right_within, name="title"))
 
 
 @dataclass(frozen=True, repr=False)

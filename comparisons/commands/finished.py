@@ -85,7 +85,7 @@ def table(
     elif raw:
         print(flat.as_csv(rows), end="")
     elif out is None:
-        show(flat.rows_tables(flat.judged_rows(rows)))
+        show(flat.rows_tables(flat.judged_rows(rows), flat.right_within))
     else:
         runs = len({row["run"] for row in rows})
         print(f"{len(rows)} rows of {runs} run{'s' * (runs != 1)} in {out}")

@@ -4,20 +4,22 @@ In: texts, names of pictures. Out: dataclasses, which a template shows by their 
 figures as cells of tables, alike wherever they are shown, in the digits that are certain."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from math import floor, isfinite, log10
+from typing import NamedTuple
 
 from comparisons.common.errors import TRACEBACK, defect, tell
 from comparisons.common.numbers import (
     MINUS,
+    listed,
     percent,
     percent_as_written,
     scale_of,
     significant,
     with_unit,
 )
-from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import LABELS, MODELS
 
 MOST_DIGITS = 5  # of a figure beside its uncertainty
@@ -101,6 +103,29 @@ def attempted(what: str, make: Callable[[], object]) -> object:
         said = f"{what.replace('_', ' ')} is not shown: {defect(error)}"
         tell(said)
         return Note(f"{said[0].upper()}{said[1:]}")
+
+
+class TableRow(NamedTuple):
+    """A figure at one friction coefficient, or the first of several that look the same."""
+
+    figure: Figure
+    friction: str
+    cells: tuple[str, ...]
+
+    @property
+    def quantity(self) -> str:
+        return self.figure.quantity
+
+
+def table_rows(
+    figures: Sequence[Figure], order: Iterable[str], cells: Callable[[Figure], tuple[str, ...]]
+) -> list[TableRow]:
+    """Rows in the order of quantities, then of friction coefficients; equal ones are joined."""
+    known = [(cells(f), f) for name in order for f in figures if f.quantity == name]
+    return [
+        TableRow(same[0][1], listed(figure.friction for _, figure in same), same[0][0])
+        for same in grouped(known, lambda one: (one[1].quantity, one[0]))
+    ]
 
 
 def compared_cells(

@@ -10,8 +10,7 @@ In: the result.json of runs. Out: records, CSV, or a table for people. Columns:
 
 What is unknown is empty in a CSV."""
 
-from collections.abc import Iterable
-from operator import itemgetter
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,7 +18,6 @@ from comparisons.common.errors import InputError, one_line, tell
 from comparisons.common.files import csv_text
 from comparisons.common.numbers import finite, percent, percent_as_written, plain, with_unit
 from comparisons.figures.figure import grouped
-from comparisons.figures.quantity import LABELS
 from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
 from comparisons.output.terminal import PLAIN, STYLES, plain_table, plain_text
@@ -36,6 +34,8 @@ COLUMNS = (
     *("run", "scene", "title", "study", "quantity", "unit", "source", "against", "friction"),
     *("value", "uncertainty", "not_modelled", "low", "high", "verdict", "within"),
 )
+
+NAMES = "quantity", "source", "against"  # of a figure, as in result.json
 
 Row = dict[str, str | float | None]
 
@@ -115,31 +115,31 @@ def rows_of(result: Result, run: str) -> list[Row]:
 def judged_rows(rows: Iterable[Row]) -> list[Row]:
     """What each run answers for; of a run that judges nothing its contact."""
     shown = []
-    for same in grouped(rows, itemgetter("run", "title")):
+    for same in grouped(rows, lambda row: (row["run"], row["title"])):
         judged = [row for row in same if row["verdict"] and row["study"] != LADDER]
         shown += judged or [row for row in same if row["study"] == contact.NAME]
     return shown
 
 
-def rows_tables(rows: Iterable[Row], name: str = "run") -> "Group":
-    """A table a run for people: four digits with their unit, differences in per cent.
-
-    name  column that is a table's title, beside what the half-plane is right within; "": none"""
+def rows_tables(rows: Iterable[Row], title: Callable[[Row], str]) -> "Group":
+    """Tables for people, by run and title: four digits with their unit, differences in per
+    cent."""
     from rich.console import Group
 
-    tables = []
-    for same in grouped(rows, itemgetter("run", "title")):
-        numbers = ("mu", "value", "+-", "tol.")
-        table = plain_table("quantity", "source", "against", numbers=numbers)
-        table.add_column("verdict", no_wrap=True)
-        if name:
-            within = same[0]["within"]
-            size = "unknown" if within is None else percent_as_written(rounded_up(within))
-            table.title = plain_text(f"{same[0][name]}, right within {size}")
-        for row in same:
-            table.add_row(*map(plain_text, _cells(row)))
+    tables, numbers = [], ("mu", "value", "+-", "tol.")
+    for same in grouped(rows, lambda row: (row["run"], row["title"], title(row))):
+        table = plain_table(*NAMES, numbers=numbers, last="verdict", rows=map(_cells, same))
+        table.columns[-1].no_wrap = True
+        table.title = plain_text(title(same[0]))
         tables += [table, ""]
     return Group(*tables[:-1])
+
+
+def right_within(row: Row, name: str = "run") -> str:
+    """A title: the run, by its folder or another column, and what the half-plane is right
+    within."""
+    size = "unknown" if row["within"] is None else percent_as_written(rounded_up(row["within"]))
+    return f"{row[name]}, right within {size}"
 
 
 def result_summary(result: Result) -> "Group":
@@ -154,15 +154,14 @@ def result_summary(result: Result) -> "Group":
     verdict = Text.assemble(stamp, f"  {result.why.translate(PLAIN)}")
     how = {"no_wrap": True, "overflow": "ignore"}  # a command to paste
     next_steps = (Text.assemble(("Next:", "bold"), f"  {text}", **how) for text in result.next)
-    return Group(title, within, verdict, *next_steps, "", rows_tables(rows, name=""))
+    return Group(title, within, verdict, *next_steps, "", rows_tables(rows, lambda row: ""))
 
 
 def _cells(row: Row) -> tuple[str, ...]:
     value, unsure, friction, high = (row[n] for n in ("value", "uncertainty", "friction", "high"))
     difference = row["against"] is not None
     return (
-        row["quantity"].replace("_", " "),
-        *(LABELS.get(model, model or "") for model in (row["source"], row["against"])),
+        *(row[name] or "" for name in NAMES),
         "" if friction is None else plain(friction),
         percent(value, signed=True) if difference else with_unit(value, row["unit"]),
         "" if unsure is None else percent(unsure),

@@ -8,13 +8,18 @@ from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import COMPARED, LABELS, error_text
 from comparisons.models.smooth import scale_words
 from comparisons.output.headline import headline, verdicts
-from comparisons.output.page.tables.comparison import comparison_rows, figure_rows, first_model
+from comparisons.output.page.tables.comparison import (
+    capped,
+    comparison_rows,
+    figure_rows,
+    first_model,
+)
 from comparisons.output.page.tables.problem import in_mm
 from comparisons.scenes.surface import ProfileInfo
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.show import answer_facts, answer_rows, answers_of, reference_of
 from comparisons.studies.ladder import cost
-from comparisons.studies.model_error.show import model_error_rows
+from comparisons.studies.model_error.show import contributions, model_error_rows
 from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
@@ -66,9 +71,8 @@ def cost_summary(run: Run) -> "RenderableType":
 
     found = run.findings[cost.NAME]
     shown = cost.table(found)
-    table = plain_table(shown.head[0], numbers=(head.replace(" ", "\n") for head in shown.head[1:]))
-    for row in shown.rows:
-        table.add_row(*map(_cell, row))
+    numbers = (head.replace(" ", "\n") for head in shown.head[1:])
+    table = plain_table(shown.head[0], numbers=numbers, rows=map(_bare, shown.rows))
     said = [Text(line.translate(PLAIN)) for line in cost.notes(found)]
     return Group(Text(one_line(run.problem.scene.title), style="bold"), "", table, "", *said)
 
@@ -90,65 +94,61 @@ def agreement_line(run: Run) -> str:
 
 
 def _comparison(run: Run) -> "Table":
-    layered = first_model(run) != "half-plane"
-    first = "layered\nhalf-plane" if layered else "half-\nplane"
-    table = plain_table(
-        "quantity",
-        numbers=("mu", first, "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"),
-    )
-    table.add_column("verdict", overflow="fold")
+    first, shown = first_model(run).replace(" ", "\n").replace("half-plane", "half-\nplane"), []
+    for row in comparison_rows(run):
+        name = f"{SHORT[row.quantity]}\n{capped(run, row.figure)}".strip()
+        shown.append(_bare((name, row.friction, *row.cells)))
+    numbers = "mu", first, "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"
+    table = plain_table("quantity", numbers=numbers, last="verdict", rows=shown)
     table.caption = f"difference: ({first_model(run)} - finite elements) / finite elements"
-    rows = comparison_rows(run)
-    if any(row.verdict == "inconclusive" for row in rows):
+    if any(row[-1] == "inconclusive" for row in shown):
         table.padding = 0  # the longest verdict fits into 80 columns
-    for row in rows:
-        name, figures = f"{SHORT[row.quantity]}\n{row.note}", (row.half_plane, row.finite_element)
-        judged = row.difference, row.uncertainty, row.tolerance
-        cells = map(_cell, (name.strip(), row.friction, *figures, *judged))
-        table.add_row(*cells, _cell(row.verdict, STYLES.get(row.verdict, "")))
     return table
 
 
 def _model_errors(run: Run) -> "Table":
     """Of the half-plane in what is judged, and what most of it comes from."""
+    shown = []
+    for row in model_error_rows(run, judged=True):
+        *cells, _, note, _ = row.cells
+        most = "".join(contributions(run, row.figure)[:1]).replace(" %", "")
+        words = "\n".join(filter(None, (most, note)))
+        shown.append(_bare((SHORT[row.quantity], row.friction, *cells, words)))
     numbers = ("mu", "half-\nplane", "whole\nmodel", "error\n%", "+-\n%", "tol.\n%")
-    table = plain_table("quantity", numbers=numbers)
-    table.add_column("mostly by, %", overflow="fold")
+    table = plain_table("quantity", numbers=numbers, last="mostly by, %", rows=shown)
     table.title = "model error of the half-plane"
     table.padding = 0  # what it is mostly made of fits into 80 columns
-    for row in model_error_rows(run, judged=True):
-        cells = (row.friction, row.half_plane, row.whole, row.error, row.uncertainty, row.tolerance)
-        parts = "".join(row.contributions[:1]).replace(" %", ""), row.note
-        words = _cell("\n".join(filter(None, parts)))
-        table.add_row(*map(_cell, (SHORT[row.quantity], *cells)), words)
     return table
 
 
 def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
     """An answer from outside beside its reference, and what is to be said of it."""
-    from rich.text import Text
-
     numbers = ("mu", answer, LABELS[reference_of(outcome)].replace(" ", "\n"))
-    table = plain_table("quantity", numbers=(*numbers, "differ.\n%", "uncert.\n%", "tol.\n%"))
-    table.add_column("verdict", overflow="fold")
+    numbers += ("differ.\n%", "uncert.\n%", "tol.\n%")
+    shown = [
+        _bare((SHORT[row.quantity], row.friction, *row.cells[:4], *row.cells[5:]))
+        for row in answer_rows(outcome, answer)
+    ]
+    table = plain_table("quantity", numbers=numbers, last="verdict", rows=shown)
     table.title = f"{answer}, from outside"
-    for quantity, *cells, _, tolerance, verdict in answer_rows(outcome, answer):
-        styled = _cell(verdict, STYLES.get(verdict, ""))
-        table.add_row(SHORT[quantity], *map(_cell, cells), _cell(tolerance), styled)
-    lines = (f"{name}: {text}" for name, text in answer_facts(outcome, answer))
-    return [table, *(Text(line.translate(PLAIN)) for line in lines)]
+    return [table, *(plain_text(f"{n}: {text}") for n, text in answer_facts(outcome, answer))]
 
 
 def _figures(outcome: Run) -> "Table":
-    over = f"of {scale_words(outcome.problem)}"
-    table = plain_table("quantity", numbers=("mu", "value", over, "uncert.\n%"))
-    for quantity, *cells in figure_rows(outcome):
-        table.add_row(SHORT[quantity], *map(_cell, cells))
-    return table
+    numbers = "mu", "value", f"of {scale_words(outcome.problem)}", "uncert.\n%"
+    rows = ((SHORT[row.quantity], row.friction, *row.cells) for row in figure_rows(outcome))
+    return plain_table("quantity", numbers=numbers, rows=map(_bare, rows))
 
 
-def plain_table(*words: str, numbers: Iterable[str] = ()) -> "Table":
-    """An empty table with columns of words, and then of numbers."""
+def _bare(row: Iterable[str]) -> list[str]:
+    """Cells below heads that say per cent."""
+    return [text.replace("< ", "<").removesuffix(" %") for text in row]
+
+
+def plain_table(
+    *words: str, numbers: Iterable[str] = (), last: str = "", rows: Iterable[Iterable[str]] = ()
+) -> "Table":
+    """Columns of words, of numbers, and a `last` one of words, if any; rows of their cells."""
     from rich import box
     from rich.table import Table
 
@@ -167,20 +167,19 @@ def plain_table(*words: str, numbers: Iterable[str] = ()) -> "Table":
         table.add_column(column, overflow="fold")
     for column in numbers:
         table.add_column(column, justify="right", overflow="fold")
+    if last:
+        table.add_column(last, overflow="fold")
+    for row in rows:
+        table.add_row(*map(plain_text, row))
     return table
 
 
 def plain_text(text: str) -> "Text":
-    """Text that any terminal shows, and in which brackets are no markup."""
+    """Lines that any terminal shows, and in which brackets are no markup; a verdict in colour."""
     from rich.text import Text
 
-    return Text(one_line(text).translate(PLAIN))
-
-
-def _cell(text: str, style: str = "") -> "Text":
-    from rich.text import Text
-
-    return Text(text.translate(PLAIN).replace("< ", "<").removesuffix(" %"), style=style)
+    lines = (one_line(line).translate(PLAIN) for line in text.split("\n"))
+    return Text("\n".join(lines), style=STYLES.get(text, ""))
 
 
 def surface_text(info: ProfileInfo, run_in: bool = False) -> str:

@@ -4,6 +4,7 @@ In: solved levels of each model. Out: figures of the finest one with their uncer
 and what the levels took."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -84,6 +85,15 @@ def values_of(level: Level, problem: Problem, friction: float) -> dict[str, floa
         values["tau1_max_depth"] = tau1.z + float(boundary_rise(problem, level, tau1.x))
         values["txz_max_abs"] = abs(stress.extremes["txz"].value)
     return values
+
+
+def pair_of(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:
+    """What a difference is of: the figure of its source, by its study or else this one, and of its
+    reference; None of a norm."""
+    of = partial(run.figures.one, quantity=difference.quantity, at=difference.at, against=None)
+    own = of(study=difference.study, source=difference.source)
+    own = own or of(study=NAME, source=difference.source)
+    return own, of(study=NAME, source=difference.against)
 
 
 def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:

@@ -79,9 +79,7 @@ def init_table(made: FirstScene) -> "RenderableType":
     info = made.surface.info
     read = f"{info.source}: {info.format}, {info.samples} samples, "
     read += f"{_length(info.length)} long, {_apart(info)} apart"
-    table = plain_table("roughness", numbers=("as pressed", "ISO 21920-2"))
-    for row in _rows(info):
-        table.add_row(*(cell.translate(PLAIN) for cell in row))
+    table = plain_table("roughness", numbers=("as pressed", "ISO 21920-2"), rows=_rows(info))
     guesses = (
         f"{name} = {json.dumps(made.profile.fields[name], ensure_ascii=False)}: {because}"
         for name, because in made.profile.reasons.items()

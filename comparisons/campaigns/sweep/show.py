@@ -80,11 +80,10 @@ def _points(content: dict) -> "Table":
     columns = POINT_COLUMNS | (_errors(shown) or FIGURES)
     cells = {title: [cell(point) for point in shown] for title, cell in columns.items()}
     cells = {title: column for title, column in cells.items() if any(column)}
-    table = plain_table(numbers=(Text(title.translate(PLAIN)) for title in (*titles, *cells)))
-    for point, *row in zip(shown, *cells.values(), strict=True):
-        at = (axis.text(value) for axis, value in zip(axes, point["values"], strict=True))
-        table.add_row(*map(plain_text, (*at, *row)))
-    return table
+    values = zip(*(point["values"] for point in shown), strict=True)
+    at = [map(axis.text, column) for axis, column in zip(axes, values, strict=True)]
+    heads = (Text(title.translate(PLAIN)) for title in (*titles, *cells))
+    return plain_table(numbers=heads, rows=zip(*at, *cells.values(), strict=True))
 
 
 def _verdict(point: dict) -> str:
@@ -142,7 +141,7 @@ def _scatter(content: dict) -> "Table":
     deviation in per cent of the mean."""
     is_sample = all(axis["field"] == POSITION for axis in content["over"])
     spread = ("mean", "std") if is_sample else ()
-    table = plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"))
+    rows = []
     for row in content["scatter"]:
         quantity, relative = quantity_of(row["study"], row["quantity"]), row["study"] == MODEL_ERROR
         mean, *ends = (
@@ -155,5 +154,5 @@ def _scatter(content: dict) -> "Table":
         source = row["study" if relative else "source"].replace("_", " ")
         friction = "" if row["friction"] is None else f"{row['friction']:g}"
         names = quantity.short or quantity.label, source, friction
-        table.add_row(*map(plain_text, (*names, *(sample if is_sample else ()), *ends)))
-    return table
+        rows.append((*names, *(sample if is_sample else ()), *ends))
+    return plain_table("quantity", "", numbers=("mu", *spread, "smallest", "largest"), rows=rows)

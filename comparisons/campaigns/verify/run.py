@@ -89,10 +89,8 @@ class Verification(Campaign):
 
         tables = []
         for names in GROUPS:
-            table = plain_table(*names, numbers=COLUMNS)
-            for row in self._coverage_cells(names):
-                table.add_row(*row)
-            tables += [table, ""]
+            rows = self._coverage_cells(names)
+            tables += [plain_table(*names, numbers=COLUMNS, rows=rows), ""]
         shown = [row for row in self.rows if not (row.holds and pairs_of(row))]
         return Group(*tables, rows_table(shown), *self.verdict_lines(), self.coverage_line)
 

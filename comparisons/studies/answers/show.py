@@ -10,7 +10,6 @@ import numpy as np
 
 from comparisons.common.numbers import (
     Scale,
-    listed,
     percent,
     percent_as_written,
     plain,
@@ -24,12 +23,14 @@ from comparisons.drawing.blocks import (
     Names,
     Note,
     Pictures,
+    TableRow,
     TextTable,
     compared_cells,
+    table_rows,
 )
 from comparisons.drawing.curves import COINCIDE, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
-from comparisons.figures.figure import Figure, Figures, Series, grouped, nearest_to_tolerance
+from comparisons.figures.figure import Figure, Series, nearest_to_tolerance
 from comparisons.figures.quantity import COMPARED, LABELS, error_text, label
 from comparisons.studies import contact
 from comparisons.studies.answers.answer import Answer
@@ -95,26 +96,18 @@ def answer_verdict(run: Run, answer: str) -> tuple[str, str]:
     return kind, f"T{words[1:]} in {count}; {first}: {end} (tolerance {tolerance})."
 
 
-def answer_rows(run: Run, answer: str) -> list[tuple[str, ...]]:
-    """Quantity's name, friction, the answer's figure and the reference's with unit, difference,
-    uncertainty, the answer's own, tolerance, verdict."""
-    rows, known = [], run.figures.of(study=NAME, source=answer)
-    for name in COMPARED:
-        differences = known.of(quantity=name, against=reference_of(run))
-        cells = [(figure.friction, _cells(run, known, figure)) for figure in differences]
-        for same in grouped(cells, lambda row: row[1]):
-            rows.append((name, listed(friction for friction, _ in same), *same[0][1]))
-    return rows
+def answer_rows(run: Run, answer: str) -> list[TableRow]:
+    """The answer's figure and the reference's with unit, difference, uncertainty, the answer's own,
+    tolerance, verdict."""
 
+    def cells(difference: Figure) -> tuple[str, ...]:
+        values, unit = contact.pair_of(run, difference), COMPARED[difference.quantity].unit
+        own = difference.uncertainty.parts.get("own")
+        *first, tolerance, verdict = compared_cells(difference, values, unit)
+        return *first, NOT_STATED if own is None else percent(own), tolerance, verdict
 
-def _cells(run: Run, known: Figures, difference: Figure) -> tuple[str, ...]:
-    quantity, stated = difference.quantity, difference.uncertainty.parts.get("own")
-    wanted = {"quantity": quantity, "at": difference.at, "against": None}
-    value = known.one(**wanted)
-    reference = run.figures.one(study=contact.NAME, source=difference.against, **wanted)
-    values = value, value and reference
-    *cells, tolerance, verdict = compared_cells(difference, values, COMPARED[quantity].unit)
-    return *cells, NOT_STATED if stated is None else percent(stated), tolerance, verdict
+    known = run.figures.of(study=NAME, source=answer, against=reference_of(run))
+    return table_rows(known, COMPARED, cells)
 
 
 def answer_facts(run: Run, answer: str) -> list[tuple[str, str]]:
@@ -142,8 +135,8 @@ def answer_table(run: Run, answer: str) -> TextTable:
     """The rows of an answer for the page."""
     head = ("quantity", "friction", answer, LABELS[reference_of(run)], "difference")
     head += ("uncertainty", "its own", "tolerance", "verdict")
-    rows = tuple((label(name), *cells) for name, *cells in answer_rows(run, answer))
-    return TextTable("", head, rows, "comparison")
+    rows = ((label(row.quantity), row.friction, *row.cells) for row in answer_rows(run, answer))
+    return TextTable("", head, tuple(rows), "comparison")
 
 
 def _validation_table(run: Run, measured: Series) -> TextTable:

@@ -21,7 +21,7 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
+from comparisons.drawing.blocks import Block, Note, Pictures, TableRow, TextTable, table_rows
 from comparisons.drawing.curves import columns
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
@@ -80,76 +80,41 @@ def lines(run: Run) -> list[tuple[str, str]]:
     if (strained := run.findings[MODEL_ERROR].said(TRUST)) is not None:
         said.append((TRUST, strained))
     for row in model_error_rows(run, judged=True):
-        if row.moved:
+        if moved := _moved(row.figure):
             name = QUANTITIES[row.quantity].short
-            said.append(("another asperity", f"{name}, friction {row.friction}: {row.moved}"))
+            said.append(("another asperity", f"{name}, friction {row.friction}: {moved}"))
     return said
 
 
 def error_table(run: Run) -> TextTable:
     """The rows for the page; what they are made of where any error is split."""
-    rows = model_error_rows(run)
-    head, split = ("quantity", "friction", "model error", "uncertainty", "tolerance"), ()
-    if any(row.contributions for row in rows):
-        split = ("dominant contributions",)
-    cells = []
+    rows, cells = model_error_rows(run), []
+    head = ("quantity", "friction", "model error", "uncertainty", "tolerance")
+    split = any(contributions(run, row.figure) for row in rows)
     for row in rows:
-        name = "\n".join(filter(None, (label(row.quantity), row.note, row.moved)))
-        parts = (", ".join(row.contributions),) * len(split)
-        cells.append((name, row.friction, row.error, row.uncertainty, row.tolerance, *parts))
-    return TextTable("", head + split, tuple(cells), "comparison", words=bool(split))
+        *_, error, uncertainty, tolerance, parts, note, moved = row.cells
+        name = "\n".join(filter(None, (label(row.quantity), note, moved)))
+        cells.append((name, row.friction, error, uncertainty, tolerance, *[parts] * split))
+    head += ("dominant contributions",) * split
+    return TextTable("", head, tuple(cells), "comparison", words=split)
 
 
-@dataclass(frozen=True)
-class ModelErrorRow:
-    """The half-plane's model error in a quantity, at one or more friction coefficients."""
+def model_error_rows(run: Run, judged: bool = False) -> list[TableRow]:
+    """The half-plane's figure and the whole model's with unit, error, uncertainty, tolerance, what
+    makes it up, what is not modelled of it, where the whole has its largest value if not at the
+    half-plane's asperity; only quantities that are `judged`, if asked."""
+    errors = run.figures.of(study=MODEL_ERROR)
+    names = {error.quantity for error in errors if error.bounds or not judged}
 
-    quantity: str
-    friction: str
-    half_plane: str  # its figure, with unit
-    whole: str  # the whole model's
-    error: str
-    uncertainty: str
-    tolerance: str
-    # what makes it up with signs, the largest first
-    contributions: tuple[str, ...]
-    note: str  # what is not modelled of the error
-    moved: str  # where the whole has its largest value, if not at the half-plane's asperity
+    def cells(error: Figure) -> tuple[str, ...]:
+        size = law_range(error) or error_text(error.value, error.numerical)
+        tolerance = "" if error.bounds is None else percent_as_written(error.tolerance)
+        said = ", ".join(contributions(run, error)), _not_known(run, error), _moved(error)
+        shown = size, percent(error.numerical)
+        shown = (UNKNOWN, UNKNOWN) if leaves_flow_out(run, error) else shown
+        return *_values(run, error), *shown, tolerance, *said
 
-
-def model_error_rows(run: Run, judged: bool = False) -> list[ModelErrorRow]:
-    """In the order of quantities, then of friction coefficients; only `judged` ones, if asked."""
-    rows = []
-    for name in QUANTITIES:
-        errors = run.figures.of(study=MODEL_ERROR, quantity=name)
-        if judged and not any(error.bounds for error in errors):
-            continue
-        for same in grouped(errors, lambda row: (_shown(run, row), _values(run, row), row.place)):
-            error, uncertainty, contributions = _shown(run, same[0])
-            half_plane, whole = _values(run, same[0])
-            bound = same[0].tolerance
-            rows.append(
-                ModelErrorRow(
-                    quantity=name,
-                    friction=listed(error.friction for error in same),
-                    half_plane=half_plane,
-                    whole=whole,
-                    error=error,
-                    uncertainty=uncertainty,
-                    tolerance="" if bound is None else percent_as_written(bound),
-                    contributions=contributions,
-                    note=_not_known(run, same[0]),
-                    moved=_moved(same[0]),
-                )
-            )
-    return rows
-
-
-def _shown(run: Run, error: Figure) -> tuple[str, str, tuple[str, ...]]:
-    if leaves_flow_out(run, error):
-        return UNKNOWN, UNKNOWN, ()
-    size = law_range(error) or error_text(error.value, error.numerical)
-    return size, percent(error.numerical), contributions_in_words(error)
+    return table_rows(errors, [name for name in QUANTITIES if name in names], cells)
 
 
 def figure_of_whole(run: Run, error: Figure) -> float:
@@ -231,8 +196,10 @@ def contributions_of(error: Figure) -> dict[str, float]:
     return sizes
 
 
-def contributions_in_words(error: Figure) -> tuple[str, ...]:
-    """The same in words, the largest first."""
+def contributions(run: Run, error: Figure) -> tuple[str, ...]:
+    """The same in words, the largest first; nothing where the error says nothing."""
+    if leaves_flow_out(run, error):
+        return ()
     large = sorted(_large(contributions_of(error), error), key=lambda item: -abs(item[1]))
     return tuple(f"{name} {error_text(size)}" for name, size in large)
 

@@ -20,10 +20,10 @@ from scipy.special import ndtr, ndtri
 from analytic.contact.problem import ContactError
 from analytic.surface.stylus import opened, with_noise
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.numbers import listed, percent, with_unit
+from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import LATER, Here, Tasks
-from comparisons.drawing.blocks import Block, Note, TextTable
+from comparisons.drawing.blocks import Block, Note, TextTable, table_rows
 from comparisons.figures.figure import (
     Figure,
     Findings,
@@ -31,7 +31,6 @@ from comparisons.figures.figure import (
     Series,
     Statement,
     columns_of,
-    grouped,
 )
 from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import Uncertainty
@@ -279,12 +278,10 @@ def blocks(run: Run) -> list[Block]:
 
 def scatter_table(run: Run) -> TextTable:
     """A row for each quantity, and each friction coefficient that matters."""
-    rows = []
-    for same in grouped(run.figures.of(study=NAME), _cells):
-        words, *cells = _cells(same[0])
-        rows.append((words, listed(figure.friction for figure in same), *cells))
+    rows = table_rows(run.figures.of(study=NAME), QUANTITIES, _cells)
     head = ("", "friction", "nominal", "mean", "central 95 %", "of nominal", "by input")
-    return TextTable("Half-plane", head, tuple(rows))
+    cells = ((label(row.quantity), row.friction, *row.cells) for row in rows)
+    return TextTable("Half-plane", head, tuple(cells))
 
 
 def _cells(figure: Figure) -> tuple[str, ...]:
@@ -293,8 +290,7 @@ def _cells(figure: Figure) -> tuple[str, ...]:
         with_unit(value, unit) for value in (figure.value, spread.mean, *spread.interval)
     )
     parts = ", ".join(largest_shares(figure))
-    name = label(figure.quantity)
-    return name, nominal, mean, f"{low} to {high}", f"±{percent(by_inputs(figure))}", parts
+    return nominal, mean, f"{low} to {high}", f"±{percent(by_inputs(figure))}", parts
 
 
 def largest_shares(figure: Figure, most: int = LISTED) -> list[str]:

@@ -9,9 +9,10 @@ import pytest
 from scenes import PROJECT, refound
 
 from comparisons.cli import app
-from comparisons.figures.quantity import MODELS, label
+from comparisons.figures.quantity import COMPARED, MODELS, label
 from comparisons.output.page.page import render
-from comparisons.output.page.tables.comparison import comparison_rows
+from comparisons.output.page.tables.comparison import capped as limited
+from comparisons.output.page.tables.comparison import comparison_rows, reference_of
 from comparisons.studies import contact
 from comparisons.studies.study import Run
 
@@ -76,8 +77,8 @@ def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Run
 
     def references(**changed) -> dict[str, str]:
         budget = replace(wavy_outcome.data("model_error"), selection=replace(selection, **changed))
-        rows = comparison_rows(refound(wavy_outcome, "model_error", data=budget))
-        return {row.quantity: row.reference for row in rows}
+        outcome = refound(wavy_outcome, "model_error", data=budget)
+        return {name: reference_of(outcome, name) for name in COMPARED}
 
     assert set(references().values()) == {"the same problem"}
     both = frozenset({"exact_circle", "finite_size"})
@@ -109,8 +110,8 @@ def test_peaks_that_the_hardness_limits_are_no_evidence(
     monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
 
     def notes(outcome: Run) -> list[str]:
-        every = (row.note.partition(", ")[0] for row in comparison_rows(outcome))
-        return [note for note in every if note and "not modelled" not in note]
+        every = (limited(outcome, row.figure) for row in comparison_rows(outcome))
+        return [*filter(None, every)]
 
     held = capped(wavy_outcome, 1.0, 1.0 - 1e-12)
     assert notes(held) == ["capped in both"]
