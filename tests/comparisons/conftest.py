@@ -29,6 +29,7 @@ from analytic.stress_state import Extremum, StressState
 from comparisons.common import tasks
 from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
+from comparisons.drawing.style import Picture
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.plan import make_plan
@@ -208,7 +209,8 @@ def wavy_outcome() -> Run:
 def no_pictures() -> Callable[[Run], dict]:
     """Stands in for `comparisons.output.page.page.draw`, which takes longer than all the rest of a
     run: the page has all its words, and nothing to look at."""
-    return lambda run: {name: [] for name in PICTURES}
+    blank = Picture("data:image/svg+xml;base64,", "", "")
+    return lambda run: {name: [blank] for name in PICTURES}
 
 
 @pytest.fixture(scope="module")
