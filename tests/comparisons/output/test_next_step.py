@@ -9,6 +9,7 @@ import sys
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from scenes import DATA, KNOWN_RUBBER, KNOWN_STEEL, STEEL, as_toml, asked_in_pyt
 
 from analytic.contact.problem import ContactError
 from comparisons.cli import main
+from comparisons.commands.arguments import LAUNCHED_AS
 from comparisons.common.errors import InputError
 from comparisons.figures.figure import Findings, Statement
 from comparisons.figures.quantity import MODELS
@@ -25,7 +27,7 @@ from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.output import next_step
 from comparisons.output.headline import kind_of
-from comparisons.output.next_step import next_of, pasted
+from comparisons.output.next_step import Offer, next_of, pasted
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.materials import solids
 from comparisons.scenes.scene import Scene, with_settings
@@ -228,6 +230,16 @@ def test_shipped_scenes_and_contacts_take_what_they_are_offered(path, typed):
     scene, _ = typed(shlex.join(("crosscheck", "run", path)))
     for seed in range(2):
         check(stated(random.Random(f"{path} {seed}"), posed(scene)), typed)
+
+
+def test_the_command_is_the_users_own_with_what_is_offered_in_its_place(typed, monkeypatch):
+    monkeypatch.setenv(LAUNCHED_AS, "./crosscheck")
+    options = "--set budget.time=20 --tolerance=1% --out 'a b' --set=friction=0.2"
+    scene, _ = typed(f"crosscheck run smooth {options}")
+    run = SimpleNamespace(problem=SimpleNamespace(scene=scene))
+    offer = Offer("finer", ("budget.time=600",), {"--tolerance": "0.02"})
+    kept = "./crosscheck run smooth --out 'a b' --set friction=0.2"
+    assert pasted(run, offer) == (f"{kept} --set budget.time=600 --tolerance 0.02",)
 
 
 @pytest.fixture
