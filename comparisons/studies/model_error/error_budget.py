@@ -170,7 +170,10 @@ def _with_finite_flow(
     verdict and the time allows it by the laws of cost; else with the reason why not."""
     problem, least = variants.problem, range(1, LEAST_LEVELS + 1)
     asked, finite = problem.scene.budget.effects, selection.flowing_finitely()
-    figures = [figure_of(e, selection, problem.scene.tolerances) for e in refined.errors]
+    # what its law of elasticity may change stays, and decides nothing of this
+    others = {name: why for name, why in selection.impossible.items() if name != LAW}
+    known = replace(selection, impossible=others), problem.scene.tolerances
+    figures = [figure_of(error, *known) for error in refined.errors]
     both = (one for f in figures if f.bounds for one in (f, f.at_usual))
     open_figures = (figure for figure in both if figure.verdict == "inconclusive")
     if not asked or (asked != "all" and all(figure.is_unresolved for figure in open_figures)):
