@@ -89,7 +89,9 @@ def _borne(pressed: LoadedBody, nodal: NodalStress, largest: np.ndarray) -> np.n
     known = np.flatnonzero(~np.isnan(largest[1]))
     element, at = pressed.body.locator(largest[1:, known].T)
     around = pressed.bearable[nodal.nodes.triangles[element]]
-    largest[0, known] = np.minimum(largest[0, known], (shapes(at) * around).sum(axis=1))
+    flows = np.isfinite(around).all(axis=1)  # a coating does not
+    known, limit = known[flows], (shapes(at[flows]) * around[flows]).sum(axis=1)
+    largest[0, known] = np.minimum(largest[0, known], limit)
     return largest
 
 
