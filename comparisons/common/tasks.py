@@ -230,7 +230,7 @@ class Tasks:
         needed = [task.seconds for task in self._waiting.values() if task.urgency < PERHAPS]
         # what lies beyond the longest can be done beside it
         beside = sum(needed) - max(needed, default=0.0) + (PREPARATION if self.there else 0.0)
-        self._has_begun = self.worth is None or bool(self.there) or beside >= self.worth
+        self._has_begun = self.worth is None or beside >= self.worth
 
     def _open(self, wanted: float) -> None:
         """Let there be so many workers, as far as there may be."""
