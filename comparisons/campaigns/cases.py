@@ -25,6 +25,7 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.output.junit import JunitCase, check_place, junit_xml, write_junit
+from comparisons.output.terminal import plain_table
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -329,9 +330,6 @@ def _junit_cases(command: str, row: Row) -> list[JunitCase]:
 
 
 def rows_table(rows: Sequence[Row]) -> "Table":
-    from rich.table import Table
-    from rich.text import Text
-
     cells = []
     for row in rows:
         shown, cost = row.decisive, row.cost.get(TIMES_THE_ORDINARY)
@@ -339,9 +337,9 @@ def rows_table(rows: Sequence[Row]) -> "Table":
         cells.append(
             (
                 MODEL_LABELS[row.case.model],
-                Text(f"{row.case.group}: {row.case.name}"),
-                Text("yes", style="green") if row.holds else Text("NO", style="bold red"),
-                Text(row.error or about or NOTHING),
+                f"{row.case.group}: {row.case.name}",
+                "yes" if row.holds else "NO",
+                row.error or about or NOTHING,
                 f"{shown.value:.2g}" if shown else "",
                 bounds_text(shown) if shown else "",
                 "" if row.condition is None else f"{row.condition:.0e}",
@@ -350,7 +348,5 @@ def rows_table(rows: Sequence[Row]) -> "Table":
             )
         )
     filled = [k for k in range(len(COLUMNS)) if any(row[k] for row in cells)]
-    table = Table(*(COLUMNS[k] for k in filled))
-    for row in cells:
-        table.add_row(*(row[k] for k in filled))
-    return table
+    shown = ([row[k] for k in filled] for row in cells)
+    return plain_table(*(COLUMNS[k] for k in filled), rows=shown)

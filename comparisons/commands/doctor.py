@@ -85,12 +85,7 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
 
 
 def findings_table(findings: Sequence[Finding]) -> "Table":
-    from rich.text import Text
-
     from comparisons.output.terminal import plain_table
 
-    table = plain_table("item", "works", "version, or what is wrong")
-    for finding in findings:
-        works = Text("yes", style="green") if finding.ok else Text("no", style="bold red")
-        table.add_row(finding.name, works, Text(finding.detail))
-    return table
+    rows = ((one.name, "yes" if one.ok else "no", one.detail) for one in findings)
+    return plain_table("item", "works", "version, or what is wrong", rows=rows)

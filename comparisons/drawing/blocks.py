@@ -4,7 +4,7 @@ In: texts, names of pictures. Out: dataclasses, which a template shows by their 
 figures as cells of tables, alike wherever they are shown, in the digits that are certain."""
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import floor, isfinite, log10
 from typing import NamedTuple
@@ -20,7 +20,7 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.figures.figure import Figure, Figures, grouped
-from comparisons.figures.quantity import LABELS, MODELS
+from comparisons.figures.quantity import LABELS, MODELS, Quantity
 
 MOST_DIGITS = 5  # of a figure beside its uncertainty
 
@@ -162,10 +162,18 @@ def model_cells(known: Figures, quantity: str, unit: str) -> tuple[str, ...]:
     return *texts, *judged_cells(difference)
 
 
-def model_table(rows: Sequence[tuple[str, ...]]) -> TextTable:
-    """Rows of a name and `model_cells`."""
+def model_table(
+    known: Figures,
+    quantities: Mapping[str, Quantity],
+    cells: Callable[[Figures, str, str], tuple[str, ...]] = model_cells,
+    others: Sequence[tuple[str, ...]] = (),
+) -> TextTable:
+    """A row for each of a study's quantities that a model has, and `others`."""
+    plain = (figure for figure in known.of(against=None) if figure.source in MODELS)
+    there = {figure.quantity for figure in plain} & set(quantities)
+    rows = [(q.label, *cells(known, n, q.unit)) for n, q in quantities.items() if n in there]
     head = ("", *map(LABELS.get, MODELS), "difference", "uncertainty", "tolerance", "verdict")
-    return TextTable("", head, tuple(rows), "comparison")
+    return TextTable("", head, (*rows, *others), "comparison")
 
 
 def stated(figure: Figure | None, unit: float = 1.0) -> str:

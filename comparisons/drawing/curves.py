@@ -89,6 +89,13 @@ def joint_label(names: Sequence[str], beside: str = "") -> str:
     return words[0] + beside if len(words) == 1 else f"{' = '.join(words)}{beside}"
 
 
+def draw(panel: "Axes", curves: Mapping[str, Curve], beside: str = "", **look: object) -> None:
+    """Curves by model, each with its model's look and what is given beside it."""
+    for names, (x, y) in distinct(curves).items():
+        label = joint_label(names, beside)
+        panel.plot(x, y, label=label, **{**style.LINES[names[0]], **look})
+
+
 def over(axes: "Sequence[Axes]", label: str, ends: Sequence[float] | None = None) -> None:
     """One axis for all panels, with numbers and label under the last."""
     for panel in axes:

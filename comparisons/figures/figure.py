@@ -14,6 +14,7 @@ from typing import Literal, TypeVar
 
 import numpy as np
 
+from comparisons.common.numbers import percent
 from comparisons.figures.quantity import USUAL, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 
@@ -147,6 +148,13 @@ class Figure:
         """How far it may lie, and the least tolerance at which it holds: |value| and total, over
         the scale."""
         return abs(self.relative) + self.total
+
+    def words(self, unsure: float | None = None) -> str:
+        """A difference ± its numerical uncertainty, or another one over the scale, in per cent and
+        in the digits that are certain."""
+        unsure = self.numerical if unsure is None else unsure
+        size = percent(self.value, signed=True, uncertainty=unsure).removesuffix(" %")
+        return f"{size} ± {percent(unsure)}"
 
     @property
     def tolerance(self) -> float | None:

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 
 SHORT = {name: quantity.short for name, quantity in COMPARED.items()}
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
-STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
+STYLES |= dict.fromkeys(("differ", "fails", "not converged", "no", "NO"), "bold red")
+STYLES |= {"yes": "green"}
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt"}

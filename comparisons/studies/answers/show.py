@@ -31,7 +31,7 @@ from comparisons.drawing.blocks import (
 from comparisons.drawing.curves import COINCIDE, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figure, Series, nearest_to_tolerance
-from comparisons.figures.quantity import COMPARED, LABELS, error_text, label
+from comparisons.figures.quantity import COMPARED, LABELS, label
 from comparisons.studies import contact
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.study import CONDITIONS, HINTS, NAME, VALIDATION
@@ -89,8 +89,7 @@ def answer_verdict(run: Run, answer: str) -> tuple[str, str]:
     said = {"differ": "differs from", "agree": "agrees with"}
     words = f"the answer {answer} {said.get(kind, 'may agree with or differ from')} the {reference}"
     at = f" at friction {plain(figure.friction)}" if len({f.friction for f in judged}) > 1 else ""
-    size = error_text(figure.value, figure.total).removesuffix(" %")
-    end = f"{COMPARED[figure.quantity].short}{at}, {size} ± {percent(figure.total)}"
+    end = f"{COMPARED[figure.quantity].short}{at}, {figure.words(figure.total)}"
     first = "the farthest" if kind == "differ" else "nearest to its tolerance"
     tolerance = percent_as_written(figure.tolerance)
     return kind, f"T{words[1:]} in {count}; {first}: {end} (tolerance {tolerance})."

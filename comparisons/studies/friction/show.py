@@ -14,13 +14,11 @@ from comparisons.drawing.blocks import (
     Names,
     Note,
     Pictures,
-    TextTable,
-    judged_cells,
-    model_cells,
     model_table,
 )
 from comparisons.drawing.curves import (
     distinct,
+    draw,
     joint_label,
     legend_above,
     names_above,
@@ -61,19 +59,10 @@ def limit_of(run: Run, level: SlippedLevel) -> np.ndarray:
 
 
 def blocks(run: Run) -> list[Block]:
-    shown = slip_table, Names(slip_facts(run)), Note(NOTE)
+    table = model_table(run.figures.of(study=NAME), {name: QUANTITIES[name] for name in COMPARED})
+    shown = table, Names(slip_facts(run)), Note(NOTE)
     pictures = Pictures(("slip_tractions", "slip_loop"), abreast=True)
     return [Block("heat", (pictures, *shown), "Partial slip")]
-
-
-def slip_table(run: Run) -> TextTable:
-    """A row for each figure that both models may have."""
-    known, rows = run.figures.of(study=NAME), []
-    for name in COMPARED:
-        if any(figure.source in MODELS for figure in known.of(quantity=name, against=None)):
-            asked = QUANTITIES[name]
-            rows.append((asked.label, *model_cells(known, name, asked.unit)))
-    return model_table(rows)
 
 
 def slip_facts(run: Run) -> list[tuple[str, str]]:
@@ -93,9 +82,9 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
     for figure in known.of(quantity="stick_length", against=None):
         if figure.source not in MODELS:
             difference = known.one(quantity="stick_length", source=figure.source, against=last(run))
-            moved, uncertainty, _, verdict = judged_cells(difference)
             length = with_unit(figure.value, QUANTITIES["stick_length"].unit)
-            said = f"{length}, {moved} ± {uncertainty} against the {LABELS[last(run)]}, {verdict}"
+            said = f"{length}, {difference.words()} against the {LABELS[last(run)]}"
+            said += f", {difference.verdict}"
             facts.append((f"sticks ({figure.source}, from outside)", said))
     why = run.findings[NAME].said(WHY_NOT)
     return facts + ([("not modelled", why)] if why else [])
@@ -117,8 +106,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
     text += " of the contact sticks"
     figure = known.one(quantity="stick_length", source=MODELS[0], against=MODELS[1])
     if figure is not None:
-        difference, uncertainty, _, verdict = judged_cells(figure)
-        text += f"; length {difference} ± {uncertainty}, {verdict}"
+        text += f"; length {figure.words()}, {figure.verdict}"
         judged = known.of(source=MODELS[0], against=MODELS[1])
         others = [f for f in judged if f.verdict != "agree" and f != figure]
         if others:
@@ -167,8 +155,7 @@ def _tractions(run: Run) -> "Figure":
     places = {n: one.grid.x / unit.factor for n, one in levels.items()}
     tractions = {n: (places[n], one.states[-1].traction / 1e6) for n, one in levels.items()}
     limits = {n: (places[n], limit_of(run, one) / 1e6) for n, one in levels.items()}
-    for names, (x, traction) in distinct(tractions).items():
-        panel.plot(x, traction, label=joint_label(names, ", traction"), **style.LINES[names[0]])
+    draw(panel, tractions, ", traction")
     apart = distinct(limits)
     for names, (x, limit) in apart.items():
         look = {**style.REFERENCE, "color": style.LINES[names[0]]["color"]}
@@ -181,7 +168,7 @@ def _tractions(run: Run) -> "Figure":
             look = {"color": style.LINES[name]["color"], "linewidth": 3.0}
             panel.plot([start, stop], [bottom, bottom], **look)
     panel.set_ylabel("traction [MPa]")
-    over([panel], f"x [{unit.name}]", x)
+    over([panel], f"x [{unit.name}]", next(iter(places.values())))
     legend_above(panel, abreast)
     return drawn
 

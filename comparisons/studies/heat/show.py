@@ -17,15 +17,7 @@ from comparisons.drawing.blocks import (
     model_cells,
     model_table,
 )
-from comparisons.drawing.curves import (
-    Curve,
-    distinct,
-    joint_label,
-    legend_above,
-    names_above,
-    over,
-    panels,
-)
+from comparisons.drawing.curves import draw, legend_above, names_above, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
@@ -39,7 +31,6 @@ from comparisons.studies.heat.study import (
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 HEIGHT = 1.9  # inches, of a field
@@ -80,19 +71,16 @@ def blocks(run: Run) -> list[Block]:
 
 def heat_table(run: Run) -> TextTable:
     """A row for each figure, then what older rules say of the first."""
-    known = run.figures.of(study=NAME)
-    shown = [name for name in COMPARED if known.one(quantity=name)]
-    rows = [(QUANTITIES[name].label, *_cells(known, name)) for name in shown]
+    known, others = run.figures.of(study=NAME), []
     for rule, words in RULES.items():
         rise, share = (known.one(source=rule, quantity=name).value for name in OF_RULES)
         rises, enters = f"{significant(rise)} K", f"{percent(share)} enter the body"
-        rows.append((f"{words}\n{enters}", rises, "", "", "", "", ""))
-    return model_table(rows)
+        others.append((f"{words}\n{enters}", rises, "", "", "", "", ""))
+    return model_table(known, {name: QUANTITIES[name] for name in COMPARED}, _cells, others)
 
 
-def _cells(known: Figures, quantity: str) -> tuple[str, ...]:
+def _cells(known: Figures, quantity: str, unit: str) -> tuple[str, ...]:
     """Of both models, a stress also without heat."""
-    unit = QUANTITIES[quantity].unit
     cells = list(model_cells(known, quantity, unit))
     for place, name in enumerate(MODELS):
         if (cold := known.one(quantity=f"{quantity}{WITHOUT}", source=name)) is not None:
@@ -135,14 +123,12 @@ def lines(run: Run) -> list[tuple[str, str]]:
         sources = {figure.source for figure in known.of(quantity=quantity, against=None)}
         if not sources & set(MODELS):
             continue
-        one, other, *judged = _cells(known, quantity)
-        cells = zip(MODELS, (one, other), strict=True)
+        cells = zip(MODELS, _cells(known, quantity, QUANTITIES[quantity].unit), strict=False)
         values = [f"{cell} ({LABELS[name]})" for name, cell in cells if name in sources]
         name = QUANTITIES[quantity].label if quantity in HEATED else "flash temperature"
         text = f"{name} {', '.join(values)}"
-        if len(values) > 1:
-            difference, uncertainty, _, verdict = judged
-            text += f": {difference} ± {uncertainty}, {verdict}"
+        if (difference := known.one(quantity=quantity, against=MODELS[1])) is not None:
+            text += f": {difference.words()}, {difference.verdict}"
         said.append(("heat", text))
     return said
 
@@ -172,21 +158,17 @@ def _surfaces(run: Run) -> "Figure":
     drawn, axes = panels(style.WIDE, rows)
     unit = scale_of(next(iter(contacts.values())).x, "m")
 
-    def plot(panel: "Axes", part: str, values: dict[str, Curve], pale: bool) -> None:
-        for names, (x, y) in distinct(values).items():
-            look = style.LINES[names[0]] | (style.PALE if pale else {})
-            panel.plot(x / unit.factor, y, label=joint_label(names, part), **look)
-
-    for panel, part, name, pale, scale in (
-        (axes[0], ", body", "body", False, 1.0),
-        (axes[0], ", roller", "roller", True, 1.0),
-        (axes[1], ", all", "heat", True, 1e6),
-        (axes[1], ", into the body", "into_body", False, 1e6),
+    for panel, part, name, look, scale in (
+        (axes[0], ", body", "body", {}, 1.0),
+        (axes[0], ", roller", "roller", style.PALE, 1.0),
+        (axes[1], ", all", "heat", style.PALE, 1e6),
+        (axes[1], ", into the body", "into_body", {}, 1e6),
     ):
-        curves = {m: (c.x, getattr(c, name) / scale) for m, c in contacts.items()}
-        plot(panel, part, curves, pale)
-    for case, pale in enumerate((False, True) if stresses else ()):
-        plot(axes[2], "", {m: (s.x, s.sx[case] / 1e6) for m, s in stresses.items()}, pale)
+        curves = {m: (c.x / unit.factor, getattr(c, name) / scale) for m, c in contacts.items()}
+        draw(panel, curves, part, **look)
+    for case, look in enumerate(({}, style.PALE) if stresses else ()):
+        curves = {m: (s.x / unit.factor, s.sx[case] / 1e6) for m, s in stresses.items()}
+        draw(axes[2], curves, **look)
     for panel, name in zip(axes, ("rise [K]", "heat [W/mm²]", "σx [MPa]"), strict=False):
         panel.set_ylabel(name)
     over(axes, f"x [{unit.name}]", next(iter(contacts.values())).x / unit.factor)

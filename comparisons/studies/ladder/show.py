@@ -69,9 +69,8 @@ def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
     worst = _nearest(errors)
     if not isfinite(worst.total):
         return f"{words} ({_time(row)})"
-    size = error_text(worst.value, worst.total).removesuffix(" %")
-    short = QUANTITIES[worst.quantity].short
-    return f"{words} ({_time(row)}, {short} {size} ± {percent(worst.total)})"
+    error = f"{QUANTITIES[worst.quantity].short} {worst.words(worst.total)}"
+    return f"{words} ({_time(row)}, {error})"
 
 
 def _time(row: dict) -> str:

@@ -175,7 +175,5 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
     # next to it: what a narrow screen shows first
     beside = {"xycoords": named, "xytext": (8, 0), "textcoords": "offset points"}
     look = {"color": WORDS[error.verdict], "weight": "bold", "va": "bottom"}
-    size = error_text(error.value, error.numerical).removesuffix(" %")
-    words = f"{size} ± {percent(error.numerical)}, {error.verdict} at "
-    words += percent_as_written(error.tolerance)
+    words = f"{error.words()}, {error.verdict} at {percent_as_written(error.tolerance)}"
     axes.annotate(words, (1.0, 0.0), **beside, **look)

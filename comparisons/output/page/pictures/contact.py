@@ -12,7 +12,7 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.curves import COINCIDE, FOOT, LEFT, distinct, joint_label, over, panels
+from comparisons.drawing.curves import COINCIDE, FOOT, LEFT, distinct, draw, over, panels
 from comparisons.drawing.field import SMALLEST_POWER
 from comparisons.figures.quantity import LABELS
 from comparisons.models.level import deformed_height
@@ -247,8 +247,7 @@ def surface_picture(run: Run) -> style.Picture:
     gaps = {model: np.maximum(shown.solution.gap, 0.0) for model, shown in levels.items()}
     unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
     curves = {m: (levels[m].grid.x / along.factor, gap / unit.factor) for m, gap in gaps.items()}
-    for names, (places, gap) in distinct(curves).items():
-        below.plot(places, gap, label=joint_label(names), **style.LINES[names[0]])
+    draw(below, curves)
     over((above, below), f"x [{along.name}]", place)
     below.set_ylabel(f"gap [{unit.name}]")
     below.set_ylim(0.0, 1.3 * below.dataLim.y1)  # names stand above the curves
