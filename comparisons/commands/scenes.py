@@ -1,6 +1,7 @@
 """Scene files: `crosscheck scenes` lists those that come along, `init` writes one for a measured
 profile, `deck` hands one to another code."""
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -17,12 +18,21 @@ from comparisons.commands.arguments import (
     scene_with,
 )
 from comparisons.commands.output import show, show_json
-from comparisons.common.errors import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 
 if TYPE_CHECKING:
     from comparisons.campaigns.init.show import FirstScene
 
 Code = Literal["calculix", "fenicsx"]
+# What no trace shows, by the option of `init`: those that stand for it, too, and what is asked.
+QUESTIONS = {
+    "radius": ((), 'Radius of the roller, such as "8.2 mm"'),
+    "load": (("peak_pressure",), 'Load per length, such as "3.85 N/um"'),
+    "material": (
+        ("youngs_modulus", "poissons_ratio"),
+        "Solid of both bodies, by its name in crosscheck materials",
+    ),
+}
 
 
 @job
@@ -82,40 +92,56 @@ def init(
         bool, Option(help="Draw trace, power spectrum and bearing curve beside the scene.")
     ] = True,
     force: Annotated[bool, Option("--force", help="Replace the scene's file.")] = False,
+    yes: Annotated[bool, Option("--yes", help="Ask nothing: take examples.")] = False,
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
-    """Look at a measured profile and write a commented scene for it."""
-    from comparisons.campaigns.init.first_scene import sections_of_options, write_first_scene
+    """Look at a measured profile and write a short scene for it. A terminal asks for the rest."""
+    from comparisons.campaigns.init.first_scene import write_first_scene
 
     options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
     options |= {"channel": channel, "columns": columns, "radius": radius, "friction": friction}
     options |= {"load": load, "peak_pressure": peak_pressure, "hardness": hardness}
     options |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
     options["material"] = material
-    made = write_first_scene(profile, out, sections_of_options(options), force, picture)
+    ask = _asked if sys.stdin.isatty() and sys.stdout.isatty() and not yes | as_json else dict
+    made = write_first_scene(profile, out, options, force, picture, ask)
     if as_json:
         show_json(made.as_dict())
-        return ExitStatus.DONE
-    _say_what_was_made(made, options)
+    else:
+        _say_what_was_made(made)
     return ExitStatus.DONE
 
 
-def _say_what_was_made(made: "FirstScene", options: Mapping[str, object]) -> None:
+def _asked(options: Mapping[str, str | int | None]) -> dict[str, str | int | None]:
+    """The options, with what a user at the terminal says of what no trace shows."""
+    from comparisons.campaigns.init.first_scene import sections_of_options
+
+    answers = dict(options)
+    for name, (others, question) in QUESTIONS.items():
+        while all(answers[other] is None for other in (name, *others)):
+            try:
+                said = input(f"{question} (Enter: an example): ").strip()
+                sections_of_options({name: said or None})
+            except InputError as error:
+                print(error)
+                continue
+            except EOFError:
+                raise KeyboardInterrupt from None
+            if not said:
+                break
+            answers[name] = said
+    return answers
+
+
+def _say_what_was_made(made: "FirstScene") -> None:
     """What was seen in the profile, assumed beside the options, and the half-plane's answer on the
     coarsest level."""
     from comparisons.campaigns.init.show import first_lines, init_table
     from comparisons.output.terminal import PLAIN
 
     show(init_table(made))
-    tables = made.scene.written
-    examples = {
-        "roller.radius": options["radius"] is None and tables["roller"]["radius"],
-        "load.hertz_peak_pressure": options["load"] is options["peak_pressure"] is None
-        and tables["load"]["hertz_peak_pressure"],
-        "youngs_modulus": options["youngs_modulus"] is None
-        and tables["body"].get("youngs_modulus"),
-    }
-    if assumed := [f"{name} = {value}" for name, value in examples.items() if value]:
+    written = {n: v for table in ("roller", "load") for n, v in made.scene.written[table].items()}
+    if assumed := [f"{name} = {written[name]}" for name in made.examples]:
         print(f"assumed as examples, put in yours: {', '.join(assumed)}")
     for line in first_lines(made.scene):
         print(line.translate(PLAIN))

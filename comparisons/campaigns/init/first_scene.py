@@ -1,31 +1,28 @@
-"""From a measured profile to a scene file that `crosscheck run` takes as it is.
+"""From a measured profile to a short scene file that `crosscheck run` takes as it is.
 
-The file has every field of a measured profile's scene in it, each explained. Meanings and examples
-are those of `fields.toml`; what a field may hold is said by `comparisons.scenes.fields.allowed`, as
-in error messages."""
+What no trace shows, the roller, the solids and the load, is asked for or stands there as an
+example."""
 
 import json
 import os
-import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from textwrap import wrap
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.init.guess import ProfileFields, fields_of_profile, option_of
+from comparisons.campaigns.init.guess import fields_of_profile, option_of
 from comparisons.campaigns.init.show import FirstScene, picture
-from comparisons.common.errors import InputError, SceneError
+from comparisons.common.errors import InputError, SceneError, one_line
 from comparisons.common.files import write_whole
 from comparisons.common.numbers import is_whole
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
-from comparisons.scenes.fields import allowed, field_type
+from comparisons.scenes.fields import field_type
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Origin, Scene, sections_of
 
-# Options of `crosscheck init` by the fields that they are, both bodies' for moduli; others are
-# fields of [profile] by the same name.
+# Options of `crosscheck init` by the fields that they are, both bodies' for solids and moduli;
+# others are fields of [profile] by the same name.
 OPTIONS = {
     "radius": (("roller", "radius"),),
     "load": (("load", "per_length"),),
@@ -37,26 +34,29 @@ OPTIONS = {
     "hardness": (("body", "hardness"),),
 }
 EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"), ("load", "peak_pressure"))
-STEEL = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}
 # Of the roller, largest first: the contact must stay on the trace.
 RADII = (
     "10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um",
     "5 um", "2 um", "1 um", "500 nm", "200 nm", "100 nm", "50 nm", "20 nm", "10 nm"
 )  # fmt: skip
-PEAK = "1 GPa"
-FIELDS = Path(__file__).with_name("fields.toml")
-WIDTH = 96
-NO_BREAK = "\N{NO-BREAK SPACE}"
+SOLID = {"material": "rail steel"}  # its law of elasticity was measured
+STEEL = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}  # where one of them is given
+PEAK = {"hertz_peak_pressure": "1 GPa"}
+EXAMPLE = "an example: put in yours"
 HEAD = """\
-# A scene for crosscheck, as TOML. Numbers are in SI; text has a unit: "8.2 mm", "207 GPa".
-# Lines that start with "#" and a blank explain the line below them; those that start with "#"
-# alone are fields that are not used: take the sign away to use them.
+# A scene for crosscheck. Numbers are in SI units, text carries its unit. All other fields:
+# comparisons/docs/reference.md, "Fields of a scene".
 """
+JUDGED = {
+    "stress": {"depth": 1.0, "points": [300, 100]},
+    "tolerance": dict.fromkeys(("peak_pressure", "contact_length", "tau1_max"), 0.02),
+}
 
+Options = Mapping[str, str | int | None]
 Sections = dict[str, dict[str, object]]  # values of fields by section
 
 
-def sections_of_options(options: Mapping[str, str | int | None]) -> Sections:
+def sections_of_options(options: Options) -> Sections:
     """The fields that options set; raises InputError for an option that is wrong."""
     sections: Sections = {}
     chosen = {name: value for name, value in options.items() if value is not None}
@@ -82,30 +82,36 @@ def sections_of_options(options: Mapping[str, str | int | None]) -> Sections:
 def write_first_scene(
     profile: Path,
     out: Path | None = None,
-    sections: Sections | None = None,
+    options: Options | None = None,
     force: bool = False,
     draw: bool = False,
+    ask: Callable[[Options], Options] = dict,
 ) -> FirstScene:
-    """Write a commented scene for the profile in a file.
+    """Write a scene for the profile in a file.
 
-    out       the scene's file; by default beside the profile, with the suffix .toml
-    sections  fields of [profile] not to be guessed, of others in place of the examples
-    force     replace the scene's file, and the picture's
-    draw      a picture of the trace beside the scene, as SVG
-    Raises InputError, and writes nothing, where profile or place for the scene cannot be used."""
+    out      the scene's file; by default beside the profile, with the suffix .toml
+    options  of `crosscheck init` that set fields: in place of guesses and examples
+    force    replace the scene's file, and the picture's
+    draw     a picture of the trace beside the scene, as SVG
+    ask      completes the options once the profile is read
+    Raises InputError, and writes nothing, where an option, profile or place for the scene cannot be
+    used."""
+    options = options or {}
+    read_by = sections_of_options(options).get("profile", {})
     if profile.is_dir():
         raise InputError(f"{profile}: is a directory; a profile is a file")
     out = profile.with_suffix(".toml") if out is None else out
     drawn = out.with_suffix(".svg") if draw else None
     for place in filter(None, (out, drawn)):
         _check_place(profile, place, force)
-    others = dict(sections or {})
-    fields = fields_of_profile(profile, others.pop("profile", {}))
-    text, problem = _fitting(profile, out, fields, others)
+    fields = fields_of_profile(profile, read_by)
+    values, examples = _values(sections_of_options(ask(options)))
+    values["profile"] = {"file": os.path.relpath(profile, out.parent), **fields.fields}
+    text, problem = _fitting(profile, out, values, {**fields.reasons, **examples})
     write_whole(out, text)
     if drawn is not None:
         write_whole(drawn, picture(problem.surface))
-    return FirstScene(out, drawn, problem.scene, problem.surface, fields)
+    return FirstScene(out, drawn, problem.scene, problem.surface, fields, tuple(examples))
 
 
 def _check_place(profile: Path, out: Path, force: bool) -> None:
@@ -120,14 +126,31 @@ def _check_place(profile: Path, out: Path, force: bool) -> None:
         raise InputError(f"{out}: {out.parent} is no folder; allowed is one that is there")
 
 
+def _values(asked: Sections) -> tuple[Sections, dict[str, str]]:
+    """What the scene says beside its profile, and remarks by field on what is an example of it.
+    The roller's radius, if it is none of `asked`, is left open."""
+    roller, body, load = (dict(asked.get(name, {})) for name in ("roller", "body", "load"))
+    examples = {} if "radius" in roller else {"radius": EXAMPLE}
+    if "material" not in body:
+        is_example = body.keys().isdisjoint(STEEL)
+        solid = SOLID if is_example else STEEL
+        examples |= {"material": EXAMPLE} if is_example else {}
+        roller, body = solid | roller, solid | body
+    if load.keys().isdisjoint(("per_length", *PEAK)):
+        load, examples = PEAK | load, examples | dict.fromkeys(PEAK, EXAMPLE)
+    load.setdefault("friction", [0.0, 0.1])
+    return {"roller": roller, "body": body, "profile": {}, "load": load}, examples
+
+
 def _fitting(
-    profile: Path, out: Path, fields: ProfileFields, sections: Sections
+    profile: Path, out: Path, values: Sections, notes: Mapping[str, str]
 ) -> tuple[str, Problem]:
     """The scene with the roller that is asked for, or the largest whose contact stays on the
     trace."""
-    refusal, asked = None, sections.get("roller", {}).get("radius")
+    refusal, asked = None, values["roller"].get("radius")
+    title = one_line(f"{profile.stem} under a smooth roller")
     for radius in RADII if asked is None else (asked,):
-        text = _text(profile, out, fields, radius, sections)
+        text = scene_text(title, values | {"roller": {"radius": radius} | values["roller"]}, notes)
         try:
             scene = Scene.of(tomllib.loads(text), Origin(out.stem, out.parent, str(out)))
             return text, problem_of(scene)
@@ -140,61 +163,25 @@ def _fitting(
     raise InputError(str(refusal).replace(str(out), str(profile), 1))
 
 
-def _text(
-    profile: Path, out: Path, fields: ProfileFields, radius: object, sections: Sections
-) -> str:
-    load = sections.get("load", {})
-    example_load = {} if "per_length" in load else {"hertz_peak_pressure": PEAK}
-    moduli = {} if "material" in sections.get("body", {}) else STEEL
-    values = {
-        "roller": {"radius": radius, **moduli},
-        "body": moduli,
-        "profile": {"file": os.path.relpath(profile, out.parent), **fields.fields},
-        "load": {**example_load, "friction": [0.0, 0.1]},
-        "stress": {"depth": 1.0, "points": [300, 100]},
-        "tolerance": dict.fromkeys(("peak_pressure", "contact_length", "tau1_max"), 0.02),
-    }
-    example = "an example: put in yours"
-    notes = {
-        "roller": {} if "radius" in sections.get("roller", {}) else {"radius": example},
-        "load": {} if example_load.keys() <= load.keys() else {"hertz_peak_pressure": example},
-        "profile": fields.reasons,
-    }
-    values |= {name: values[name] | others for name, others in sections.items()}
-    return scene_text(f"{profile.stem} under a smooth roller", values, notes)
-
-
 def scene_text(
-    title: str,
-    values: Mapping[str, Mapping[str, object]],
-    notes: Mapping[str, Mapping[str, str]],
+    title: str, values: Mapping[str, Mapping[str, object]], notes: Mapping[str, str]
 ) -> str:
     """The text of a scene file.
 
-    values  by section and field: what it is set to; other fields stand there unused
-    notes   by section and field: a remark"""
-    sections, kinds = tomllib.loads(FIELDS.read_text(encoding="utf-8")), sections_of(Scene)
-    heading = f"{sections.pop('title')}; allowed is {allowed(Scene, 'title')}"
-    lines = [HEAD, *_comment(heading), f"title = {_toml(title)}"]
-    for section, fields in sections.items():
-        used = values.get(section, {})
-        lines += ["", *_comment(fields.pop("section")), f"{'' if used else '#'}[{section}]"]
-        for name, (meaning, example) in fields.items():
-            said = f"{meaning}; allowed is {allowed(kinds[section], name)}"
-            note = notes.get(section, {}).get(name)
-            lines += _comment(f"{said} ({note})" if note else said)
-            lines.append(
-                f"{name} = {_toml(used[name])}" if name in used else f"#{name} = {example}"
-            )
+    values  by section and field
+    notes   by field: a remark"""
+    lines = [HEAD, f"title = {_toml(title)}"]
+    for section, fields in JUDGED.items():
+        shown = ", ".join(f"{name} = {_toml(value)}" for name, value in fields.items())
+        lines.append(f"{section} = {{{shown}}}")
+    for section, fields in values.items():
+        lines += ["", f"[{section}]"]
+        for name, value in fields.items():
+            note = f"  # {one_line(notes[name])}" if name in notes else ""
+            lines.append(f"{name} = {_toml(value)}{note}")
     return "\n".join(lines) + "\n"
 
 
 def _toml(value: object) -> str:
     """Text, numbers, truths and lists of them as TOML."""
     return json.dumps(value, ensure_ascii=False)
-
-
-def _comment(text: str) -> list[str]:
-    whole = re.sub(r'"[^"]*"', lambda quoted: quoted[0].replace(" ", NO_BREAK), text)
-    lines = wrap(whole, WIDTH, break_long_words=False, break_on_hyphens=False)
-    return [f"# {line}".replace(NO_BREAK, " ") for line in lines]

@@ -48,13 +48,15 @@ POINTS = 4000  # of a drawn curve; more cannot be told apart
 
 @dataclass(frozen=True)
 class FirstScene:
-    """A scene file that was written, what it says, how its profile is read, a picture."""
+    """A scene file that was written, what it says, how its profile is read, a picture, and the
+    fields that are examples."""
 
     path: Path
     picture: Path | None
     scene: Scene
     surface: SceneSurface
     profile: ProfileFields
+    examples: tuple[str, ...]
 
     def as_dict(self) -> dict:
         """For JSON, SI units."""
@@ -66,6 +68,7 @@ class FirstScene:
             "profile": {name: trace[name] for name in TRACE},
             "fields": self.profile.fields,
             "guesses": self.profile.reasons,
+            "examples": list(self.examples),
             "surface": info.surface(),
             "roller_radius": self.scene.roller.radius,
         }

@@ -2,7 +2,7 @@
 
 import gzip
 import json
-import tomllib
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 from xml.etree import ElementTree
@@ -12,12 +12,10 @@ import pytest
 from scenes import PROFILES
 
 from comparisons.campaigns.init import first_scene
-from comparisons.campaigns.init.first_scene import FIELDS, scene_text, write_first_scene
+from comparisons.campaigns.init.first_scene import EXAMPLE, write_first_scene
 from comparisons.campaigns.init.show import picture
 from comparisons.cli import main
-from comparisons.scenes.fields import field_type, file_fields
-from comparisons.scenes.profile import VARIETIES
-from comparisons.scenes.scene import Scene, sections_of
+from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
 
 SHIPPED = sorted(PROFILES.glob("*.csv"))
@@ -141,7 +139,7 @@ def test_a_missing_stretch_is_told_bridged_and_refused_without(folder, capsys):
     assert "nothing was measured from 99.50 um to 300.5 um: what is pressed there is a" in said
     info = surface_of(Scene.read("trace.toml")).info
     assert info.bridged == 401 and info.roughness.rt < 1.5 * np.ptp(Z) * 1e-6
-    text = Path("trace.toml").read_text().replace('\ndropouts = "bridge"', "")
+    text = Path("trace.toml").read_text().replace('dropouts = "bridge"', "")
     Path("trace.toml").write_text(text)
     assert main(["run", "trace.toml", "--models", "half-plane"]) == 2
     assert (
@@ -273,6 +271,7 @@ def test_json(folder, capsys):
     assert answer["scene"] == "trace.toml"
     assert answer["profile"]["samples"] == 801
     assert answer["fields"] == {"x_unit": "um", "z_unit": "um", "form": "line"}
+    assert answer["examples"] == ["radius", "material", "hertz_peak_pressure"]
     assert answer["surface"]["pressed"]["rq"] == pytest.approx(RMS, rel=0.02)
 
 
@@ -323,35 +322,32 @@ def test_a_scene_is_not_overwritten_but_by_force(folder, capsys):
     assert surface_of(Scene.read("trace.toml")).info.samples == 801
 
 
-BY_NAME = "answers", "published"  # of others, each in a section of its own name
-DESCRIBED = tomllib.loads(FIELDS.read_text(encoding="utf-8"))
+def test_a_scene_is_short_and_says_what_is_guessed_and_what_is_an_example(folder):
+    (folder / "trace.csv").write_text(rows(X, Z))
+    made = write_first_scene(Path("trace.csv"))
+    lines = made.path.read_text().splitlines()
+    assert 15 <= len(lines) <= 25 and max(map(len, lines)) <= 100
+    said = dict(line.partition(" = ")[::2] for line in lines if "  # " in line)
+    assert said.keys() == {*made.examples, *made.profile.reasons}
+    assert all(EXAMPLE in said[name] for name in made.examples)
+    assert all(why in said[name] for name, why in made.profile.reasons.items())
+    for part in made.scene.elastic_sections.values():
+        assert part.measured_law is not None
 
 
-def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
-    of_a_file = VARIETIES["file"].fields()
-    tables = sections_of(Scene)
-    for name in BY_NAME:
-        del tables[name]
-    for section, table in tables.items():
-        names = set(file_fields(table)) if section != "profile" else of_a_file
-        fields = dict(DESCRIBED[section])
-        assert fields.pop("section") and set(fields) == names
-        for name, (_, example) in fields.items():
-            value = tomllib.loads(f"value = {example}")["value"]
-            field_type(table, name).read(value)
-    assert set(Scene.model_fields) == {*DESCRIBED, *BY_NAME}
-
-
-def test_unused_sections_come_alive_when_their_signs_are_taken_away():
-    values = {
-        "roller": {"radius": "10 mm", "rigid": True},
-        "body": {"youngs_modulus": "3 MPa", "poissons_ratio": 0.3},
-        "load": {"per_length": "1 N/mm"},
-    }
-    text = scene_text("A title", values, {})
-    lines = [line for line in text.splitlines() if not line.startswith("# ")]
-    tables = tomllib.loads("\n".join(line.removeprefix("#") for line in lines))
-    assert tables.keys() == DESCRIBED.keys()
-    sections = tables.keys() - {"title"}
-    assert all(tables[name].keys() == DESCRIBED[name].keys() - {"section"} for name in sections)
-    assert max(map(len, text.splitlines())) <= 100
+def test_a_terminal_asks_for_what_no_trace_shows(folder, monkeypatch, capsys):
+    (folder / "trace.csv").write_text(rows(X, Z))
+    answers = ["8 N", '"8 mm"', "", "no such steel", "42CrMo4"]
+    monkeypatch.setattr("builtins.input", lambda question: answers.pop(0))
+    for stream in (sys.stdin, sys.stdout):
+        monkeypatch.setattr(stream, "isatty", lambda: True)
+    assert main(["init", "trace.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "--radius: is " in said and "--material: is " in said and not answers
+    scene = Scene.read("trace.toml")
+    assert (scene.roller.radius, scene.body.solid) == (pytest.approx(8e-3), "42CrMo4")
+    assert scene.load.kind == "hertz_peak_pressure"
+    known = ["--radius", "1 mm", "--peak-pressure", "1 GPa", "--youngs-modulus", "70 GPa"]
+    for options in (["--yes"], ["--json"], known):
+        assert main(["init", "trace.csv", "--force", *options]) == 0
+    assert Scene.read("trace.toml").roller.radius == pytest.approx(1e-3)
