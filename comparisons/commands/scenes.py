@@ -140,8 +140,13 @@ def _say_what_was_made(made: "FirstScene") -> None:
     from comparisons.output.terminal import PLAIN
 
     show(init_table(made))
-    written = {n: v for table in ("roller", "load") for n, v in made.scene.written[table].items()}
-    if assumed := [f"{name} = {written[name]}" for name in made.examples]:
+    assumed = [
+        f"{section}.{name} = {value}"
+        for section in ("roller", "body", "load")
+        for name, value in made.scene.written[section].items()
+        if name in made.examples
+    ]
+    if assumed:
         print(f"assumed as examples, put in yours: {', '.join(assumed)}")
     for line in first_lines(made.scene):
         print(line.translate(PLAIN))
