@@ -325,9 +325,7 @@ def run(
     from comparisons.runs.run import run as run_scene
 
     chosen = models_named(models, "models")
-    place = _path(out, "out")
-    if place is not None:
-        check_writable(place)
+    place = _writable(out)
     asked = scene_of(scene)
     if tolerance is not None:
         asked = with_tolerance(asked, tolerance)
@@ -366,9 +364,7 @@ def cost(
     from comparisons.runs.run import Known
     from comparisons.runs.run import run as run_scene
 
-    place = _path(out, "out")
-    if place is not None:
-        check_writable(place)
+    place = _writable(out)
     known = Known(all_methods=True)
     return FinishedRun.of(run_scene(scene_of(scene), place, MODELS, progress, known=known))
 
@@ -455,6 +451,13 @@ is a length above 0: a number in m or "8.2 mm"
         allowed = "allowed is a name, a path, tables or a Scene"
         raise InputError(f"scene: is {describe(scene)}; {allowed}")
     return scene
+
+
+def _writable(out: str | os.PathLike | None) -> Path | None:
+    place = _path(out, "out")
+    if place is not None:
+        check_writable(place)
+    return place
 
 
 def _drawn(draw: Callable, content: object) -> "list[Axes]":

@@ -88,13 +88,9 @@ def run_cases_of(run: Run) -> list[JunitCase]:
 
 def _said(figure: Figure) -> str:
     """Verdict, size, uncertainty with what is not modelled, and what is allowed."""
-    quantity, unsure = meaning(figure), percent(figure.total)
-    if figure.against is None:
-        value, most = (
-            with_unit(size, quantity.unit)
-            for size in (figure.value, figure.bounds[1] * figure.scale)
-        )
-        return f"{figure.verdict}: {value} with an uncertainty of {unsure}, at most {most}"
-    size = percent(figure.value, signed=True, uncertainty=figure.total)
-    allowed = f"tolerance {percent_as_written(figure.tolerance)}"
-    return f"{figure.verdict}: {size} with an uncertainty of {unsure}, {allowed}"
+    if figure.against is not None:
+        tolerance = percent_as_written(figure.tolerance)
+        return f"{figure.verdict}: {figure.words(figure.total)}, tolerance {tolerance}"
+    sizes, unit = (figure.value, figure.bounds[1] * figure.scale), meaning(figure).unit
+    value, most = (with_unit(size, unit) for size in sizes)
+    return f"{figure.verdict}: {value} ± {percent(figure.total)}, at most {most}"

@@ -14,8 +14,7 @@ from comparisons.output.page.tables.comparison import (
     figure_rows,
     first_model,
 )
-from comparisons.output.page.tables.problem import in_mm
-from comparisons.scenes.surface import ProfileInfo
+from comparisons.output.page.tables.problem import surface_text
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.show import answer_facts, answer_rows, answers_of, reference_of
 from comparisons.studies.ladder import cost
@@ -183,22 +182,13 @@ def plain_text(text: str) -> "Text":
     return Text("\n".join(lines), style=STYLES.get(text, ""))
 
 
-def surface_text(info: ProfileInfo, run_in: bool = False) -> str:
-    """Roughness as pressed, and what a drawing would say of the trace, before it was run in."""
-    text = f"Ra {with_unit(info.roughness.ra, 'm', 3)} as pressed"
-    if info.standard is not None:
-        ra, cutoff = with_unit(info.standard.ra, "m", 3), in_mm(info.standard.cutoff)
-        text += f", {'before running-in ' if run_in else ''}{ra} at the cut-off {cutoff}"
-    return text
-
-
 def _facts(outcome: Run) -> "Table":
     from rich.table import Table
     from rich.text import Text
 
     surface, rows = outcome.problem.surface, []
     if surface.info is not None:
-        rows.append(("surface", surface_text(surface.info, run_in=surface.run_in is not None)))
+        rows.append(("surface", surface_text(surface)))
     for study in STUDIES:
         if study.name in outcome.findings:
             rows += study.lines(outcome)

@@ -28,7 +28,7 @@ from comparisons.output.page.pictures import answer, contact, problem, refinemen
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.tables import verification
 from comparisons.output.page.tables.comparison import comparison_table, figure_table, first_model
-from comparisons.output.page.tables.problem import facts, problem_sheet
+from comparisons.output.page.tables.problem import facts, problem_items
 from comparisons.studies import STUDIES
 from comparisons.studies import problem as asked
 from comparisons.studies.study import Run
@@ -142,23 +142,16 @@ def sections(run: Run) -> list[Block]:
 
 def _answer(run: Run) -> Block:
     """Beside the verdict: what is judged, the run in one picture, and on paper what is signed."""
-    beside = Box("beside", (Pictures(("judged",)), _facts))
-    return Block("answer", (beside, Pictures(("overview",)), _signed))
-
-
-def _facts(run: Run) -> Names:
-    return Names(facts(run))
-
-
-def _signed(run: Run) -> Box:
-    return Box("signed", (Names(verification.signed_rows(run)),))
+    beside = Box("beside", (Pictures(("judged",)), facts))
+    signed = Box("signed", (verification.signed,))
+    return Block("answer", (beside, Pictures(("overview",)), signed))
 
 
 def _before(run: Run) -> Iterator[Block]:
     said = run.findings[asked.NAME].statements
     assumed = tuple(words.text for words in said if words.name == asked.ASSUMED)
     picture = Pictures(("problem",)), Heading("Assumptions"), Bullets(assumed)
-    columns = Box("columns", (Box("sheet", picture), Box("sheet", (_problem,))))
+    columns = Box("columns", (Box("sheet", picture), Box("sheet", (problem_items,))))
     yield Block("problem", (columns,), "Problem")
     if run.plan.compares:
         note = Note(NOTES["comparison"] + _of_layered(run, "layered"))
@@ -167,10 +160,6 @@ def _before(run: Run) -> Iterator[Block]:
         yield Block("comparison", (figure_table,), "Figures")
     beside = Pictures(("close_up", "surface"), abreast=True)
     yield Block("contact", (Pictures(("pressure",)), beside), "Contact")
-
-
-def _problem(run: Run) -> list:
-    return [item for name, rows in problem_sheet(run) for item in (Heading(name), Names(rows))]
 
 
 def _of_layered(run: Run, words: str) -> str:

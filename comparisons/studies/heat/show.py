@@ -2,6 +2,7 @@
 
 In: a run with [heat]. Out: a table, facts, pictures of both surfaces and below, lines."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -106,13 +107,12 @@ def heat_facts(run: Run) -> list[tuple[str, str]]:
     flash = known.of(quantity="flash_temperature")
     figure = flash.one(against=MODELS[1]) or flash.one(source=list(run.runs)[-1])
     for part in sorted(figure.parts, key=lambda part: part.name != OTHER_PRESSURES):
+        name = f"change of the largest rise without {study.contains.get(part.name)}"
+        changed = replace(figure, value=part.value).words(part.uncertainty)
         if part.name == OTHER_PRESSURES:
-            share = percent(part.value, signed=True, uncertainty=figure.numerical)
-            facts.append(("difference of both models by their pressures", share))
-        else:
-            share = percent(part.value, signed=True, uncertainty=part.uncertainty)
-            share = f"{share} ± {percent(part.uncertainty)}"
-            facts.append((f"change of the largest rise without {study.contains[part.name]}", share))
+            name = "difference of both models by their pressures"
+            changed = percent(part.value, signed=True, uncertainty=figure.numerical)
+        facts.append((name, changed))
     return [fact for fact in facts if fact[1]]
 
 

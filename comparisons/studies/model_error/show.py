@@ -172,11 +172,8 @@ def flow_taken(errors: Sequence[Figure]) -> str:
             size = part.value / (1.0 + error.value)
             what = "takes {} off" if size < 0.0 else "adds {} to"
             changes.append(f"{what.format(percent(abs(size)))} the {label(error.quantity)}")
-    return (
-        f"flow {' and '.join(filter(None, (', '.join(changes[:-1]), changes[-1])))}"
-        if changes
-        else ""
-    )
+    parts = filter(None, (", ".join(changes[:-1]), *changes[-1:]))
+    return f"flow {' and '.join(parts)}" if changes else ""
 
 
 def _moved(error: Figure) -> str:
@@ -253,13 +250,11 @@ class Waterfall:
 def waterfalls(run: Run) -> list[Waterfall]:
     """Of what is judged, or of everything; coefficients of equal figures together."""
     panels, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
-    names = dict.fromkeys(error.quantity for error in run.model_errors or errors)
-    for quantity in (name for name in QUANTITIES if name in names):
-        for same in grouped(errors.of(quantity=quantity), _drawn_of):
-            some = len(same) < len(run.problem.scene.load.friction)
-            frictions = listed(error.friction for error in same)
-            name = label(quantity) + (f", μ = {frictions}" if some else "")
-            panels.append(Waterfall(name, _steps(same[0]), same[0]))
+    names = {error.quantity for error in run.model_errors or errors}
+    every = listed(run.problem.scene.load.friction)
+    for row in table_rows(errors, [name for name in QUANTITIES if name in names], _drawn_of):
+        at = "" if row.friction == every else f", μ = {row.friction}"
+        panels.append(Waterfall(label(row.quantity) + at, _steps(row.figure), row.figure))
     return panels
 
 

@@ -46,8 +46,6 @@ QUANTITIES = {
     "yield_stress": Quantity("yield stress", "Pa"),
     "hardness": Quantity("hardness", "Pa"),
     "ideal_strength": Quantity("ideal strength of a crystal", "Pa"),
-    "plasticity_index_summits": Quantity("plasticity index, summits"),
-    "plasticity_index_slope": Quantity("plasticity index, slope"),
     "tau1_max": Quantity("largest principal shear stress τ₁", "Pa"),
     "von_mises_max": Quantity("von Mises", "Pa"),
     "over_first_flow_tresca": Quantity("over first flow, Tresca"),
@@ -55,12 +53,11 @@ QUANTITIES = {
     "share_at_hardness": Quantity("contact at the hardness or above"),
     "peak_pressure_over_shear_yield": Quantity("peak pressure over k = Y/√3"),
     "shakedown_limit": Quantity("elastic shakedown up to"),
+    "plasticity_index_summits": Quantity("plasticity index, summits"),
+    "plasticity_index_slope": Quantity("plasticity index, slope"),
     PLASTIC_STRAIN: Quantity("largest equivalent plastic strain"),
     STRAIN_BY_SLOPE: Quantity("that strain times the slope of the surface"),
 }
-INDICES = "plasticity_index_summits", "plasticity_index_slope"
-OF_FIRST_FLOW = ("over_first_flow_tresca", "over_first_flow_von_mises", "share_at_hardness")
-OF_FIRST_FLOW += ("peak_pressure_over_shear_yield", "shakedown_limit")
 BY_THE_PEAK = "from the peak pressure: those below Hertz's contact of the same peak pressure"
 OF_A_YIELD_STRESS = """First flow: τ₁ = Y/2 (Tresca, in the plane), or von Mises' stress = Y; a
 hardness stands for Y = H/3, a yield stress for H = 3 Y (Tabor). Elastic shakedown: the largest peak
@@ -341,7 +338,7 @@ def flow_sentence(run: Run) -> str:
 
 
 def flow_table(run: Run) -> TextTable:
-    """Figures of flow by friction coefficient; without a yield stress its first rows alone."""
+    """Figures of flow by friction coefficient, those that are known."""
     frictions, known = run.problem.scene.load.friction, run.figures.of(study=NAME)
 
     def row(quantity: str) -> tuple[str, ...]:
@@ -355,17 +352,9 @@ def flow_table(run: Run) -> TextTable:
         return meaning.label, *texts
 
     read = (run.findings[NAME].said("read", friction=friction) for friction in frictions)
-    rows = [
-        row("tau1_max"),
-        row("von_mises_max"),
-        ("stresses from", *(STRESSES_FROM[text] for text in read)),
-    ]
-    if known.one(quantity="yield_stress") is not None:
-        rows += map(row, OF_FIRST_FLOW)
-    if known.one(quantity="plasticity_index_slope") is not None:
-        rows += map(row, INDICES)
-    if known.one(quantity=PLASTIC_STRAIN) is not None:
-        rows += map(row, (PLASTIC_STRAIN, STRAIN_BY_SLOPE))
+    there = {figure.quantity for figure in known}
+    rows = [("stresses from", *map(STRESSES_FROM.get, read))]
+    rows += [row(name) for name in list(QUANTITIES)[3:] if name in there]
     head = ("", *(f"friction {plain(friction)}" for friction in frictions))
     return TextTable(flow_sentence(run), head, tuple(rows))
 

@@ -3,6 +3,7 @@
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import as_written, decimal, listed, plain, significant, with_unit
+from comparisons.drawing.blocks import Heading, Names
 from comparisons.drawing.curves import hertz_text
 from comparisons.models.assumptions import support_text, yielding_text
 from comparisons.models.problem import Problem
@@ -36,19 +37,31 @@ def problem_sheet(run: Run) -> list[tuple[str, Rows]]:
     return [(heading, rows) for heading, rows in sheet.items() if rows]
 
 
-def facts(run: Run) -> Rows:
+def problem_items(run: Run) -> list[Heading | Names]:
+    """The same for the page."""
+    return [item for name, rows in problem_sheet(run) for item in (Heading(name), Names(rows))]
+
+
+def facts(run: Run) -> Names:
     """What was pressed on what, in a few rows."""
     problem, scene, info = run.problem, run.problem.scene, run.problem.surface.info
     roller = "rigid" if scene.roller.rigid else solid_text(scene.roller)
     radius = "" if scene.periodic else f"R = {as_written(scene.roller.radius, 'm')}, "
     rows = [(scene.smooth_body, radius + roller), ("body", solid_text(scene.body))]
     rows += [row for row in _materials(problem) if row[0] in (COATING, HARDNESS, YIELD)]
-    rough = info and f"{info.source}: Ra {with_unit(info.roughness.ra, 'm')} as pressed"
-    if info and info.standard is not None:
-        cutoff = in_mm(info.standard.cutoff)
-        rough += f", {with_unit(info.standard.ra, 'm')} at the cut-off {cutoff}"
-    rows += [("surface", rough or "smooth"), ("load", hertz_text(problem))]
-    return [*rows, ("friction", listed(scene.load.friction))]
+    rough = f"{info.source}: {surface_text(problem.surface)}" if info else "smooth"
+    rows += [("surface", rough), ("load", hertz_text(problem))]
+    return Names([*rows, ("friction", listed(scene.load.friction))])
+
+
+def surface_text(surface: SceneSurface) -> str:
+    """Roughness as pressed, and what a drawing would say of the trace, before it was run in."""
+    text = f"Ra {with_unit(surface.info.roughness.ra, 'm', 3)} as pressed"
+    if (standard := surface.info.standard) is not None:
+        before = "" if surface.run_in is None else "before running-in "
+        ra, cutoff = with_unit(standard.ra, "m", 3), in_mm(standard.cutoff)
+        text += f", {before}{ra} at the cut-off {cutoff}"
+    return text
 
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:

@@ -6,6 +6,7 @@ In: a run, its figures with their levels. Out: sequences for pictures, and rows 
 import re
 import shlex
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -23,7 +24,7 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.common.provenance import PROJECT
-from comparisons.drawing.blocks import TextTable
+from comparisons.drawing.blocks import Names, TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import (
@@ -113,15 +114,10 @@ def judged_table(run: Run) -> TextTable | None:
 
 
 def _judged(sequence: JudgedSequence) -> tuple[str, ...]:
-    known, quantity = sequence.known, QUANTITIES[sequence.figure.quantity]
-    if sequence.source == DIFFERENCE:
-        values = [percent(value, digits=3, signed=True) for value in (known.value, known.limit)]
-    else:
-        scale = scale_of(sequence.figure.levels, quantity.unit)
-        values = [scale.text(value, 5) for value in (known.value, known.limit)]
+    known = sequence.known
     return (
         f"{sequence.name}, {LABELS.get(sequence.source, sequence.source)}",
-        *values,
+        *_texts(sequence.figure, (known.value, known.limit)),
         plain(known.formal_order),
         "none" if known.order is None else significant(known.order, 2),
         known.behaviour,
@@ -167,18 +163,24 @@ def _of_model(run: Run, model: ModelRun) -> TextTable:
     for name, figure in _rows(run, contact.NAME, model.name):
         checked = {} if check is None else contact.values_of(check, run.problem, figure.friction)
         values = [*figure.levels, *([checked[figure.quantity]] if checked else [])]
-        scale = scale_of(values, QUANTITIES[figure.quantity].unit)
-        rows.append((name, *(scale.text(value, 5) for value in values), *_parts(figure, model)))
+        rows.append((name, *_texts(figure, values), *_parts(figure, model)))
     return TextTable(LABELS[model.name].capitalize(), head, tuple(rows))
 
 
 def _of_difference(run: Run) -> TextTable:
     model, rows = run.runs["finite_element"], []
     for name, figure in _rows(run, comparison.NAME, "half_plane"):
-        signed = figure.quantity not in NORMS
-        numbers = (percent(value, digits=3, signed=signed) for value in figure.levels)
-        rows.append((name, *numbers, *_parts(figure, model)))
+        rows.append((name, *_texts(figure, figure.levels), *_parts(figure, model)))
     return TextTable("Difference of both models", _head(model, with_check=False), tuple(rows))
+
+
+def _texts(figure: Figure, values: Sequence[float]) -> list[str]:
+    """Values of a figure, or of a difference, on its levels."""
+    if figure.against is not None:
+        signed = figure.quantity not in NORMS
+        return [percent(value, digits=3, signed=signed) for value in values]
+    scale = scale_of((*figure.levels, *values), QUANTITIES[figure.quantity].unit)
+    return [scale.text(value, 5) for value in values]
 
 
 def _rows(run: Run, study: str, source: str) -> list[tuple[str, Figure]]:
@@ -264,7 +266,7 @@ def _iterations(name: str) -> str:
     return f"contact: {text}"
 
 
-def signed_rows(run: Run) -> list[tuple[str, str]]:
+def signed(run: Run) -> Names:
     """What a person signs who has read the report: the question, how sure, by what and when."""
     scene, made, errors = run.problem.scene, run.record.get("made", {}), run.model_errors
     judged = dict.fromkeys(
@@ -295,7 +297,8 @@ def signed_rows(run: Run) -> list[tuple[str, str]]:
         ("solved by", ", ".join(filter(None, (by, f"revision {made.get('revision')}")))),
         ("made", ", ".join(made[name] for name in ("date", "host") if made.get(name))),
     ]
-    return [*((name, text) for name, text in rows if text), *((name, "") for name in TO_SIGN)]
+    rows = [row for row in rows if row[1]]
+    return Names([*rows, *((name, "") for name in TO_SIGN)])
 
 
 def record_rows(run: Run) -> list[tuple[str, str]]:
