@@ -168,8 +168,6 @@ def _carry_out(arguments: list[str]) -> int:
     except Exception as error:
         if _is_interrupt(error):
             return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
-        if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
-            return _end(ExitStatus.BAD_INPUT, f"{_too_long(error)}; allowed is a shorter one")
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             said = error.format_message().replace("Value error, ", "")
             return _end(ExitStatus.BAD_INPUT, f"{said} (see crosscheck --help)")
@@ -196,12 +194,6 @@ def _end(status: ExitStatus, message: str) -> int:
     """Print the line that goes with a status."""
     tell(message)
     return int(status)
-
-
-def _too_long(error: OSError) -> str:
-    """The beginning of a name that the system does not take."""
-    name = os.fsdecode(error.filename or "")
-    return f"{name[:40]}…: is a name of {len(name)} characters, too long for a file"
 
 
 def _is_interrupt(error: BaseException) -> bool:

@@ -114,6 +114,14 @@ def test_a_page_that_is_missing_or_in_the_way_is_one_line(copied, tmp_path, caps
     assert "run: holds no report.html; allowed is what a run wrote" in capsys.readouterr().err
 
 
+def test_a_result_of_no_series_is_one_line(copied, capsys):
+    content = json.loads((copied / "result.json").read_text())
+    (copied / "result.json").write_text(json.dumps(content | {"series": []}))
+    assert main(["report", str(copied)]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and "sums up to nothing" in err and err.count("\n") == 1
+
+
 def test_a_summary_changes_no_folder_and_json_says_what_was_made(
     copied, tmp_path, capsys, monkeypatch
 ):

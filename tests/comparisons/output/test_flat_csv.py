@@ -103,10 +103,15 @@ def test_what_is_no_run_is_one_line(tmp_path, capsys, content, words):
 
 @pytest.mark.parametrize(
     ("out", "words"),
-    [("all.xlsx", "ends with .xlsx; allowed is .csv"), ("no/all.csv", "no is no folder")],
+    [
+        ("all.xlsx", "ends with .xlsx; allowed is .csv"),
+        ("no/all.csv", "no is no folder"),
+        ("in.csv", "in.csv: is a folder; allowed is a file"),
+    ],
 )
 def test_a_file_that_cannot_be_is_refused(runs, tmp_path, capsys, monkeypatch, out, words):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "in.csv").mkdir()
     assert main(["table", str(runs), "--out", out]) == 2
     assert words in capsys.readouterr().err
     assert main(["table", "nowhere"]) == 2

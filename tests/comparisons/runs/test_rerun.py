@@ -294,6 +294,10 @@ def test_a_record_that_cannot_be_is_refused(spoilable, alter, words):
         lambda r: r["figures"].append(3),
         lambda r: r["figures"].append(r["figures"][0]),
         lambda r: peak_of(r).update(value=10**400),
+        lambda r: peak_of(r).update(value=float("nan")),
+        lambda r: peak_of(r).update(value="high"),
+        lambda r: r.pop("figures"),
+        lambda r: r.update(verdict=3.0),
     ],
 )
 def test_figures_that_no_run_writes_are_refused_before_anything_is_solved(

@@ -29,23 +29,6 @@ def test_an_empty_place_is_not_the_working_folder(folder, complaint, arguments):
 
 
 @pytest.mark.parametrize(
-    "arguments",
-    [
-        ["run", "{}"],
-        ["run", "{}.toml"],
-        ["run", "smooth", "--out", "{}"],
-        ["map", "{}"],
-        ["sweep", "smooth", "--over", "load=1e5,2e5", "--out", "{}"],
-        ["verify", "--junit", "{}.xml"],
-        ["table", "{}"],
-        ["init", "{}.csv"],
-    ],
-)
-def test_a_name_that_no_file_can_have_is_wrong_input(folder, complaint, arguments):
-    assert "xxxx" in complaint(*(word.format("x" * 5000) for word in arguments))
-
-
-@pytest.mark.parametrize(
     ("arguments", "said"),
     [
         (["map", "smooth", "--points", "５x５"], "--points: is"),
