@@ -90,9 +90,12 @@ def _can_compute(effect: str, problem: Problem) -> bool:
 
 
 def pasted(run: Run, offer: Offer) -> tuple[str, ...]:
-    """The run's own command with what is offered, for a shell; for Python where none was typed."""
+    """The run's own command with what is offered, for a shell; for Python where none was typed.
+    None of one whose words no text holds, such as a file's name in another encoding."""
     scene = run.problem.scene
     if not (offer.settings or offer.options) or not offer.is_known:
+        return ()
+    if not all(map(str.isprintable, scene.command)):
         return ()
     if words := scene.command:
         for text in offer.settings:

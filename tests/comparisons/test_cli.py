@@ -82,13 +82,6 @@ def test_run_hands_everything_on(solver, capsys, options, folder, models):
     assert capsys.readouterr() == (f"peak pressure agree\n{written}", "")
 
 
-def test_json_instead_of_the_table(solver, capsys):
-    assert main(["run", "smooth", "--json"]) == 0
-    out, err = capsys.readouterr()
-    assert json.loads(out) == {"schema": 1, "name": "µ"}
-    assert err == ""
-
-
 @pytest.mark.parametrize("status", [0, 1, 3, 4])
 def test_the_outcome_decides_the_status(solver, status):
     solver.status = ExitStatus(status)
@@ -128,7 +121,7 @@ def test_how_failures_end(solver, capsys, monkeypatch, error, status, line):
 
 @pytest.mark.parametrize(
     ("command", "kept"),
-    [("map", "points"), ("sweep", "points"), ("cost", "levels"), ("verify", "cases")],
+    [("map", "points"), ("sweep", "points"), ("cost", "levels"), ("stability", "cases")],
 )
 def test_an_interrupt_says_what_is_kept_whenever_it_comes(monkeypatch, capsys, command, kept):
     def interrupted(arguments):
@@ -189,6 +182,8 @@ def test_scenes_are_listed_with_their_titles(capsys):
     listed = dict(line.split(maxsplit=1) for line in out.splitlines())
     assert listed == scene_titles()
     assert err == ""
+    assert main(["scenes", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == scene_titles()
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])

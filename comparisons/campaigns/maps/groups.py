@@ -230,25 +230,15 @@ def _coating(problem: Problem) -> float | None:
     return None if coating is None else coating.thickness / problem.hertz.half_width
 
 
-def _coating_ratio(problem: Problem) -> float | None:
-    """Of the plane strain moduli, as `_modulus_ratio`."""
-    coating, body = problem.scene.coating, problem.scene.body.material
-    if coating is None:
-        return None
-    return coating.material.plane_strain_modulus / body.plane_strain_modulus
-
-
 def _set_coating_ratio(scene: Scene, value: float) -> Changes:
     return {"coating.youngs_modulus": value * scene.body.youngs_modulus}
 
 
-def _modulus_ratio(problem: Problem) -> float | None:
+def _modulus_ratio(section: str, problem: Problem) -> float | None:
     """Of the plane strain moduli, which contacts know of; that of Young's where bodies are alike in
     Poisson's ratio."""
-    roller, body = problem.scene.roller, problem.scene.body.material
-    if roller.rigid:
-        return None
-    return roller.material.plane_strain_modulus / body.plane_strain_modulus
+    other, body = problem.scene.elastic_sections.get(section), problem.scene.body.material
+    return other and other.material.plane_strain_modulus / body.plane_strain_modulus
 
 
 FUNCTIONS = {  # set_to, value_of
@@ -263,9 +253,9 @@ FUNCTIONS = {  # set_to, value_of
         lambda scene, value: {"body.poissons_ratio": value},
         lambda problem: problem.scene.body.poissons_ratio,
     ),
-    "modulus_ratio": (_set_modulus_ratio, _modulus_ratio),
+    "modulus_ratio": (_set_modulus_ratio, partial(_modulus_ratio, "roller")),
     "coating_over_a": (_set_coating, _coating),
-    "coating_modulus_ratio": (_set_coating_ratio, _coating_ratio),
+    "coating_modulus_ratio": (_set_coating_ratio, partial(_modulus_ratio, "coating")),
 }
 GROUPS = {
     name: Group(*FUNCTIONS[name], **fields)

@@ -8,14 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.campaigns.grid import FAILED, failures
-from comparisons.campaigns.sweep.pictures import (
-    DRAWN,
-    PICTURE,
-    POSITION,
-    ZONES,
-    Axis,
-    has_zones,
-)
+from comparisons.campaigns.sweep.pictures import DRAWN, PICTURE, POSITION, ZONES, Axis, has_zones
 from comparisons.campaigns.sweep.sweep import SWEEP, TABLE
 from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.figures.quantity import QUANTITIES, error_text
@@ -104,13 +97,9 @@ def _figure(quantity: str, point: dict) -> str:
     return with_unit(max(values), QUANTITIES[quantity].unit) if values else ""
 
 
-def _warned(point: dict) -> str:
-    return str(len(point.get("warnings", ())) or "")
-
-
 # Columns by title, beside the swept values: what each says of a point.
 POINT_COLUMNS: dict[str, Cell] = {"verdict": _verdict, "right\nwithin": _within}
-POINT_COLUMNS |= {"warnings": _warned}
+POINT_COLUMNS |= {"warnings": lambda point: str(len(point.get("warnings", ())) or "")}
 FIGURES: dict[str, Cell] = {QUANTITIES[n].short: partial(_figure, n) for n in DRAWN}
 
 

@@ -9,19 +9,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from operator import itemgetter
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from analytic.contact.problem import ContactError
 from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
-from comparisons.campaigns.sweep.pictures import (
-    FRICTION,
-    PICTURE,
-    POSITION,
-    ZONES,
-    drawn,
-)
+from comparisons.campaigns.sweep.pictures import FRICTION, PICTURE, POSITION, ZONES, drawn
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import is_whole
@@ -44,9 +37,6 @@ from comparisons.studies.heat import STUDY as HEAT
 from comparisons.studies.study import MODEL_ERROR
 from comparisons.studies.subsurface import quiescent_zone
 from meshes.block import MeshError
-
-if TYPE_CHECKING:
-    pass
 
 SWEEP, TABLE = "sweep.json", "sweep.csv"
 FILES = (SWEEP, TABLE, PICTURE, ZONES)

@@ -13,14 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.campaigns.cases import (
-    CaseFigures,
-    Row,
-    bounded,
-    holds,
-    order_figure,
-    summary_row,
-)
+from comparisons.campaigns.cases import CaseFigures, Row, bounded, holds, order_figure, summary_row
 from comparisons.figures.figure import Figure, Part
 from comparisons.figures.uncertainty import COVERAGE
 from comparisons.studies import contact

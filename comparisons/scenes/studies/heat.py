@@ -13,15 +13,7 @@ from comparisons.common.units import (
     SPEED,
     TEMPERATURE,
 )
-from comparisons.scenes.fields import (
-    Fraction,
-    Length,
-    Number,
-    OneOf,
-    SceneSection,
-    Truth,
-    allowed,
-)
+from comparisons.scenes.fields import Fraction, Length, Number, OneOf, SceneSection, Truth, allowed
 from comparisons.scenes.materials import solid_named
 
 Conductivity = Annotated[float, Number(CONDUCTIVITY, above=0.0)]

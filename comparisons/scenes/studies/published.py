@@ -7,13 +7,7 @@ from typing import Annotated
 from comparisons.common.numbers import significant
 from comparisons.common.units import LENGTH, PRESSURE, UnitError, to_si, unit_in_si
 from comparisons.figures.quantity import HYPHENATED
-from comparisons.scenes.fields import (
-    Fraction,
-    OneOf,
-    SceneSection,
-    Text,
-    Truth,
-)
+from comparisons.scenes.fields import Fraction, OneOf, SceneSection, Text, Truth
 
 DIGITS = 5  # of ours
 LOWERING = "lowering"  # of the body's surface under the roller's centre, against its base

@@ -6,14 +6,7 @@ from decimal import Decimal
 from typing import Annotated
 
 from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, Dimension, describe
-from comparisons.scenes.fields import (
-    FieldType,
-    Length,
-    Number,
-    SceneSection,
-    Whole,
-    field_type,
-)
+from comparisons.scenes.fields import FieldType, Length, Number, SceneSection, Whole, field_type
 
 CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
 FEWEST, MOST = 8, 4096  # samples

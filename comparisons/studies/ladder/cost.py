@@ -14,6 +14,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import takewhile
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from analytic.contact.problem import ContactError
@@ -23,14 +24,7 @@ from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Box, Note, Pictures, TextTable
-from comparisons.figures.figure import (
-    Column,
-    Figures,
-    Findings,
-    Series,
-    Statement,
-    grouped,
-)
+from comparisons.figures.figure import Column, Figures, Findings, Series, Statement, grouped
 from comparisons.figures.quantity import LABELS, QUANTITIES, WHOLE, label
 from comparisons.models.forecast import expected_level
 from comparisons.models.level import Level, flowing_contact
@@ -247,7 +241,7 @@ def cheapest(
         like = [row for row in judged if _limit(row) == _limit(mine[0])]
         if meets(min(like, key=lambda row: row["pitch"])):
             met += takewhile(meets, reversed(mine))
-    return [min(some, key=_seconds) for some in grouped(met, lambda row: row["kind"])]
+    return [min(some, key=itemgetter("seconds")) for some in grouped(met, lambda row: row["kind"])]
 
 
 def _limit(row: Mapping[str, object]) -> str:
@@ -255,22 +249,16 @@ def _limit(row: Mapping[str, object]) -> str:
     return re.sub(", P[13]$", "", row["model"])
 
 
-def _seconds(row: Mapping[str, object]) -> float:
-    return row["seconds"]
-
-
 def _aim_words(aim: Mapping[str, float]) -> str:
     return ", ".join(f"{QUANTITIES[n].short} to {percent_as_written(t)}" for n, t in aim.items())
 
 
 def _cheapest_words(rows: list[dict]) -> str:
-    return "; ".join(f"{_row_words(row)}, {with_unit(row['seconds'], 's', 2)}" for row in rows) or (
-        "none that is solved"
+    said = (
+        f"{row['model']} at {with_unit(row['pitch'], 'm', 3)}, {with_unit(row['seconds'], 's', 2)}"
+        for row in rows
     )
-
-
-def _row_words(row: Mapping[str, object]) -> str:
-    return f"{row['model']} at {with_unit(row['pitch'], 'm', 3)}"
+    return "; ".join(said) or "none that is solved"
 
 
 def _reference_words(known: Mapping[str, Reference]) -> str:

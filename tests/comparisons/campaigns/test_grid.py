@@ -9,7 +9,6 @@ import pytest
 from comparisons.campaigns.grid import DIED, SOLVED, Point, failed, solved_in
 from comparisons.common.errors import SceneError
 from comparisons.common.executors import ExecutorWorker
-from comparisons.common.progress import no_progress
 from comparisons.common.tasks import Tasks, carried_out
 from comparisons.scenes.scene import Scene
 
@@ -45,15 +44,16 @@ class Solved(list[float]):
 
 @pytest.fixture
 def solve_in(monkeypatch, tmp_path):
-    """solve_in(places, opens): the answers at the places, where they were solved, and the steps."""
+    """solve_in(points, opens, why_not): the answers at points, or places, where they were solved,
+    and the steps."""
 
-    def solve(places, opens=None):
+    def solve(points, opens=None, *why_not):
         solved, steps = Solved(), []
         tasks = "comparisons.campaigns.grid.tasks_by"
         monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(opens, 2, kept)))
-        points = [point_at(x) for x in places]
-        answers = solved_in(tmp_path, ("map.json",), points, solved.solve, None, steps.append)
-        return answers, solved, steps
+        points = [point if isinstance(point, Point) else point_at(point) for point in points]
+        how = solved.solve, None, steps.append, *why_not
+        return solved_in(tmp_path, ("map.json",), points, *how), solved, steps
 
     return solve
 
@@ -77,22 +77,16 @@ def test_what_is_kept_whole_is_not_solved_again(solve_in, tmp_path):
 
 
 def test_combinations_that_do_not_go_are_answers_and_values_that_never_do_are_refused(
-    monkeypatch, tmp_path
+    solve_in, tmp_path
 ):
     points = [Point({"x": x, "y": y}, "", SCENE, None, f"{x}{y}") for x in "ab" for y in "cd"]
 
-    tasks = "comparisons.campaigns.grid.tasks_by"
-    monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(kept=kept)))
-
     def answers(*wrong):
-        def why_not(point):
-            return f"no {point.key}" if point.key in wrong else None
+        whys = {key: f"no {key}" for key in wrong}
+        return solve_in(points, None, lambda point: whys.get(point.key))[0]
 
-        out, solve = tmp_path / "".join(wrong), lambda _: {"status": SOLVED}
-        return solved_in(out, ("map.json",), points, solve, None, no_progress, why_not)
-
-    statuses = [answer["status"] for answer in answers("ad", "bc")]
-    assert statuses == [SOLVED, "failed", "failed", SOLVED]
     with pytest.raises(SceneError, match=r"^no ad \(at y = d\)$"):
         answers("ad", "bd")
-    assert [path.name for path in tmp_path.iterdir()] == ["adbc"]
+    assert list(tmp_path.iterdir()) == []
+    statuses = [answer["status"] for answer in answers("ad", "bc")]
+    assert statuses == [SOLVED, "failed", "failed", SOLVED]

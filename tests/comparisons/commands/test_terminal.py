@@ -1,6 +1,5 @@
 """What a terminal gets and a pipe does not: colour, progress; and what a shell may complete."""
 
-import json
 import os
 import pty
 import re
@@ -11,9 +10,9 @@ from pathlib import Path
 import pytest
 from scenes import PROJECT
 
-from comparisons.cli import app, main
+from comparisons.cli import app
 from comparisons.commands import arguments
-from comparisons.scenes.files import scene_names, scene_titles
+from comparisons.scenes.files import scene_names
 
 ESCAPE = "\x1b["
 SCENE = """
@@ -142,8 +141,3 @@ def test_every_command_has_json():
         if not any("--json" in option.opts for option in command.params)
     }
     assert without == set()
-
-
-def test_scenes_as_json(capsys):
-    assert main(["scenes", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == scene_titles()

@@ -44,23 +44,6 @@ def test_a_misspelt_scene_beside_one_is_told_its_name(folder, capsys, name):
     assert "there is no such file, but mine.toml; allowed" in answered(capsys, "run", name)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        (
-            "per_length",
-            "force",
-            "load.force: is no known field; the nearest is load.per_length, a force per length",
-        ),
-        ("radius", "diameter", "is no known field; the nearest is roller.radius"),
-        ("0.5 N/um", "100 N", 'is "100 N", a force: a force per length is "100 N/mm"; allowed is'),
-    ],
-)
-def test_what_is_meant_is_said(folder, capsys, old, new, said):
-    (folder / "mine.toml").write_text(SCENE.replace(old, new))
-    assert said in answered(capsys, "run", "mine.toml")
-
-
 def test_a_tolerance_may_be_a_percentage(folder, capsys, undrawn):
     (folder / "mine.toml").write_text(f"{SCENE}tolerance = {{peak_pressure = 0.5}}\n")
     run = ["run", "mine.toml", "--models", "half-plane", "--json", "--tolerance"]
@@ -86,14 +69,6 @@ def test_the_table_of_runs_is_for_people_and_csv_on_request(folder, capsys, undr
     assert "half-plane" in out and "GPa" in out and max(map(len, out.splitlines())) < 120
     assert main(["table", "results", "--csv"]) == 0
     assert capsys.readouterr().out.startswith("run,scene,title,within,study,quantity,unit")
-
-
-def test_a_mark_of_another_kind_than_the_map_is_refused(folder, capsys, monkeypatch):
-    said = answered(capsys, "map", "slope-wavelength", "--mark", "smooth", "--out", "map")
-    assert "--mark: smooth is smooth, and the map is of a rough surface; allowed is" in said
-    monkeypatch.delattr("comparisons.campaigns.maps.map.solved_in")  # nothing is solved before
-    said = answered(capsys, "map", "smooth", "--mark", "periodic", "--out", "map")
-    assert "--mark: periodic is rough, and the map is of a smooth surface; allowed is" in said
 
 
 @pytest.mark.parametrize(

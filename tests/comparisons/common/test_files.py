@@ -11,14 +11,7 @@ from time import time
 import pytest
 
 from comparisons.common.errors import InputError
-from comparisons.common.files import (
-    DAY,
-    check_writable,
-    claim,
-    claimed,
-    published,
-    unfinished,
-)
+from comparisons.common.files import DAY, check_writable, claim, claimed, published, unfinished
 
 NOBODY = 65534
 

@@ -231,13 +231,3 @@ def test_an_ignored_interrupt_stays_ignored(folder):
     (folder / "go on").touch()
     _, err = process.communicate(timeout=PATIENT)
     assert (process.returncode, err) == (0, "")
-
-
-def test_an_interrupted_campaign_says_what_it_keeps(tmp_path, monkeypatch, capsys):
-    def interrupted(*arguments: object, **named: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("comparisons.campaigns.cases.carry_out", interrupted)
-    assert main(["stability", "--out", str(tmp_path / "out")]) == ExitStatus.INTERRUPTED
-    left = "finished cases are kept, the same command goes on from there"
-    assert capsys.readouterr().err == f"crosscheck: interrupted; {left}\n"

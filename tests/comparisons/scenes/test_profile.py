@@ -13,12 +13,7 @@ from analytic.material import combined_modulus
 from analytic.surface.synthetic import ground_texture, self_affine
 from comparisons.common.errors import SceneError
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import (
-    SINUSOID_REACH,
-    SINUSOID_WAVES,
-    SceneSurface,
-    surface_of,
-)
+from comparisons.scenes.surface import SINUSOID_REACH, SINUSOID_WAVES, SceneSurface, surface_of
 
 REAL = MEASURED / "real_stylus_dektak.csv"
 BARE = changed(SMOOTH, roller={"radius": 8e-3}, load={"per_length": 1e6})

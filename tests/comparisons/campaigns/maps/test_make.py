@@ -12,13 +12,7 @@ import pytest
 from rich.console import Console
 
 from comparisons.campaigns.grid import exit_status, failed
-from comparisons.campaigns.maps.map import (
-    MAP,
-    PICTURE,
-    make_map,
-    map_table,
-    request_of,
-)
+from comparisons.campaigns.maps.map import MAP, PICTURE, make_map, map_table, request_of
 from comparisons.cli import main
 from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import ExitStatus, InputError
@@ -115,10 +109,6 @@ class TestStopped:
 
     def interrupt(self, process: int) -> None:
         os.killpg(process, signal.SIGINT)  # as a terminal does
-
-
-def test_a_map_holds_no_times(undisturbed):
-    assert "seconds" not in (undisturbed / MAP).read_text()
 
 
 def test_a_dask_cluster_makes_the_same_map(scene, undisturbed, tmp_path):

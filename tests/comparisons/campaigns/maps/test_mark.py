@@ -71,17 +71,16 @@ def test_a_finished_map_is_shown_and_not_solved(pressed, tmp_path, capsys, monke
         (("curvature-thickness", "--quantity", "mean_gap"), "--quantity: mean_gap is not on this"),
         (("modulus-coating", "--mark", "smooth"), "smooth has no coating_modulus_ratio to be mark"),
         (("curvature-thickness", "--mark", "nowhere"), "nowhere: is neither a file nor a scene"),
-        (
-            ("curvature-thickness", "--mark", "layer"),
-            "layer lies off the map: its a/t is 4.5; allowed is 0.05 to 4",
-        ),
+        (("slope-wavelength", "--mark", "smooth"), "smooth is smooth, and the map is of a rough"),
+        (("smooth", "--mark", "periodic"), "periodic is rough, and the map is of a smooth surface"),
         (
             ("curvature-thickness", "--mark", "smooth"),
             "smooth lies off the map: its a/t is 0; allowed is 0.05 to 4",
         ),
     ],
 )
-def test_what_a_map_does_not_have_is_refused(arguments, said, tmp_path, capsys):
+def test_what_a_map_does_not_have_is_refused(arguments, said, tmp_path, capsys, monkeypatch):
+    monkeypatch.delattr("comparisons.campaigns.maps.map.solved_in")  # nothing is solved before
     assert main(["map", *arguments, "--out", str(tmp_path / "map")]) == 2
     assert said in capsys.readouterr().err
     assert not (tmp_path / "map").exists()

@@ -13,12 +13,7 @@ import pytest
 from comparisons import cli
 from comparisons.campaigns.cases import Case
 from comparisons.campaigns.verify import run
-from comparisons.campaigns.verify.coverage import (
-    FEWEST_ROUGH,
-    LEAST_COVERAGE,
-    PRESSURE,
-    pairs_of,
-)
+from comparisons.campaigns.verify.coverage import FEWEST_ROUGH, LEAST_COVERAGE, PRESSURE, pairs_of
 from comparisons.campaigns.verify.independent_solver import independent_cases
 from comparisons.campaigns.verify.manufactured import manufactured_cases
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts

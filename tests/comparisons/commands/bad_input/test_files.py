@@ -30,10 +30,6 @@ PROFILES = {
     "missing": (None, "trace.csv: there is no such file"),
     "empty": (b"", "trace.csv: is empty"),
     "binary": (b"\x00\x01\x02" * 50, "SurfaceTopography"),
-    "words": (b"a\nb\nc\n", "trace.csv: has no samples"),
-    "heights alone": (b"0.1\n0.2\n0.3\n0.4\n0.5\n", "one column"),
-    "three columns": (b"0 1 2\n1 2 3\n2 3 4\n3 4 5\n", "trace.csv, line 1"),
-    "word among numbers": (b"0,0.1\n1,0.2\n2,peak\n3,0.1\n4,0.2\n", "trace.csv, line 3"),
     "lost height": (b"0,0.1\n1,0.2\n2,nan\n3,0.1\n4,0.2\n", "line 3: height is lost"),
 }
 
@@ -46,19 +42,6 @@ def test_wrong_profile(folder, content, fragment, toml, complaint):
     line = complaint("run", "scene.toml")
     assert line.startswith("crosscheck: scene.toml: profile.file: ")
     assert fragment in line
-
-
-def test_profile_that_is_a_folder(folder, toml, complaint):
-    (folder / "scene.toml").write_text(toml(MEASURED))
-    (folder / "trace.csv").mkdir()
-    assert "trace.csv: is a directory" in complaint("run", "scene.toml")
-
-
-def test_spacing_for_a_file_of_two_columns(folder, toml, trace, complaint):
-    changes = {**MEASURED, "profile.x_unit": None, "profile.spacing": '"1 um"'}
-    (folder / "scene.toml").write_text(toml(changes))
-    (folder / "trace.csv").write_text(trace)
-    assert "spacing is for heights alone" in complaint("run", "scene.toml")
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
-from scenes import QUICK, problem, resolved
+from scenes import QUICK, problem
 
 from analytic.exact.hertz import hertz_stress
 from comparisons.cli import main
@@ -388,7 +388,3 @@ def test_units_on_the_command_line(tmp_path, capsys):
     assert main([*command, "--units", "mm,MPa"]) == 2
     assert "--units: is given without --answer" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
-
-
-def test_a_scene_without_answers_names_none():
-    assert resolved(QUICK).answers is None and "answers" not in resolved(QUICK).tables
