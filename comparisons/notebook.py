@@ -85,7 +85,7 @@ class RunFigures(Printed, Figures):
         return DataFrame(self.rows)
 
     def _table(self) -> "RenderableType":
-        return rows_tables(self.rows, itemgetter("study"))
+        return rows_tables(self.rows, itemgetter("study"), say=str)
 
 
 @dataclass(frozen=True, repr=False)

@@ -18,6 +18,7 @@ from comparisons.common.errors import InputError, one_line, tell
 from comparisons.common.files import csv_text
 from comparisons.common.numbers import finite, percent, percent_as_written, plain, with_unit
 from comparisons.figures.figure import grouped
+from comparisons.figures.quantity import LABELS
 from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
 from comparisons.output.terminal import PLAIN, STYLES, plain_table, plain_text
@@ -121,14 +122,23 @@ def judged_rows(rows: Iterable[Row]) -> list[Row]:
     return shown
 
 
-def rows_tables(rows: Iterable[Row], title: Callable[[Row], str]) -> "Group":
-    """Tables for people, by run and title: four digits with their unit, differences in per
-    cent."""
+def in_words(name: str) -> str:
+    """A quantity's or a model's name for people."""
+    return LABELS.get(name, name.replace("_", " "))
+
+
+def rows_tables(
+    rows: Iterable[Row], title: Callable[[Row], str], say: Callable[[str], str] = in_words
+) -> "Group":
+    """Tables for people, by run and title: four digits with their unit, differences in per cent;
+    `say` words the names."""
     from rich.console import Group
 
     tables, numbers = [], ("mu", "value", "+-", "tol.")
     for same in grouped(rows, lambda row: (row["run"], row["title"], title(row))):
-        table = plain_table(*NAMES, numbers=numbers, last="verdict", rows=map(_cells, same))
+        table = plain_table(
+            *NAMES, numbers=numbers, last="verdict", rows=(_cells(row, say) for row in same)
+        )
         table.columns[-1].no_wrap = True
         table.title = plain_text(title(same[0]))
         tables += [table, ""]
@@ -157,11 +167,11 @@ def result_summary(result: Result) -> "Group":
     return Group(title, within, verdict, *next_steps, "", rows_tables(rows, lambda row: ""))
 
 
-def _cells(row: Row) -> tuple[str, ...]:
+def _cells(row: Row, say: Callable[[str], str]) -> tuple[str, ...]:
     value, unsure, friction, high = (row[n] for n in ("value", "uncertainty", "friction", "high"))
     difference = row["against"] is not None
     return (
-        *(row[name] or "" for name in NAMES),
+        *(say(row[name] or "") for name in NAMES),
         "" if friction is None else plain(friction),
         percent(value, signed=True) if difference else with_unit(value, row["unit"]),
         "" if unsure is None else percent(unsure),

@@ -68,7 +68,7 @@ def test_the_table_of_runs_is_for_people_and_csv_on_request(folder, capsys, undr
     out = capsys.readouterr().out
     assert "half-plane" in out and "GPa" in out and max(map(len, out.splitlines())) < 120
     assert main(["table", "results", "--csv"]) == 0
-    assert capsys.readouterr().out.startswith("run,scene,title,within,study,quantity,unit")
+    assert capsys.readouterr().out.startswith("run,scene,title,study,quantity,unit,source")
 
 
 @pytest.mark.parametrize(
