@@ -9,14 +9,13 @@ import numpy as np
 
 from analytic.profile import Profile
 from analytic.surface.roughness import bearing_curve, power_spectrum
-from analytic.surface.roughness_standard import SECTIONS
 from comparisons.campaigns.init.guess import ProfileFields
-from comparisons.common.numbers import scale_of, significant, with_unit
+from comparisons.common.numbers import scale_of, with_unit
 from comparisons.common.progress import Stages
 from comparisons.drawing.style import WIDE, drawing, figure, svg
-from comparisons.output.page.tables.problem import in_mm, sections_text, standard_text
+from comparisons.output.page.tables.problem import STANDARD, roughness_notes, roughness_rows
 from comparisons.output.plausibility import warnings_about_surface
-from comparisons.output.terminal import PLAIN, plain_table
+from comparisons.output.terminal import PLAIN, plain_table, plain_text
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 
@@ -25,22 +24,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 TRACE = ("source", "format", "place", "samples", "length", "spacing", "bridged", "trimmed", "form")
-UNKNOWN = "-"
 UNEVEN = 0.01  # of the spacing: samples whose distances differ by more are not even
-# Name, of the trace as pressed and by the standard, and whether it is a length.
-ROUGHNESS = (
-    ("Ra", "ra", "ra", True),
-    ("Rq", "rq", "rq", True),
-    ("Rz", None, "rz", True),
-    ("Rt", "rt", "rt", True),
-    ("Rsk", "rsk", "rsk", False),
-    ("Rku", "rku", "rku", False),
-    ("Rdq, rms slope", "rms_slope", "rdq", False),
-    ("largest slope", "max_slope", None, False),
-    ("RSm", None, "rsm", True),
-    ("cut-off", None, "cutoff", True),
-    ("short cut-off", None, "short_cutoff", True),
-)
 HEIGHT = 5.2  # inches
 DECADES = 12  # of the spectrum below its largest value; what is lower is rounding
 POINTS = 4000  # of a drawn curve; more cannot be told apart
@@ -82,7 +66,8 @@ def init_table(made: FirstScene) -> "RenderableType":
     info = made.surface.info
     read = f"{info.source}: {info.format}, {info.samples} samples, "
     read += f"{_length(info.length)} long, {_apart(info)} apart"
-    table = plain_table("roughness", numbers=("as pressed", "ISO 21920-2"), rows=_rows(info))
+    numbers = "as pressed", STANDARD
+    table = plain_table("roughness", numbers=numbers, rows=roughness_rows(info))
     guesses = (
         f"{name} = {json.dumps(made.profile.fields[name], ensure_ascii=False)}: {because}"
         for name, because in made.profile.reasons.items()
@@ -96,7 +81,7 @@ def init_table(made: FirstScene) -> "RenderableType":
         "",
         table,
         "",
-        *(Text(line.translate(PLAIN)) for line in _two_columns(info)),
+        *(plain_text(f"{name}: {text}") for name, text in roughness_notes(info)),
         "",
         *(Text(line.translate(PLAIN)) for line in warnings),
         *map(Text, (*guesses, *ends, f"next    crosscheck run {made.path}")),
@@ -113,39 +98,12 @@ def first_lines(scene: Scene) -> tuple[str, str]:
     return early_lines(problem, half_plane_level(problem, problem.pitches[0], None, Stages()))
 
 
-def _two_columns(info: ProfileInfo) -> list[str]:
-    off = "nothing" if info.form.kind == "none" else f"its {info.form.kind}"
-    pressed = f"as pressed: the whole trace without {off}"
-    if info.standard is None:
-        return [pressed, f"none by ISO 21920-2: {info.standard_why}"]
-    lines = [pressed, f"ISO 21920-2: {standard_text(info)}"]
-    few = info.standard.sections < SECTIONS
-    return lines + [f"section lengths: {sections_text(info.standard)}"] * few
-
-
 def _apart(info: ProfileInfo) -> str:
     """The distance of samples, or from which to which it goes."""
     steps = np.diff(info.trace.x)
     least, most = float(steps.min()), float(steps.max())
     even = most - least <= UNEVEN * info.spacing
     return _length(info.spacing) if even else f"{_length(least)} to {_length(most)}"
-
-
-def _rows(info: ProfileInfo) -> list[tuple[str, str, str]]:
-    """Of ROUGHNESS, with what is known of it."""
-
-    def cell(source: object, field: str | None, is_length: bool) -> str:
-        value = getattr(source, field) if source and field else None
-        if value is None:
-            return UNKNOWN
-        if field == "cutoff":
-            return in_mm(value)
-        return _length(value) if is_length else significant(value, 3)
-
-    return [
-        (name, cell(info.roughness, pressed, is_length), cell(info.standard, standard, is_length))
-        for name, pressed, standard, is_length in ROUGHNESS
-    ]
 
 
 def _length(value: float) -> str:

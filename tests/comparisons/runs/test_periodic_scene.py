@@ -108,7 +108,7 @@ def test_a_rough_period_is_the_same_to_both(wave):
 
 
 def test_the_report_knows_no_roller(wave):
-    sheet = dict(row for _, rows in problem_sheet(wave) for row in rows)
+    sheet = dict(row for rows in problem_sheet(wave).values() for row in rows)
     assert sheet["flat body"] == "rigid"
     assert not [text for text in (*sheet, *wave.plan.assumptions) if "roller" in text]
     picture = surface_picture(wave)

@@ -1,9 +1,20 @@
 """The problem in figures: what a reader needs to set it up again by hand."""
 
+from collections.abc import Callable
+from functools import partial
+
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
-from comparisons.common.numbers import as_written, decimal, listed, plain, significant, with_unit
-from comparisons.drawing.blocks import Heading, Names
+from comparisons.common.numbers import (
+    UNKNOWN,
+    as_written,
+    decimal,
+    listed,
+    plain,
+    significant,
+    with_unit,
+)
+from comparisons.drawing.blocks import Heading, Names, TextTable
 from comparisons.drawing.curves import hertz_text
 from comparisons.models.assumptions import support_text, yielding_text
 from comparisons.models.problem import Problem
@@ -19,27 +30,31 @@ LOADS = {  # by kind: in words, and the unit
     "mean_pressure": ("mean pressure", "Pa"),
     "approach": ("approach", "m"),
 }
+STANDARD = "ISO 21920-2"
 COATING, HARDNESS, YIELD = "coating", "hardness of the body", "body yields"  # names of rows
 Rows = list[tuple[str, str]]
 
 
-def problem_sheet(run: Run) -> list[tuple[str, Rows]]:
-    """Headings, each with its rows of a name and a value."""
+def problem_sheet(run: Run) -> dict[str, Rows]:
+    """Rows of a name and a value, by their headings."""
     problem, surface = run.problem, run.problem.surface
-    before = "" if surface.run_in is None else " before running-in"
-    sheet = {
+    return {
         "Geometry": _geometry(problem.scene, surface),
-        f"Roughness{before} (ISO 21920-2)": _standard(surface.info),
         "Materials": _materials(problem),
         "Load": _load(problem),
         "Dimensionless groups": _groups(run),
     }
-    return [(heading, rows) for heading, rows in sheet.items() if rows]
 
 
-def problem_items(run: Run) -> list[Heading | Names]:
-    """The same for the page."""
-    return [item for name, rows in problem_sheet(run) for item in (Heading(name), Names(rows))]
+def problem_items(run: Run) -> list[Heading | Names | TextTable]:
+    """The same for the page, with the surface's roughness."""
+    geometry, *others = [(Heading(name), Names(rows)) for name, rows in problem_sheet(run).items()]
+    info, roughness = run.problem.surface.info, ()
+    if info is not None:
+        before = "" if run.problem.surface.run_in is None else " before running-in"
+        table = TextTable("", ("", "as pressed", f"{STANDARD}{before}"), (*roughness_rows(info),))
+        roughness = Heading("Roughness"), table, Names(roughness_notes(info))
+    return [item for items in (geometry, roughness, *others) for item in items]
 
 
 def facts(run: Run) -> Names:
@@ -88,15 +103,12 @@ def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
 
 
 def _profile(info: ProfileInfo) -> Rows:
-    figures = info.roughness
+    length, spacing = (with_unit(size, "m") for size in (info.length, info.spacing))
     rows = [
         ("profile", info.source),
-        ("samples, length, spacing", f"{info.samples}, {_pair_in_m(info.length, info.spacing)}"),
+        ("samples, length, spacing", f"{info.samples}, {length}, {spacing}"),
         ("form", str(info.form)),
         ("filter", filter_text(info)),
-        ("Ra, Rq as pressed", _pair_in_m(figures.ra, figures.rq)),
-        ("highest peak to deepest valley", with_unit(figures.rt, "m")),
-        ("skewness, kurtosis", f"{decimal(figures.rsk, 2)}, {decimal(figures.rku, 2)}"),
     ]
     if info.place:
         rows.insert(1, ("line of the map", info.place))
@@ -122,24 +134,45 @@ def in_mm(cutoff: float) -> str:
     return f"{plain(1e3 * cutoff)} mm"
 
 
-def _standard(info: ProfileInfo | None) -> Rows:
-    """The standard's parameters of the trace, pressed as it is or not; none of a smooth body."""
-    if info is None:
-        return []
-    standard = info.standard
-    if standard is None:
-        return [("parameters", f"none: {info.standard_why}")]
-    short = "none" if standard.short_cutoff is None else as_written(standard.short_cutoff, "m")
-    width = "no whole element" if standard.rsm is None else with_unit(standard.rsm, "m")
+# Name, of the trace as pressed and by the standard, and how it is written.
+_metres, _places = partial(with_unit, unit="m"), partial(decimal, places=2)
+_three = partial(significant, digits=3)
+ROUGHNESS = (
+    ("Ra", "ra", "ra", _metres),
+    ("Rq", "rq", "rq", _metres),
+    ("Rz", None, "rz", _metres),
+    ("Rt", "rt", "rt", _metres),
+    ("Rsk", "rsk", "rsk", _places),
+    ("Rku", "rku", "rku", _places),
+    ("Rdq, rms slope", "rms_slope", "rdq", _three),
+    ("largest slope", "max_slope", None, _three),
+    ("RSm", None, "rsm", _metres),
+    ("cut-off", None, "cutoff", in_mm),
+    ("short cut-off", None, "short_cutoff", _metres),
+)
+
+
+def roughness_rows(info: ProfileInfo) -> list[tuple[str, str, str]]:
+    """ROUGHNESS, with what is known of it."""
+
+    def cell(source: object, field: str | None, text: Callable[[float], str]) -> str:
+        value = getattr(source, field) if source and field else None
+        return UNKNOWN if value is None else text(value)
+
     return [
-        ("cut-offs λc, λs", f"{in_mm(standard.cutoff)}, {short}"),
-        ("section lengths", sections_text(standard)),
-        ("Ra, Rq", _pair_in_m(standard.ra, standard.rq)),
-        ("Rz, Rt", _pair_in_m(standard.rz, standard.rt)),
-        ("Rsk, Rku", f"{decimal(standard.rsk, 2)}, {decimal(standard.rku, 2)}"),
-        ("Rdq, RSm", f"{significant(standard.rdq, 3)}, {width}"),
-        ("unlike as pressed", standard_text(info)),
+        (name, cell(info.roughness, pressed, text), cell(info.standard, standard, text))
+        for name, pressed, standard, text in ROUGHNESS
     ]
+
+
+def roughness_notes(info: ProfileInfo) -> Rows:
+    """What both columns of the same are of."""
+    off = "" if info.form.kind == "none" else f" without its {info.form.kind}"
+    pressed = ("as pressed", f"the whole trace{off}")
+    if info.standard is None:
+        return [pressed, (STANDARD, f"none: {info.standard_why}")]
+    sections = ("section lengths", sections_text(info.standard))
+    return [pressed, (STANDARD, standard_text(info)), sections]
 
 
 def sections_text(standard: StandardRoughness) -> str:
@@ -158,10 +191,6 @@ def standard_text(info: ProfileInfo) -> str:
         ends += f" and shorter than {as_written(standard.short_cutoff, 'm')}"
     span = with_unit(standard.sections * standard.cutoff, "m")
     return f"{ends} are filtered off, and the middle {span} of {with_unit(info.length, 'm')} count"
-
-
-def _pair_in_m(first: float, second: float) -> str:
-    return f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"
 
 
 def _materials(problem: Problem) -> Rows:

@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
+from operator import attrgetter
 from pathlib import Path
 
 from analytic.contact.problem import KKT_TOLERANCE
@@ -26,7 +27,7 @@ from comparisons.common.numbers import (
 from comparisons.common.provenance import PROJECT
 from comparisons.drawing.blocks import Names, TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
-from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import (
     COMPARED,
     HYPHENATED,
@@ -39,7 +40,7 @@ from comparisons.figures.quantity import (
 )
 from comparisons.figures.uncertainty import COVERAGE
 from comparisons.models.level import ModelRun
-from comparisons.studies import comparison, contact
+from comparisons.studies import checks, comparison, contact
 from comparisons.studies.model_error.sampling import EFFECT as SAMPLING
 from comparisons.studies.study import Run
 
@@ -220,14 +221,11 @@ def _parts(figure: Figure, model: ModelRun) -> tuple[str, ...]:
 
 def check_table(run: Run) -> TextTable:
     """The contact conditions on the finest level, evaluated once more after the solution."""
+    known, rows = run.figures.of(study=checks.NAME), []
+    for same in grouped(known, attrgetter("quantity")):
+        texts = (significant(figure.value, 2) for figure in same)
+        rows.append((checks.QUANTITIES[same[0].quantity].label, *texts))
     models = run.runs.values()
-    rows = []
-    for name, words in WORDING["residuals"].items():
-        values = [
-            max(getattr(level.solution.residuals, name) for level in model.finest.by_friction)
-            for model in models
-        ]
-        rows.append((words, *(significant(value, 2) for value in values)))
     converged = [all(level.converged for level in model.levels) for model in models]
     below = f"all below {significant(KKT_TOLERANCE, 1)} on every level"
     rows.append((below, *("yes" if met else "no" for met in converged)))
