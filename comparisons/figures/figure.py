@@ -9,13 +9,13 @@ reaches across, or where U is not known."""
 
 import math
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
 import numpy as np
 
 from comparisons.common.numbers import percent
-from comparisons.figures.quantity import USUAL, WHOLE
+from comparisons.figures.quantity import WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 
 Item = TypeVar("Item")
@@ -45,21 +45,13 @@ def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
     return AGREE[is_within(difference, uncertainty, -tolerance, tolerance)]
 
 
-def computed_for(tolerance: float) -> float:
-    """The tolerance that a solution is computed for: no looser one than the usual. Nothing is
-    computed more coarsely where less is asked, so that the least tolerance at which a run holds
-    is also one at which it is found to hold."""
-    return min(tolerance, USUAL)
-
-
 def is_decided(difference: float, uncertainty: float, size: float, tolerance: float) -> bool:
     """Whether a difference agrees or differs, whatever effects that change its reference by up to
-    `size` in all do to it; all relative. By the usual tolerance, too, where that is tighter."""
+    `size` in all do to it; all relative."""
     if not size < 1.0:
         return False
-    unsure = uncertainty + (1.0 + abs(difference)) * size / (1.0 - size)
-    both = tolerance, computed_for(tolerance)
-    return all(judge(difference, unsure, one) != "inconclusive" for one in both)
+    moved = (1.0 + abs(difference)) * size / (1.0 - size)
+    return judge(difference, uncertainty + moved, tolerance) != "inconclusive"
 
 
 @dataclass(frozen=True)
@@ -185,19 +177,10 @@ class Figure:
         return alone and self.numerical >= self.not_modelled
 
     @property
-    def at_usual(self) -> "Figure":
-        """The same with the tolerance that it is computed for (`computed_for`)."""
-        bound = computed_for(self.tolerance)
-        return replace(self, bounds=(-bound, bound))
-
-    @property
     def is_fixed(self) -> bool:
         """Whether a finer solution leaves the verdict as it is, wherever in the uncertainty its
-        value comes to lie; at the usual tolerance, too, where that is tighter. Of inconclusive ones
-        only where what is not modelled is by far the larger unknown: else the figure itself is
-        worth a finer solution."""
-        if self.tolerance > USUAL and not self.at_usual.is_fixed:
-            return False
+        value comes to lie. Of inconclusive ones only where what is not modelled is by far the
+        larger unknown: else the figure itself is worth a finer solution."""
         if self.verdict != "inconclusive":
             return True
         least = max(0.0, abs(self.relative) - self.numerical)

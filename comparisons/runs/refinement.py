@@ -11,7 +11,6 @@ import numpy as np
 
 from comparisons.common.progress import Stages, machine_memory
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
-from comparisons.figures.figure import computed_for
 from comparisons.models.forecast import expected_level, with_one_more
 from comparisons.models.level import (
     ExpectedCost,
@@ -267,14 +266,14 @@ class _Levels:
 
 
 def unresolved(solved: Solved) -> dict[str, float]:
-    """Judged quantities whose discretisation uncertainty is above its share of the tolerance, or of
-    the usual one, with the largest of any friction coefficient."""
+    """Judged quantities whose discretisation uncertainty is above its share of the tolerance, with
+    the largest of any friction coefficient."""
     problem, largest = solved.problem, {}
     tolerance = problem.scene.tolerances
     for friction in problem.scene.load.friction:
         sizes = discretisations(solved.runs, problem, friction)
         for name, size in sizes.items():
-            if name in tolerance and size > SHARE_OF_TOLERANCE * computed_for(tolerance[name]):
+            if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:
                 largest[name] = max(size, largest.get(name, 0.0))
     return largest
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from comparisons.common.tasks import LAST
-from comparisons.figures.figure import Figure, computed_for
+from comparisons.figures.figure import Figure
 from comparisons.models.level import ModelRun
 from comparisons.models.plan import LONGER
 from comparisons.models.problem import Problem
@@ -229,7 +229,7 @@ def _settled(rows: tuple[Figure, ...], errors: list[ModelError]) -> bool:
     return all(
         stated[row.quantity, row.friction]
         <= (row.numerical if math.isfinite(row.numerical) else 0.0)
-        + SHARE_OF_TOLERANCE * computed_for(row.tolerance)
+        + SHARE_OF_TOLERANCE * row.tolerance
         for row in rows
         if row.tolerance is not None
     )

@@ -1,13 +1,14 @@
 """Which effects a run computes: those that may move a judged figure by a share of its tolerance.
 
-A tolerance that is looser than the usual one selects as the usual one does (`computed_for`)."""
+A tolerance that is looser than the usual one selects as the usual one does: what it left out would
+count, and might keep from holding what holds at a tighter one."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import isinf
 from types import MappingProxyType
 
-from comparisons.figures.figure import computed_for
+from comparisons.figures.quantity import USUAL
 from comparisons.models.problem import Problem
 from comparisons.scenes.sections import BodySection
 from comparisons.studies.friction.coupling import Coupling
@@ -152,7 +153,7 @@ def select_effects(
 def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
     """Whether an effect moves no judged figure by a share of its tolerance that matters."""
     return all(
-        sizes.get(quantity, 0.0) <= SHARE_OF_TOLERANCE * computed_for(tolerance)
+        sizes.get(quantity, 0.0) <= SHARE_OF_TOLERANCE * min(tolerance, USUAL)
         for quantity, tolerance in tolerances.items()
     )
 
