@@ -97,7 +97,7 @@ def unprivileged():
 
 def test_a_folder_without_permission_is_refused(unprivileged):
     unprivileged.chmod(0o500)
-    with pytest.raises(InputError, match=r"results: cannot be written: .*Permission denied"):
+    with pytest.raises(InputError, match=r"results: cannot be written: .* is read-only"):
         check_writable(unprivileged / "results")
 
 
