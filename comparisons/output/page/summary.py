@@ -3,8 +3,9 @@
 In: the folders of runs. Out: the page; what was made, for the terminal."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
@@ -144,47 +145,29 @@ def summary_page(reports: Sequence[Report], place: Path) -> str:
 
 def cells_of(result: Result) -> dict[str, Cell]:
     """What a row shows of a run."""
-    figures = _groups(result) | _figures(result) | _model_errors(result)
-    return _within(result) | figures | _times(result)
+    return {name: Cell(*said) for name, *said in _cells(result)}
 
 
-def _within(result: Result) -> dict[str, Cell]:
-    if result.within is None:
-        return {}
-    return {"within": Cell(percent_as_written(rounded_up(result.within)), result.within)}
-
-
-def _groups(result: Result) -> dict[str, Cell]:
-    groups = result.figures.of(study=problem.NAME, source=problem.SCENE)
-    return {figure.quantity: Cell(significant(figure.value, 3), figure.value) for figure in groups}
-
-
-def _figures(result: Result) -> dict[str, Cell]:
-    """The finite elements', or the only model's, each the largest of any friction."""
-    *_, known = (result.figures.of(study=contact.NAME, source=name) for name in result.models)
-    cells = {}
+def _cells(result: Result) -> Iterator[tuple[str, str, float] | tuple[str, str, float, str]]:
+    """Name of a column, and the fields of its cell."""
+    if result.within is not None:
+        yield "within", percent_as_written(rounded_up(result.within)), result.within
+    for group in result.figures.of(study=problem.NAME, source=problem.SCENE):
+        yield group.quantity, significant(group.value, 3), group.value
+    # the finite elements', or the only model's, each the largest of any friction
+    known = result.figures.of(study=contact.NAME, source=result.models[-1])
     for name in FIGURES:
-        values = [figure.value for figure in known.of(quantity=name)]
-        if values:
-            cells[name] = Cell(with_unit(max(values), QUANTITIES[name].unit), max(values))
-    return cells
-
-
-def _model_errors(result: Result) -> dict[str, Cell]:
-    """Of what is judged, at the friction coefficient where it is largest."""
-    cells: dict[str, Cell] = {}
-    for errors in grouped(result.model_errors, lambda error: error.quantity):
+        if values := [figure.value for figure in known.of(quantity=name)]:
+            yield name, with_unit(max(values), QUANTITIES[name].unit), max(values)
+    for errors in grouped(result.model_errors, attrgetter("quantity")):
         worst = max(errors, key=lambda error: abs(error.value) + error.numerical)
         note = f"± {percent(worst.numerical)}, tolerance {percent_as_written(worst.tolerance)}"
         text = error_text(worst.value, worst.numerical)
-        cells[f"model_error_{worst.quantity}"] = Cell(text, abs(worst.value), note)
-    return cells
-
-
-def _times(result: Result) -> dict[str, Cell]:
+        yield f"model_error_{worst.quantity}", text, abs(worst.value), note
     stages = {name: result.findings[contact.NAME].table("seconds", name) for name in result.models}
     seconds = {name: sum(table.columns["seconds"].values) for name, table in stages.items()}
-    budget = result.findings.get(MODEL_ERROR, Findings()).table("cost")
-    if budget is not None and budget.columns["seconds"].values[0]:
-        seconds["error_budget"] = budget.columns["seconds"].values[0]
-    return {f"seconds_{n}": Cell(with_unit(time, "s", 3), time) for n, time in seconds.items()}
+    if budget := result.findings.get(MODEL_ERROR, Findings()).table("cost"):
+        [seconds["error_budget"]] = budget.columns["seconds"].values
+    for name, time in seconds.items():
+        if time:
+            yield f"seconds_{name}", with_unit(time, "s", 3), time
