@@ -17,12 +17,7 @@ from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
-from comparisons.models.level import (
-    ExpectedCost,
-    Level,
-    StressResult,
-    under_each,
-)
+from comparisons.models.level import ExpectedCost, Level, StressResult, under_each
 from comparisons.models.problem import Problem, ends_of, half_plane_of, patches_of, pressed_on
 from comparisons.models.window import Window, search_window
 

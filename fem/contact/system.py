@@ -193,11 +193,7 @@ class ReusedFactor:
     accuracy  of a solution: what it leaves of the right side
     opposite  bodies in the factors in place of the compliance C"""
 
-    def __init__(
-        self,
-        accuracy: float,
-        opposite: Sequence[BodyTerms] = (),
-    ) -> None:
+    def __init__(self, accuracy: float, opposite: Sequence[BodyTerms] = ()) -> None:
         self._accuracy, self._opposite = accuracy, opposite
         self._factor: _Bordered | None = None
         self._symmetric = True  # factors, whether or not the systems are

@@ -10,12 +10,7 @@ import numpy as np
 
 from analytic.material import Law, Material
 from comparisons.common.progress import Stages
-from comparisons.models.finite_element.mesh import (
-    Refinement,
-    block_spec,
-    rough_key,
-    rough_mesh,
-)
+from comparisons.models.finite_element.mesh import Refinement, block_spec, rough_key, rough_mesh
 from comparisons.models.finite_element.roller import (
     disc_support,
     is_disc,

@@ -20,11 +20,7 @@ from comparisons.models.finite_element.stress import LoadedBody
 from comparisons.models.level import STRAIN
 from comparisons.models.problem import Problem, mean_height
 from fem.body.elasticity import ElasticBody
-from fem.nonlinear.finite_deformation import (
-    FiniteCompliance,
-    FiniteContact,
-    FiniteDeformation,
-)
+from fem.nonlinear.finite_deformation import FiniteCompliance, FiniteContact, FiniteDeformation
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
 from fem.nonlinear.press_finite import press_plastically_finitely
 from fem.nonlinear.press_plastic import (

@@ -13,14 +13,7 @@ import numpy as np
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.figure import (
-    Figure,
-    Figures,
-    Findings,
-    Series,
-    Statement,
-    columns_of,
-)
+from comparisons.figures.figure import Figure, Figures, Findings, Series, Statement, columns_of
 from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import (
     PRESSURE_PER_RESIDUAL,
@@ -33,10 +26,7 @@ from comparisons.figures.uncertainty import (
 from comparisons.models.level import Level
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
-from comparisons.studies.friction.half_planes import (
-    SlippedLevel,
-    half_plane_slip,
-)
+from comparisons.studies.friction.half_planes import SlippedLevel, half_plane_slip
 from comparisons.studies.friction.outside import outside_figures
 from comparisons.studies.study import CONVERGED, WHY_NOT, Solved
 

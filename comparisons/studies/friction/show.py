@@ -9,13 +9,7 @@ import numpy as np
 
 from comparisons.common.numbers import listed, percent, plain, scale_of, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.blocks import (
-    Block,
-    Names,
-    Note,
-    Pictures,
-    model_table,
-)
+from comparisons.drawing.blocks import Block, Names, Note, Pictures, model_table
 from comparisons.drawing.curves import (
     distinct,
     draw,

@@ -23,12 +23,7 @@ from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.studies.heat.half_space import HEATED, WITHOUT, reach_of
-from comparisons.studies.heat.study import (
-    COMPARED,
-    NAME,
-    OTHER_PRESSURES,
-    QUANTITIES,
-)
+from comparisons.studies.heat.study import COMPARED, NAME, OTHER_PRESSURES, QUANTITIES
 from comparisons.studies.study import Run
 
 if TYPE_CHECKING:

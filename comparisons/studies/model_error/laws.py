@@ -27,12 +27,7 @@ from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.scenes.materials import (
-    RUBBER,
-    kinds_of,
-    measured_solids,
-    scaled_law,
-)
+from comparisons.scenes.materials import RUBBER, kinds_of, measured_solids, scaled_law
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
 from comparisons.studies.model_error.catalogue import ModelVariant

@@ -58,10 +58,7 @@ def quantities_of(level: Level, problem: Problem, friction: float) -> Quantities
         mine[np.argmax(pressure[mine])] if len(mine := np.flatnonzero(cell == k)) else -1
         for k in range(len(problem.asperities) + 1)
     ]
-    figures = {
-        "peak_pressure": pressure[peaks],
-        "contact_length": np.array([level.contact_length]),
-    }
+    figures = {"peak_pressure": pressure[peaks], "contact_length": np.array([level.contact_length])}
     places, stress = {"peak_pressure": x[peaks]}, level.stress(friction)
     if stress is not None:
         for name, key in (("tau1_max", "tau1"), ("txz_max_abs", "txz")):

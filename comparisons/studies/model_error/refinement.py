@@ -23,11 +23,7 @@ from comparisons.studies.model_error.contributions import (
 from comparisons.studies.model_error.laws import LawSolutions, law_variants
 from comparisons.studies.model_error.model_error import ModelError, Solutions
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
-from comparisons.studies.model_error.selection import (
-    FLOW,
-    NONLINEAR,
-    EffectSelection,
-)
+from comparisons.studies.model_error.selection import FLOW, NONLINEAR, EffectSelection
 from comparisons.studies.model_error.solutions import LEAST_LEVELS, SolvedVariants
 
 MOST_LEVELS = 3  # of the effects

@@ -24,14 +24,7 @@ from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.drawing.blocks import Block, Note, TextTable, table_rows
-from comparisons.figures.figure import (
-    Figure,
-    Findings,
-    SampleSpread,
-    Series,
-    Statement,
-    columns_of,
-)
+from comparisons.figures.figure import Figure, Findings, SampleSpread, Series, Statement, columns_of
 from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.approach import load_on_layer

@@ -12,13 +12,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
-from comparisons.figures.convergence import (
-    IRREGULAR,
-    LEVELS,
-    REGULAR,
-    TWO_GRIDS,
-    grid_convergence,
-)
+from comparisons.figures.convergence import IRREGULAR, LEVELS, REGULAR, TWO_GRIDS, grid_convergence
 from comparisons.studies.contact import formal_order
 
 

@@ -35,9 +35,7 @@ def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outco
     assert stated.total == pytest.approx(sum(stated.parts.values()))
 
 
-def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(
-    smooth_outcome: Run,
-):
+def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(smooth_outcome: Run):
     """A twentieth of a pitch for each of the two edges; of many patches they err by chance."""
     level = smooth_outcome.runs["half_plane"].finest
     run = ModelRun("half_plane", (level, level, level))

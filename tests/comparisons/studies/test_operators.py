@@ -18,12 +18,7 @@ from comparisons.models.posing import problem_of
 from comparisons.models.smooth import closed_form
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene
-from comparisons.studies.ladder.operators import (
-    CAP,
-    carried,
-    operator_level,
-    words_of,
-)
+from comparisons.studies.ladder.operators import CAP, carried, operator_level, words_of
 from comparisons.studies.model_error.catalogue import COUPLED
 from comparisons.studies.subsurface.yielding import flow_assessment
 

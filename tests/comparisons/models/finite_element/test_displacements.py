@@ -23,10 +23,7 @@ SCENES = {
     "layer": {"body": {"thickness": 300e-6, "base": "bonded"}},
     "coated": {"coating": {"thickness": 60e-6, "youngs_modulus": 4e11, "poissons_ratio": 0.2}},
     "finite deformation": WAVES
-    | {
-        "finite_element": {"deformation": "finite"},
-        "load": {"hertz_peak_pressure": 4e9},
-    },
+    | {"finite_element": {"deformation": "finite"}, "load": {"hertz_peak_pressure": 4e9}},
     "flowing": {
         "body": {"yield_stress": 0.8e9, "hardening_modulus": 10e9},
         "finite_element": {"plastic": True},

@@ -65,12 +65,7 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
         "body": {**STEEL, "youngs_modulus": 100e9},
         "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
         "profile": COMPUTED,
-        "finite_element": {
-            "deformation": "finite",
-            "coupled": True,
-            "block": 20.0,
-            **shape,
-        },
+        "finite_element": {"deformation": "finite", "coupled": True, "block": 20.0, **shape},
     }
     posed = problem(tables)
     led = finite_elements(posed).solution

@@ -15,9 +15,7 @@ from comparisons.studies.model_error.catalogue import problem_with as problem_wi
 
 SWITCHED = {
     "finite_size": {"body": {"thickness": 1e-3}},
-    "coating": {
-        "coating": {"thickness": 2e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.2},
-    },
+    "coating": {"coating": {"thickness": 2e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.2}},
     "exact_circle": {"finite_element": {"roller_shape": "circle"}},
     "finite_roller": {"finite_element": {"roller_body": "disc"}},
     "normal_tangential_coupling": {

@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 import pytest
+from scenes import judged
 
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.tasks import LATER, PERHAPS, Tasks
-from comparisons.figures.figure import Figure, is_decided
+from comparisons.figures.figure import is_decided
 from comparisons.figures.quantity import MODELS
-from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
 from comparisons.output.headline import validity
@@ -91,16 +91,7 @@ def test_verdicts_are_those_with_all_effects(budgets, name):
     ],
 )
 def test_a_verdict_is_fixed_where_no_finer_solution_turns_it(value, uncertainty, unknown, fixed):
-    error = Figure(
-        study="model_error",
-        quantity="peak_pressure",
-        source="half_plane",
-        value=value,
-        against="whole",
-        uncertainty=Uncertainty({"numerical": uncertainty}),
-        unknown={"coating": unknown},
-        bounds=(-0.02, 0.02),
-    )
+    error = judged("peak_pressure", value, uncertainty, {"coating": unknown})
     assert error.is_fixed == fixed
 
 
