@@ -80,6 +80,7 @@ def test_wheel_holds_every_file_of_the_packages(installed):
         for path in (PROJECT / package).rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
+    assert {Path(package, "py.typed") for package in PACKAGES} <= packed
     moved = {Path("comparisons/commands/crosscheck.py")}
     assert packed == ours - moved | {Path("crosscheck.py")}
 

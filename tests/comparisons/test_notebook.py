@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import PROJECT, STEEL, as_toml
+from scenes import STEEL, as_toml
 
 import comparisons as crosscheck
 from comparisons.campaigns.maps.map import finished_map
@@ -104,7 +104,6 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
         (lambda: crosscheck.compare(["out"]), 'is given "out"; allowed are runs'),
         (lambda: crosscheck.read("nowhere"), "nowhere: holds no result.json"),
         (lambda: crosscheck.map("smooth", "8"), "--points"),
-        (lambda: crosscheck.cost("smoth"), "the nearest scene is smooth"),
         (
             lambda: crosscheck.run("smooth", 5),
             "models: is 5; allowed are half-plane, finite-element",
@@ -251,11 +250,6 @@ def test_examples_run(tmp_path, monkeypatch, pyplot):
     ]
     assert all(result.attempted > 8 and result.failed == 0 for result in results)
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("package", ["analytic", "meshes", "fem", "comparisons"])
-def test_packages_say_that_they_are_typed(package):
-    assert (PROJECT / package / "py.typed").read_bytes() == b""
 
 
 def test_figures_are_a_table_and_records(finished):

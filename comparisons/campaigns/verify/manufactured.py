@@ -32,11 +32,6 @@ MARGIN = 0.1  # of the orders
 LARGEST = {1: (6e-4, 8e-2), 2: (6e-6, 3e-3), 3: (6e-8, 3e-5)}  # of both norms, on the finer mesh
 
 
-def lame(material: Material) -> tuple[float, float]:
-    shear, nu = material.shear_modulus, material.poissons_ratio
-    return shear, 2.0 * shear * nu / (1.0 - 2.0 * nu)
-
-
 def profiles(z: np.ndarray | float) -> np.ndarray:
     """a, b, then their first and second derivatives (3, 2, ...), in the body."""
     a = (1 - z) * np.cos(2 * z)
@@ -59,11 +54,11 @@ class Exact:
     def _parts(self, x, z):
         """mu, lambda, the derivatives of a and b, sine and cosine."""
         (a, b), (a_z, b_z), second = profiles(z)
-        shear, bulk = lame(self.material)
+        bulk, shear = self.material.lame_constants
         if self.coat is not None:
             coated = z < self.thickness
             (ai, bi), (ai_z, bi_z), _ = profiles(self.thickness)
-            coat_shear, coat_bulk = lame(self.coat)
+            coat_bulk, coat_shear = self.coat.lame_constants
             twist = shear / coat_shear * (ai_z - K * bi) + K * bi - ai_z
             down = (bulk - coat_bulk) * K * ai + (bulk + 2 * shear) * bi_z
             down = down / (coat_bulk + 2 * coat_shear) - bi_z

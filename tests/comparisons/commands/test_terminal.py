@@ -69,16 +69,11 @@ def coloured(said: str) -> bool:
     return any(code in ("38", "48") or re.fullmatch("[349][0-7]", code) for code in codes)
 
 
-def test_a_terminal_gets_colours_and_progress(folder):
-    said = in_terminal(folder)
-    assert coloured(said)
+@pytest.mark.parametrize("more", [{}, {"NO_COLOR": "1"}])
+def test_a_terminal_gets_progress_and_colours_unless_it_wants_none(folder, more):
+    said = in_terminal(folder, **more)
+    assert coloured(said) != bool(more)
     assert "half-plane: contact, level 1" in said and "peak pressure" in said
-
-
-def test_no_color_is_respected(folder):
-    said = in_terminal(folder, NO_COLOR="1")
-    assert not coloured(said)
-    assert "peak pressure" in said
 
 
 @pytest.mark.parametrize("more", [{}, {"FORCE_COLOR": "1"}])

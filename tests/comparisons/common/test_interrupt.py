@@ -58,8 +58,8 @@ mumps.factorised = counted
 # A mesher that is busy for ten minutes, and ends with its parent as the real one does.
 MESHER = """
 from meshes import build
-asleep = "import os, time; from meshes.gmsh_worker import die_with_parent; die_with_parent(); "
-asleep += "open('pid', 'w').write(str(os.getpid())); open('there', 'w'); time.sleep(600)"
+asleep = "import time; from meshes.gmsh_worker import die_with_parent; die_with_parent(); "
+asleep += "open('there', 'w'); time.sleep(600)"
 build.WORKER = (sys.executable, "-c", asleep)
 """
 WAITS = """
@@ -110,22 +110,6 @@ def reached(folder: Path, process: subprocess.Popen) -> None:
         time.sleep(0.02)
 
 
-def ends(pid: str) -> bool:
-    """Whether a process that was killed goes, which takes a busy machine a moment."""
-    end = time.monotonic() + PATIENT
-    while is_running(pid) and time.monotonic() < end:
-        time.sleep(0.01)
-    return not is_running(pid)
-
-
-def is_running(pid: str) -> bool:
-    """A process that has ended may wait for an init that never asks for it."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
-
-
 def count(folder: Path) -> int:
     """Factorisations of a run to its end."""
     process = started(folder, COUNTED)
@@ -167,7 +151,7 @@ def test_in_the_middle_of_factorisations_side_by_side(folder):
 
 
 @pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
-def test_in_the_middle_of_meshing(folder, beside):
+def test_in_the_middle_of_meshing(folder, beside, session, until):
     process = started(folder, beside + MESHER)
     reached(folder, process)
     os.kill(process.pid, signal.SIGINT)
@@ -175,7 +159,7 @@ def test_in_the_middle_of_meshing(folder, beside):
     assert process.returncode == ExitStatus.INTERRUPTED
     assert err.startswith("crosscheck: interrupted; finished levels are kept")
     assert err.count("\n") == 1
-    assert ends((folder / "pid").read_text())
+    assert until(lambda: not session(process.pid))
 
 
 def test_while_the_report_is_drawn(folder, monkeypatch, capsys):

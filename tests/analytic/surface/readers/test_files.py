@@ -92,15 +92,6 @@ def test_lost_heights_are_bridged_and_ends_left_out():
     assert (trace.bridged, trace.trimmed) == (1, 2)
 
 
-def test_too_little_left_is_refused():
-    scan = opened([[None, 1.0, 2.0, 3.0, None]])
-    assert "has 3 samples but for dropouts at its ends; a profile needs at least 4" in refusal(
-        scan, dropouts="bridge"
-    )
-    scan = opened([[None] * 5])
-    assert "holds nothing but dropouts" in refusal(scan, dropouts="bridge")
-
-
 def test_an_instruments_file_in_its_own_units(tmp_path, monkeypatch):
     knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
     trace = read_measured(text(tmp_path, b"\x00\x01\x02"))

@@ -70,7 +70,6 @@ def test_a_finished_map_is_shown_and_not_solved(pressed, tmp_path, capsys, monke
     [
         (("curvature-thickness", "--quantity", "mean_gap"), "--quantity: mean_gap is not on this"),
         (("modulus-coating", "--mark", "smooth"), "smooth has no coating_modulus_ratio to be mark"),
-        (("curvature-thickness", "--mark", "nowhere"), "nowhere: is neither a file nor a scene"),
         (("slope-wavelength", "--mark", "smooth"), "smooth is smooth, and the map is of a rough"),
         (("smooth", "--mark", "periodic"), "periodic is rough, and the map is of a smooth surface"),
         (

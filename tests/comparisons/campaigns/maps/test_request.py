@@ -17,7 +17,6 @@ class TestRequest:
         [
             ({"x": "a_over_width", "y": "a_over_width"}, "--y: is a_over_width, as --x"),
             ({"quantity": "peak"}, "--quantity: there is no peak"),
-            ({"scene": "nothing"}, "nothing: is neither a file nor a scene"),
         ],
     )
     def test_wrong_requests(self, arguments, what):

@@ -280,7 +280,6 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
         ("load=1:2:0", "how many values, from 2"),
         ("position=1", "allowed are from 2 to"),
         ("amplitude=3", "the nearest is profile.amplitude"),
-        ("load=1 m,2 m", "a pressure"),
         ("load.position=0:1:100000", "from 2 to 10000"),
         ([], "is missing"),
     ],
