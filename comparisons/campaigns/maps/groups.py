@@ -11,7 +11,6 @@ else stays as in the scene, but for what follows from its lengths: waves that ar
 their slopes. Groups that change a are set before those that are measured by it.
 """
 
-import difflib
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
@@ -22,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from analytic.surface.roughness import shortest_wavelength
-from comparisons.common.errors import InputError, SceneError
+from comparisons.common.errors import InputError, SceneError, nearest
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.scenes.fields import plain
@@ -281,9 +280,8 @@ def axis_of(text: str, count: int, option: str) -> Axis:
         raise InputError(f"{option}: is {text!r}; allowed is GROUP or GROUP=FROM:TO")
     name = parts[1].replace("-", "_")
     if name not in GROUPS:
-        near = difflib.get_close_matches(name, GROUPS, n=1, cutoff=0.0)[0]
         raise InputError(
-            f"{option}: there is no group {parts[1]}; the nearest is {near}; "
+            f"{option}: there is no group {parts[1]}; the nearest is {nearest(name, GROUPS)}; "
             f"allowed are {', '.join(GROUPS)}"
         )
     low, high = GROUPS[name].span

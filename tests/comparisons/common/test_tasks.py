@@ -3,8 +3,6 @@
 import itertools
 import os
 import signal
-import subprocess
-import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -12,7 +10,6 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT
 
 from comparisons.common import tasks as module
 from comparisons.common.cache import Cache
@@ -249,50 +246,6 @@ class TestEnds:
         assert time.monotonic() - begin < 100.0
         with pytest.raises(ProcessLookupError):
             os.kill(process, 0)
-
-
-FORKED = """
-import os, pathlib, sys, time
-from comparisons.common import tasks as module
-module.WORTH_A_FORK = 0.0
-module.cores = lambda: 2
-loaded = os.getpid()
-
-def stuck(here, name):
-    pathlib.Path(name).write_text(f"{os.getpid()} {loaded}")
-    sum(range(10**12))  # hears no signal
-
-with module.tasks_here() as tasks:
-    tasks.add("a", stuck, "a")
-    tasks.add("b", stuck, "b")
-    try:
-        tasks.result("a")
-    except KeyboardInterrupt:
-        pass
-print("ended")
-"""
-
-
-@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
-def test_forked_ones_end_with_this_one(tmp_path, sent):
-    environment = os.environ | {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
-    process = subprocess.Popen(
-        [sys.executable, "-c", FORKED],
-        cwd=tmp_path,
-        env=environment,
-        stdout=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    there, end = [tmp_path / "a", tmp_path / "b"], time.monotonic() + 60.0
-    while not all(path.exists() and path.read_text() for path in there):
-        assert process.poll() is None and time.monotonic() < end
-        time.sleep(0.02)
-    loaded = {int(path.read_text().split()[1]) for path in there}
-    assert loaded == {process.pid}  # not imported anew
-    process.send_signal(sent)
-    out, _ = process.communicate(timeout=60.0)  # returns when none of them holds the output
-    assert out == ("ended\n" if sent == signal.SIGINT else "")
 
 
 class TestExecutor:

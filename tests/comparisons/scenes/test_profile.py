@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import MEASURED, SMOOTH, changed, resolved
+from scenes import SMOOTH, changed, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
@@ -15,7 +15,6 @@ from comparisons.common.errors import SceneError
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SINUSOID_REACH, SINUSOID_WAVES, SceneSurface, surface_of
 
-REAL = MEASURED / "real_stylus_dektak.csv"
 BARE = changed(SMOOTH, roller={"radius": 8e-3}, load={"per_length": 1e6})
 X = np.arange(201.0)  # um
 WAVES = 0.3 * np.cos(2.0 * np.pi * X / 20.0)  # um, whole waves
@@ -122,14 +121,6 @@ def test_paths_start_from_the_scene(tmp_path, monkeypatch):
         "[profile]\nfile = 'trace.csv'\nx_unit = 'um'\nz_unit = 'um'\n"
     )
     assert surface_of(Scene.read("scenes/mine.toml")).info.samples == 201
-
-
-def test_a_measured_trace():
-    if not REAL.exists():
-        pytest.skip(f"{REAL.name} is not beside the checkout")
-    surface = with_profile(REAL.parent, file=REAL.name, x_unit="um", z_unit="um")
-    assert surface.info.samples == 9600
-    assert surface.info.roughness.rq == pytest.approx(0.0942e-6, rel=1e-2)
 
 
 @pytest.mark.parametrize(

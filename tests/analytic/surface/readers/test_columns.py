@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenes import PROFILES
 from text_profiles import read_profile
 
 from analytic.surface.readers.source import ProfileError
@@ -78,14 +77,6 @@ def test_heights_are_scaled_but_not_moved(tmp_path):
     path = write(tmp_path, b"1 105\n2 107\n3 106\n4 109\n")
     read = read_profile(path, x_scale=1e-6, height_scale=1e-9)
     np.testing.assert_allclose(read.profile.height, [1.05e-7, 1.07e-7, 1.06e-7, 1.09e-7])
-
-
-@pytest.mark.parametrize("name", ["ground_unrun", "ground_run_in", "ground_polished"])
-def test_profiles_of_the_project_are_read(name):
-    read = read_profile(PROFILES / f"{name}.csv", x_scale=1e-6, height_scale=1e-6)
-    assert len(read.profile.x) == 2237
-    assert read.profile.length == pytest.approx(2236e-6, rel=1e-12)
-    assert abs(np.mean(read.profile.height)) < 1e-11
 
 
 def test_a_long_file_reads_the_same_fast_and_row_by_row(tmp_path):
