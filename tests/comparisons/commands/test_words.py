@@ -85,16 +85,6 @@ def test_what_no_command_can_do_is_refused(folder, capsys, arguments, said):
     assert [path.name for path in folder.iterdir()] == ["mine.toml"]
 
 
-def test_init_says_what_it_has_assumed(folder, capsys):
-    rows = (f"{0.5 * k},{0.2 * math.sin(0.1 * k)}\n" for k in range(2000))
-    (folder / "trace.csv").write_text("x [um],z [um]\n" + "".join(rows))
-    assert main(["init", "trace.csv", "--youngs-modulus", "200 GPa"]) == 0
-    out = capsys.readouterr().out
-    assert "assumed as examples, put in yours: roller.radius = " in out
-    assert "load.hertz_peak_pressure = 1 GPa" in out and "youngs_modulus = " not in out
-    assert "law of elasticity" in out
-
-
 def test_units_come_from_a_header_that_names_them(folder, capsys):
     rows = "".join(f"{0.5 * k},{0.2 * math.sin(0.1 * k)}\n" for k in range(2000))
     (folder / "mine.toml").write_text(SCENE + 'profile = {file = "trace.csv"}\n')

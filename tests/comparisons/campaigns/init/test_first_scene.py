@@ -240,10 +240,13 @@ def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
     assert made.surface.info.roughness.rq == pytest.approx(1e-7 / np.sqrt(2.0), rel=0.05)
 
 
-def test_the_scene_runs_unchanged(folder, monkeypatch):
+def test_the_scene_says_its_examples_and_runs_unchanged(folder, monkeypatch, capsys):
     monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, 0.05 * Z))
     assert main(["init", "trace.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "put in yours: roller.radius = 10 mm, roller.material = rail steel, body." in said
+    assert "load.hertz_peak_pressure = 1 GPa" in said and "finite deformation" in said
     assert main(["run", "trace.toml", "--models", "half-plane", "--out", "out"]) == 0
     scene = json.loads((folder / "out/result.json").read_text())["scene"]
     assert (scene["title"], scene["roller"]["radius"]) == ("trace under a smooth roller", 0.01)
@@ -349,5 +352,7 @@ def test_a_terminal_asks_for_what_no_trace_shows(folder, monkeypatch, capsys):
     assert scene.load.kind == "hertz_peak_pressure"
     known = ["--radius", "1 mm", "--peak-pressure", "1 GPa", "--youngs-modulus", "70 GPa"]
     for options in (["--yes"], ["--json"], known):
+        capsys.readouterr()
         assert main(["init", "trace.csv", "--force", *options]) == 0
+    assert "examples" not in capsys.readouterr().out
     assert Scene.read("trace.toml").roller.radius == pytest.approx(1e-3)
