@@ -47,6 +47,21 @@ def changed(tables: dict, **sections: dict) -> dict:
     return tables | {name: tables.get(name, {}) | fields for name, fields in sections.items()}
 
 
+def exact_layer(case: dict, nu: float) -> tuple[dict, dict[str, float]]:
+    """The scene of a row of `analytic.exact.layers.TABLE`, as tables, and its exact peak pressure
+    [Pa] and contact length [m]."""
+    radius, thickness, modulus = 0.1, 1e-3, 200e9 / (1.0 - nu**2)
+    load, peak = float(case["P_R_over_Eprime_t2"]), float(case["p0_R_over_Eprime_t"])
+    body = {"youngs_modulus": 200e9, "poissons_ratio": nu, "base": case["base"]}
+    tables = {
+        "roller": {"radius": radius, "rigid": True},
+        "body": body | {"thickness": thickness},
+        "load": {"per_length": load * modulus * thickness**2 / radius},
+    }
+    length = 2.0 * float(case["a_over_t"]) * thickness
+    return tables, {"peak_pressure": peak * modulus * thickness / radius, "contact_length": length}
+
+
 def as_toml(tables: dict) -> str:
     """The file of such tables, their title first."""
     lines = [f"title = {json.dumps(tables['title'])}"]

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 import pytest
-from scenes import STEEL, half_plane_at, problem
+from scenes import STEEL, exact_layer, half_plane_at, problem
 
 from analytic.exact.layers import TABLE
 from comparisons.campaigns.maps.groups import scene_with
@@ -23,7 +23,6 @@ from comparisons.studies.model_error.catalogue import COUPLED
 from comparisons.studies.subsurface.yielding import flow_assessment
 
 CASES = json.loads(TABLE.read_text())["cases"]
-RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
 LOAD = {"per_length": 1e6, "friction": 0.3}
 BODIES = {"roller": {"radius": 8e-3, **STEEL}, "body": dict(STEEL), "load": LOAD}
 FIELD = {"stress": {"points": [60, 20]}}
@@ -33,22 +32,17 @@ FIELD = {"stress": {"points": [60, 20]}}
 def test_exact_layers(case):
     """The coarsest level and the third: the peak of second order, and pressures on the way."""
     nu = 0.3 if case["nu"] == "any" else float(case["nu"])
-    modulus = YOUNGS_MODULUS / (1.0 - nu**2)
-    load = float(case["P_R_over_Eprime_t2"]) * modulus * THICKNESS**2 / RADIUS
-    body = {"youngs_modulus": YOUNGS_MODULUS, "poissons_ratio": nu, "base": case["base"]}
-    body["thickness"] = THICKNESS
-    roller = {"radius": RADIUS, "rigid": True}
-    posed = problem({"roller": roller, "body": body, "load": {"per_length": load}})
-    exact = float(case["p0_R_over_Eprime_t"]) * modulus * THICKNESS / RADIUS
-    half_width = float(case["a_over_t"]) * THICKNESS
+    tables, known = exact_layer(case, nu)
+    posed = problem(tables)
+    exact, half_width = known["peak_pressure"], 0.5 * known["contact_length"]
     for pitch, close in ((posed.pitches[0], 6e-4), (posed.pitches[2], 4e-5)):
         level = operator_level(posed, frozenset({"finite_size"}), (0.0,), pitch, None)
         assert level.solution.converged
         assert level.solution.pressure.max() == pytest.approx(exact, rel=close)
         assert abs(0.5 * level.contact_length - half_width) < 0.1 * pitch
-        places, known = np.array([(float(x), float(p)) for x, p in case["profile"].items()]).T
+        places, profile = np.array([(float(x), float(p)) for x, p in case["profile"].items()]).T
         pressure = np.interp(places * half_width, level.grid.x, level.solution.pressure)
-        assert pressure / exact == pytest.approx(known, abs=8.0 * close)
+        assert pressure / exact == pytest.approx(profile, abs=8.0 * close)
 
 
 @pytest.mark.parametrize("mean_pressure", [1e8, 3e8, 6e8], ids=["a third", "two thirds", "closed"])

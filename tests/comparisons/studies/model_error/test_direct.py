@@ -9,6 +9,7 @@ import pytest
 from scenes import (
     KNOWN_RUBBER,
     KNOWN_STEEL,
+    changed,
     finite_elements,
     half_plane_at,
     problem,
@@ -23,65 +24,44 @@ from comparisons.studies.model_error.contributions import split_variants
 from comparisons.studies.model_error.model_error import ModelError
 
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
-ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": KNOWN_RUBBER}
-ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": KNOWN_STEEL}
-LIKE_STEEL = {"roller": {"radius": 5e-3, **KNOWN_STEEL}, "body": KNOWN_STEEL}
-WAVES = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6}
-STRESS = {"depth": 0.5, "half_range": 1.2, "points": [40, 20]}
-CIRCLE = {"roller_shape": "circle"}
-STRAINED = CIRCLE | {"deformation": "finite"}
+RUBBER = {
+    "roller": {"radius": 20e-3, "rigid": True}, "body": KNOWN_RUBBER, "load": {"per_length": 1e3},
+}  # fmt: skip
+WAVY = {
+    "profile": {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6},
+    "stress": {"depth": 0.5, "half_range": 1.2, "points": [40, 20]},
+}
+STRAINED = {"roller_shape": "circle", "deformation": "finite"}
+DISC, COUPLED = {"roller_body": "disc"}, {"coupled": True}
 QUANTITIES = ("peak_pressure", "contact_length")
 STRESSES = ("tau1_max", "txz_max_abs")
 
+
+def steel(radius: float, peak_pressure: float, friction: float = 0.0, **roller: object) -> dict:
+    """A roller on steel, rigid unless its material is given."""
+    load = {"hertz_peak_pressure": peak_pressure, "friction": friction}
+    roller = {"radius": radius} | (roller or {"rigid": True})
+    return {"roller": roller, "body": KNOWN_STEEL, "load": load}
+
+
 # What both scenes have, and the switches that one of them has beside it.
 SCENES = {
-    "rubber": (ON_RUBBER | {"load": {"per_length": 1e3}}, STRAINED),
-    "rubber, friction": (
-        ON_RUBBER | {"load": {"per_length": 1e3, "friction": 0.3}},
-        STRAINED | {"coupled": True},
-    ),
-    "rubber layer": (
-        ON_RUBBER | {"body": KNOWN_RUBBER | {"thickness": 5e-3}, "load": {"per_length": 1e3}},
-        STRAINED,
-    ),
+    "rubber": (RUBBER, STRAINED),
+    "rubber, friction": (changed(RUBBER, load={"friction": 0.3}), STRAINED | COUPLED),
+    "rubber layer": (changed(RUBBER, body={"thickness": 5e-3}), STRAINED),
     "steel block, friction": (
-        ON_STEEL
-        | {
-            "body": KNOWN_STEEL | {"thickness": 2e-3, "width": 4e-3},
-            "load": {"hertz_peak_pressure": 2e9, "friction": 0.2},
-        },
-        STRAINED | {"coupled": True},
+        changed(steel(10e-3, 2e9, 0.2), body={"thickness": 2e-3, "width": 4e-3}),
+        STRAINED | COUPLED,
     ),
-    "waves on steel, friction": (
-        ON_STEEL
-        | {
-            "profile": WAVES,
-            "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
-            "stress": STRESS,
-        },
-        STRAINED | {"coupled": True},
-    ),
-    "steel on steel": (
-        LIKE_STEEL | {"load": {"hertz_peak_pressure": 3e9}},
-        STRAINED | {"roller_body": "disc"},
-    ),
+    "waves on steel, friction": (steel(10e-3, 1.5e9, 0.2) | WAVY, STRAINED | COUPLED),
+    "steel on steel": (steel(5e-3, 3e9, **KNOWN_STEEL), STRAINED | DISC),
     "waves, steel on steel, friction": (
-        LIKE_STEEL
-        | {
-            "profile": WAVES,
-            "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.1},
-            "stress": STRESS,
-        },
-        STRAINED | {"coupled": True, "roller_body": "disc"},
+        steel(5e-3, 1.5e9, 0.1, **KNOWN_STEEL) | WAVY,
+        STRAINED | COUPLED | DISC,
     ),
     "coated steel, friction": (
-        {
-            "roller": {"radius": 5e-3, "rigid": True},
-            "body": KNOWN_STEEL,
-            "coating": COATING,
-            "load": {"hertz_peak_pressure": 2.5e9, "friction": 0.2},
-        },
-        STRAINED | {"coupled": True},
+        steel(5e-3, 2.5e9, 0.2) | {"coating": COATING},
+        STRAINED | COUPLED,
     ),
 }
 
