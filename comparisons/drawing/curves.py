@@ -64,6 +64,16 @@ def legend_above(panel: "Axes", columns: int) -> None:
     panel.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, borderaxespad=0.1)
 
 
+def joint_legend(drawn: "Figure", columns: int = 0, **look: object) -> None:
+    """The names of all panels once, above them; in one row without `columns`."""
+    entries: dict[str, object] = {}
+    for axes in drawn.axes:
+        handles, labels = axes.get_legend_handles_labels()
+        entries = dict(zip(labels, handles, strict=True)) | entries
+    ncols = columns or len(entries)
+    drawn.legend(entries.values(), entries, loc="upper left", ncols=ncols, **look)
+
+
 Curve = tuple[np.ndarray, np.ndarray]  # x ascending, y
 
 

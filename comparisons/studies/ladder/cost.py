@@ -24,6 +24,7 @@ from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Box, Note, Pictures, TextTable
+from comparisons.drawing.curves import joint_legend
 from comparisons.figures.figure import Column, Figures, Findings, Series, Statement, grouped
 from comparisons.figures.quantity import LABELS, QUANTITIES, WHOLE, label
 from comparisons.models.forecast import expected_level
@@ -314,11 +315,7 @@ def picture(run: Run) -> style.Picture | None:
     panels[0].set_ylim(0.3 * min(shown), 3.0 * max(shown))
     panels[0].set_ylabel("error / reference")
     drawn.subplots_adjust(left=0.65 / drawn.get_figwidth(), right=0.985, bottom=0.15, top=0.76)
-    entries: dict[str, object] = {}
-    for axes in panels:
-        handles, labels = axes.get_legend_handles_labels()
-        entries |= dict(zip(labels, handles, strict=True))
-    drawn.legend(entries.values(), entries.keys(), loc="upper left", ncols=2 * len(names) - 1)
+    joint_legend(drawn, 2 * len(names) - 1)
     said = "; ".join(notes(findings))
     return style.picture(drawn, f"Error against time of every solved level. {said}.", NOTE)
 

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import Scale, percent, percent_as_written, plain, significant
+from comparisons.common.numbers import Scale, percent_as_written, plain, significant
 from comparisons.drawing import style
 from comparisons.drawing.field import ColourScale, FieldPanel, colour_bar, draw_field
 from comparisons.figures.figure import Figure
-from comparisons.figures.quantity import LABELS, error_text, label
+from comparisons.figures.quantity import LABELS, label
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
 from comparisons.studies.contact import draw_pressures, seen
 from comparisons.studies.study import Run
@@ -152,9 +152,7 @@ def judged_picture(run: Run) -> style.Picture | None:
 
 
 def _said(error: Figure) -> str:
-    unsure = percent(error.numerical)
-    size = error_text(error.value, error.numerical)
-    return f"{size} ± {unsure}, tolerance {percent_as_written(error.tolerance)}, {error.verdict}"
+    return f"{error.words()}, {error.verdict} at {percent_as_written(error.tolerance)}"
 
 
 def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
@@ -175,5 +173,4 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
     # next to it: what a narrow screen shows first
     beside = {"xycoords": named, "xytext": (8, 0), "textcoords": "offset points"}
     look = {"color": WORDS[error.verdict], "weight": "bold", "va": "bottom"}
-    words = f"{error.words()}, {error.verdict} at {percent_as_written(error.tolerance)}"
-    axes.annotate(words, (1.0, 0.0), **beside, **look)
+    axes.annotate(_said(error), (1.0, 0.0), **beside, **look)

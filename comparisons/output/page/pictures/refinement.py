@@ -8,7 +8,7 @@ import numpy as np
 
 from comparisons.common.numbers import plain
 from comparisons.drawing import style
-from comparisons.drawing.curves import columns
+from comparisons.drawing.curves import columns, joint_legend
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
 from comparisons.output.page.tables.verification import DIFFERENCE, JudgedSequence, judged_sequences
@@ -57,12 +57,7 @@ def _drawn(panels: list[list[JudgedSequence]]) -> "Figure":
             axes.set_ylabel("error [%]")
         if number + abreast >= len(panels):
             axes.set_xlabel("pressure elements [µm]")
-    entries = {}
-    for axes in drawn.axes:
-        handles, labels = axes.get_legend_handles_labels()
-        entries = dict(zip(labels, handles, strict=True)) | entries
-    room = {"ncols": len(entries), "columnspacing": 1.6, "borderaxespad": 0.2}
-    drawn.legend(entries.values(), entries, loc="upper left", **room)
+    joint_legend(drawn, columnspacing=1.6, borderaxespad=0.2)
     return drawn
 
 
