@@ -102,8 +102,6 @@ def encoded(value: object, arrays: dict[str, np.ndarray]) -> object:
         return {"array": name}
     if isinstance(value, tuple):
         return {"tuple": [encoded(item, arrays) for item in value]}
-    if isinstance(value, frozenset):
-        return {"set": sorted(value)}
     if isinstance(value, dict):
         return {"dict": [[key, encoded(item, arrays)] for key, item in value.items()]}
     if isinstance(value, np.generic):
@@ -119,8 +117,6 @@ def decoded(code: object, arrays: dict[str, np.ndarray], kinds: dict[str, type])
         return arrays[code["array"]]
     if "tuple" in code:
         return tuple(decoded(item, arrays, kinds) for item in code["tuple"])
-    if "set" in code:
-        return frozenset(code["set"])
     if "dict" in code:
         return {key: decoded(item, arrays, kinds) for key, item in code["dict"]}
     parts = {name: decoded(item, arrays, kinds) for name, item in code["fields"].items()}

@@ -65,7 +65,7 @@ def test_report_shows_the_figures_that_are_judged_and_the_verdict(written, wavy_
     assert shown.startswith(content["scene"]["title"])
     assert content["verdict"].upper() in shown and content["why"][:40] in shown
     for judged in wavy_outcome.judged:
-        assert judged.quantity in shown and judged.verdict in shown
+        assert judged.quantity.replace("_", " ") in shown and judged.verdict in shown
 
 
 def spoil(path: Path) -> None:
