@@ -3,7 +3,6 @@
 import json
 import pickle
 import re
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
@@ -44,7 +43,7 @@ def quick(tmp_path_factory) -> tuple[Verification, Path]:
     )
     contacts = (*operator_contacts()[:12], *rough_operator_contacts()[:2])
     cases = [*scene_cases(scenes), *operator_cases(contacts)]
-    cases += [*manufactured_cases([("flat", 2)]), *independent_cases(["smooth"])]
+    cases += [*manufactured_cases([("flat", 2)]), *independent_cases()]
     junit = folder / "ci" / "verify.xml"
     return verify(folder / "out", junit, cases=cases, fewest=(60, 10)), folder
 
@@ -110,14 +109,6 @@ class TestWhole:
         verified = verify(tmp_path / "out", cases=half_plane_cases(), fewest=(0, 0))
         assert not verified.holds
         assert any("share covered: 0." in line for line in verified.faults)
-
-    def test_a_case_that_cannot_be_solved_is_a_fault_and_not_the_end(self, tmp_path):
-        scene = half_plane_scenes()[0]
-        impossible = replace(scene, tables=scene.tables | {"resolution": {"pitch": 1.0}})
-        cases = scene_cases((impossible, scene))
-        verified = verify(tmp_path, cases=cases, fewest=(0, 0))
-        assert verified.rows[0].error is not None and len(verified.pairs) == len(scene.exact)
-        assert verified.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 
 def test_the_command_prints_the_coverage_and_ends_with_the_verdict(monkeypatch, capsys, tmp_path):
