@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import takewhile
 from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
@@ -69,6 +70,14 @@ def as_toml(tables: dict) -> str:
         if isinstance(table, dict):
             lines += [f"[{name}]", *(f"{field} = {json.dumps(v)}" for field, v in table.items())]
     return "\n".join(lines)
+
+
+def page_rows(page: str, heading: str) -> list[list[str]]:
+    """Cells of the table on a page of documentation whose first column is called `heading`."""
+    lines = page.splitlines()
+    start = next(n for n, line in enumerate(lines) if line.startswith(f"| {heading} |")) + 2
+    table = takewhile(lambda line: line.startswith("|"), lines[start:])
+    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table]
 
 
 def resolved(tables: dict, name: str = "made", folder: Path = Path(".")) -> "Scene":

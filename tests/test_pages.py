@@ -7,6 +7,7 @@ from typing import get_args
 
 import pytest
 from pydantic.fields import FieldInfo
+from scenes import page_rows
 
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
 from comparisons.figures.figure import Figure
@@ -25,18 +26,6 @@ PROJECT = Path(__file__).resolve().parents[1]
 PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
 TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
-
-
-def rows(page: str, heading: str) -> list[list[str]]:
-    """Cells of the table whose first column is called `heading`."""
-    lines = TEXT[page].splitlines()
-    start = next(n for n, line in enumerate(lines) if line.startswith(f"| {heading} |"))
-    cells = []
-    for line in lines[start + 2 :]:
-        if not line.startswith("|"):
-            break
-        cells.append([cell.strip() for cell in line.strip("|").split(" | ")])
-    return cells
 
 
 def every_row(page: str, heading: str) -> list[list[str]]:
@@ -116,7 +105,7 @@ def test_commands_are_the_programs(name):
 class TestVerdict:
     def test_every_effect_has_its_row(self):
         labels = [effect.label for effect in EFFECTS.values()]
-        assert [name for name, *_ in rows("verdict", "effect")] == labels
+        assert [name for name, *_ in page_rows(TEXT["verdict"], "effect")] == labels
 
     def test_numbers_are_those_of_the_program(self):
         text = TEXT["verdict"]
@@ -131,7 +120,7 @@ class TestVerdict:
         assert pytest.approx(1 / 3) == SHARE_OF_EFFECTS
 
     def test_verdicts_are_those_that_a_run_gives(self):
-        assert [word.strip("`").lower() for word, _ in rows("verdict", "verdict")] == [
+        assert [word.strip("`").lower() for word, _ in page_rows(TEXT["verdict"], "verdict")] == [
             "holds",
             "fails",
             "inconclusive",
@@ -151,7 +140,7 @@ class TestReference:
                 assert default == [shown(file_fields(model)[name])]
 
     def test_kinds_of_surfaces_have_the_fields_that_are_listed(self):
-        listed = {kind.strip('`"'): rest for kind, *rest in rows("reference", "`kind`")}
+        listed = {kind.strip('`"'): rest for kind, *rest in page_rows(TEXT["reference"], "`kind`")}
         assert listed.keys() == VARIETIES.keys() - {"file"}
         for kind, cells in listed.items():
             names = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
@@ -160,7 +149,7 @@ class TestReference:
     def test_quantities_are_those_of_the_studies(self):
         """Those that several studies share are named at the first."""
         listed, study = {}, ""
-        for first, quantities, _ in rows("reference", "study"):
+        for first, quantities, _ in page_rows(TEXT["reference"], "study"):
             study = first.strip("`") or study
             listed.setdefault(study, set()).update(re.findall(r"`(\w+)`", quantities))
         assert list(listed) == [study.name for study in STUDIES]
@@ -173,11 +162,11 @@ class TestReference:
     def test_entries_of_the_result_file_are_those_of_a_result(self):
         """A half-plane's run has most fields; the others are those of a model error."""
         result = run("smooth", models="half-plane").result
-        entries = [name for cell, _ in rows("reference", "entry") for name in NAMES(cell)]
+        page = TEXT["reference"]
+        entries = [name for cell, _ in page_rows(page, "entry") for name in NAMES(cell)]
         assert sorted(entries) == sorted(result)
-        fields = [
-            name for cell, _ in rows("reference", "field of a figure") for name in NAMES(cell)
-        ]
+        of_figures = page_rows(page, "field of a figure")
+        fields = [name for cell, _ in of_figures for name in NAMES(cell)]
         assert {name for figure in result["figures"] for name in figure} <= set(fields)
         assert set(fields) == set(Figure.__dataclass_fields__) - {"unknown"} | {
             *("unit", "convergence", "verdict", "not_modelled")

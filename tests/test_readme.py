@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import readme_picture
-from scenes import half_plane_at
+from scenes import half_plane_at, page_rows
 
 import comparisons
 from comparisons.cli import main
@@ -53,21 +53,6 @@ def fenced(kind: str, page: str = README) -> str:
 
 
 COMMANDS = [command for text in blocks("console") for command in text.splitlines()]
-
-
-def rows(heading: str, page: str = README) -> list[list[str]]:
-    """Cells of the table on a page whose first column is called `heading`."""
-    lines = iter(page.splitlines())
-    for line in lines:
-        if line.startswith(f"| {heading} |"):
-            break
-    next(lines)
-    cells = []
-    for line in lines:
-        if not line.startswith("|"):
-            break
-        cells.append([cell.strip() for cell in line.strip("|").split(" | ")])
-    return cells
 
 
 def in_ticks(text: str) -> list[str]:
@@ -167,7 +152,7 @@ def test_every_example_of_the_guide_is_a_scenes(block, folder):
 def test_files_are_those_that_a_run_leaves(mine, folder):
     named = {
         name.replace("<model>", model)
-        for [cell, _] in rows("file")
+        for [cell, _] in page_rows(README, "file")
         for name in in_ticks(cell)
         for model in OWN_FOLDERS
     }
@@ -182,7 +167,7 @@ def test_files_are_those_that_a_run_leaves(mine, folder):
 def test_columns_and_arrays_are_those_that_the_files_hold(mine, folder):
     import meshio
 
-    said = {cell: text for [cell, text] in rows("file")}
+    said = {cell: text for [cell, text] in page_rows(README, "file")}
     out = folder / mine.outcome.directory
     for model in MODELS:
         header = (out / model / "contact.csv").read_text().splitlines()[2]
@@ -205,7 +190,7 @@ def test_a_stranger_reads_it_in_one_sitting():
 
 def test_scenes_are_those_that_come_along():
     assert (
-        sorted(name for [cell, _] in rows("scene", GUIDE) for name in in_ticks(cell))
+        sorted(name for [cell, _] in page_rows(GUIDE, "scene") for name in in_ticks(cell))
         == scene_names()
     )
 
@@ -218,14 +203,15 @@ def test_python_lines_work(monkeypatch):
     assert "peak pressure" in printed.getvalue()
     assert f"{names['peak'].value:.4g}".startswith("4.15")  # GPa, by Hertz
     assert names["axes"][0].get_ylabel() == "p/p₀"
-    listed = [name for [cell, _] in rows("of `crosscheck`", REFERENCE) for name in in_ticks(cell)]
+    face = page_rows(REFERENCE, "of `crosscheck`")
+    listed = [name for [cell, _] in face for name in in_ticks(cell)]
     assert sorted(listed) == sorted(names["crosscheck"].__all__)
 
 
 def test_exit_statuses_are_the_programs():
     named = [
         int(number)
-        for [numbers, _] in rows("exit status", REFERENCE)
+        for [numbers, _] in page_rows(REFERENCE, "exit status")
         for number in numbers.split(",")
     ]
     assert named == list(ExitStatus)
@@ -277,7 +263,7 @@ def numbers_in(test: str) -> set[float]:
     }
 
 
-@pytest.mark.parametrize("row", rows("figure", FIGURES), ids=lambda row: row[0])
+@pytest.mark.parametrize("row", page_rows(FIGURES, "figure"), ids=lambda row: row[0])
 def test_bounds_are_those_of_the_tests_that_are_named(row):
     _, _, error, bound, test = row
     assert 0.0 < float(error) < float(bound)

@@ -1,38 +1,28 @@
 """`crosscheck materials`: the list, one solid, JSON, and a name that no solid has."""
 
 import json
-from itertools import takewhile
 from math import inf
-from pathlib import Path
 
 import pytest
+from scenes import PROJECT, page_rows
 from strain_limits import strain_limit
 
-import comparisons
 from analytic.material.third_order import peak_change
 from comparisons.cli import main
 from comparisons.commands.materials import solids_table
 from comparisons.scenes.materials import ANY, WIDER, bounding_solids, solids
 
-PAGE = Path(comparisons.__file__).parent / "docs" / "reference.md"
-
-
-def page_rows(first):
-    """Cells of the page's table whose first heading is `first`."""
-    lines = PAGE.read_text(encoding="utf-8").splitlines()
-    start = next(n for n, line in enumerate(lines) if line.startswith(f"| {first} |")) + 2
-    table = takewhile(lambda line: line.startswith("|"), lines[start:])
-    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table]
+PAGE = (PROJECT / "comparisons/docs/reference.md").read_text(encoding="utf-8")
 
 
 def test_the_page_has_the_table_that_the_command_prints():
     columns = [list(column.cells) for column in solids_table(list(solids().values())).columns]
-    assert page_rows("solid") == [list(row) for row in zip(*columns, strict=True)]
+    assert page_rows(PAGE, "solid") == [list(row) for row in zip(*columns, strict=True)]
 
 
 def test_the_page_has_the_changes_of_a_contact_and_the_limits_of_strain():
     measured = [solid for solid in solids().values() if solid.has_constants]
-    rows = page_rows("of")
+    rows = page_rows(PAGE, "of")
     assert [row[0] for row in rows] == [solid.name for solid in measured]
     for solid, (_, *cells) in zip(measured, rows, strict=True):
         law, material = solid.law, solid.material
@@ -46,10 +36,10 @@ def test_the_page_has_the_changes_of_a_contact_and_the_limits_of_strain():
 
 def test_the_page_has_the_solids_that_bound_a_class():
     known = sorted({*(solid.kind for solid in solids().values()), *WIDER.values(), ANY})
-    for kind, *names in page_rows("bounded class"):
+    for kind, *names in page_rows(PAGE, "bounded class"):
         if kind != "rubber":
             assert names == [solid.name for solid in bounding_solids(kind, 210e9, 0.3)]
-    assert [row[0] for row in page_rows("bounded class")] == known
+    assert [row[0] for row in page_rows(PAGE, "bounded class")] == known
 
 
 def test_every_solid_is_listed(capsys):

@@ -4,10 +4,16 @@ import numpy as np
 import pytest
 from scenes import MEASURED, PROJECT, half_plane_at, judging, run_of
 
+from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
 from comparisons.common.numbers import percent_as_written
+from comparisons.common.progress import Stages
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import MODELS
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
+from comparisons.models.finite_element.contact import mutual_compliance
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.output.headline import kind_of
@@ -95,6 +101,44 @@ class TestGroundUnrun:
         for model in unrun.runs.values():
             rough = model.finest.stresses[0].field.tau1[deep]
             assert np.linalg.norm(rough - smooth) / np.linalg.norm(smooth) < 0.05
+
+
+def test_the_independent_solver_agrees_on_a_rough_scene():
+    """Our iteration on the compliance, and PETSc's variational inequality on the whole system."""
+    from analytic.contact.defect_correction import solve_with_model
+    from analytic.contact.patches import contact_patches
+    from analytic.operators.half_plane import HalfPlane
+    from fem.contact.variational_inequality import solve_variational_inequality
+
+    problem = problem_of(Scene.read("sinusoid"))
+    plan = make_plan(problem, MODELS)
+    grid: HatGrid = problem.grid(problem.pitches[0])
+    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
+    refinement = Refinement(grid.pitch)
+    level = half_plane_at(problem, grid.pitch)
+    patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
+    assert len(patches) >= 5
+    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
+    operator = mutual_compliance(problem, bodies, grid)
+    one = solve_with_model(
+        operator,
+        HalfPlane(grid.count, grid.pitch, problem.modulus),
+        weighted_gap,
+        grid.weights,
+        problem.constraints(),
+        tolerance=1e-10,
+    )
+    # two equal blocks: the same body twice in one system
+    [part] = operator.parts
+    assert part.factor == 2.0
+    other = solve_variational_inequality(
+        [(bodies.rough, part.compliance.normal), (bodies.rough, part.compliance.normal)],
+        weighted_gap,
+        grid.weights,
+        problem.hertz.load_per_length,
+    )
+    assert other.pressure == pytest.approx(one.pressure, abs=1e-6 * one.pressure.max())
+    assert grid.weights @ other.pressure == pytest.approx(one.load, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["self-affine", "sinusoid", "smooth-sliding"])
