@@ -26,13 +26,14 @@ class StressState:
         if not np.shape(self.sx) == np.shape(self.sz) == np.shape(self.txz):
             raise ValueError("sx, sz and txz must be of equal shape")
 
+    @property
+    def parts(self) -> np.ndarray:
+        """sx, sz and txz (3, …) [Pa]."""
+        return np.array([self.sx, self.sz, self.txz])
+
     def plus(self, factor: float, other: "StressState") -> "StressState":
         """These stresses and `factor` times the others."""
-        return StressState(
-            sx=self.sx + factor * other.sx,
-            sz=self.sz + factor * other.sz,
-            txz=self.txz + factor * other.txz,
-        )
+        return StressState(*(self.parts + factor * other.parts))
 
     def sy(self, poissons_ratio: float) -> np.ndarray:
         """Stress across the plane [Pa], nu (sx + sz) in plane strain."""

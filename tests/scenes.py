@@ -43,6 +43,11 @@ RUNS: "dict[tuple, Run]" = {}
 MOST_RUNS = 12
 
 
+def reference(name: str) -> dict:
+    """High-precision values of tests/data by the name of their file."""
+    return json.loads((DATA / f"{name}.json").read_text(encoding="utf-8"))
+
+
 def changed(tables: dict, **sections: dict) -> dict:
     """The tables with some fields of some sections replaced, or added."""
     return tables | {name: tables.get(name, {}) | fields for name, fields in sections.items()}

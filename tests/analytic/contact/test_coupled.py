@@ -1,10 +1,8 @@
 """Sliding contact with the surfaces moved by friction: exact solution, symmetries, matrix."""
 
-import json
-
 import numpy as np
 import pytest
-from scenes import DATA
+from scenes import reference
 from scipy.linalg import toeplitz
 
 from analytic.contact.coupled import solve_coupled
@@ -19,7 +17,7 @@ from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair, hat_sign
 
-REFERENCES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
+REFERENCES = reference("f_rounded_punch_and_sliding")
 SLIDING = REFERENCES["sliding_cylinder"]
 
 

@@ -1,10 +1,8 @@
 """Punch with rounded corners against high-precision values, quadrature, limits and the solver."""
 
-import json
-
 import numpy as np
 import pytest
-from scenes import DATA
+from scenes import reference
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
@@ -14,7 +12,7 @@ from analytic.exact.rounded_punch import RoundedPunch, rounded_punch_from_half_w
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 
-CASES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text())["rounded_punch"]
+CASES = reference("f_rounded_punch_and_sliding")["rounded_punch"]
 
 GAUSS, WEIGHT = np.polynomial.legendre.leggauss(300)
 

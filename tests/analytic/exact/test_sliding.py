@@ -1,16 +1,14 @@
 """Sliding with coupling against high-precision values, its integral equation, and Hertz."""
 
-import json
-
 import numpy as np
 import pytest
-from scenes import DATA
+from scenes import reference
 from scipy.integrate import quad
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.exact.sliding import sliding_from_load
 
-CASES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text())["sliding_cylinder"]
+CASES = reference("f_rounded_punch_and_sliding")["sliding_cylinder"]
 
 
 def fraction(text: str) -> float:

@@ -1,17 +1,15 @@
 """Sinusoidal contact against high-precision values, quadrature and its limits."""
 
-import json
-
 import numpy as np
 import pytest
 from exact_stresses import westergaard_gap
-from scenes import DATA
+from scenes import reference
 from scipy.integrate import quad
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.exact.westergaard import WestergaardContact, westergaard_from_mean_pressure
 
-CASES = json.loads((DATA / "d_westergaard.json").read_text())["cases"]
+CASES = reference("d_westergaard")["cases"]
 
 
 def unit(share: float, wavelength: float = 1.0) -> WestergaardContact:

@@ -1,11 +1,9 @@
 """Jaeger's moving band, and any moving flux by transforms."""
 
-import json
-
 import numpy as np
 import pytest
 from moving_band import band_maximum, band_mean, band_surface
-from scenes import DATA
+from scenes import reference
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.special import k0e
@@ -13,7 +11,7 @@ from scipy.special import k0e
 from analytic.heat.moving_source import HeatedSurface
 from analytic.material import ThermalMaterial
 
-JAEGER = json.loads((DATA / "h_heat.json").read_text())["jaeger"]
+JAEGER = reference("h_heat")["jaeger"]
 UNIT = ThermalMaterial(1.0, 1.0, 1.0)
 EULER = 0.5772156649015329
 

@@ -1,15 +1,13 @@
 """Heated half-spaces and slabs against reference values of 30 digits."""
 
-import json
-
 import numpy as np
 import pytest
-from scenes import DATA
+from scenes import reference
 
 from analytic.heat import transient
 from analytic.material import ThermalMaterial
 
-REFERENCE = json.loads((DATA / "h_heat.json").read_text())
+REFERENCE = reference("h_heat")
 UNIT = ThermalMaterial(1.0, 1.0, 1.0)
 STEEL = ThermalMaterial(46.0, 7850.0, 460.0)
 EXACT = 1e-13

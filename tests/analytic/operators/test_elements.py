@@ -1,18 +1,16 @@
 """Displacement coefficients of strips and hats against high-precision values and each other."""
 
-import json
-
 import numpy as np
 import pytest
 from exact_stresses import hat_displacement
-from scenes import DATA
+from scenes import reference
 
 from analytic.operators.elements import hat_galerkin, strip_displacement
 
 
 def rows(name: str, key: str) -> tuple[np.ndarray, np.ndarray]:
     """Offsets and values of the rows of a reference file that hold `key`."""
-    table = json.loads((DATA / f"{name}.json").read_text())["rows"]
+    table = reference(name)["rows"]
     kept = [row for row in table if key in row]
     assert len(kept) > 15
     return np.array([float(r["offset"]) for r in kept]), np.array([float(r[key]) for r in kept])

@@ -1,11 +1,9 @@
 """The periodic half-plane: its images, Westergaard's contact, full contact, coarser grids."""
 
-import json
-
 import numpy as np
 import pytest
 from periodic_strips import PeriodicStrips
-from scenes import DATA
+from scenes import reference
 from scipy.linalg import circulant
 from scipy.special import zeta
 
@@ -15,7 +13,7 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
 
-WESTERGAARD = json.loads((DATA / "d_westergaard.json").read_text())
+WESTERGAARD = reference("d_westergaard")
 PITCH, MODULUS = 0.7e-6, 115e9
 COUNTS = (128, 256, 512, 1024, 2048)
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
-from scenes import DATA
+from scenes import reference
 from scipy.integrate import quad
 from scipy.linalg import toeplitz
 
@@ -75,7 +75,7 @@ def test_one_body_moves_as_the_strains_below_a_tangential_line_load_say(x, nu):
 
 def test_reference_gives_the_same_slope_below_the_traction():
     """du_z/dx = (1-2nu)(1+nu) q/E: between two hats of a long row of them."""
-    known = json.loads((DATA / "c_influence_coefficients.json").read_text(encoding="utf-8"))
+    known = reference("c_influence_coefficients")
     assert "du_z/dx = +((1-2nu)(1+nu)/E) q(x)" in json.dumps(known)
     body = Material(210e9, 0.3)
     beta = dundurs_constants(body, None)[1]

@@ -1,16 +1,14 @@
 """Integrals over Gaussian heights against 30 digits; what follows of rough planes."""
 
-import json
-
 import numpy as np
 import pytest
 from rough_planes import nominally_flat
-from scenes import DATA
+from scenes import reference
 from scipy.integrate import quad
 
 from analytic.statistics.nominally_flat import Summits, persson_fraction, tail_integral
 
-REFERENCE = json.loads((DATA / "g_greenwood.json").read_text())
+REFERENCE = reference("g_greenwood")
 SUMMITS = Summits(density=3e9, radius=20e-6, deviation=0.4e-6)
 
 

@@ -1,12 +1,11 @@
 """Rough sphere against reference digits, rough cylinder against another discretisation; limits."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from rough_planes import nominally_flat
-from scenes import DATA
+from scenes import reference
 from scipy.optimize import root
 
 from analytic.exact.hertz import hertz_from_load
@@ -15,7 +14,7 @@ from analytic.statistics import rough_bodies
 from analytic.statistics.nominally_flat import Summits, tail_integral
 from analytic.statistics.rough_bodies import bearing_of, rough_contact, rough_cylinder
 
-SPHERES = json.loads((DATA / "g_greenwood.json").read_text())["GT"]
+SPHERES = reference("g_greenwood")["GT"]
 SUMMITS = Summits(density=5e8, radius=200e-6, deviation=0.5e-6)
 MODULUS, RADIUS = 115e9, 10e-3
 

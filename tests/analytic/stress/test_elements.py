@@ -1,17 +1,15 @@
 """Stresses of one strip and of one hat against high-precision values; their scalars."""
 
-import json
-
 import numpy as np
 import pytest
 from exact_stresses import hat_stress, strip_stress
-from scenes import DATA
+from scenes import reference
 
 from analytic.stress.elements import FrictionStress
 from analytic.stress_state import StressState
 
-STRIP = json.loads((DATA / "b_uniform_strip.json").read_text())["points"]
-HAT = json.loads((DATA / "hat_stress.json").read_text())["points"]
+STRIP = reference("b_uniform_strip")["points"]
+HAT = reference("hat_stress")["points"]
 
 
 def numbers(rows: list[dict], name: str) -> np.ndarray:

@@ -4,14 +4,13 @@ Requirement: place and pressures of the contact of a sliding cylinder are the ex
 1 % of its half-width; reference: the closed solution (analytic), tabulated to 30 digits.
 """
 
-import json
 from dataclasses import dataclass, replace
 from functools import cache, partial
 
 import numpy as np
 import pytest
 from blocks import SumOfBodies
-from scenes import DATA, hat_nodes
+from scenes import hat_nodes, reference
 
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_model
@@ -29,7 +28,7 @@ from meshes.build import build_block
 
 solve_with_coupled_model = partial(solve_with_model, solver=solve_coupled)
 
-TABLE = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text())["sliding_cylinder"]
+TABLE = reference("f_rounded_punch_and_sliding")["sliding_cylinder"]
 STEEL, SOFT, CORK = Material(1.0, 0.3), Material(1.0, 0.49), Material(1.0, 0.0)
 LOAD = 0.5 * np.pi  # with a radius of E*/2: half-width and peak pressure 1 without friction
 EDGES = 20

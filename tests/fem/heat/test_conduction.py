@@ -1,12 +1,10 @@
 """Steady conduction: manufactured solutions, Jaeger's moving band, layers, balance of heat."""
 
-import json
-
 import numpy as np
 import pytest
 from heat_loads import flux_load, steady
 from moving_band import band_maximum, band_surface
-from scenes import DATA
+from scenes import reference
 
 from analytic.material import ThermalMaterial
 from fem.body.coating import Coating
@@ -23,7 +21,7 @@ UNIT = ThermalMaterial(1.0, 1.0, 1.0)
 MATERIAL = ThermalMaterial(2.0, 3.0, 0.5)
 BAND = np.linspace(-1.0, 1.0, 3)
 OPEN = Surroundings("open", "open")
-JAEGER = json.loads((DATA / "h_heat.json").read_text())["jaeger"]
+JAEGER = reference("h_heat")["jaeger"]
 
 
 class Wave:

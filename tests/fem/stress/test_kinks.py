@@ -1,18 +1,16 @@
 """The field of a kink against 30-digit values of hats, Hooke's law; loads on inclined faces."""
 
-import json
-
 import numpy as np
 import pytest
 from blocks import hooke
-from scenes import DATA
+from scenes import reference
 
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from fem.stress.kinks import Kinks, Weights
 from fem.stress.surface_load import SurfaceLoad, normal, to_surface
 
-POINTS = json.loads((DATA / "hat_stress.json").read_text(encoding="utf-8"))["points"]
+POINTS = reference("hat_stress")["points"]
 MATERIAL = Material(3.0, 0.3)
 
 
