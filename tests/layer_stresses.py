@@ -6,8 +6,17 @@ import numpy as np
 
 from analytic.layers.layered import LayeredBody, coupling
 from analytic.layers.stress import AddedStress
+from analytic.material import Material
 from analytic.stress.field import StressField, friction_field
 from analytic.stress_state import StressState
+
+LAYER = Material(210e9, 0.3)
+BASES = {
+    "bonded": "bonded",
+    "frictionless": "frictionless",
+    "stiffer": Material(1e12, 0.45),
+    "softer": Material(3e9, 0.0),
+}
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,14 @@ SMOOTH = {
     "load": {"per_length": 3.55e6},
     "finite_element": {"plastic": False},  # steel flows at such stresses
 }
+# A part of the ground surface, under friction.
+GROUND = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "profile": {"file": str(PROFILES / "ground_unrun.csv"), "x_unit": "um", "z_unit": "um"}
+    | {"form": "none"},
+    "load": {"per_length": 0.6e6, "friction": 0.1, "position": "1118 um"},
+}
 # With a field of few points, and nothing beside the two models.
 QUICK = SMOOTH | {"stress": {"points": [120, 40]}, "budget": {"effects": False}}
 # Finished runs by what they are of, the latest of this session.

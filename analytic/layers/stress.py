@@ -65,7 +65,8 @@ class AddedStress:
         phase = np.exp(1j * np.outer(self.wavenumber, x - self.middle))
         added = np.empty((6, len(z), len(x)))
         for row, depth in enumerate(z):
-            count = np.searchsorted(self.wavenumber, _FADED / self._falls(depth, below))
+            faded = _FADED / (depth if below else 2.0 * self.body.thickness - depth)
+            count = np.searchsorted(self.wavenumber, faded)
             k = self.wavenumber[:count]
             waves = _rows(self.body, k, np.full(count, depth), below) * self.load[:count]
             added[:, row] = (waves @ phase[:count]).real
@@ -79,9 +80,6 @@ class AddedStress:
         waves = _rows(self.body, k, depth, below) * (self.load * np.exp(1j * k * flat[0][:, None]))
         parts = waves.real.sum(axis=-1)
         return StressState(*(parts[:3] + friction * parts[3:]).reshape(3, *x.shape))
-
-    def _falls(self, depth: float, below: bool) -> float:
-        return depth if below else 2.0 * self.body.thickness - depth
 
 
 def _transform(k: np.ndarray, first: float, pitch: float, values: np.ndarray) -> np.ndarray:

@@ -143,7 +143,8 @@ class LoadHistory:
         if roller is not None:
             # its z points away from the body; on it the traction acts towards -x
             self._flexible = alone
-            if friction or not _alike(roller, compliance):
+            alike = roller.body is compliance.body and (roller.normal != compliance.normal).nnz == 0
+            if friction or not alike:
                 columns = partial(roller.columns, friction=-friction)
                 self._flexible = Condensed(columns, len(weights))
             both = [alone, self._flexible]
@@ -385,10 +386,6 @@ def averaged_pressure(pressure: np.ndarray) -> np.ndarray:
     touching = pressure > 0.0
     flux = np.diff(pressure) * (touching[1:] & touching[:-1])
     return pressure + 0.25 * np.diff(flux, prepend=0.0, append=0.0)
-
-
-def _alike(one: FiniteElementCompliance, other: FiniteElementCompliance) -> bool:
-    return one.body is other.body and (one.normal != other.normal).nnz == 0
 
 
 def _released(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:

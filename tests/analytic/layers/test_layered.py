@@ -5,21 +5,13 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 from exact_stresses import wave_stress
-from layer_stresses import coupling_compliance
+from layer_stresses import BASES, LAYER, coupling_compliance
 
 from analytic.layers.layered import LayeredBody, added, normal_compliance
 from analytic.material import Material, dundurs_constants
 
 THICKNESS = 0.7e-3
-LAYER = Material(210e9, 0.3)
-BASES = {
-    "bonded": "bonded",
-    "frictionless": "frictionless",
-    "stiffer": Material(1e12, 0.45),
-    "softer": Material(3e9, 0.0),
-    "far stiffer": Material(1e18, 0.2),
-    "far softer": Material(1e6, 0.4),
-}
+BASES = BASES | {"far stiffer": Material(1e18, 0.2), "far softer": Material(1e6, 0.4)}
 
 
 def mode(k, z, rising, times_depth, material):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from layer_stresses import coupling_compliance
+from layer_stresses import BASES, LAYER, coupling_compliance
 from scipy.linalg import toeplitz
 
 from analytic.contact.coupled import solve_coupled
@@ -10,16 +10,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface, TangentialLayer
-from analytic.material import Material
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair, hat_sign
-
-LAYER = Material(210e9, 0.3)
-BASES = {
-    "bonded": "bonded",
-    "frictionless": "frictionless",
-    "stiffer": Material(1e12, 0.45),
-    "softer": Material(3e9, 0.0),
-}
 
 
 @pytest.mark.parametrize("pitch", [1e-6, 0.01, 1.0, 10.0])

@@ -263,17 +263,23 @@ def two_layers(x, velocity, coat, below, thickness):
     return np.array([(weight * whole * np.exp(1j * xi * place)).real.sum() / np.pi for place in x])
 
 
+def is_exact(spec, coat, velocity, x):
+    """The coated body on a mesh, and the exact temperatures at x, which it meets."""
+    body = thermal_body(build_block(spec), UNIT, coating=Coating(coat, spec.interface))
+    rise = steady(Conduction(body, velocity, OPEN), flux_load(body, BAND, np.ones(3)))
+    exact = two_layers(x, velocity, coat, UNIT, spec.interface)
+    places = np.column_stack([x, np.zeros_like(x)])
+    assert body.at(places, rise) == pytest.approx(exact, abs=2e-3 * exact.max())
+    return body, exact
+
+
 @pytest.mark.parametrize("velocity", [0.5, -20.0])
 @pytest.mark.parametrize("conductivity", [0.1, 10.0])
 def test_a_coated_half_plane(velocity, conductivity):
     coat, thickness = ThermalMaterial(conductivity, 2.0, 1.0), 0.3
     spec = BlockSpec(20.0, 20.0, np.array([[-3.0, 3.0]]), 0.025, 0.2, interface=thickness)
-    body = thermal_body(build_block(spec), UNIT, coating=Coating(coat, thickness))
     x = np.array([-2.0, -0.8, -0.3, 0.0, 0.45, 0.8, 2.5])
-    rise = steady(Conduction(body, velocity, OPEN), flux_load(body, BAND, np.ones(3)))
-    exact = two_layers(x, velocity, coat, UNIT, thickness)
-    places = np.column_stack([x, np.zeros_like(x)])
-    assert body.at(places, rise) == pytest.approx(exact, abs=2e-3 * exact.max())
+    _, exact = is_exact(spec, coat, velocity, x)
     bare = two_layers(x, velocity, UNIT, UNIT, thickness)
     assert np.abs(bare / exact - 1.0).max() > 0.1
 
@@ -284,13 +290,8 @@ def test_a_thin_coating_is_meshed_where_heat_passes(velocity):
     coat, thickness = ThermalMaterial(0.1, 2.0, 1.0), 0.01
     law = {"length": 1.0 / velocity, "interface": thickness}
     spec = thermal_spec([[-1.0, 1.0]], 0.05, half_width=15.0, depth=15.0, **law)
-    body = thermal_body(build_block(spec), UNIT, coating=Coating(coat, thickness))
+    body, _ = is_exact(spec, coat, velocity, np.array([-0.8, -0.3, 0.0, 0.45, 0.8]))
     assert len(body.nodes) < 75_000
-    x = np.array([-0.8, -0.3, 0.0, 0.45, 0.8])
-    rise = steady(Conduction(body, velocity, OPEN), flux_load(body, BAND, np.ones(3)))
-    exact = two_layers(x, velocity, coat, UNIT, thickness)
-    places = np.column_stack([x, np.zeros_like(x)])
-    assert body.at(places, rise) == pytest.approx(exact, abs=2e-3 * exact.max())
 
 
 def test_what_is_refused(structured_block):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scenes import (
     BOTH_CONDUCT,
-    PROFILES,
+    GROUND,
     STEEL,
     STEEL_HEAT,
     changed,
@@ -37,13 +37,6 @@ HOT = {
     | {"roller_conductivity": 41.0, "roller_density": 7900.0, "roller_specific_heat": 470.0},
     "stress": {"depth": 1.5, "half_range": 2.5, "points": [300, 150]},
     "budget": {"effects": False},
-}
-ROUGH = {
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "profile": {"file": str(PROFILES / "ground_unrun.csv"), "x_unit": "um", "z_unit": "um"}
-    | {"form": "none"},
-    "load": {"per_length": 0.6e6, "friction": 0.1, "position": "1118 um"},
 }
 OF_COAT = {f"coating_{name}": value for name, value in STEEL_HEAT.items()}
 COATED = changed(PLAIN, heat={**OF_COAT, "coating_expansion": 12e-6}) | {
@@ -93,7 +86,7 @@ def test_a_hot_surface_by_the_half_plane():
 
 def test_the_cusp_at_an_end_of_rough_contact_is_that_of_much_finer_hats():
     """The largest of all patches; hats of 32 times the pitch miss a twelfth of it."""
-    posed = problem(ROUGH)
+    posed = problem(GROUND)
     pitch, values = posed.pitches[-1], []
     for number in (0, 5):
         level = half_plane_at(posed, pitch / 2**number)

@@ -6,7 +6,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import BOTH_CONDUCT, PROFILES, STEEL, changed, refound, resolved, run_of
+from scenes import BOTH_CONDUCT, GROUND, STEEL, changed, refound, resolved, run_of
 
 from comparisons.figures.quantity import MODELS
 from comparisons.output.flat_csv import rows_of
@@ -16,12 +16,7 @@ from comparisons.runs.run import run
 from comparisons.studies.heat.show import heat_facts, lines
 from comparisons.studies.heat.study import HEATED, WITHOUT
 
-TRACE = {
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "profile": {"file": str(PROFILES / "ground_unrun.csv"), "x_unit": "um", "z_unit": "um"}
-    | {"form": "none"},
-    "load": {"per_length": 0.6e6, "friction": [0.0, 0.1], "position": "1118 um"},
+TRACE = changed(GROUND, load={"friction": [0.0, 0.1]}) | {
     "heat": {"speed": 1.0, **BOTH_CONDUCT},
     "budget": {"effects": False},
     "resolution": {"pitch": "1.6 um"},
