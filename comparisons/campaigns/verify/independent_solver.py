@@ -4,7 +4,6 @@ It shares mesh, stiffness and hats with a level of `run`, but neither its compli
 its contact solver, so that a mistake of either shows."""
 
 import tomllib
-from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 
@@ -20,9 +19,9 @@ AGREE = 1e-6  # relative, in pressure and in load
 SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_text("utf-8"))
 
 
-def independent_cases(names: Iterable[str] = SCENES) -> list[Case]:
+def independent_cases() -> list[Case]:
     model, group = "finite_element", "independent solver"
-    return [Case(group, n, model, partial(independent_figures, n)) for n in names]
+    return [Case(group, n, model, partial(independent_figures, n)) for n in SCENES]
 
 
 def independent_figures(name: str) -> CaseFigures:

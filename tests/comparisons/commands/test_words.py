@@ -61,16 +61,6 @@ def test_a_plan_says_levels_and_seconds_and_solves_nothing(folder, capsys):
     assert [path.name for path in folder.iterdir()] == ["mine.toml"]
 
 
-def test_the_table_of_runs_is_for_people_and_csv_on_request(folder, capsys, undrawn):
-    assert main(["run", "mine.toml", "--models", "half-plane"]) == 0
-    capsys.readouterr()
-    assert main(["table", "results"]) == 0
-    out = capsys.readouterr().out
-    assert "half-plane" in out and "GPa" in out and max(map(len, out.splitlines())) < 120
-    assert main(["table", "results", "--csv"]) == 0
-    assert capsys.readouterr().out.startswith("run,scene,title,study,quantity,unit,source")
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

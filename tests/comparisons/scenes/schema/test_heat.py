@@ -1,13 +1,9 @@
 """The [heat] section: its defaults, what moves, and what no temperature can be computed for."""
 
-import subprocess
-import sys
-
 import pytest
-from scenes import BOTH_CONDUCT, PROJECT, SMOOTH, changed, problem, resolved
+from scenes import BOTH_CONDUCT, SMOOTH, changed, problem, resolved
 
 from comparisons.common.errors import SceneError
-from comparisons.scenes.scene import Scene
 from comparisons.studies.heat.half_space import check_heat, reach_of
 
 HOT = changed(SMOOTH, load={"friction": 0.1}, heat={"speed": "1 m/s", **BOTH_CONDUCT})
@@ -52,20 +48,3 @@ def test_thermal_stresses_are_asked_for(expansion):
 def test_what_no_temperature_can_be_computed_for(tables, fields, said):
     with pytest.raises(SceneError, match=said):
         check_heat(problem(changed(tables, heat=fields)))
-
-
-def test_a_scene_without_heat_loads_none_of_it():
-    code = (
-        "import sys; from comparisons.runs.run import run; import comparisons.output.page.page\n"
-        "from comparisons.scenes.scene import Scene\n"
-        "run(Scene.read('smooth'), None, ('half_plane',))\n"
-        "print([name for name in sys.modules if name.startswith(('analytic.heat', 'fem.heat'))])"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, check=True
-    )
-    assert done.stdout.strip() == "[]"
-
-
-def test_the_library_scene():
-    assert Scene.read("frictional-heat").heat.velocities == (-1.0, 0.0)
