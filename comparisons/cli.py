@@ -168,6 +168,10 @@ def _carry_out(arguments: list[str]) -> int:
     except Exception as error:
         if _is_interrupt(error):
             return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
+        if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
+            name = os.fsdecode(error.filename or "")
+            said = f"{name[:40]}…: is a name of {len(name)} characters, too long for a file"
+            return _end(ExitStatus.BAD_INPUT, f"{said}; allowed is a shorter one")
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             said = error.format_message().replace("Value error, ", "")
             return _end(ExitStatus.BAD_INPUT, f"{said} (see crosscheck --help)")

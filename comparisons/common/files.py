@@ -75,6 +75,8 @@ def _record(path: Path) -> dict:
 def check_writable(out: Path, files: tuple[str, ...] = OWN_FILES) -> None:
     """Raise InputError unless `out` is, or can be made, a folder to write `files` in, by name or
     pattern, and holds none of them that somebody else wrote."""
+    with suppress(FileNotFoundError, NotADirectoryError):
+        os.lstat(out)  # raises for a name that no file can have
     place = out
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent

@@ -13,6 +13,7 @@ SCENES = Path(__file__).parent / "library"
 BENCHMARKS = SCENES / "benchmarks"
 LARGEST_FILE = 2**20  # bytes; a scene has a few hundred
 ALIKE = 0.8  # difflib's ratio of a name that may be meant
+LONGEST_NAME = 256  # characters of a name that is repeated
 MOST_PARTS = 32  # of a dotted key; a scene has two, and the time of reading grows by their square
 STRINGS = re.compile(
     r'"""(?:\\.|[^\\])*?"""|'
@@ -67,7 +68,8 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
         raise SceneError(f"{name}: there is no such file; allowed is a scene's file or name")
     near, every = nearest(name, [*names, *benchmark_names()]), ", ".join(names)
     why = "is neither a file nor a scene; the nearest scene is"
-    raise SceneError(f"{name}: {why} {near}, all are {every}")
+    shown = name if len(name) < LONGEST_NAME else f"{name[:40]}…"
+    raise SceneError(f"{shown}: {why} {near}, all are {every}")
 
 
 def name_of(path: Path) -> str:

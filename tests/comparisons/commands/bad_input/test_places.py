@@ -47,6 +47,21 @@ def test_digits_of_other_scripts_and_empty_words_are_refused(folder, complaint, 
     assert said in complaint(*arguments)
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["run", "{}"],
+        ["run", "smooth", "--models", "half-plane", "--out", "{}"],
+        ["run", "smooth", "--models", "half-plane", "--junit", "{}"],
+        ["init", "{}"],
+        ["table", "{}"],
+    ],
+)
+def test_a_name_that_no_file_can_have_is_wrong_input(folder, complaint, arguments):
+    said = complaint(*(word.format(5000 * "x") for word in arguments))
+    assert "xxxx" in said and len(said) < 1000
+
+
 def test_a_scene_does_not_replace_its_profile(folder, trace, complaint):
     (folder / "trace.toml").write_text(trace)
     assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")
