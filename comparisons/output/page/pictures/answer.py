@@ -139,7 +139,9 @@ def judged_picture(run: Run) -> style.Picture | None:
     axes.set_xlabel("model error / tolerance")
     axes.set_title("within the tolerance: shaded")
     words = "; ".join(
-        f"{label(e.quantity)}, friction {plain(e.friction)}: {_said(e)}" for e in errors
+        f"{label(e.quantity)}, friction {plain(e.friction)}: {e.words()}, tolerance "
+        f"{percent_as_written(e.tolerance)}, {e.verdict}"
+        for e in errors
     )
     return style.picture(
         drawn,
@@ -149,10 +151,6 @@ def judged_picture(run: Run) -> style.Picture | None:
         "no model of the run has. What reaches beyond the picture is cut off.",
         data=False,
     )
-
-
-def _said(error: Figure) -> str:
-    return f"{error.words()}, {error.verdict} at {percent_as_written(error.tolerance)}"
 
 
 def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
@@ -173,4 +171,5 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
     # next to it: what a narrow screen shows first
     beside = {"xycoords": named, "xytext": (8, 0), "textcoords": "offset points"}
     look = {"color": WORDS[error.verdict], "weight": "bold", "va": "bottom"}
-    axes.annotate(_said(error), (1.0, 0.0), **beside, **look)
+    words = f"{error.words()}, {error.verdict} at {percent_as_written(error.tolerance)}"
+    axes.annotate(words, (1.0, 0.0), **beside, **look)

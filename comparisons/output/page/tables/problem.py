@@ -71,10 +71,10 @@ def facts(run: Run) -> Names:
 
 def surface_text(surface: SceneSurface) -> str:
     """Roughness as pressed, and what a drawing would say of the trace, before it was run in."""
-    text = f"Ra {with_unit(surface.info.roughness.ra, 'm', 3)} as pressed"
+    text = f"Ra {with_unit(surface.info.roughness.ra, 'm')} as pressed"
     if (standard := surface.info.standard) is not None:
         before = "" if surface.run_in is None else "before running-in "
-        ra, cutoff = with_unit(standard.ra, "m", 3), in_mm(standard.cutoff)
+        ra, cutoff = with_unit(standard.ra, "m"), in_mm(standard.cutoff)
         text += f", {before}{ra} at the cut-off {cutoff}"
     return text
 
