@@ -59,11 +59,11 @@ QUANTITIES: dict[str, Quantity] = {
     "contact_length": Quantity(
         "contact length", "m", _half_width, short="contact length", over=(2.0, "× 2a")
     ),
-    "tau1_max": _stress("largest principal shear stress", "tau1 max"),
+    "tau1_max": _stress("largest principal shear stress", "τ₁ max"),
     "tau1_max_depth": Quantity(
         *("depth of the largest principal shear", "m", _half_width),
         needs_stress=True,
-        short="tau1 max depth",
+        short="τ₁ max depth",
         over=(1.0, "a"),
     ),
     "txz_max_abs": _stress("largest orthogonal shear stress", "|txz| max"),
@@ -71,9 +71,7 @@ QUANTITIES: dict[str, Quantity] = {
 # Of every comparison, shown and not judged; that of tau1 over the common window of the fields.
 NORMS = {
     "pressure_l2": Quantity("pressures, relative L2 difference", short="pressure, L2"),
-    "tau1_l2": Quantity(
-        "field of tau1, relative L2 difference", needs_stress=True, short="tau1, L2"
-    ),
+    "tau1_l2": Quantity("field of tau1, relative L2 difference", needs_stress=True, short="τ₁, L2"),
 }
 COMPARED = QUANTITIES | NORMS
 

@@ -4,6 +4,7 @@ In: the figures of a run. Out: what terminal, page, JUnit and result.json say al
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import inf
 from typing import Literal
 
@@ -57,6 +58,7 @@ def validity(errors: Sequence[Figure]) -> Kind:
     return "holds" if verdicts == {"holds"} else "inconclusive"
 
 
+@lru_cache(maxsize=1)  # what Next offers is posed anew
 def headline(run: Run) -> Headline:
     """The verdict does not repeat what is said of the least tolerance."""
     within, kind = within_of(run), kind_of(run)

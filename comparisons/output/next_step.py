@@ -17,7 +17,6 @@ from comparisons.figures.figure import Figure, nearest_to_tolerance
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.models.forecast import time_with_flow, with_one_more
 from comparisons.models.posing import problem_of
-from comparisons.models.problem import Problem
 from comparisons.output.whole import figures_of_whole
 from comparisons.output.within import rounded_up
 from comparisons.scenes.materials import (
@@ -82,20 +81,16 @@ def offered(run: Run, offer: Offer) -> bool:
     except (InputError, ContactError):
         return False
     is_new = changed.tables != scene.tables or "--models" in offer.options
-    return is_new and (not offer.computes or _can_compute(offer.computes, posed))
-
-
-def _can_compute(effect: str, problem: Problem) -> bool:
-    return effect in contained(problem.scene) or why_not(effect, problem) is None
+    wanted = {offer.computes} - {"", *contained(changed)}
+    return is_new and not any(why_not(effect, posed) for effect in wanted)
 
 
 def pasted(run: Run, offer: Offer) -> tuple[str, ...]:
     """The run's own command with what is offered, for a shell; for Python where none was typed.
     None of one whose words no text holds, such as a file's name in another encoding."""
     scene = run.problem.scene
-    if not (offer.settings or offer.options) or not offer.is_known:
-        return ()
-    if not all(map(str.isprintable, scene.command)):
+    is_text = all(map(str.isprintable, scene.command))
+    if not (offer.settings or offer.options) or not (offer.is_known and is_text):
         return ()
     if words := scene.command:
         for text in offer.settings:
@@ -185,11 +180,13 @@ def _of_effect(run: Run, name: str) -> Iterator[Offer]:
     if "budget.effects" in why:
         asked = "true" if "not asked for" in why else "all"
         yield Offer("budget.effects computes it", (f"budget.effects={asked}",), computes=name)
+    seconds = selection.time if name == "finite_strain" else 0.0
     if name == FLOW and "budget.time" in why:
         patches = run.runs["half_plane"].levels[0].patches
-        yield _time(time_with_flow(run.problem, run.plan, patches), name)
-    elif name == "finite_strain" and selection.time:
-        yield _time(selection.time, name)
+        seconds = time_with_flow(run.problem, run.plan, patches)
+    if seconds:
+        text = f"budget.time={rounded_up(seconds):g}"
+        yield Offer("budget.time computes it", (text,), computes=name)
     if name == FLOW:
         yield from _of_flow(run)
     elif name == LAW:
@@ -197,11 +194,6 @@ def _of_effect(run: Run, name: str) -> Iterator[Offer]:
     elif name == "roller_support":
         said = 'roller.support is what holds the roller: "opposite", "half disc" or {hub = …}'
         yield Offer(said, ("roller.support=opposite",))
-
-
-def _time(seconds: float, effect: str) -> Offer:
-    text = f"budget.time={rounded_up(seconds):g}"
-    return Offer("budget.time computes it", (text,), computes=effect)
 
 
 def _of_flow(run: Run) -> Iterator[Offer]:

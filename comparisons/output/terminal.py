@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-SHORT = {name: quantity.short for name, quantity in COMPARED.items()}
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged", "no", "NO"), "bold red")
 STYLES |= {"yes": "green"}
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt"}
+SHORT = {name: quantity.short.translate(PLAIN) for name, quantity in COMPARED.items()}
 
 
 def summary(run: Run, details: bool = False) -> "RenderableType":

@@ -55,7 +55,7 @@ def unsolved(problem: Problem, plan: Plan) -> Solved:
     return Solved(problem, plan, window_of(problem) if plan.stress else None, {})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Run:
     """A finished run: all that its files, tables and page are made of."""
 

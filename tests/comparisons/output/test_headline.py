@@ -137,7 +137,7 @@ def test_inconclusive_by_what_is_not_modelled(smooth_outcome: Run):
         # the one nearest to its tolerance is the largest, which is described already
         (
             [figure_of(), figure_of("tau1_max", -0.015)],
-            *("holds", "Every judged error is within the tolerance of 2 %", "tau1"),
+            *("holds", "Every judged error is within the tolerance of 2 %", "τ₁"),
         ),
         (
             [figure_of("contact_length", 0.01, math.inf)],
@@ -146,16 +146,16 @@ def test_inconclusive_by_what_is_not_modelled(smooth_outcome: Run):
         # one outside fails it, whatever is open beside it
         (
             [figure_of("contact_length", 0.04), figure_of("tau1_max", 0.01, 0.05)],
-            *("fails", "1 of 2 judged errors is outside the tolerance of 2 %: contact", "tau1"),
+            *("fails", "1 of 2 judged errors is outside the tolerance of 2 %: contact", "τ₁"),
         ),
         # of other tolerances the nearest is another than the largest
         (
             [figure_of(tolerance=0.0032), figure_of("tau1_max", -0.015)],
-            *("holds", "; nearest to its tolerance: peak pressure, +0.10 ± 0.20 % (tol", "tau1"),
+            *("holds", "; nearest to its tolerance: peak pressure, +0.10 ± 0.20 % (tol", "τ₁"),
         ),
         (
             [figure_of(tolerance=0.002), figure_of("tau1_max", -0.015)],
-            *("inconclusive", "The uncertainty of the error of peak pressure, +0.10", "tau1"),
+            *("inconclusive", "The uncertainty of the error of peak pressure, +0.10", "τ₁"),
         ),
         # what no model shows can move an error either way
         (

@@ -66,7 +66,7 @@ def test_the_largest_is_named_as_the_tables_have_it(smooth_outcome: Run):
     within = within_of(of_errors(smooth_outcome, figures))
     assert within.size == pytest.approx(0.0531 + 0.0082 + 0.03, rel=1e-12)
     assert within.sentence == (
-        "The half-plane is right within 9.2 % here (largest: tau1 max, −5.3 ± 0.82 %, 3.0 % not "
+        "The half-plane is right within 9.2 % here (largest: τ₁ max, −5.3 ± 0.82 %, 3.0 % not "
         "modelled)."
     )
     far = within_of(of_errors(smooth_outcome, [judged(value=-6.9)]))

@@ -15,7 +15,6 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Early, Lasting
 from comparisons.figures.quantity import MODELS
-from comparisons.models.finite_element import level as finite_element
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.output.headline import kind_of
@@ -241,48 +240,27 @@ class TestSliding:
         assert values(outcome, "half_plane") == values(smooth, "half_plane")
 
 
-def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smooth, monkeypatch):
-    """Stopped in the second of its finite-element levels; the figures are those of one go."""
-    calls = []
-    original = finite_element.finite_element_level
-
-    def counted(problem, plan, refinement, *rest, **named):
-        calls.append(refinement)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-        return original(problem, plan, refinement, *rest, **named)
-
-    monkeypatch.setattr(finite_element, "finite_element_level", counted)
-    with pytest.raises(KeyboardInterrupt):
-        run(resolved(QUICK), tmp_path / "out", MODELS)
-    assert [p.name for p in tmp_path.iterdir()] == [".out.unfinished"]
-    outcome = run(resolved(QUICK), tmp_path / "out", MODELS)
-    assert len(calls) == 3 + 2
-    assert figures(outcome) == figures(smooth)
-    assert [p.name for p in tmp_path.iterdir()] == ["out"]
-
-
-def test_a_long_run_says_what_it_will_take_and_writes_what_it_does(tmp_path, monkeypatch):
-    """On the terminal before it begins, and into the folder where its finished levels are kept."""
+def test_a_run_that_was_stopped_says_what_it_takes_and_goes_on(tmp_path, smooth, monkeypatch):
+    """On the terminal before it begins, and beside the levels that are kept."""
     monkeypatch.setattr("comparisons.runs.long.LONG", 0.0)
     said, path = [], tmp_path / ".out.unfinished" / "run" / "progress.txt"
 
-    def stopped(problem, plan, refinement, window, stages, *_, **__):
-        stages.callback("finite elements: mesh")
-        raise KeyboardInterrupt
+    def stop(stage: str) -> None:
+        said.append(stage)
+        if "far boundary" in stage:
+            raise KeyboardInterrupt
 
-    monkeypatch.setattr(finite_element, "finite_element_level", stopped)
     with pytest.raises(KeyboardInterrupt):
-        run(resolved(QUICK), tmp_path / "out", MODELS, said.append)
-    began, total, levels, stage, *_ = path.read_text().splitlines()
+        run(resolved(QUICK), tmp_path / "out", MODELS, stop)
+    assert [p.name for p in tmp_path.iterdir()] == [".out.unfinished"]
+    began, total, levels, *stages = path.read_text().splitlines()
     assert began.startswith("started 20") and levels.startswith("3 levels (")
-    assert "finite elements: " in stage and "level " in stage
-    line = next(line for line in said if isinstance(line, Lasting))
+    assert any("finite elements: contact, level 3" in stage for stage in stages)
+    [line] = (line for line in said if isinstance(line, Lasting))
     assert f"{began.removeprefix('started ')}: {total}; " in line and line.endswith(str(path))
-    assert any("half-plane: contact, level 1" in line for line in said)
-    with pytest.raises(KeyboardInterrupt):  # with what is kept by now
-        run(resolved(QUICK), tmp_path / "out", MODELS)
-    assert path.read_text().splitlines()[1] == total
+    outcome = run(resolved(QUICK), tmp_path / "out", MODELS)
+    assert figures(outcome) == figures(smooth)
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]
 
 
 def test_a_plan_says_what_the_run_then_says_and_flow_how_far_it_is(monkeypatch):
@@ -294,8 +272,9 @@ def test_a_plan_says_what_the_run_then_says_and_flow_how_far_it_is(monkeypatch):
     scene = resolved(QUICK | {"roller": {"radius": 8e-3, "rigid": True}, "body": body} | pressed)
     run(scene, None, MODELS, said.append)
     [total] = [line for line in said if line.startswith("planned: ")]
-    total_of_plan, _, effects, *_, skipped = planned(scene, surface_of(scene), MODELS)
+    total_of_plan, _, flows, effects, *_, skipped = planned(scene, surface_of(scene), MODELS)
     assert total == total_of_plan and "both models" in total and "leaves out" in total
+    assert flows.startswith("flow: it flows at such stresses")
     assert effects.startswith("effects computed: ") and "plastic flow" in effects
     assert skipped.startswith("skipped: ")
     shares = [

@@ -275,13 +275,6 @@ def signed(run: Run) -> Names:
     )
     if not errors:
         question = "What are the figures of this contact? Nothing is judged against a tolerance."
-    unsure = f"every stated uncertainty covers {percent_as_written(COVERAGE)}"
-    if errors:
-        most = percent(max(error.numerical for error in errors))
-        unsure = f"at most {most} of a judged figure; {unsure}"
-        if any(error.not_modelled for error in errors):
-            most = percent(max(error.not_modelled for error in errors))
-            unsure += f"; what no model of the run has may add at most {most}"
     solved = {n: v for n, v in run.record["versions"].items() if n in SIGNED and v}
     by = ", ".join(f"{name} {value}" for name, value in solved.items())
     rows = [
@@ -291,7 +284,7 @@ def signed(run: Run) -> Names:
             "judged by",
             f"{', '.join(judged)}; friction {listed(scene.load.friction)}" if judged else "",
         ),
-        ("uncertainty", unsure),
+        ("uncertainty", f"every stated one covers {percent_as_written(COVERAGE)}"),
         ("solved by", ", ".join(filter(None, (by, f"revision {made.get('revision')}")))),
         ("made", ", ".join(made[name] for name in ("date", "host") if made.get(name))),
     ]
