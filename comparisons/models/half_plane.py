@@ -49,11 +49,7 @@ def expected_with(problem: Problem, pitch: float, window: Window | None) -> Expe
 
 
 def half_plane_level(
-    problem: Problem,
-    pitch: float,
-    window: Window | None,
-    stages: Stages,
-    fields: bool = True,
+    problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
 ) -> Level:
     """Solve one level: contact, and in a window the largest stresses and, for `fields`, all."""
     grid = problem.grid(pitch)
@@ -101,11 +97,7 @@ def half_plane_on(
 
 
 def _stresses(
-    problem: Problem,
-    frictions: tuple[float, ...],
-    level: Level,
-    window: Window,
-    fields: bool,
+    problem: Problem, frictions: tuple[float, ...], level: Level, window: Window, fields: bool
 ) -> tuple[StressResult, ...]:
     """Extremes off the grid and, for `fields`, all on the window, one set a friction."""
     x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)

@@ -270,10 +270,9 @@ def peak_position(level: Level) -> float:
 def seen(run: Run, room: float) -> tuple[float, float]:
     """Ends [m] of what pictures show: all contact under the friction that decides and, where they
     meet, Hertz's; beside it `room`, a share of half its length."""
-    patches, half_width = [], run.problem.hertz.half_width
-    for level in run.levels(run.deciding_friction).values():
-        patches.append(level.patches[[0, -1], [0, 1]])
-    first, last = float(np.min(patches)), float(np.max(patches))
+    half_width, levels = run.problem.hertz.half_width, run.levels(run.deciding_friction).values()
+    first = float(min(level.patches[0, 0] for level in levels))
+    last = float(max(level.patches[-1, 1] for level in levels))
     if first < half_width and last > -half_width:
         first, last = min(first, -half_width), max(last, half_width)
     beside = 0.5 * room * (last - first)

@@ -147,10 +147,7 @@ def hat_points(surface: Surface, hats: np.ndarray, cuts: Sequence[float] = ()) -
 
 
 def hat_forces(
-    surface: Surface,
-    hats: np.ndarray,
-    direction: Direction = straight_down,
-    periodic: bool = False,
+    surface: Surface, hats: np.ndarray, direction: Direction = straight_down, periodic: bool = False
 ) -> csr_matrix:
     """Nodal forces B (2k, count) [m] of unit hat pressures. `hats` (count + 2,) [m] are the hats'
     nodes, ascending, with the outer feet; or (count + 1,) of a `periodic` surface from one side to

@@ -116,11 +116,7 @@ class CauchyRecovery(Recovery):
     across    stress across the plane (k,) [Pa] at the nodes, of these means"""
 
     def __init__(
-        self,
-        body: ElasticBody,
-        displacement: np.ndarray,
-        load: SurfaceLoad,
-        pressure: np.ndarray,
+        self, body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray
     ) -> None:
         gradient = gradients(
             body.points[body.mesh.triangles], displacement[body.elements], reference_nodes(2)

@@ -207,22 +207,19 @@ class _LevelSolution:
         problem, grid = self.problem, self.grid
         operator, solution = contact.operator, contact.solution
         flows = problem.scene.finite_element.plastic
-        if self.is_finite and flows:
-            words = "finite elements: flow at finite deformation"
+        if flows:
+            words = "flow at finite deformation" if self.is_finite else "plastic flow"
+            words = f"finite elements: {words}"
             with self.stages.stage("plastic flow", words):
+                contact = problem, operator, grid, solution
                 how = self.constraints, self.refinement.travel, self._reached(words)
-                return pressed_plastically_finitely(problem, operator, grid, solution, *how)
+                if self.is_finite:
+                    return pressed_plastically_finitely(*contact, *how)
+                return pressed_plastically(*contact, self.weighted_gap, *how)
         if self.is_finite:
             with self.stages.stage("finite deformation", "finite elements: finite deformation"):
                 return pressed_finitely(
                     problem, operator, grid, solution, self.constraints, self.model
-                )
-        if flows:
-            words = "finite elements: plastic flow"
-            with self.stages.stage("plastic flow", words):
-                how = self.constraints, self.refinement.travel, self._reached(words)
-                return pressed_plastically(
-                    problem, operator, grid, solution, self.weighted_gap, *how
                 )
         with self.stages.stage("contact", "finite elements: contact"):
             return pressed_linearly(problem, operator, grid, solution, self.weighted_gap)

@@ -25,9 +25,7 @@ TRUST = "law of elasticity"  # name of what is said of the strains that it bears
 
 
 def figure_of(
-    error: ModelError,
-    selection: EffectSelection,
-    tolerance: Mapping[str, float],
+    error: ModelError, selection: EffectSelection, tolerance: Mapping[str, float]
 ) -> Figure:
     """A model error, relative to the whole model."""
     parts = [Part(n, e.value, e.uncertainty, e.moves_maximum) for n, e in error.effects.items()]

@@ -49,7 +49,6 @@ from comparisons.studies.model_error.sampling import announce_sampling, sampling
 from comparisons.studies.model_error.selection import (
     FLOW,
     ITS_OWN_LAW,
-    NOTHING_KNOWN,
     SMALL_STRAINS,
     EffectSelection,
     is_negligible,
@@ -257,7 +256,7 @@ def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> Solved
 
 
 def selected_effects(
-    solved: Solved, couplings: tuple[Coupling, ...], known: Mapping[str, Sizes] = NOTHING_KNOWN
+    solved: Solved, couplings: tuple[Coupling, ...], known: Mapping[str, Sizes] = {}
 ) -> EffectSelection:
     """As the half-plane selects them, and what is `known` of effects that were computed."""
     contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)

@@ -6,7 +6,6 @@ count, and might keep from holding what holds at a tighter one."""
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import isinf
-from types import MappingProxyType
 
 from comparisons.figures.quantity import USUAL
 from comparisons.models.problem import Problem
@@ -32,9 +31,6 @@ ORDER = (
     "finite_size",
     *NONLINEAR,
 )
-
-
-NOTHING_KNOWN: Mapping[str, Sizes] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -109,7 +105,7 @@ def select_effects(
     couplings: tuple[Coupling, ...],
     mean: float | None = None,
     shear: float = 0.0,
-    known: Mapping[str, Sizes] = NOTHING_KNOWN,
+    known: Mapping[str, Sizes] = {},
     no_time: str | None = None,
 ) -> EffectSelection:
     """Decide by the estimates.
@@ -125,7 +121,6 @@ def select_effects(
     sized |= known
     added, negligible, impossible = set(), {}, {}
     mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
-    hindered = {FLOW: no_time} if no_time else {}
     flows = FLOW in own_effects
     flows = flows or (FLOW in mattering and not (why_not(FLOW, problem) or no_time))
     if LAW in mattering and not flows:  # it shows in finite deformation alone
@@ -135,7 +130,7 @@ def select_effects(
     for name, sizes in sized.items():
         if name in own_effects or (name == LAW and laws and "finite_strain" in own_effects):
             continue
-        why = why_not(name, problem, flows) or hindered.get(name)
+        why = why_not(name, problem, flows) or (no_time if name == FLOW else None)
         if name not in mattering:
             negligible[name] = sizes
         elif why is not None:

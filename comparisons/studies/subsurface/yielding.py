@@ -208,11 +208,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         said.append(Statement("read", PEAK if check.von_mises is None else FIELD, source, at))
     if flow.flow == "plastic" and MODEL_ERROR in before:
         figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data)
-    for name, text in {
-        BEYOND_DOUBT: flow.beyond_doubt,
-        AT_SUCH_STRESSES: flows_at_such(solved.problem.scene, flow),
-    }.items():
-        said += [Statement(name, text, source)] if text else []
+    at_such = flows_at_such(solved.problem.scene, flow)
+    flows = {BEYOND_DOUBT: flow.beyond_doubt, AT_SUCH_STRESSES: at_such}
+    said += [Statement(name, text, source) for name, text in flows.items() if text]
     return Findings(tuple(figures), statements=tuple(said), data=flow)
 
 

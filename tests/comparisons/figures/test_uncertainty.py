@@ -24,6 +24,15 @@ from comparisons.studies.contact import uncertainties
 from comparisons.studies.study import Run
 
 
+def of_pressures(run: ModelRun, levels: tuple, factors: tuple[float, ...]) -> ModelRun:
+    """The run on these levels with so many times their pressures."""
+    made = (
+        replace(level, solution=replace(level.solution, pressure=f * level.solution.pressure))
+        for level, f in zip(levels, factors, strict=True)
+    )
+    return replace(run, levels=tuple(made))
+
+
 def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outcome: Run):
     """By an order of 1/2: 2.4 times. The far-boundary level's place is taken by another level."""
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
@@ -53,14 +62,8 @@ def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Ru
     problem, window = smooth_outcome.problem, smooth_outcome.window
 
     def scaled(times):
-        levels = tuple(
-            replace(
-                level,
-                solution=replace(level.solution, pressure=times * level.solution.pressure),
-            )
-            for level in pair[0].levels
-        )
-        runs = {"half_plane": replace(pair[0], levels=levels), "finite_element": pair[1]}
+        half_plane = of_pressures(pair[0], pair[0].levels, (times,) * len(pair[0].levels))
+        runs = {"half_plane": half_plane, "finite_element": pair[1]}
         row = compared(problem, runs, window)[0]
         assert row.quantity == "peak_pressure"
         assert row.value == pytest.approx(times - 1.0, abs=0.02)
@@ -110,16 +113,10 @@ def test_refinement_ends_by_the_worst_of_difference_and_models(smooth_outcome: R
     """What both models leave out is in both figures, once each, and not in their difference."""
     problem = smooth_outcome.problem
 
-    def off(run, sizes):
-        levels = (
-            replace(level, solution=replace(level.solution, pressure=f * level.solution.pressure))
-            for level, f in zip((run.finest,) * 3, sizes, strict=True)
-        )
-        return replace(run, levels=tuple(levels))
-
     def open_ones(sizes, others):
         pair = smooth_outcome.runs["half_plane"], smooth_outcome.runs["finite_element"]
-        runs = {run.name: off(run, f) for run, f in zip(pair, (sizes, others), strict=True)}
+        both = zip(pair, (sizes, others), strict=True)
+        runs = {run.name: of_pressures(run, (run.finest,) * 3, times) for run, times in both}
         both = discretisations(runs, problem, 0.0)
         alone = [discretisations({n: r}, problem, 0.0) for n, r in runs.items()]
         return both["peak_pressure"], [quantities["peak_pressure"] for quantities in alone]

@@ -165,13 +165,7 @@ class Pressed:
     """Two bodies of a/R = `curvature`: the figures of the rough one."""
 
     def __init__(
-        self,
-        curvature,
-        edge=0.05,
-        moduli=(1.0, 1.0),
-        on_rough=False,
-        friction=0.0,
-        aside=0.0,
+        self, curvature, edge=0.05, moduli=(1.0, 1.0), on_rough=False, friction=0.0, aside=0.0
     ):
         self.modulus = MODULUS / sum(1.0 / m for m in moduli)
         self.peak = 0.5 * self.modulus * curvature

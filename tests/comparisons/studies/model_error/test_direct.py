@@ -59,10 +59,7 @@ SCENES = {
         steel(5e-3, 1.5e9, 0.1, **KNOWN_STEEL) | WAVY,
         STRAINED | COUPLED | DISC,
     ),
-    "coated steel, friction": (
-        steel(5e-3, 2.5e9, 0.2) | {"coating": COATING},
-        STRAINED | COUPLED,
-    ),
+    "coated steel, friction": (steel(5e-3, 2.5e9, 0.2) | {"coating": COATING}, STRAINED | COUPLED),
 }
 
 

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scenes import PROFILES, SMOOTH, changed, half_plane_at, problem, resolved, run_of
+from scenes import PROFILES, SMOOTH, as_toml, changed, half_plane_at, problem, resolved, run_of
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
@@ -98,14 +98,13 @@ def test_the_band_of_pressures_holds_the_nominal_one(outcome):
 
 def test_a_run_says_it(tmp_path, capsys):
     scene = tmp_path / "uncertain.toml"
-    scene.write_text(
-        'roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
-        'body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
-        'load = {per_length = "3.5 N/um"}\n'
-        'scatter = {load = "6 %", samples = 16}\n'
-        "tolerance = {peak_pressure = 0.02, contact_length = 0.02}\n"
-        "resolution = {levels = 2}\nbudget = {effects = false}\n"
-    )
+    tables = SMOOTH | {
+        "scatter": {"load": "6 %", "samples": 16},
+        "tolerance": {"peak_pressure": 0.02, "contact_length": 0.02},
+        "resolution": {"levels": 2},
+        "budget": {"effects": False},
+    }
+    scene.write_text(as_toml(tables))
     out = tmp_path / "out"
     assert main(["run", str(scene), "--out", str(out)]) in (1, 4)
     said = " ".join(capsys.readouterr().out.split())

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scenes import PROFILES, SMOOTH, STEEL, resolved, run_of
+from scenes import GROUND, SMOOTH, STEEL, as_toml, resolved, run_of
 
 from analytic.statistics.penetration import RIDGE
 from comparisons.cli import main
@@ -185,13 +185,9 @@ class TestPatches:
 
 def test_a_run_says_it(tmp_path, capsys):
     scene = tmp_path / "rough.toml"
-    scene.write_text(
-        'roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
-        'body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
-        f'profile = {{file = "{PROFILES / "ground_unrun.csv"}", x_unit = "um", z_unit = "um"}}\n'
-        'load = {per_length = "1 N/um"}\n'
-        'statistics = {traces = 4, metal = "nonferrous", lubricated = true, cutoffs = "20 um"}\n'
-    )
+    asked = {"traces": 4, "metal": "nonferrous", "lubricated": True, "cutoffs": "20 um"}
+    tables = {"profile": GROUND["profile"], "load": {"per_length": 1e6}, "statistics": asked}
+    scene.write_text(as_toml(SMOOTH | tables))
     out = tmp_path / "out"
     assert main(["run", str(scene), "--out", str(out), "--models", "half-plane"]) == 0
     said = " ".join(capsys.readouterr().out.split())
@@ -251,12 +247,9 @@ def test_wrong_input_is_one_line(changes, message):
 def test_statistics_of_a_smooth_profile_end_with_two_and_write_nothing(tmp_path, capsys):
     trace, scene, out = tmp_path / "flat.csv", tmp_path / "flat.toml", tmp_path / "out"
     trace.write_text("".join(f"{x},0.0\n" for x in range(2000)))
-    scene.write_text(
-        'roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
-        'body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
-        'profile = {file = "flat.csv", x_unit = "um", z_unit = "um"}\n'
-        'load = {per_length = "0.1 N/um"}\nstatistics = {}\n'
-    )
+    profile = {"file": "flat.csv", "x_unit": "um", "z_unit": "um"}
+    tables = {"profile": profile, "load": {"per_length": 1e5}, "statistics": {}}
+    scene.write_text(as_toml(SMOOTH | tables))
     assert main(["run", str(scene), "--out", str(out), "--models", "half-plane"]) == 2
     said = capsys.readouterr().err
     assert "statistics: the profile is smooth" in said.splitlines()[-1]
