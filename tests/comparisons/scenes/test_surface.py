@@ -126,13 +126,6 @@ class TestFilter:
         assert info.standard is None
         assert "the trace of 1 mm is too short for the standard's cut-off" in info.standard_why
 
-    def test_figures_for_json(self):
-        info = with_profile(**ROUGH, cutoff="0.8 mm").info
-        made = json.loads(json.dumps(info.surface(), allow_nan=False))
-        assert made["pressed"]["ra"] == info.roughness.ra
-        assert made["standard"]["rz"] == info.standard.rz
-        assert (made["cutoff"], made["short_cutoff"], made["standard_why"]) == (8e-4, None, None)
-
 
 class TestTurned:
     def test_it_is_what_the_tool_leaves(self):

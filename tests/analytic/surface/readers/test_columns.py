@@ -27,16 +27,12 @@ TWO_COLUMNS = {
     "blank lines": b"\n\n0,0.125\n\n0.5,-3\n1.5,2.5\n , \n2,0\n4.25,-0.75\n\n,\n",
     "several header lines": b"Date: 2023-06-20\nSpeed, 0.5, mm/s\nx,z\num,um\n0,0.125\n0.5,-3\n"
     b"1.5,2.5\n2,0\n4.25,-0.75\n",
-    "separator at line ends": b"0,0.125,\n0.5,-3,\n1.5,2.5,\n2,0,\n4.25,-0.75,\n",
     "tab at line starts": b"\t0\t0.125\n\t0.5\t-3\n\t1.5\t2.5\n\t2\t0\n\t4.25\t-0.75\n",
     "exponents": b"0,1.25E-1\n5e-1,-3\n.15e+1,25.e-1\n+2,0\n4.25,-7.5e-01\n",
     "Fortran exponents": b"0.D0 1.25D-1\n5.D-1 -3.D0\n1.5D0 2.5d0\n2.D0 0.D0\n4.25D0 -7.5D-01\n",
     "quoted decimal commas": b'"0","0,125"\n"0,5","-3"\n"1,5","2,5"\n"2","0"\n"4,25","-0,75"\n',
-    "unsorted": b"2,0\n0,0.125\n4.25,-0.75\n1.5,2.5\n0.5,-3\n",
-    "descending": b"4.25,-0.75\n2,0\n1.5,2.5\n0.5,-3\n0,0.125\n",
 }
 ONE_COLUMN = {
-    "plain": b"0.125\n-3\n2.5\n0\n-0.75\n",
     "decimal comma": b"0,125\n-3,0\n2,5\n0,0\n-0,75\n",
     "decimal comma, some whole": b"0,125\n-3\n2,5\n0\n-0,75\n",
     "semicolon at line ends": b"0,125;\n-3;\n2,5;\n0;\n-0,75;\n",
